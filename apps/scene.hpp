@@ -1,0 +1,110 @@
+#pragma once
+
+#include "dem/events/bond_healing.hpp"
+#include "dem/events/compaction.hpp"
+#include "dem/events/fault_weakening.hpp"
+#include "dem/events/sedimentation.hpp"
+#include "dem/genesis.hpp"
+#include "dem/material.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace listric {
+
+/// One piece of the detachment, joined tangentially to the piece before it unless it says otherwise.
+struct DetachmentSegment {
+    enum class Kind { arc, line } kind = Kind::line;
+    double radius = 0.0;             ///< arc: radius, m
+    double end_dip = 0.0;            ///< arc: dip at the far end, degrees
+    double length = 0.0;             ///< line: length, m
+    std::optional<double> start_dip; ///< dip at the near end, degrees; default: continues smoothly
+};
+
+/// The rigid surface on which the hanging wall slides, from the breakaway at (0, 0) down.
+struct DetachmentParameters {
+    double start_dip = 90.0; ///< dip at the breakaway, degrees
+    double friction = 0.5;   ///< between discs and the moving base
+    std::vector<DetachmentSegment> segments;
+};
+
+/// Motion of base and right wall.
+struct ExtensionParameters {
+    double distance = 10e3; ///< total extension, m
+    double rate = 0.01;     ///< geological extension rate, m/a
+    double speed = 1.0;     ///< speed in the model, metres per model second
+    double ramp = 24.0;     ///< model time over which the speed grows from rest, s
+};
+
+/// Parameters of the cycle.
+struct CycleParameters {
+    double damping = 0.7;             ///< local non-viscous damping coefficient
+    double time_step_safety = 0.8;    ///< time step over the stability limit
+    double inertial_mass_floor = 0.75; ///< least inertial mass, mean basement disc masses
+    double skin = 0.25;               ///< neighbour-list margin, mean radii
+};
+
+struct GravityParameters {
+    double acceleration = 9.81; ///< m/s^2
+};
+
+struct OutputParameters {
+    double interval = 500.0;                       ///< extension between snapshots, m
+    std::vector<double> figures = {5e3, 10e3};     ///< extensions at which figures are drawn, m
+};
+
+/// Everything that determines a simulation. An effect is on exactly when its table is there.
+struct Scene {
+    std::string name;
+    std::string description;
+    std::string accuracy = "standard";
+    std::uint64_t seed = 1;
+
+    std::optional<HangingWallParameters> hanging_wall;
+    std::optional<DetachmentParameters> detachment;
+    ExtensionParameters extension;
+    Material basement; ///< table [material]
+    CycleParameters cycle;
+    OutputParameters output;
+
+    std::optional<GravityParameters> gravity;
+    std::optional<BondStrength> bonds;
+    std::optional<FaultWeakeningParameters> fault_weakening;
+    std::optional<BondHealingParameters> bond_healing;
+    std::optional<SedimentationParameters> sedimentation;
+    std::optional<CompactionParameters> compaction;
+};
+
+/// How a call modifies a scene.
+struct SceneRequest {
+    std::string scene;                        ///< name in the scenes folder, or a path
+    std::vector<std::string> set;             ///< "table.key=value"
+    std::vector<std::string> without;         ///< tables to drop
+    std::optional<std::string> accuracy;      ///< draft, standard, fine, sandbox
+    std::optional<std::uint64_t> seed;
+};
+
+/// A scene that cannot be used; what() is one line: "file:line: parameter: what is wrong, cure".
+struct SceneError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Reads, merges (default < accuracy level < scene file < set) and checks a scene.
+/// Throws SceneError.
+Scene load_scene(const SceneRequest& request);
+
+/// All parameters in force as TOML that load_scene reads back to the same scene.
+std::string to_toml(const Scene& scene);
+
+/// Reference of every parameter: table, key, type, default, unit, range, symbol, doc.
+std::string parameter_reference();
+
+/// Scenes shipped with the program: name and description, sorted by name.
+std::vector<std::pair<std::string, std::string>> list_scenes();
+
+} // namespace listric
