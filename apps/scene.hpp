@@ -7,8 +7,8 @@
 #include "dem/genesis.hpp"
 #include "dem/material.hpp"
 
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -17,13 +17,13 @@
 
 namespace listric {
 
-/// One piece of the detachment, joined tangentially to the piece before it unless it says otherwise.
+/// One piece of the detachment, joined tangentially to the piece before unless it says otherwise.
 struct DetachmentSegment {
     enum class Kind { arc, line } kind = Kind::line;
-    double radius = 0.0;             ///< arc: radius, m
-    double end_dip = 0.0;            ///< arc: dip at the far end, degrees
-    double length = 0.0;             ///< line: length, m
-    std::optional<double> start_dip; ///< dip at the near end, degrees; default: continues smoothly
+    double radius = 0.0;                  ///< arc: radius, m
+    double end_dip = 0.0;                 ///< arc: dip at the far end, degrees
+    double length = 0.0;                  ///< line: length, m
+    std::optional<double> start_dip = {}; ///< dip at the near end, degrees; default: no kink
 };
 
 /// The rigid surface on which the hanging wall slides, from the breakaway at (0, 0) down.
@@ -82,11 +82,11 @@ struct Scene {
 
 /// How a call modifies a scene.
 struct SceneRequest {
-    std::string scene;                        ///< name in the scenes folder, or a path
-    std::vector<std::string> set;             ///< "table.key=value"
-    std::vector<std::string> without;         ///< tables to drop
-    std::optional<std::string> accuracy;      ///< draft, standard, fine, sandbox
-    std::optional<std::uint64_t> seed;
+    std::string scene = {};                   ///< name in the scenes folder, or a path
+    std::vector<std::string> set = {};        ///< "table.key=value"
+    std::vector<std::string> without = {};    ///< tables to drop
+    std::optional<std::string> accuracy = {}; ///< draft, standard, fine, sandbox
+    std::optional<std::uint64_t> seed = {};
 };
 
 /// A scene that cannot be used; what() is one line: "file:line: parameter: what is wrong, cure".
@@ -94,8 +94,8 @@ struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Reads, merges (default < accuracy level < scene file < set) and checks a scene.
-/// Throws SceneError.
+/// Reads, merges (default < accuracy level < scene file < set) and checks a scene. Its name is the
+/// file's without folder and ending. Throws SceneError.
 Scene load_scene(const SceneRequest& request);
 
 /// All parameters in force as TOML that load_scene reads back to the same scene.
@@ -104,7 +104,14 @@ std::string to_toml(const Scene& scene);
 /// Reference of every parameter: table, key, type, default, unit, range, symbol, doc.
 std::string parameter_reference();
 
-/// Scenes shipped with the program: name and description, sorted by name.
+/// Area between the detachment and the original surface, up to the moving wall, m^2.
+double hanging_wall_area(const Scene& scene);
+
+/// Number of discs that fill the hanging wall, from its area, porosity and disc sizes.
+std::size_t estimated_discs(const Scene& scene);
+
+/// Scenes shipped with the program (or in the folder LISTRIC_SCENES): name and description, sorted
+/// by name.
 std::vector<std::pair<std::string, std::string>> list_scenes();
 
 } // namespace listric

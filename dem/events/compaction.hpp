@@ -1,11 +1,28 @@
 #pragma once
 
+#include "dem/event.hpp"
+
 namespace listric {
 
 /// Loss of sediment volume with burial, Phi = Phi_ini exp(-c depth) [paper; Baldwin & Butler 1985].
 struct CompactionParameters {
     double interval = 2.5e3;   ///< time between compactions, Delta t_d, a
     double coefficient = 4e-4; ///< c, 1/m (Table 1 prints 0.4 with unit 1/m; it is 1/km)
+};
+
+/// Shrinks sediment discs as they are buried; mass is kept and uplift restores nothing.
+class Compaction : public Event {
+public:
+    Compaction(const CompactionParameters& parameters, double surface_porosity, double level,
+               double extension_rate);
+
+    void begin(State& state) override;
+    bool apply(State& state, const RigidBase& base) override;
+
+private:
+    CompactionParameters parameters_;
+    double surface_porosity_;
+    double level_; ///< of the surface, m
 };
 
 } // namespace listric

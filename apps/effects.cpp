@@ -1,0 +1,103 @@
+#include "apps/effects.hpp"
+
+#include "dem/events/bond_healing.hpp"
+#include "dem/events/compaction.hpp"
+#include "dem/events/equilibrium.hpp"
+#include "dem/events/fault_weakening.hpp"
+#include "dem/events/property_update.hpp"
+#include "dem/events/sedimentation.hpp"
+#include "dem/events/strain.hpp"
+#include "dem/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+std::vector<std::unique_ptr<Event>> make_events(const Scene& s) {
+    const double rate = s.extension.rate;
+    const double gravity = s.gravity ? s.gravity->acceleration : 0.0;
+    const double density = s.hanging_wall->rock_density;
+    std::vector<std::unique_ptr<Event>> events;
+    events.push_back(std::make_unique<Equilibrium>(2500.0, rate, gravity));
+    if (s.fault_weakening)
+        events.push_back(
+            std::make_unique<PropertyUpdate>(*s.fault_weakening, rate, gravity, density));
+    if (s.compaction)
+        events.push_back(std::make_unique<Compaction>(
+            *s.compaction, s.sedimentation->surface_porosity, s.sedimentation->level, rate));
+    if (s.bond_healing)
+        events.push_back(std::make_unique<BondHealing>(*s.bond_healing, *s.bonds, rate));
+    if (s.fault_weakening)
+        events.push_back(
+            std::make_unique<FaultWeakening>(*s.fault_weakening, rate, gravity, density));
+    if (s.sedimentation)
+        events.push_back(std::make_unique<Sedimentation>(*s.sedimentation,
+                                                         s.hanging_wall->radius_ratio, rate));
+    // Last, so that a window starts with the discs that were deposited at its start.
+    events.push_back(std::make_unique<Strain>(s.output.interval, rate));
+    return events;
+}
+
+std::vector<Material> make_materials(const Scene& s) {
+    std::vector<Material> materials(3, s.basement);
+    if (s.sedimentation)
+        materials[sediment].friction = s.sedimentation->friction;
+    if (s.fault_weakening)
+        materials[weak] = weakened(s.basement, *s.fault_weakening);
+    return materials;
+}
+
+RigidBase make_base(const Scene& s) {
+    const double degree = pi / 180.0;
+    Chain detachment;
+    Point start{0.0, 0.0};
+    double dip = s.detachment->start_dip;
+    for (const DetachmentSegment& piece : s.detachment->segments) {
+        dip = piece.start_dip.value_or(dip);
+        const Point along{std::cos(dip * degree), -std::sin(dip * degree)};
+        if (piece.kind == DetachmentSegment::Kind::arc) {
+            detachment.push_back(arc(start, along, piece.radius, (dip - piece.end_dip) * degree));
+            dip = piece.end_dip;
+        } else {
+            detachment.push_back(line(
+                start, {start.x + piece.length * along.x, start.y + piece.length * along.y}));
+        }
+        start = detachment.back().end;
+    }
+    // The flat must reach beyond the right wall's last position.
+    const double length = s.hanging_wall->length;
+    const double far = length + 1.5 * s.extension.distance + s.hanging_wall->thickness;
+    if (start.x < far)
+        detachment.push_back(line(start, {far, start.y}));
+
+    constexpr double high = 1e5; // m, higher than anything piles up
+    RigidBase base;
+    base.surfaces = {
+        {"detachment", detachment, s.detachment->friction, 1.0, 0.0},
+        {"backstop", {line({0.0, high}, {0.0, 0.0})}, 0.0, 0.0, 0.0},
+        {"right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, 1.0},
+    };
+    base.material = s.basement;
+    base.motion = {s.extension.speed, s.extension.ramp};
+    return base;
+}
+
+std::vector<std::string> effect_names(const Scene& s) {
+    std::vector<std::string> names;
+    if (s.gravity)
+        names.push_back("gravity");
+    if (s.bonds)
+        names.push_back("bonds");
+    if (s.fault_weakening)
+        names.push_back("fault_weakening");
+    if (s.bond_healing)
+        names.push_back("bond_healing");
+    if (s.sedimentation)
+        names.push_back("sedimentation");
+    if (s.compaction)
+        names.push_back("compaction");
+    return names;
+}
+
+} // namespace listric

@@ -1,0 +1,67 @@
+#include "apps/explain.hpp"
+
+#include "apps/declaration.hpp"
+#include "apps/effects.hpp"
+#include "apps/prediction.hpp"
+
+#include <fmt/format.h>
+
+namespace listric {
+
+namespace {
+
+std::string duration(double seconds) {
+    if (seconds < 90.0)
+        return fmt::format("{:.0f} s", seconds);
+    if (seconds < 5400.0)
+        return fmt::format("{:.1f} min", seconds / 60.0);
+    if (seconds < 2 * 86400.0)
+        return fmt::format("{:.1f} h", seconds / 3600.0);
+    return fmt::format("{:.1f} d", seconds / 86400.0);
+}
+
+} // namespace
+
+std::string explain(const Scene& scene) {
+    const double rate = measure_rate(estimated_discs(scene), 0.7);
+    const Prediction p = predict(scene, rate);
+    std::string text;
+    const auto add = [&](auto format, const auto&... values) {
+        text += fmt::format(fmt::runtime(format), values...) + "\n";
+    };
+    add("{}: {}", scene.name, scene.description);
+    add("");
+    Scene copy = scene;
+    const std::vector<SceneTable> tables = scene_tables(copy);
+    add("effects");
+    for (const SceneTable& table : tables)
+        if (table.is_effect)
+            add("  {:<4} {:<16} {}", table.in_scene ? "on" : "off", table.name, table.doc);
+    add("");
+    add("size");
+    add("  {} discs at the start, about {} at the end, mean radius {} m", p.discs_at_start,
+        p.discs_at_end, scene.hanging_wall->mean_radius);
+    add("  {:g} km of extension at {} m/a: {:g} Ma", scene.extension.distance / 1e3,
+        scene.extension.rate, scene.extension.distance / scene.extension.rate / 1e6);
+    add("  time step {:.3g} s, {:.3g} million cycles at {} m/s", p.time_step,
+        static_cast<double>(p.cycles) / 1e6, scene.extension.speed);
+    add("  {:.2g} disc-steps, about {:.0f} MB of memory", p.disc_steps, p.memory / 1e6);
+    add("");
+    add("on this machine ({:.0f} million disc-steps per second)", rate / 1e6);
+    add("  {:<10} {:>10} {:>9} {:>12} {:>9}", "accuracy", "radius, m", "discs", "cycles", "time");
+    for (const AccuracyLevel& level : accuracy_levels()) {
+        Scene other = scene;
+        other.hanging_wall->mean_radius = level.mean_radius;
+        const Prediction q = predict(other, rate);
+        add("  {:<10} {:>10.4g} {:>9} {:>12} {:>9}{}", level.name, level.mean_radius,
+            q.discs_at_start, q.cycles, duration(q.seconds),
+            level.mean_radius == scene.hanging_wall->mean_radius ? "   <- this call" : "");
+    }
+    add("  this call: {}", duration(p.seconds));
+    add("");
+    add("accuracy, from runs of lis1: rotation, cutoff and basin area are right at draft (1 %);");
+    add("faults are as narrow as three discs, so their number and place want standard or finer.");
+    return text;
+}
+
+} // namespace listric

@@ -1,0 +1,161 @@
+#include "apps/figures.hpp"
+
+#include "apps/effects.hpp"
+#include "apps/measure.hpp"
+#include "apps/npy.hpp"
+#include "dem/contacts.hpp"
+#include "dem/power_cell.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace listric {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class T, class Range>
+void put(const fs::path& folder, const char* name, const Range& values, std::size_t columns = 0) {
+    write_npy<T>(folder / (std::string(name) + ".npy"), std::span<const T>(values), columns);
+}
+
+/// Plain arrays that the drawing script reads; names and units are in its head.
+void export_frame(const Scene& scene, const State& state, const RigidBase& base,
+                  std::span<const std::unique_ptr<Event>> events, const fs::path& folder) {
+    const ConstDiscColumns d = disc_columns(state);
+    put<double>(folder, "discs_x", d.x);
+    put<double>(folder, "discs_y", d.y);
+    put<double>(folder, "discs_radius", rock_radii(state));
+    put<std::int32_t>(folder, "discs_stratum", d.stratum);
+    std::vector<double> depth;
+    for (double y : d.start_y)
+        depth.push_back(-y);
+    put<double>(folder, "discs_start_depth", depth);
+    put<double>(folder, "discs_shear_strain", state.discs.get<double>("window_strain"));
+    put<double>(folder, "discs_total_shear_strain", state.discs.get<double>("total_strain"));
+    if (scene.fault_weakening) {
+        std::vector<std::uint8_t> is_weak;
+        for (std::uint8_t material : d.material)
+            is_weak.push_back(material == weak);
+        put<std::uint8_t>(folder, "discs_weak", is_weak);
+    }
+    if (scene.bonds) {
+        const ConstContactColumns c = contact_columns(state);
+        const std::vector<bool> touches = touching(state);
+        std::vector<double> broken;
+        for (std::size_t k = 0; k < touches.size(); ++k)
+            if (touches[k] && !c.bonded[k]) {
+                const auto i = static_cast<std::size_t>(c.first[k]);
+                const auto j = static_cast<std::size_t>(c.second[k]);
+                broken.insert(broken.end(), {d.x[i], d.y[i], d.x[j], d.y[j]});
+            }
+        put<double>(folder, "broken", broken, 4);
+    }
+    const Chain& detachment = base.surfaces.front().chain;
+    const double wall = scene.hanging_wall->length + state.clock.extension;
+    std::vector<double> line;
+    double length = 0.0;
+    for (const Segment& s : detachment)
+        length += s.length;
+    for (int k = 0; k <= 2000; ++k) {
+        const Point p = point_at(detachment, length * k / 2000);
+        if (p.x <= wall)
+            line.insert(line.end(), {p.x, p.y});
+    }
+    put<double>(folder, "detachment", line, 2);
+
+    const Profile profile = measure_profile(scene, state, base);
+    std::vector<double> rows;
+    for (std::size_t k = 0; k < profile.x.size(); ++k)
+        rows.insert(rows.end(),
+                    {profile.x[k], profile.pre_rift_top[k], profile.sediment_thickness[k]});
+    put<double>(folder, "profile", rows, 3);
+
+    const Measures m = measure(scene, state, base, events);
+    if (m.depocentres) {
+        rows.clear();
+        for (const Depocentre& c : *m.depocentres)
+            rows.insert(rows.end(), {c.x, c.thickness, c.prominence});
+        put<double>(folder, "depocentres", rows, 3);
+    }
+    if (m.faults) {
+        rows.clear();
+        for (const Fault& f : *m.faults)
+            rows.insert(rows.end(), {f.top.x, f.top.y, f.bottom.x, f.bottom.y, f.rate});
+        put<double>(folder, "faults", rows, 5);
+    }
+
+    nlohmann::json frame = {
+        {"scene", scene.name},
+        {"title", scene.description},
+        {"extension_m", state.clock.extension},
+        {"time_a", state.clock.extension / scene.extension.rate},
+        {"level_m", scene.sedimentation ? scene.sedimentation->level : 0.0},
+        {"mean_radius_m", state.mean_radius},
+        {"right_wall_x_m", wall},
+        {"strata", d.stratum.empty() ? 0 : *std::ranges::max_element(d.stratum)},
+        {"layer_m", 1000.0},
+        {"seed", scene.seed},
+        {"accuracy", scene.accuracy},
+        {"effects", effect_names(scene)},
+        {"strain_window_m", scene.output.interval},
+        {"thickness_m", scene.hanging_wall->thickness},
+    };
+    std::ofstream(folder / "frame.json") << frame.dump(1);
+}
+
+/// Runs a program without a shell. Returns its exit code, or -1.
+int run_program(const std::vector<std::string>& words) {
+    std::vector<char*> arguments;
+    for (const std::string& word : words)
+        arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+        // Ctrl-C is for the run, which finishes its picture first.
+        setpgid(0, 0);
+        execv(arguments[0], arguments.data());
+        _exit(127);
+    }
+    int status = 0;
+    if (child < 0 || waitpid(child, &status, 0) < 0)
+        return -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+} // namespace
+
+std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
+                         std::span<const std::unique_ptr<Event>> events,
+                         const fs::path& folder) {
+    fs::path data;
+    std::string problem;
+    try {
+        fs::create_directories(folder);
+        std::string pattern = (folder / ".data-XXXXXX").string();
+        if (!mkdtemp(pattern.data()))
+            throw std::runtime_error("cannot make a folder in " + folder.string());
+        data = pattern;
+        export_frame(scene, state, base, events, data);
+        const int code = run_program({"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/figures.py",
+                                      data.string(), folder.string()});
+        if (code != 0)
+            problem = "the drawing script failed (exit code " + std::to_string(code) +
+                      "; it needs /usr/bin/python3 with matplotlib)";
+    } catch (const std::exception& error) {
+        problem = error.what();
+    }
+    std::error_code ignored;
+    if (!data.empty())
+        fs::remove_all(data, ignored);
+    return problem;
+}
+
+} // namespace listric

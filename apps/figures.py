@@ -1,0 +1,651 @@
+#!/usr/bin/python3
+"""Figures of one frame of a Listric run.
+
+Usage: figures.py DATA_DIR FIGURES_DIR
+
+DATA_DIR holds frame.json and the .npy arrays written by the program (SI units,
+y up, original surface at y = 0, breakaway at the origin).  FIGURES_DIR gets
+strata-, bonds-, strain-, sediment- and overview-<extension>km.png.  Every file
+is written under a temporary name and then renamed.  On bad input: one line on
+stderr, exit status 1.
+"""
+import json
+import math
+import os
+import sys
+import textwrap
+from dataclasses import dataclass
+from typing import Optional
+
+try:
+    import numpy as np
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.collections import EllipseCollection, LineCollection
+    from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize, to_rgb
+    from matplotlib.figure import Figure
+    from matplotlib.legend_handler import HandlerTuple
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+    from matplotlib.patheffects import Normal, Stroke
+    from matplotlib.ticker import FuncFormatter, MultipleLocator
+except ImportError as failure:
+    sys.stderr.write(f"figures.py: cannot import {failure.name or failure}\n")
+    sys.exit(1)
+
+DPI = 150
+RASTER_ABOVE = 80_000     # discs; beyond this the section is painted as an image
+RASTER_OVERSAMPLING = 3   # image cells per output pixel, each way
+
+# Layout, inches.
+WIDTH, LEFT, RIGHT = 12.0, 0.72, 1.13
+PANEL_WIDTH = WIDTH - LEFT - RIGHT
+MAX_PANEL_HEIGHT = 8.0
+PROFILE_HEIGHT = 2.5
+ROW_ABOVE = 0.34          # description and legend above each panel
+TITLE = 0.42
+XLABEL = 0.52
+GAP = 0.20                # between the panels of the overview, below tick marks
+FOOTER_LINE = 0.155
+
+LAYER_COLOURS = ("#cdbfa6", "#9c8b72")
+PRE_RIFT, SEDIMENT, WEAK = "#d6d6d6", "#fbeab4", "#d7301f"
+FOOTWALL, INK, FAINT = "#efeeeb", "#1a1a1a", "#6b6b6b"
+LEVEL_BLUE, TOP_GREEN = "#1f6fb4", "#2b8a3e"
+# Slip-rate classes of active faults: upper bound (mm/a), line width (pt), label.
+FAULT_CLASSES = ((0.5, 0.8, "< 0.5"), (1.0, 1.5, "0.5–1"), (math.inf, 2.4, "> 1"))
+
+STYLE = {
+    "font.family": "DejaVu Sans", "font.size": 10, "axes.linewidth": 0.8,
+    "axes.edgecolor": INK, "axes.labelsize": 10.5, "text.color": INK,
+    "xtick.labelsize": 9.5, "ytick.labelsize": 9.5, "legend.fontsize": 9,
+    "xtick.direction": "out", "ytick.direction": "out",
+}
+
+
+class InputError(Exception):
+    """Input that is missing or makes no sense; the message is for the user."""
+
+
+@dataclass
+class Frame:
+    """One frame, lengths in km (y up), rates in mm/a, time in a."""
+    meta: dict
+    x: np.ndarray
+    y: np.ndarray
+    radius: np.ndarray
+    stratum: np.ndarray
+    start_depth: np.ndarray
+    strain: np.ndarray
+    weak: Optional[np.ndarray]
+    broken: Optional[np.ndarray]
+    detachment: np.ndarray
+    profile: Optional[np.ndarray]
+    depocentres: Optional[np.ndarray]
+    faults: Optional[np.ndarray]
+    view: tuple = ()                     # xmin, xmax, ymin, ymax (km)
+    owner: Optional[np.ndarray] = None   # disc index of each image cell, -1 = none
+
+    @property
+    def extension(self):
+        return self.meta["extension_m"] / 1000.0
+
+    @property
+    def wall(self):
+        return self.meta["right_wall_x_m"] / 1000.0
+
+    @property
+    def level(self):
+        return self.meta["level_m"] / 1000.0
+
+
+# --------------------------------------------------------------------- input
+
+def load_meta(directory):
+    """frame.json as a dict with its numbers checked."""
+    path = os.path.join(directory, "frame.json")
+    try:
+        with open(path, encoding="utf-8") as file:
+            meta = json.load(file)
+    except OSError as failure:
+        raise InputError(f"{path}: {failure.strerror or failure}")
+    except ValueError as failure:
+        raise InputError(f"{path}: not valid JSON ({failure})")
+    if not isinstance(meta, dict):
+        raise InputError(f"{path}: not a JSON object")
+    for key in ("extension_m", "time_a", "level_m", "right_wall_x_m", "strata",
+                "layer_m", "strain_window_m"):
+        value = meta.get(key)
+        if isinstance(value, bool) or not isinstance(value, (int, float)) \
+                or not math.isfinite(value):
+            raise InputError(f"{path}: '{key}' is missing or not a finite number")
+    if not isinstance(meta.get("scene"), str):
+        raise InputError(f"{path}: 'scene' is missing or not a string")
+    if meta["layer_m"] <= 0 or meta["right_wall_x_m"] <= 0:
+        raise InputError(f"{path}: 'layer_m' and 'right_wall_x_m' must be positive")
+    return meta
+
+
+def load_array(directory, name, columns=None, optional=False, finite=True):
+    """Numeric array name.npy: 1-D, or 2-D with the given number of columns."""
+    path = os.path.join(directory, name + ".npy")
+    if optional and not os.path.exists(path):
+        return None
+    try:
+        array = np.load(path, allow_pickle=False)
+    except OSError as failure:
+        raise InputError(f"{path}: {failure.strerror or failure}")
+    except (ValueError, EOFError, SyntaxError, KeyError) as failure:
+        raise InputError(f"{path}: corrupt or not an .npy file ({failure})")
+    if not isinstance(array, np.ndarray) or array.dtype.kind not in "buif":
+        raise InputError(f"{path}: not a plain numeric array")
+    if columns is None:
+        if array.ndim != 1:
+            raise InputError(f"{path}: expected one dimension, shape is {array.shape}")
+    elif array.size == 0:
+        array = np.zeros((0, columns))
+    elif array.ndim != 2 or array.shape[1] != columns:
+        raise InputError(f"{path}: expected {columns} columns, shape is {array.shape}")
+    if finite and not np.all(np.isfinite(array)):
+        raise InputError(f"{path}: holds values that are not finite")
+    return array
+
+
+def load_frame(directory):
+    """All arrays of the frame, converted to km."""
+    if not os.path.isdir(directory):
+        raise InputError(f"{directory}: no such directory")
+    meta = load_meta(directory)
+    discs = {name: load_array(directory, "discs_" + name)
+             for name in ("x", "y", "radius", "stratum")}
+    # Undefined for sediment (start depth) and for discs younger than the window.
+    for name in ("start_depth", "shear_strain"):
+        discs[name] = load_array(directory, "discs_" + name, finite=False)
+    weak = load_array(directory, "discs_weak", optional=True)
+    count = len(discs["x"])
+    if count == 0:
+        raise InputError(f"{directory}: discs_x.npy holds no discs")
+    for name, array in list(discs.items()) + [("weak", weak)]:
+        if array is not None and len(array) != count:
+            raise InputError(f"{directory}: discs_{name}.npy has {len(array)} values, "
+                             f"discs_x.npy {count}")
+    if np.any(discs["radius"] <= 0):
+        raise InputError(f"{directory}: discs_radius.npy holds radii that are not positive")
+    if max(meta["strata"], discs["stratum"].max()) > 10_000:
+        raise InputError(f"{directory}: more than 10,000 strata")
+    detachment = load_array(directory, "detachment", columns=2)
+    if len(detachment) < 2:
+        raise InputError(f"{directory}: detachment.npy needs at least two points")
+
+    def km(array):
+        return None if array is None else np.asarray(array, dtype=float) / 1000.0
+
+    faults = load_array(directory, "faults", columns=5, optional=True)
+    if faults is not None:
+        faults = faults * np.array([1e-3, 1e-3, 1e-3, 1e-3, 1.0])
+    profile = km(load_array(directory, "profile", columns=3, optional=True, finite=False))
+    if profile is not None and len(profile) < 2:
+        profile = None
+    frame = Frame(
+        meta=meta, x=km(discs["x"]), y=km(discs["y"]), radius=km(discs["radius"]),
+        stratum=discs["stratum"].astype(int), start_depth=km(discs["start_depth"]),
+        strain=np.asarray(discs["shear_strain"], dtype=float),
+        weak=None if weak is None else weak.astype(bool),
+        broken=km(load_array(directory, "broken", columns=4, optional=True)),
+        detachment=km(detachment), profile=profile,
+        depocentres=km(load_array(directory, "depocentres", columns=3, optional=True)),
+        faults=faults)
+    frame.view = view_of(frame)
+    if count > RASTER_ABOVE:
+        frame.owner = owner_map(frame)
+    return frame
+
+
+def view_of(frame):
+    """Extent of the section (km): 1 km left of the breakaway to right of the wall."""
+    tops = np.append(np.quantile(frame.y + frame.radius, 0.9999), (frame.level, 0.0))
+    bottom = min(frame.detachment[:, 1].min(),
+                 np.quantile(frame.y - frame.radius, 0.0001))
+    return (-1.0, frame.wall + 0.5, bottom - 0.6, tops.max() + 0.5)
+
+
+# ------------------------------------------------------------------- drawing
+
+def panel_size(frame):
+    """Width and height (in) of a section at equal scales."""
+    xmin, xmax, ymin, ymax = frame.view
+    height = min(PANEL_WIDTH * (ymax - ymin) / (xmax - xmin), MAX_PANEL_HEIGHT)
+    return height * (xmax - xmin) / (ymax - ymin), height
+
+
+def owner_map(frame):
+    """Index of the disc covering each cell of an image of the view (-1: none).
+
+    Pores between such small discs are below a pixel and would only bleach the
+    colours: discs are painted a little too large first, then at true size.
+    """
+    xmin, xmax, ymin, ymax = frame.view
+    cell = (xmax - xmin) / (PANEL_WIDTH * DPI * RASTER_OVERSAMPLING)
+    columns = int(math.ceil((xmax - xmin) / cell))
+    rows = int(math.ceil((ymax - ymin) / cell))
+    owner = np.full((rows, columns), -1, dtype=np.int32)
+    cx, cy = (frame.x - xmin) / cell, (ymax - frame.y) / cell
+    column0, row0 = np.floor(cx).astype(int), np.floor(cy).astype(int)
+    for scale in (1.35, 1.0):
+        squared = np.maximum(scale * frame.radius / cell, 0.71) ** 2   # >= one cell
+        reach = int(math.ceil(math.sqrt(squared.max())))
+        for di in range(-reach, reach + 1):
+            for dj in range(-reach, reach + 1):
+                row, column = row0 + di, column0 + dj
+                inside = ((row + 0.5 - cy) ** 2 + (column + 0.5 - cx) ** 2 <= squared) \
+                    & (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+                disc = np.flatnonzero(inside)
+                owner[row[disc], column[disc]] = disc
+    return owner
+
+
+def draw_discs(ax, frame, rgb, segments=None, segment_width=0.5):
+    """Discs at true size in colours rgb (n x 3), then black segments (km; pt wide)."""
+    if frame.owner is not None:
+        draw_raster(ax, frame, rgb, segments)
+        return
+    ax.add_collection(EllipseCollection(
+        2 * frame.radius, 2 * frame.radius, np.zeros(len(frame.x)), units="xy",
+        offsets=np.column_stack((frame.x, frame.y)), transOffset=ax.transData,
+        facecolors=rgb, edgecolors="none", linewidths=0, zorder=2), autolim=False)
+    if segments is not None and len(segments):
+        ax.add_collection(LineCollection(
+            segments.reshape(-1, 2, 2), colors="black", linewidths=segment_width,
+            capstyle="butt", zorder=3), autolim=False)
+
+
+def draw_raster(ax, frame, rgb, segments):
+    """The same as an image, for very many discs."""
+    rows, columns = frame.owner.shape
+    xmin, xmax, _, ymax = frame.view
+    cell = (xmax - xmin) / columns
+    table = np.full((len(rgb) + 1, 4), 255, dtype=np.uint8)   # last row: no disc
+    table[:-1, :3] = np.round(np.asarray(rgb) * 255)
+    table[-1, 3] = 0
+    image = table[frame.owner]
+    if segments is not None and len(segments):
+        longest = np.hypot(*(segments[:, 2:] - segments[:, :2]).T).max()
+        for t in np.linspace(0, 1, min(200, int(longest / cell) + 2)):
+            points = (1 - t) * segments[:, :2] + t * segments[:, 2:]
+            column = np.floor((points[:, 0] - xmin) / cell).astype(int)
+            row = np.floor((ymax - points[:, 1]) / cell).astype(int)
+            ok = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+            image[row[ok], column[ok]] = (0, 0, 0, 255)
+    ax.imshow(image, extent=(xmin, xmin + columns * cell, ymax - rows * cell, ymax),
+              aspect="auto", interpolation="antialiased", zorder=2)
+
+
+def section_axes(ax, frame):
+    """Axes of a section: equal scales in km, footwall, detachment, right wall."""
+    xmin, xmax, ymin, ymax = frame.view
+    line = frame.detachment
+    if line[0, 0] > line[-1, 0]:                # left to right
+        line = line[::-1]
+    if line[-1, 0] < frame.wall:                # flat sole up to the right wall
+        line = np.vstack((line, (frame.wall, line[-1, 1])))
+    left, right = (xmin, line[0, 1]), (xmax, line[-1, 1])
+    ax.fill(*np.vstack((left, line, right, (xmax, ymin), (xmin, ymin))).T,
+            color=FOOTWALL, linewidth=0, zorder=1)
+    ax.plot((xmin, line[0, 0]), (line[0, 1],) * 2, color=FAINT, linewidth=0.8, zorder=5)
+    ax.plot(*line.T, color=INK, linewidth=1.5, zorder=5, solid_joinstyle="round")
+    ax.plot((frame.wall,) * 2, (line[-1, 1], ymax - 0.3), color=FAINT, linewidth=1.0,
+            zorder=5)
+    ax.text(xmin + 0.3, ymin + 0.25, "footwall", color=FAINT, fontsize=9,
+            style="italic", va="bottom", zorder=6)
+    ax.set_xlim(xmin, xmax)
+    ax.set_ylim(ymin, ymax)
+    ax.set_aspect("equal", adjustable="box")
+    depth_axis(ax, "Depth (km)")
+    distance_axis(ax, frame)
+
+
+def depth_axis(ax, label):
+    """Label a y-up axis in km as depth, positive down."""
+    span = abs(ax.get_ylim()[1] - ax.get_ylim()[0])
+    step = next((s for s in (0.1, 0.2, 0.5, 1, 2, 5, 10) if span / s <= 7), 20)
+    ax.yaxis.set_major_locator(MultipleLocator(step))
+    if step >= 1:
+        ax.yaxis.set_minor_locator(MultipleLocator(1 if step <= 5 else step / 5))
+    ax.yaxis.set_major_formatter(FuncFormatter(
+        lambda value, _: f"{0.0 - value + 0.0:g}".replace("-", "−")
+        if abs(value) > 1e-9 else "0"))
+    ax.set_ylabel(label)
+
+
+def distance_axis(ax, frame):
+    """x ticks in km from the breakaway."""
+    span = frame.view[1] - frame.view[0]
+    step = 5 if 15 < span <= 80 else (20 if span > 80 else 2)
+    ax.xaxis.set_major_locator(MultipleLocator(step))
+    ax.xaxis.set_minor_locator(MultipleLocator(1 if step < 20 else 5))
+
+
+def describe(ax, text, handles=()):
+    """Description at the left and legend at the right, just above the axes."""
+    ax.annotate(text, (0, 1), (0, 5), xycoords="axes fraction",
+                textcoords="offset points", fontsize=10.5, weight="semibold",
+                va="bottom", annotation_clip=False)
+    if handles:
+        ax.legend([h for h, _ in handles], [t for _, t in handles],
+                  ncol=len(handles), loc="lower right", bbox_to_anchor=(1.004, 1.0),
+                  frameon=False, borderpad=0.2, borderaxespad=0.1, handlelength=1.6,
+                  handletextpad=0.5, columnspacing=1.4,
+                  handler_map={tuple: HandlerTuple(ndivide=None, pad=0)})
+
+
+def swatch(colour):
+    return Patch(facecolor=colour, edgecolor=FAINT, linewidth=0.4)
+
+
+def stratum_colours(count):
+    """One colour per stratum, old (dark) to young; every second slightly lighter."""
+    colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 1.0, max(count, 2)))[:count, :3]
+    if count >= 6:
+        colours[1::2] = 0.84 * colours[1::2] + 0.16
+    return colours
+
+
+def bar(cax, cmap, norm, label, **options):
+    """Colour bar in the axes cax with its label."""
+    colour_bar = cax.figure.colorbar(ScalarMappable(norm, cmap), cax=cax, **options)
+    colour_bar.outline.set_linewidth(0.6)
+    colour_bar.set_label(label, fontsize=9.5)
+    cax.tick_params(labelsize=9)
+    return colour_bar
+
+
+# -------------------------------------------------------------------- panels
+
+def strata_panel(ax, cax, frame):
+    """Sediment strata by age, pre-rift layers by start depth (km), faults (mm/a)."""
+    section_axes(ax, frame)
+    layer = frame.meta["layer_m"] / 1000.0
+    depth = np.nan_to_num(frame.start_depth, nan=0.0, posinf=0.0, neginf=0.0)
+    rgb = np.array([to_rgb(c) for c in LAYER_COLOURS])[
+        np.floor(np.maximum(depth, 0.0) / layer).astype(int) % 2]
+    sediment = frame.stratum > 0
+    count = max(int(frame.meta["strata"]), int(frame.stratum.max()), 0)
+    if sediment.any():
+        colours = stratum_colours(count)
+        rgb[sediment] = colours[frame.stratum[sediment] - 1]
+        norm = BoundaryNorm(np.arange(count + 1) + 0.5, count)
+        colour_bar = bar(cax, ListedColormap(colours), norm, "Stratum (1 is the oldest)",
+                         spacing="proportional", drawedges=False)
+        step = max(1, math.ceil(count / 8)) if count < 20 else 5 * math.ceil(count / 40)
+        ticks = sorted({1, *range(step, count + 1, step)})
+        colour_bar.set_ticks(ticks, labels=[str(t) for t in ticks])
+        colour_bar.ax.minorticks_off()
+    else:
+        cax.set_axis_off()
+    draw_discs(ax, frame, rgb)
+    ax.axhline(frame.level, color=LEVEL_BLUE, linewidth=1.0, dashes=(6, 3), zorder=6)
+    handles = [
+        (tuple(swatch(c) for c in LAYER_COLOURS), f"pre-rift, {layer:g} km layers"),
+        (Line2D([], [], color=INK, linewidth=1.5), "detachment"),
+        (Line2D([], [], color=LEVEL_BLUE, linewidth=1.0, dashes=(4, 2)),
+         "target level of sediments")]
+    if frame.faults is not None and len(frame.faults):
+        handles += draw_faults(ax, frame.faults)
+    describe(ax, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
+
+
+def bonds_panel(ax, cax, frame):
+    """Weakened discs in red, touching pairs without a bond as black segments."""
+    section_axes(ax, frame)
+    cax.set_axis_off()
+    sediment = frame.stratum > 0
+    rgb = np.where(sediment[:, None], to_rgb(SEDIMENT), to_rgb(PRE_RIFT))
+    handles = [(swatch(PRE_RIFT), "pre-rift")]
+    if sediment.any():
+        handles.append((swatch(SEDIMENT), "sediment"))
+    if frame.weak is not None:
+        rgb[frame.weak] = to_rgb(WEAK)
+        handles.append((swatch(WEAK), f"weakened disc ({int(frame.weak.sum()):,})"))
+    if frame.broken is not None:
+        handles.append((Line2D([], [], color="black", linewidth=1.0),
+                        f"contact without bond ({len(frame.broken):,})"))
+    points = 2 * np.median(frame.radius) * PANEL_WIDTH * 72 / (frame.view[1] - frame.view[0])
+    draw_discs(ax, frame, rgb, frame.broken,
+               segment_width=float(np.clip(0.17 * points, 0.25, 0.9)))
+    if frame.broken is None:
+        text = "Weakened discs (bonds off)" if frame.weak is not None else "Discs (bonds off)"
+    else:
+        text = "Broken bonds" + (" and weakened discs" if frame.weak is not None else "")
+    describe(ax, text, handles)
+
+
+def strain_colours():
+    """White through magma to black: equal steps of lightness, prints well."""
+    colours = matplotlib.colormaps["magma_r"](np.linspace(0, 0.93, 256))[:, :3]
+    fade = np.clip(np.arange(256) / 45.0, 0, 1)[:, None]
+    return ListedColormap(fade * colours + (1 - fade) * 0.985)
+
+
+def strain_limit(strain):
+    """Upper end of the colour scale: 99th percentile, rounded up to a plain number."""
+    values = strain[np.isfinite(strain)]
+    high = np.quantile(values, 0.99) if len(values) else 0.0
+    if high <= 0:
+        high = values.max() if len(values) else 0.0
+    if high <= 0:
+        return 0.01
+    power = 10.0 ** math.floor(math.log10(high))
+    return power * next(s for s in (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10)
+                        if high <= s * power * (1 + 1e-9))
+
+
+def strain_panel(ax, cax, frame):
+    """Shear strain (no unit) of the last window of extension."""
+    section_axes(ax, frame)
+    limit = strain_limit(frame.strain)
+    finite = np.isfinite(frame.strain)
+    highest = frame.strain[finite].max() if finite.any() else 0.0
+    cmap, norm = strain_colours(), Normalize(0.0, limit, clip=True)
+    rgb = cmap(norm(np.where(finite, frame.strain, 0.0)))[:, :3]
+    rgb[~finite] = to_rgb("#e2e8ee")
+    draw_discs(ax, frame, rgb)
+    above = highest > limit * (1 + 1e-9)
+    colour_bar = bar(cax, cmap, Normalize(0.0, limit),
+                     f"Shear strain (max. {highest:.2g})" if above else "Shear strain",
+                     extend="max" if above else "neither", extendfrac=0.04)
+    digit = round(limit / 10.0 ** math.floor(math.log10(limit) + 1e-9), 1)
+    parts = {1.2: 4, 1.5: 3, 2: 4, 3: 3, 4: 4, 6: 3, 8: 4}.get(digit, 5)
+    colour_bar.set_ticks(np.linspace(0.0, limit, parts + 1))
+    colour_bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:.3g}"))
+    handles = []
+    if not finite.all():
+        handles.append((swatch("#e2e8ee"), "not defined"))
+    if frame.profile is not None and (frame.stratum > 0).any():
+        ax.plot(frame.profile[:, 0], frame.profile[:, 1], color=TOP_GREEN,
+                linewidth=1.0, zorder=6)
+        handles.append((Line2D([], [], color=TOP_GREEN, linewidth=1.0), "pre-rift top"))
+    window = frame.meta["strain_window_m"]
+    describe(ax, f"Shear strain, last {window:g} m of extension", handles)
+
+
+def draw_faults(ax, faults):
+    """Active faults, line width by slip rate (mm/a); returns legend entries."""
+    handles, lower = [], -math.inf
+    for upper, width, label in FAULT_CLASSES:
+        chosen = faults[(faults[:, 4] >= lower) & (faults[:, 4] < upper)]
+        lower = upper
+        if len(chosen):
+            ax.add_collection(LineCollection(
+                chosen[:, :4].reshape(-1, 2, 2), colors=INK, linewidths=width,
+                path_effects=[Stroke(linewidth=width + 1.2, foreground="white"), Normal()],
+                zorder=7), autolim=False)
+            handles.append((Line2D([], [], color=INK, linewidth=width),
+                            ("fault slip " if not handles else "") + label + " mm/a"))
+    return handles
+
+
+def sediment_panel(ax, cax, frame):
+    """Thickness of sediments and depth of the pre-rift top (km, both down)."""
+    cax.set_axis_off()
+    ax.set_xlim(*frame.view[:2])
+    distance_axis(ax, frame)
+    if frame.profile is None:
+        ax.set_yticks([])
+        ax.text(0.5, 0.5, "no thickness profile in this frame", color=FAINT,
+                ha="center", va="center", transform=ax.transAxes)
+        describe(ax, "Sediment thickness")
+        return
+    x, top, thickness = frame.profile.T
+    known = np.isfinite(thickness)
+    shown = -np.where(known, thickness, np.nan)
+    deepest = max(np.nanmax(-shown, initial=0.0), np.nanmax(-top, initial=0.0), 0.5)
+    highest = max(np.nanmax(top, initial=0.0), 0.0)
+    ax.set_ylim(-1.32 * deepest, highest + 0.10 * deepest)
+    depth_axis(ax, "Thickness, depth (km)")
+    ax.grid(axis="y", color="#dddddd", linewidth=0.6, zorder=0)
+    ax.set_axisbelow(True)
+    ax.fill_between(x, 0.0, shown, where=known, color=SEDIMENT, linewidth=0, zorder=1)
+    ax.plot(x, shown, color="#b07d00", linewidth=1.4, zorder=3)
+    ax.plot(x, top, color=INK, linewidth=1.1, dashes=(4, 2), zorder=4)
+    ax.axhline(0.0, color=FAINT, linewidth=0.8, zorder=2)
+    handles = [
+        (Patch(facecolor=SEDIMENT, edgecolor="#b07d00", linewidth=1.2), "sediment thickness"),
+        (Line2D([], [], color=INK, linewidth=1.1, dashes=(3, 1.5)), "depth of pre-rift top")]
+    if frame.depocentres is not None and len(frame.depocentres):
+        draw_depocentres(ax, frame)
+        handles.append((Line2D([], [], color=WEAK, marker="^", markersize=7,
+                               linestyle="none"), "depocentre: thickness, prominence (km)"))
+    describe(ax, "Sediment thickness and pre-rift top", handles)
+
+
+def draw_depocentres(ax, frame, most=10):
+    """Mark depocentres below the curve; labels of the most prominent ones."""
+    points = frame.depocentres[np.argsort(-frame.depocentres[:, 2], kind="stable")]
+    xmin, xmax = ax.get_xlim()
+    ymin, ymax = ax.get_ylim()
+    inches_x, inches_y = PANEL_WIDTH / (xmax - xmin), PROFILE_HEIGHT / (ymax - ymin)
+    half, height = 0.37 / inches_x, 0.17 / inches_y
+    placed = []
+    for index, (x, thickness, prominence) in enumerate(points):
+        ax.plot(x, -thickness - 0.05 / inches_y, marker="^", markersize=7, color=WEAK,
+                markeredgecolor="white", markeredgewidth=0.5, zorder=6, clip_on=False)
+        if index >= most:
+            continue
+        cx = min(max(x, xmin + 1.1 * half), xmax - 1.1 * half)
+        cy = -thickness - 0.21 / inches_y
+        for _ in range(12):
+            hit = [p for p in placed
+                   if abs(p[0] - cx) < 2 * half and abs(p[1] - cy) < height]
+            if not hit:
+                break
+            cy = min(p[1] for p in hit) - height
+        if cy < ymin + 0.4 * height:        # no room left: marker only
+            continue
+        placed.append((cx, cy))
+        ax.text(cx, cy, f"{thickness:.1f}, {prominence:.1f}", fontsize=9, ha="center",
+                va="center", zorder=7, bbox={"facecolor": "white", "alpha": 0.75,
+                                             "linewidth": 0, "pad": 0.6})
+
+
+# -------------------------------------------------------------------- output
+
+PANELS = (("strata", strata_panel), ("bonds", bonds_panel),
+          ("strain", strain_panel), ("sediment", sediment_panel))
+
+
+def headline(frame):
+    meta = frame.meta
+    return (f"{meta['scene'].upper()}, {extension_text(frame)} km of extension "
+            f"({meta['time_a'] / 1e6:.2f} Ma)")
+
+
+def extension_text(frame):
+    """Extension in km: one decimal, two when one is not enough."""
+    value = frame.extension
+    return f"{value:.1f}" if abs(value * 10 - round(value * 10)) < 0.05 else f"{value:.2f}"
+
+
+def footer(frame):
+    """What was computed, as wrapped lines of small print."""
+    meta, parts = frame.meta, []
+    if meta.get("title"):
+        parts.append(str(meta["title"]))
+    radius = meta.get("mean_radius_m", frame.radius.mean() * 1000)
+    parts.append(f"{len(frame.x):,} discs, mean radius {radius:.3g} m")
+    parts += [f"{key} {meta[key]}" for key in ("accuracy", "seed") if key in meta]
+    if isinstance(meta.get("effects"), list):
+        parts.append("effects: " + (", ".join(map(str, meta["effects"])) or "none"))
+    return textwrap.wrap("  ·  ".join(parts), 190)[:3]
+
+
+def draw_figure(frame, panels):
+    """Figure with the given (name, function) panels stacked on one x axis."""
+    width, section_height = panel_size(frame)
+    heights = [PROFILE_HEIGHT if name == "sediment" else section_height
+               for name, _ in panels]
+    lines = footer(frame)
+    bottom = XLABEL + FOOTER_LINE * len(lines) + 0.12
+    total = TITLE + bottom + sum(heights) + ROW_ABOVE * len(panels) \
+        + GAP * (len(panels) - 1)
+    figure = Figure(figsize=(WIDTH, total), dpi=DPI, facecolor="white")
+    FigureCanvasAgg(figure)
+    figure.text(LEFT / WIDTH, 1 - 0.13 / total, headline(frame), fontsize=14,
+                weight="bold", va="top")
+    for index, line in enumerate(reversed(lines)):
+        figure.text(LEFT / WIDTH, (0.09 + FOOTER_LINE * index) / total, line,
+                    fontsize=7.5, color=FAINT, va="bottom")
+    y = total - TITLE
+    for index, ((name, draw), height) in enumerate(zip(panels, heights)):
+        y -= ROW_ABOVE + height
+        ax = figure.add_axes((LEFT / WIDTH, y / total, width / WIDTH, height / total))
+        cax = figure.add_axes(((LEFT + width + 0.16) / WIDTH, y / total,
+                               0.17 / WIDTH, height / total))
+        draw(ax, cax, frame)
+        ax.tick_params(which="major", length=4)
+        ax.tick_params(which="minor", length=2)
+        if index + 1 < len(panels):
+            ax.tick_params(labelbottom=False)
+        else:
+            ax.set_xlabel("Distance from the breakaway (km)")
+        y -= GAP
+    return figure
+
+
+def save(figure, directory, name):
+    """Write a PNG under a temporary name, then rename it."""
+    path = os.path.join(directory, name)
+    temporary = os.path.join(directory, f".{name}.{os.getpid()}.tmp")
+    try:
+        figure.savefig(temporary, format="png", dpi=DPI)
+        os.replace(temporary, path)
+    finally:
+        if os.path.exists(temporary):
+            os.remove(temporary)
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        raise InputError("usage: figures.py DATA_DIR FIGURES_DIR")
+    data, directory = arguments
+    frame = load_frame(data)
+    os.makedirs(directory, exist_ok=True)
+    for name, panels in [(p[0], [p]) for p in PANELS] + [("overview", list(PANELS))]:
+        with matplotlib.rc_context(STYLE):
+            save(draw_figure(frame, panels), directory,
+                 f"{name}-{extension_text(frame)}km.png")
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except InputError as failure:
+        sys.stderr.write("figures.py: " + " ".join(str(failure).split()) + "\n")
+        sys.exit(1)
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except Exception as failure:   # e.g. disk full: still one line, no traceback
+        text = " ".join(f"{type(failure).__name__}: {failure}".split())
+        sys.stderr.write(f"figures.py: {text}\n")
+        sys.exit(1)

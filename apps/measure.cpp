@@ -1,0 +1,354 @@
+#include "apps/measure.hpp"
+
+#include "dem/contacts.hpp"
+#include "dem/events/property_update.hpp"
+#include "dem/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace listric {
+
+namespace {
+
+constexpr double none = -std::numeric_limits<double>::infinity();
+
+/// Moving average over `width` samples on either side, fewer at the ends.
+std::vector<double> smooth(std::span<const double> values, std::ptrdiff_t width) {
+    const auto n = static_cast<std::ptrdiff_t>(values.size());
+    std::vector<double> result(values.size());
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+        const std::ptrdiff_t low = std::max<std::ptrdiff_t>(k - width, 0);
+        const std::ptrdiff_t high = std::min(k + width, n - 1);
+        result[static_cast<std::size_t>(k)] =
+            std::accumulate(values.begin() + low, values.begin() + high + 1, 0.0) /
+            static_cast<double>(high - low + 1);
+    }
+    return result;
+}
+
+/// Height of the detachment below x, m.
+double detachment_height(const Chain& detachment, double x) {
+    double low = 0.0, high = 0.0;
+    for (const Segment& s : detachment)
+        high += s.length;
+    for (int n = 0; n < 60; ++n) {
+        const double middle = 0.5 * (low + high);
+        (point_at(detachment, middle).x < x ? low : high) = middle;
+    }
+    return point_at(detachment, low).y;
+}
+
+/// Where the pre-rift top meets the detachment: the shallowest pre-rift discs that lie on it.
+std::optional<Point> find_cutoff(const State& state, const Chain& detachment) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::pair<double, double>> on_detachment; // arc length, radius
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        if (d.stratum[i] != 0)
+            continue;
+        if (const auto foot = foot_point(detachment, {d.x[i], d.y[i]});
+            foot && foot->distance < d.radius[i] + 0.25 * state.mean_radius)
+            on_detachment.emplace_back(foot->arc_length, d.radius[i]);
+    }
+    if (on_detachment.empty())
+        return std::nullopt;
+    const auto [arc_length, radius] = *std::ranges::min_element(on_detachment);
+    const Point p = point_at(detachment, arc_length - radius);
+    return Point{p.x, -p.y};
+}
+
+/// Rotation, degrees, of the least-squares rigid motion of the block that started next to the
+/// detachment in its upper half.
+std::optional<double> head_block_tilt(const Scene& scene, const State& state,
+                                      const Chain& detachment) {
+    const ConstDiscColumns d = disc_columns(state);
+    constexpr double block_width = 5e3;
+    std::vector<std::size_t> block;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        if (d.stratum[i] != 0 || -d.start_y[i] > 0.5 * scene.hanging_wall->thickness)
+            continue;
+        const auto foot = foot_point(detachment, {d.start_x[i], d.start_y[i]});
+        const double distance = foot ? foot->distance : d.start_x[i];
+        if (distance < block_width)
+            block.push_back(i);
+    }
+    if (block.size() < 3)
+        return std::nullopt;
+    Point before, after;
+    for (std::size_t i : block) {
+        before = {before.x + d.start_x[i], before.y + d.start_y[i]};
+        after = {after.x + d.x[i], after.y + d.y[i]};
+    }
+    const auto n = static_cast<double>(block.size());
+    before = {before.x / n, before.y / n};
+    after = {after.x / n, after.y / n};
+    double sine = 0.0, cosine = 0.0;
+    for (std::size_t i : block) {
+        const double ax = d.start_x[i] - before.x, ay = d.start_y[i] - before.y;
+        const double bx = d.x[i] - after.x, by = d.y[i] - after.y;
+        sine += ax * by - ay * bx;
+        cosine += ax * bx + ay * by;
+    }
+    return std::atan2(sine, cosine) * 180.0 / pi;
+}
+
+const Event* find_event(std::span<const std::unique_ptr<Event>> events, std::string_view name) {
+    for (const auto& event : events)
+        if (event->name() == name)
+            return event.get();
+    return nullptr;
+}
+
+/// Links the segments of the last scan into faults: neighbours within two spacings whose planes
+/// differ by less than 25 degrees.
+std::vector<Fault> trace_faults(const Scene& scene, const State& state, const Table& segments) {
+    std::vector<Fault> faults;
+    if (segments.rows() == 0)
+        return faults;
+    const auto x = segments.get<double>("x_m"), y = segments.get<double>("y_m");
+    const auto angle = segments.get<double>("angle_rad"), slip = segments.get<double>("slip_m");
+    const auto found_at = segments.get<double>("found_at_m");
+    const double last = found_at.back();
+    const double reach = 2.0 * scene.fault_weakening->spacing_diameters * 2.0 * state.mean_radius;
+    const auto angle_between = [](double a, double b) {
+        const double difference = std::abs(a - b);
+        return std::min(difference, pi - difference);
+    };
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < x.size(); ++k)
+        if (found_at[k] == last)
+            open.push_back(k);
+    while (!open.empty()) {
+        std::vector<std::size_t> members{open.back()};
+        open.pop_back();
+        for (std::size_t m = 0; m < members.size(); ++m)
+            for (std::size_t o = open.size(); o-- > 0;) {
+                const std::size_t a = members[m], b = open[o];
+                const double dx = x[b] - x[a], dy = y[b] - y[a];
+                const double distance = std::hypot(dx, dy);
+                double along = std::atan2(dy, dx);
+                if (along < 0.0)
+                    along += pi;
+                if (distance < reach && angle_between(angle[a], angle[b]) < 25.0 * pi / 180.0 &&
+                    angle_between(angle[a], along) < 45.0 * pi / 180.0) {
+                    members.push_back(b);
+                    open.erase(open.begin() + static_cast<std::ptrdiff_t>(o));
+                }
+            }
+        if (members.size() < 3)
+            continue;
+        Fault f;
+        const auto [lowest, highest] =
+            std::ranges::minmax(members, {}, [&](std::size_t m) { return y[m]; });
+        f.top = {x[highest], y[highest]};
+        f.bottom = {x[lowest], y[lowest]};
+        f.dip = std::atan2(f.top.y - f.bottom.y, std::abs(f.top.x - f.bottom.x)) * 180.0 / pi;
+        double signed_slip = 0.0, sum = 0.0;
+        f.born_at = last;
+        for (std::size_t m : members) {
+            // The left side of direction t is the upper one. Normal: it moves down dip.
+            const bool rises_right = angle[m] < 0.5 * pi;
+            signed_slip += rises_right ? -slip[m] : slip[m];
+            sum += std::abs(slip[m]);
+            for (std::size_t k = 0; k < x.size(); ++k)
+                if (std::hypot(x[k] - x[m], y[k] - y[m]) < 0.5 * reach &&
+                    angle_between(angle[k], angle[m]) < 25.0 * pi / 180.0)
+                    f.born_at = std::min(f.born_at, found_at[k]);
+        }
+        f.normal = signed_slip > 0.0;
+        f.rate = sum / static_cast<double>(members.size()) / scene.fault_weakening->interval * 1e3;
+        faults.push_back(f);
+    }
+    std::ranges::sort(faults, std::ranges::greater{},
+                      [](const Fault& f) { return std::hypot(f.top.x - f.bottom.x, f.top.y - f.bottom.y); });
+    return faults;
+}
+
+} // namespace
+
+double share_of_densest(std::span<const double> density, std::span<const double> area,
+                        double area_share) {
+    std::vector<std::size_t> order(density.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return density[a] > density[b]; });
+    double total = 0.0;
+    for (std::size_t k : order)
+        total += density[k] * area[k];
+    const double wanted = area_share * std::accumulate(area.begin(), area.end(), 0.0);
+    double taken = 0.0, held = 0.0;
+    for (std::size_t k : order) {
+        const double part = std::min(area[k], wanted - taken);
+        if (part <= 0.0)
+            break;
+        taken += part;
+        held += density[k] * part;
+    }
+    return total > 0.0 ? held / total : 0.0;
+}
+
+double gini(std::span<const double> density, std::span<const double> area) {
+    std::vector<std::size_t> order(density.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return density[a] < density[b]; });
+    double all_area = 0.0, amount = 0.0, under_curve = 0.0;
+    for (std::size_t k : order) {
+        const double next = amount + density[k] * area[k];
+        under_curve += 0.5 * (amount + next) * area[k];
+        amount = next;
+        all_area += area[k];
+    }
+    return amount > 0.0 ? 1.0 - 2.0 * under_curve / (amount * all_area) : 0.0;
+}
+
+std::vector<Depocentre> find_depocentres(std::span<const double> x, std::span<const double> t,
+                                         double least_prominence) {
+    std::vector<Depocentre> found;
+    for (std::size_t k = 0; k < t.size(); ++k) {
+        // A plateau counts once, at its first sample.
+        if (t[k] <= 0.0 || (k > 0 && t[k - 1] >= t[k]))
+            continue;
+        std::size_t next = k;
+        while (next + 1 < t.size() && t[next + 1] == t[k])
+            ++next;
+        if (next + 1 < t.size() && t[next + 1] > t[k])
+            continue;
+        // Prominence: down to the higher of the two lowest passes to something thicker.
+        double left = t[k], right = t[k];
+        bool left_higher = false, right_higher = false;
+        for (std::size_t m = k; m-- > 0 && !left_higher;) {
+            left_higher = t[m] > t[k];
+            left = std::min(left, t[m]);
+        }
+        for (std::size_t m = next + 1; m < t.size() && !right_higher; ++m) {
+            right_higher = t[m] > t[k];
+            right = std::min(right, t[m]);
+        }
+        const double base = left_higher && right_higher ? std::max(left, right)
+                            : left_higher               ? left
+                            : right_higher              ? right
+                                                        : 0.0;
+        if (t[k] - base >= least_prominence)
+            found.push_back({x[k], t[k], t[k] - base});
+    }
+    std::ranges::sort(found, std::ranges::greater{}, &Depocentre::thickness);
+    return found;
+}
+
+Profile measure_profile(const Scene& scene, const State& state, const RigidBase& base) {
+    const ConstDiscColumns d = disc_columns(state);
+    const Chain& detachment = base.surfaces.front().chain;
+    const double width = 2.0 * state.mean_radius;
+    const auto columns = static_cast<std::size_t>(
+        (scene.hanging_wall->length + state.clock.extension) / width);
+    Profile p;
+    p.x.resize(columns);
+    p.pre_rift_top.assign(columns, none);
+    std::vector<double> surface(columns, none);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double column = d.x[i] / width;
+        if (column < 0.0 || column >= static_cast<double>(columns))
+            continue;
+        const auto k = static_cast<std::size_t>(column);
+        const double top = d.y[i] + d.radius[i];
+        surface[k] = std::max(surface[k], top);
+        if (d.stratum[i] == 0)
+            p.pre_rift_top[k] = std::max(p.pre_rift_top[k], top);
+    }
+    std::vector<double> thickness(columns);
+    for (std::size_t k = 0; k < columns; ++k) {
+        p.x[k] = (static_cast<double>(k) + 0.5) * width;
+        p.pre_rift_top[k] =
+            std::max(p.pre_rift_top[k], detachment_height(detachment, p.x[k]));
+        thickness[k] = std::max(0.0, surface[k] - p.pre_rift_top[k]);
+    }
+    p.sediment_thickness =
+        smooth(thickness, static_cast<std::ptrdiff_t>(std::lround(0.5 * 1e3 / width)));
+    return p;
+}
+
+Measures measure(const Scene& scene, const State& state, const RigidBase& base,
+                 std::span<const std::unique_ptr<Event>> events) {
+    const ConstDiscColumns d = disc_columns(state);
+    const Chain& detachment = base.surfaces.front().chain;
+    const double extension = state.clock.extension;
+    Measures m;
+
+    const Profile profile = measure_profile(scene, state, base);
+    for (double top : profile.pre_rift_top)
+        m.basin_area -= top * 2.0 * state.mean_radius;
+    if (extension > 0.0) {
+        m.area_balance = m.basin_area / (extension * scene.hanging_wall->thickness);
+        m.cutoff = find_cutoff(state, detachment);
+        m.rollover_tilt = head_block_tilt(scene, state, detachment);
+    }
+    if (scene.sedimentation)
+        m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, 250.0);
+
+    if (const Event* strain = find_event(events, "strain"); strain && strain->applied > 0) {
+        const auto window = state.discs.get<double>("window_strain");
+        const auto total = state.discs.get<double>("total_strain");
+        std::vector<double> last, sum, area, inertial;
+        const double rate = scene.extension.speed / strain->schedule().spacing();
+        for (std::size_t i = 0; i < d.x.size(); ++i) {
+            if (d.stratum[i] != 0)
+                continue;
+            last.push_back(window[i]);
+            sum.push_back(total[i]);
+            area.push_back(pi * d.radius[i] * d.radius[i]);
+            // I = strain rate * diameter * sqrt(density / pressure).
+            const double gravity = scene.gravity ? scene.gravity->acceleration : 0.0;
+            const double depth = std::max(2.0 * state.mean_radius, -d.y[i]);
+            if (gravity > 0.0)
+                inertial.push_back(window[i] * rate * 2.0 * d.radius[i] /
+                                   std::sqrt(gravity * depth));
+        }
+        m.strain_top10 = share_of_densest(last, area, 0.1);
+        m.strain_top10_cumulative = share_of_densest(sum, area, 0.1);
+        m.strain_gini = gini(last, area);
+        if (!inertial.empty()) {
+            const double mean =
+                std::inner_product(inertial.begin(), inertial.end(), area.begin(), 0.0) /
+                std::accumulate(area.begin(), area.end(), 0.0);
+            m.inertial_number = 10.0 * mean * share_of_densest(inertial, area, 0.1);
+        }
+    }
+
+    if (scene.bonds) {
+        const ConstContactColumns c = contact_columns(state);
+        const std::vector<bool> touches = touching(state);
+        std::int64_t all = 0, unbonded = 0;
+        for (std::size_t k = 0; k < touches.size(); ++k)
+            if (touches[k] && d.stratum[static_cast<std::size_t>(c.first[k])] == 0 &&
+                d.stratum[static_cast<std::size_t>(c.second[k])] == 0) {
+                ++all;
+                unbonded += !c.bonded[k];
+            }
+        if (all)
+            m.basement_unbonded_fraction =
+                static_cast<double>(unbonded) / static_cast<double>(all);
+    }
+    if (const Event* weakening = find_event(events, "fault_weakening")) {
+        m.weak_fraction = static_cast<double>(std::ranges::count(d.material, weak)) /
+                          static_cast<double>(d.x.size());
+        m.volume_error_fraction = std::abs(weakened_volume_change(state, base)) /
+                                  hanging_wall_area(*scene.hanging_wall, detachment);
+        m.faults = trace_faults(scene, state, weakening->memory);
+    }
+    const Ledger& ledger = state.ledger;
+    const double mass = std::accumulate(d.mass.begin(), d.mass.end(), 0.0);
+    m.mass_error_fraction =
+        std::abs(mass - (ledger.initial + ledger.deposited - ledger.removed)) / ledger.initial;
+
+    if (const Event* equilibrium = find_event(events, "equilibrium");
+        equilibrium && equilibrium->applied > 0) {
+        const Table& t = equilibrium->memory;
+        m.unbalanced_ratio_mean =
+            t.get<double>("mean_ratio_sum")[0] / t.get<double>("samples")[0];
+        m.unbalanced_ratio_max = t.get<double>("max_ratio")[0];
+    }
+    return m;
+}
+
+} // namespace listric

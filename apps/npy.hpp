@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace listric {
+
+/// Writes values as a NumPy array (format version 1.0, little endian), with `columns` > 0 as a
+/// matrix of that many columns.
+template <class T>
+void write_npy(const std::filesystem::path& path, std::span<const T> values,
+               std::size_t columns = 0) {
+    const char kind = std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u';
+    const std::string shape = columns == 0 ? std::to_string(values.size()) + ","
+                                           : std::to_string(values.size() / columns) + ", " +
+                                                 std::to_string(columns);
+    std::string header = std::string("{'descr': '<") + kind + std::to_string(sizeof(T)) +
+                         "', 'fortran_order': False, 'shape': (" + shape + "), }";
+    header.resize((header.size() + 11 + 63) / 64 * 64 - 11, ' ');
+    header += '\n';
+    std::ofstream out(path, std::ios::binary);
+    out.write("\x93NUMPY\x01\x00", 8);
+    out.put(static_cast<char>(header.size() & 0xff));
+    out.put(static_cast<char>(header.size() >> 8));
+    out << header;
+    out.write(reinterpret_cast<const char*>(values.data()),
+              static_cast<std::streamsize>(values.size_bytes()));
+    if (!out.flush())
+        throw std::runtime_error("cannot write " + path.string());
+}
+
+} // namespace listric

@@ -1,0 +1,91 @@
+#include "apps/prediction.hpp"
+
+#include "apps/effects.hpp"
+#include "dem/contacts.hpp"
+#include "dem/cycle.hpp"
+#include "dem/units.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace listric {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+double measure_rate(std::size_t discs, double seconds) {
+    // Hexagonal lattice on a floor, as many neighbours per disc as a settled packing has on average
+    // once every third contact is left out by a gap.
+    const double radius = 100.0;
+    const auto columns = static_cast<std::size_t>(std::sqrt(static_cast<double>(discs) * 3.0)) + 1;
+    State state = empty_state();
+    state.materials.assign(3, Material{});
+    state.mean_radius = radius;
+    state.skin = 0.25 * radius;
+    add_discs(state, discs);
+    DiscColumns d = disc_columns(state);
+    for (std::size_t i = 0; i < discs; ++i) {
+        const std::size_t row = i / columns;
+        d.x[i] = 2.02 * radius * (static_cast<double>(i % columns) + (row % 2 ? 0.5 : 0.0));
+        d.y[i] = radius * (1.0 + 1.7 * static_cast<double>(row));
+        d.radius[i] = radius;
+        d.mass[i] = 3000.0 * pi * radius * radius;
+    }
+    RigidBase base;
+    const double width = 2.02 * radius * static_cast<double>(columns);
+    base.surfaces = {{"floor", {line({-width, 0.0}, {2.0 * width, 0.0})}, 0.5, 0.0, 0.0}};
+    state.clock.time_step = 0.1 * stable_time_step(d.mass[0], state.materials[0], 0.8);
+    sort_discs(state);
+    find_contacts(state, base);
+    const ContactColumns c = contact_columns(state);
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        c.bonded[k] = 1;
+        c.tensile_strength[k] = c.shear_strength[k] = 1e30f;
+    }
+    advance(state, base, {}, 3);
+    const auto start = std::chrono::steady_clock::now();
+    double cycles = 0.0;
+    while (seconds_since(start) < seconds) {
+        advance(state, base, {}, 5);
+        cycles += 5.0;
+    }
+    return cycles * static_cast<double>(discs) / seconds_since(start);
+}
+
+Prediction predict(const Scene& scene, double rate) {
+    const HangingWallParameters& h = *scene.hanging_wall;
+    const Material& m = scene.basement;
+    const double density = h.rock_density / (1.0 - 0.166);
+    const double mean_mass = density * pi * h.mean_radius * h.mean_radius;
+    const double smallest = 2.0 / (1.0 + h.radius_ratio);
+    const double floor = scene.cycle.inertial_mass_floor > 0.0 ? scene.cycle.inertial_mass_floor
+                                                               : smallest * smallest;
+    Prediction p;
+    p.time_step = stable_time_step(floor * mean_mass, m, scene.cycle.time_step_safety);
+    p.discs_at_start = estimated_discs(scene);
+    p.discs_at_end = p.discs_at_start;
+    // Sediment fills distance times thickness; burial compacts it to about 0.82 of its volume.
+    if (scene.sedimentation)
+        p.discs_at_end += disc_count(h, scene.extension.distance * h.thickness /
+                                            (scene.compaction ? 0.82 : 1.0));
+    const double time = scene.extension.distance / scene.extension.speed + 0.5 * scene.extension.ramp;
+    p.cycles = static_cast<std::int64_t>(time / p.time_step);
+    p.disc_steps = 0.5 * static_cast<double>(p.discs_at_start + p.discs_at_end) *
+                   static_cast<double>(p.cycles);
+    // Settling takes about 70 crossings of the packing, see make_hanging_wall.
+    const double genesis = static_cast<double>(p.discs_at_start) *
+                           (3500.0 + 70.0 * h.thickness / h.mean_radius);
+    // Neighbour searches, events, snapshots and figures take about a tenth on top of the cycle.
+    p.seconds = 1.1 * (p.disc_steps + genesis) / rate + 8.0;
+    // Columns of a disc, three contacts each, and the neighbour search's copies.
+    p.memory = 20e6 + static_cast<double>(p.discs_at_end) * (25 * 8.0 + 3 * 29.0 * 2.0 + 100.0);
+    return p;
+}
+
+} // namespace listric

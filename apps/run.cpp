@@ -1,0 +1,477 @@
+#include "apps/run.hpp"
+
+#include "apps/effects.hpp"
+#include "apps/figures.hpp"
+#include "apps/measure.hpp"
+#include "apps/prediction.hpp"
+#include "apps/summary.hpp"
+#include "apps/version.hpp"
+#include "dem/contacts.hpp"
+#include "dem/cycle.hpp"
+#include "dem/genesis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <unistd.h>
+
+namespace listric {
+
+std::atomic<bool> stop_requested = false;
+
+namespace {
+
+namespace fs = std::filesystem;
+using SteadyClock = std::chrono::steady_clock;
+
+double seconds_since(SteadyClock::time_point start) {
+    return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
+struct Interrupted {};
+
+/// A run in progress.
+struct Run {
+    const Scene& scene;
+    const RunOptions& options;
+    RigidBase base;
+    CyclePhysics physics;
+    std::vector<std::unique_ptr<Event>> events;
+    State state;
+    RunRecord record;
+    SteadyClock::time_point started = SteadyClock::now();
+    double seconds_before = 0.0; ///< wall time of the sessions that this one resumes
+
+    explicit Run(const Scene& s, const RunOptions& o)
+        : scene(s), options(o), base(make_base(s)),
+          physics{s.cycle.damping, s.gravity ? s.gravity->acceleration : 0.0},
+          events(make_events(s)) {}
+
+    double wall_seconds() const { return seconds_before + seconds_since(started); }
+    double target() const {
+        return std::min(scene.extension.distance, options.until.value_or(1e300));
+    }
+    /// Half a cycle's extension: events are due in the cycle nearest to their extension.
+    double tolerance() const {
+        return 0.5 * scene.extension.speed * state.clock.time_step;
+    }
+};
+
+/// Adds the time until the end of its life to a part of the run.
+class Stopwatch {
+public:
+    Stopwatch(RunRecord& record, std::string part) : record_(record), part_(std::move(part)) {}
+    ~Stopwatch() { record_.seconds_by_part[part_] += seconds_since(start_); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    RunRecord& record_;
+    std::string part_;
+    SteadyClock::time_point start_ = SteadyClock::now();
+};
+
+/// Progress for people on stderr, and everything said in log.txt. On a terminal the current line
+/// is rewritten; elsewhere plain lines appear, a few per minute at most.
+class Voice {
+public:
+    Voice(const fs::path& log, bool quiet)
+        : log_(log, std::ios::app), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+    void say(const std::string& text) {
+        log_ << text << std::endl;
+        if (!quiet_)
+            fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
+    }
+
+    void progress(const std::string& text) {
+        const double pause = terminal_ ? 0.2 : 10.0;
+        if (quiet_ || (said_ && seconds_since(last_) < pause))
+            return;
+        said_ = true;
+        last_ = SteadyClock::now();
+        fmt::print(stderr, "{}{}{}", terminal_ ? "\r\x1b[K" : "", text, terminal_ ? "" : "\n");
+        std::fflush(stderr);
+    }
+
+private:
+    std::ofstream log_;
+    bool quiet_, terminal_, said_ = false;
+    SteadyClock::time_point last_;
+};
+
+std::string time_left(double seconds) {
+    const auto s = static_cast<long>(seconds);
+    if (s < 90)
+        return fmt::format("{} s", s);
+    if (s < 5400)
+        return fmt::format("{} min", (s + 30) / 60);
+    return fmt::format("{:.1f} h", static_cast<double>(s) / 3600.0);
+}
+
+fs::path snapshot_path(const fs::path& output, const State& state) {
+    return output / "snapshots" /
+           fmt::format("extension-{:08.2f}m.h5", state.clock.extension);
+}
+
+/// Genesis is the same for every scene with the same hanging wall, so it is kept.
+fs::path cache_path(const Scene& scene) {
+    Scene start = scene;
+    start.accuracy = start.description = start.name = "";
+    start.extension = {};
+    start.output = {};
+    start.extension.distance = scene.extension.distance; // decides how far the base reaches
+    start.fault_weakening.reset();
+    start.bond_healing.reset();
+    start.sedimentation.reset();
+    start.compaction.reset();
+    std::uint64_t key = 1469598103934665603u; // FNV-1a
+    const auto stir = [&](std::string_view text) {
+        for (char letter : text)
+            key = (key ^ static_cast<unsigned char>(letter)) * 1099511628211u;
+    };
+    stir(to_toml(start));
+    stir(source_hash);
+    stir(compiler);
+    stir(build_flags);
+    stir(instruction_set);
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    const fs::path folder = cache && *cache ? fs::path(cache)
+                            : home && *home ? fs::path(home) / ".cache"
+                                            : fs::temp_directory_path();
+    return folder / "listric" / fmt::format("genesis-{:016x}.h5", key);
+}
+
+State make_state(Run& run, Voice& voice) {
+    const Stopwatch watch(run.record, "genesis");
+    const fs::path cache = cache_path(run.scene);
+    std::error_code ignored;
+    if (fs::exists(cache, ignored)) {
+        try {
+            State state = read_snapshot(cache).state;
+            state.materials = make_materials(run.scene);
+            voice.say("hanging wall: kept from an earlier run, " + cache.string());
+            return state;
+        } catch (const StorageError& error) {
+            voice.say(std::string("warning: the kept hanging wall is made anew: ") + error.what());
+        }
+    }
+    const Scene& s = run.scene;
+    const GenesisRequest request{*s.hanging_wall,
+                                 run.base,
+                                 make_materials(s),
+                                 s.bonds,
+                                 run.physics,
+                                 s.cycle.time_step_safety,
+                                 s.cycle.inertial_mass_floor,
+                                 s.cycle.skin,
+                                 s.seed};
+    State state = make_hanging_wall(request, [&](std::string_view stage, double share) {
+        if (stop_requested)
+            throw Interrupted{};
+        voice.progress(fmt::format("hanging wall: {} ({:.0f} %)", stage, 100.0 * share));
+    });
+    try {
+        fs::create_directories(cache.parent_path());
+        write_snapshot(cache, state, {}, {});
+    } catch (const std::exception& error) {
+        voice.say(std::string("warning: the hanging wall cannot be kept for later runs: ") +
+                  error.what());
+    }
+    return state;
+}
+
+void begin(Run& run, Voice& voice) {
+    run.state = make_state(run, voice);
+    for (auto& event : run.events)
+        event->begin(run.state);
+    find_contacts(run.state, run.base);
+    voice.say(fmt::format("hanging wall: {} discs", run.state.discs.rows()));
+}
+
+/// Continues from the newest snapshot that can be read. False if there is none.
+bool restore(Run& run, Voice& voice) {
+    std::vector<fs::path> snapshots = list_snapshots(run.options.output);
+    for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
+        try {
+            Snapshot snapshot = read_snapshot(*path);
+            for (auto& event : run.events) {
+                event->memory = std::move(snapshot.event_memory.at(event->name()));
+                event->applied = snapshot.event_applied.at(event->name());
+            }
+            run.state = std::move(snapshot.state);
+            run.record = std::move(snapshot.record);
+            for (const auto& [part, seconds] : run.record.seconds_by_part)
+                run.seconds_before += seconds;
+            voice.say(fmt::format("resuming at {:.2f} m of extension from {}",
+                                  run.state.clock.extension, path->string()));
+            return true;
+        } catch (const StorageError& error) {
+            voice.say(std::string("warning: skipped: ") + error.what());
+        }
+    }
+    return false;
+}
+
+double next_due(const Run& run) {
+    double due = std::numeric_limits<double>::infinity();
+    for (const auto& event : run.events)
+        due = std::min(due, static_cast<double>(event->applied + 1) * event->schedule().spacing());
+    return due;
+}
+
+void apply_due_events(Run& run) {
+    bool search = false;
+    for (auto& event : run.events)
+        if (static_cast<double>(event->applied + 1) * event->schedule().spacing() <=
+            run.state.clock.extension + run.tolerance()) {
+            const Stopwatch watch(run.record, event->name());
+            search |= event->apply(run.state, run.base);
+            ++event->applied;
+        }
+    if (search) {
+        const Stopwatch watch(run.record, "rebuild");
+        find_contacts(run.state, run.base);
+    }
+}
+
+/// Cycles toward the given extension for a fraction of a second.
+void cycle_toward(Run& run, double extension) {
+    const Stopwatch watch(run.record, "cycle");
+    const double per_cycle = run.scene.extension.speed * run.state.clock.time_step;
+    const double wanted = (extension - run.state.clock.extension) / per_cycle;
+    const auto discs = static_cast<double>(run.state.discs.rows());
+    const auto batch = static_cast<std::int64_t>(
+        std::clamp(std::floor(wanted), 1.0, std::max(1.0, std::floor(5e6 / discs))));
+    advance(run.state, run.base, run.physics, batch);
+    run.record.disc_steps += discs * static_cast<double>(batch);
+}
+
+void append_history(Run& run) {
+    const auto row = history_row(
+        run.state, measure(run.scene, run.state, run.base, run.events));
+    Table& history = run.record.history;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [name, value] : row)
+        history.add<double>(name, "", nan);
+    history.resize(history.rows() + 1);
+    for (const auto& [name, value] : row)
+        history.get<double>(name).back() = value;
+    write_text(run.options.output / "history.csv", to_csv(history));
+}
+
+void save(Run& run) {
+    const Stopwatch watch(run.record, "output");
+    write_snapshot(snapshot_path(run.options.output, run.state), run.state, run.events, run.record);
+}
+
+void draw(Run& run, Voice& voice) {
+    const Stopwatch watch(run.record, "figures");
+    const std::string problem = draw_figures(run.scene, run.state, run.base, run.events,
+                                             run.options.output / "figures");
+    if (!problem.empty())
+        voice.say("warning: no figures: " + problem);
+}
+
+std::string resume_hint(const Run& run) {
+    return fmt::format("resume with: listric run {} --output {} --resume",
+                       (run.options.output / "scene.toml").string(), run.options.output.string());
+}
+
+void report(Run& run, Voice& voice) {
+    const double done = run.state.clock.extension / run.target();
+    const double spent = run.wall_seconds();
+    const double cycling = std::max(1e-9, run.record.seconds_by_part["cycle"]);
+    const double share = std::max(1e-3, done);
+    voice.progress(fmt::format("cycle {}  extension {:.2f} of {:.2f} km  {:.1f} M disc-steps/s  {} left",
+                               run.state.clock.cycle, run.state.clock.extension / 1e3,
+                               run.target() / 1e3, run.record.disc_steps / cycling / 1e6,
+                               time_left(spent / share * (1.0 - share))));
+}
+
+bool near_any(const std::vector<double>& marks, double extension, double tolerance) {
+    return std::ranges::any_of(
+        marks, [&](double mark) { return std::abs(mark - extension) <= tolerance; });
+}
+
+/// Cycles and events up to the target. Throws Interrupted after saving.
+void march(Run& run, Voice& voice) {
+    State& state = run.state;
+    const double window = run.scene.output.interval;
+    double next_window =
+        (std::floor((state.clock.extension + run.tolerance()) / window) + 1.0) * window;
+    while (state.clock.extension < run.target() - run.tolerance()) {
+        if (stop_requested) {
+            save(run);
+            throw Interrupted{};
+        }
+        const double stop = std::min({next_due(run), next_window, run.target()});
+        cycle_toward(run, stop);
+        report(run, voice);
+        if (state.clock.extension < stop - run.tolerance())
+            continue;
+        apply_due_events(run);
+        if (state.clock.extension < next_window - run.tolerance())
+            continue;
+        next_window += window;
+        {
+            const Stopwatch watch(run.record, "measures");
+            append_history(run);
+        }
+        if (near_any(run.scene.output.figures, state.clock.extension, 0.5 * window))
+            draw(run, voice);
+        save(run);
+    }
+}
+
+/// Looks at the output folder before any work is done. True if there is nothing left to do.
+bool check_output(const Scene& scene, const RunOptions& options) {
+    const fs::path& output = options.output;
+    const fs::path summary = output / "summary.json";
+    std::error_code error;
+    const bool has_run = fs::exists(output / "scene.toml", error) || fs::exists(summary, error);
+    if (options.resume && fs::exists(summary, error) && !options.force) {
+        const auto reached = summary_extension(summary);
+        const double target = std::min(scene.extension.distance, options.until.value_or(1e300));
+        if (reached && *reached >= target - 0.5)
+            return true;
+    }
+    if (has_run && !options.resume && !options.force)
+        throw UsageError(output.string() + " holds " +
+                         (fs::exists(summary, error) ? "a finished run" : "an unfinished run") +
+                         ": --resume continues it, --force replaces it, --output writes elsewhere");
+    if (options.force) {
+        for (const char* part : {"snapshots", "figures", "summary.json", "history.csv",
+                                 "scene.toml", "log.txt"})
+            fs::remove_all(output / part, error);
+    }
+    fs::create_directories(output / "snapshots", error);
+    if (error)
+        throw StorageError(output.string() + ": cannot make the output folder: " + error.message());
+    write_text(output / ".write-test", "x");
+    fs::remove(output / ".write-test", error);
+    // Files of a session that was killed while writing.
+    for (const auto& entry : fs::recursive_directory_iterator(output, error))
+        if (entry.path().extension() == ".part")
+            fs::remove(entry.path(), error);
+    return false;
+}
+
+/// A resumed run must be the same run.
+void check_same_scene(const Scene& scene, const fs::path& file) {
+    std::ifstream in(file);
+    const std::string before(std::istreambuf_iterator<char>(in), {});
+    const std::string now = to_toml(scene);
+    if (before.empty() || before == now)
+        return;
+    std::string_view a = before, b = now;
+    const auto next_line = [](std::string_view& text) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        return line;
+    };
+    std::string_view line_a, line_b;
+    while (line_a == line_b && (!a.empty() || !b.empty())) {
+        line_a = next_line(a);
+        line_b = next_line(b);
+    }
+    throw UsageError(fmt::format(
+        "{}: the run to resume has other parameters: it has \"{}\", this call \"{}\"; resume it with "
+        "the parameters that it began with, or start anew with --force",
+        file.string(), line_a, line_b));
+}
+
+} // namespace
+
+std::vector<fs::path> list_snapshots(const fs::path& output) {
+    std::vector<fs::path> snapshots;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(output / "snapshots", error))
+        if (entry.path().extension() == ".h5")
+            snapshots.push_back(entry.path());
+    std::ranges::sort(snapshots);
+    return snapshots;
+}
+
+RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
+    if (check_output(scene, options))
+        return RunOutcome::finished;
+    const fs::path& output = options.output;
+    if (options.resume)
+        check_same_scene(scene, output / "scene.toml");
+
+    Voice voice(output / "log.txt", options.quiet);
+    Run run(scene, options);
+    voice.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
+                          scene.accuracy, scene.seed, output.string()));
+    try {
+        if (!options.resume || !restore(run, voice)) {
+            const std::string text = to_toml(scene);
+            write_text(output / "scene.toml", text);
+            run.record.scene = text;
+            run.record.predicted_seconds =
+                predict(scene, measure_rate(estimated_discs(scene), 0.2)).seconds;
+            begin(run, voice);
+            append_history(run);
+            save(run);
+        }
+        march(run, voice);
+        if (!near_any(scene.output.figures, run.state.clock.extension, 0.5 * scene.output.interval))
+            draw(run, voice);
+        if (!fs::exists(snapshot_path(output, run.state)))
+            save(run);
+        const Measures measures = measure(scene, run.state, run.base, run.events);
+        write_text(output / "summary.json",
+                   summary_json(scene, options.threads, run.state, run.record, measures,
+                                run.wall_seconds()));
+        voice.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}",
+                              run.state.clock.extension / 1e3, time_left(run.wall_seconds()),
+                              (output / "figures").string()));
+        return RunOutcome::finished;
+    } catch (const Interrupted&) {
+        voice.say("stopped at " + fmt::format("{:.2f}", run.state.clock.extension) +
+                  " m of extension; " + resume_hint(run));
+        return RunOutcome::interrupted;
+    } catch (const NumericalFailure& failure) {
+        const auto snapshots = list_snapshots(output);
+        throw NumericalFailure(fmt::format(
+            "{}\nthe last good state is {}; a smaller cycle.time_step_safety or extension.speed_m_per_s "
+            "may help; {}",
+            failure.what(), snapshots.empty() ? "none" : snapshots.back().string(),
+            resume_hint(run)));
+    }
+}
+
+void draw_run(const fs::path& output) {
+    const std::vector<fs::path> snapshots = list_snapshots(output);
+    if (snapshots.empty())
+        throw UsageError(output.string() + ": no snapshots to draw; is this a run's folder?");
+    SceneRequest request;
+    request.scene = (output / "scene.toml").string();
+    Scene scene = load_scene(request);
+    for (const fs::path& path : snapshots) {
+        Snapshot snapshot = read_snapshot(path);
+        if (path != snapshots.back() &&
+            !near_any(scene.output.figures, snapshot.state.clock.extension,
+                      0.5 * scene.output.interval))
+            continue;
+        auto events = make_events(scene);
+        for (auto& event : events) {
+            event->memory = std::move(snapshot.event_memory.at(event->name()));
+            event->applied = snapshot.event_applied.at(event->name());
+        }
+        const std::string problem = draw_figures(scene, snapshot.state, make_base(scene), events,
+                                                 output / "figures");
+        if (!problem.empty())
+            throw StorageError(problem);
+    }
+}
+
+} // namespace listric

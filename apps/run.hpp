@@ -1,0 +1,45 @@
+#pragma once
+
+#include "apps/scene.hpp"
+#include "apps/snapshot.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+
+namespace listric {
+
+/// How a scene is run.
+struct RunOptions {
+    std::filesystem::path output;
+    std::optional<double> until; ///< extension at which the run ends, m
+    int threads = 1;
+    bool resume = false;
+    bool force = false;
+    bool quiet = false;
+};
+
+/// A call that cannot be carried out; what() says why and what to do.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+enum class RunOutcome { finished, interrupted };
+
+/// Set from a signal handler: the run saves and stops at the next opportunity.
+extern std::atomic<bool> stop_requested;
+
+/// Runs a scene from genesis or from its newest good snapshot to its end, leaving scene.toml,
+/// summary.json, history.csv, snapshots, figures and log.txt in the output folder.
+/// Throws UsageError, SceneError, NumericalFailure (after saying in the log which snapshot is the
+/// last good one) and StorageError.
+RunOutcome run_scene(const Scene& scene, const RunOptions& options);
+
+/// Draws the figures of all snapshots of a run's folder at the scene's figure extensions and of
+/// the newest one.
+void draw_run(const std::filesystem::path& output);
+
+/// Snapshots of a run, oldest first.
+std::vector<std::filesystem::path> list_snapshots(const std::filesystem::path& output);
+
+} // namespace listric

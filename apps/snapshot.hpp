@@ -1,0 +1,48 @@
+#pragma once
+
+#include "dem/event.hpp"
+#include "dem/state.hpp"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace listric {
+
+/// A file could not be written or read; what() names it and the cause.
+struct StorageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// What a run carries along besides the state.
+struct RunRecord {
+    std::string scene;   ///< the scene in force, as TOML
+    Table history;       ///< a row per window, see docs/measures.md; NaN: no meaning there
+    std::map<std::string, double> seconds_by_part; ///< wall time spent so far
+    double disc_steps = 0.0;                       ///< discs times cycles so far
+    double predicted_seconds = 0.0;                ///< of the whole run
+};
+
+/// Everything that the run needs to go on as if it had never stopped.
+struct Snapshot {
+    State state;
+    std::map<std::string, Table> event_memory;
+    std::map<std::string, std::int64_t> event_applied;
+    RunRecord record;
+};
+
+/// Writes an HDF5 file under a temporary name and renames it, so that a file of this name is always
+/// complete. Throws StorageError.
+void write_snapshot(const std::filesystem::path& path, const State& state,
+                    std::span<const std::unique_ptr<Event>> events, const RunRecord& record);
+
+/// Throws StorageError if the file is missing, incomplete or of another kind.
+Snapshot read_snapshot(const std::filesystem::path& path);
+
+/// Writes text under a temporary name and renames it. Throws StorageError.
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+} // namespace listric

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "dem/material.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+struct Point {
+    double x = 0.0, y = 0.0; ///< m
+};
+
+/// Straight or circular piece of a chain. The material lies to the left of its direction.
+struct Segment {
+    Point start, end;          ///< m
+    Point start_tangent, end_tangent; ///< unit vectors along the chain's direction
+    double length = 0.0;       ///< m
+    double curvature = 0.0;    ///< 1/m; 0 line, > 0 turns left (centre on the material's side)
+};
+
+Segment line(Point start, Point end);
+
+/// Arc that leaves `start` along `tangent` (unit vector) and turns by `turn` rad (> 0 left).
+/// |turn| must be below pi.
+Segment arc(Point start, Point tangent, double radius, double turn);
+
+/// The point of a surface closest to a disc's centre.
+struct Foot {
+    double distance = 0.0;   ///< m; negative when the centre is beyond the surface
+    double arc_length = 0.0; ///< m from the chain's start
+    Point normal;            ///< unit vector into the material
+};
+
+/// Segments joined end to end.
+using Chain = std::vector<Segment>;
+
+/// Closest foot point on the chain, its corners included. None if the chain's open ends are closest
+/// (a surface ends where it ends).
+std::optional<Foot> foot_point(const Chain& chain, Point p);
+
+Point point_at(const Chain& chain, double arc_length);
+
+/// A rigid surface and how it moves. Velocities are in units of the extension speed.
+struct Surface {
+    std::string name;
+    Chain chain;
+    double friction = 0.0;
+    double conveyor = 0.0;    ///< its material runs along the chain with this speed
+    double translation = 0.0; ///< it moves to the right with this speed
+};
+
+/// The prescribed motion of base and right wall: extension speed grows linearly from rest.
+struct Motion {
+    double speed = 0.0; ///< m/s
+    double ramp = 0.0;  ///< s
+
+    double speed_at(double time) const {
+        return time < ramp ? speed * (time / ramp) : speed;
+    }
+};
+
+/// What the discs rest on: detachment, backstop above the breakaway and right wall.
+struct RigidBase {
+    std::vector<Surface> surfaces;
+    Material material; ///< stiffness of the surfaces, in series with the disc's
+    Motion motion;
+};
+
+} // namespace listric

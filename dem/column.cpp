@@ -1,0 +1,61 @@
+#include "dem/column.hpp"
+
+#include <algorithm>
+
+namespace listric {
+
+void Table::set(Column column) {
+    const std::size_t size = std::visit([](const auto& v) { return v.size(); }, column.values);
+    if (columns_.empty())
+        rows_ = size;
+    if (size != rows_)
+        throw std::logic_error("column " + column.name + " has " + std::to_string(size) +
+                               " values in a table of " + std::to_string(rows_) + " rows");
+    for (Column& present : columns_)
+        if (present.name == column.name) {
+            present = std::move(column);
+            return;
+        }
+    columns_.push_back(std::move(column));
+}
+
+void Table::remove(std::string_view name) {
+    std::erase_if(columns_, [&](const Column& c) { return c.name == name; });
+}
+
+void Table::resize(std::size_t rows) {
+    for (Column& column : columns_)
+        std::visit(
+            [&](auto& values) {
+                using T = typename std::decay_t<decltype(values)>::value_type;
+                values.resize(rows, std::get<T>(column.initial));
+            },
+            column.values);
+    rows_ = rows;
+}
+
+void Table::reorder(std::span<const std::int32_t> order) {
+    for (Column& column : columns_)
+        std::visit(
+            [&](auto& values) {
+                std::decay_t<decltype(values)> moved(order.size());
+                for (std::size_t k = 0; k < order.size(); ++k)
+                    moved[k] = values[static_cast<std::size_t>(order[k])];
+                values = std::move(moved);
+            },
+            column.values);
+    rows_ = order.size();
+}
+
+const Column* Table::find(std::string_view name) const {
+    const auto it = std::ranges::find(columns_, name, &Column::name);
+    return it == columns_.end() ? nullptr : &*it;
+}
+
+const Column& Table::require(std::string_view name) const {
+    if (const Column* column = find(name))
+        return *column;
+    throw std::out_of_range("no column named " + std::string(name));
+}
+
+} // namespace listric

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace listric {
+
+/// A named, typed, unit-bearing array with one value per row of its table.
+struct Column {
+    using Values = std::variant<std::vector<double>, std::vector<float>, std::vector<std::int64_t>,
+                                std::vector<std::int32_t>, std::vector<std::uint8_t>>;
+    using Value = std::variant<double, float, std::int64_t, std::int32_t, std::uint8_t>;
+
+    std::string name;
+    std::string unit; ///< SI, "1" when dimensionless
+    Values values;
+    Value initial; ///< what a new row starts with
+};
+
+/// Columns of equal length. Sorting, growing, saving, resuming and hashing are one loop over
+/// columns each, so memory that an effect keeps in a column is never forgotten by any of them.
+class Table {
+public:
+    std::size_t rows() const { return rows_; }
+    const std::vector<Column>& columns() const { return columns_; }
+
+    bool has(std::string_view name) const { return find(name) != nullptr; }
+
+    /// Adds a column filled with `initial`; keeps the values of one that is already there.
+    template <class T>
+    std::span<T> add(std::string_view name, std::string_view unit, T initial) {
+        if (!has(name))
+            columns_.push_back({std::string(name), std::string(unit),
+                                std::vector<T>(rows_, initial), initial});
+        return get<T>(name);
+    }
+
+    /// Adds a column with its values; replaces one of the same name. The first column of an empty
+    /// table sets the number of rows.
+    void set(Column column);
+
+    template <class T>
+    std::span<T> get(std::string_view name) {
+        return std::get<std::vector<T>>(const_cast<Column&>(require(name)).values);
+    }
+    template <class T>
+    std::span<const T> get(std::string_view name) const {
+        return std::get<std::vector<T>>(require(name).values);
+    }
+
+    void remove(std::string_view name);
+
+    /// New rows get each column's initial value.
+    void resize(std::size_t rows);
+
+    /// Row k becomes the former row order[k]: sorts, selects or drops rows.
+    void reorder(std::span<const std::int32_t> order);
+
+private:
+    const Column* find(std::string_view name) const;
+    const Column& require(std::string_view name) const;
+
+    std::vector<Column> columns_;
+    std::size_t rows_ = 0;
+};
+
+} // namespace listric

@@ -1,0 +1,178 @@
+#include "dem/cycle.hpp"
+
+#include "dem/contacts.hpp"
+#include "dem/law.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+namespace {
+
+struct Force {
+    double x, y, moment; ///< N, N, N m
+};
+
+constexpr std::size_t material_count = 4;
+using ContactTable = std::array<ContactParameters, material_count * material_count>;
+
+/// Contact parameters of every pair of materials.
+ContactTable pair_parameters(const State& state) {
+    ContactTable table{};
+    for (std::size_t a = 0; a < state.materials.size(); ++a)
+        for (std::size_t b = 0; b < state.materials.size(); ++b)
+            table[a * material_count + b] = contact_parameters(
+                state.materials[a], state.materials[b], state.clock.time_step);
+    return table;
+}
+
+/// Forces of the base on the discs, which also starts their sum.
+void base_forces(State& state, const RigidBase& base, std::span<Force> force) {
+    const DiscColumns d = disc_columns(state);
+    const BaseContactColumns c = base_contact_columns(state);
+    std::ranges::fill(force, Force{0.0, 0.0, 0.0});
+    const Clock& clock = state.clock;
+    const double speed =
+        base.motion.speed_at(static_cast<double>(clock.cycle) * clock.time_step);
+    for (std::size_t k = 0; k < c.disc.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.disc[k]);
+        const Surface& surface = base.surfaces[static_cast<std::size_t>(c.surface[k])];
+        const auto foot = foot_point(
+            surface.chain, {d.x[i] - surface.translation * clock.extension, d.y[i]});
+        if (!foot || foot->distance >= d.radius[i]) {
+            c.shear_force[k] = 0.0;
+            continue;
+        }
+        const double nx = foot->normal.x, ny = foot->normal.y;
+        // The conveyor runs along the chain, whose direction is (n_y, -n_x).
+        const double wall_vx = speed * (surface.translation + surface.conveyor * ny);
+        const double wall_vy = -speed * surface.conveyor * nx;
+        const double slip_rate = (d.vy[i] - wall_vy) * nx - (d.vx[i] - wall_vx) * ny -
+                                 d.spin[i] * foot->distance;
+        ContactParameters p = contact_parameters(base.material, state.materials[d.material[i]],
+                                                 clock.time_step);
+        p.friction = static_cast<float>(surface.friction);
+        std::uint8_t bonded = 0;
+        const double normal = contact_force(d.radius[i] - foot->distance, slip_rate, p, 0.0f,
+                                            0.0f, c.shear_force[k], bonded);
+        const double shear = c.shear_force[k];
+        force[i].x += normal * nx - shear * ny;
+        force[i].y += normal * ny + shear * nx;
+        force[i].moment -= foot->distance * shear;
+    }
+}
+
+void contact_forces(State& state, const ContactTable& pairs, std::span<Force> force) {
+    const DiscColumns d = disc_columns(state);
+    const ContactColumns c = contact_columns(state);
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
+        const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+        const double reach = d.radius[i] + d.radius[j];
+        const double square = dx * dx + dy * dy;
+        if (square >= reach * reach && !c.bonded[k]) {
+            c.shear_force[k] = 0.0;
+            continue;
+        }
+        const double distance = std::sqrt(square);
+        const double nx = dx / distance, ny = dy / distance;
+        const double overlap = reach - distance;
+        const double half = 0.5 * overlap;
+        const double arm_i = d.radius[i] - half, arm_j = d.radius[j] - half;
+        const double slip_rate = (d.vy[j] - d.vy[i]) * nx - (d.vx[j] - d.vx[i]) * ny -
+                                 (arm_i * d.spin[i] + arm_j * d.spin[j]);
+        const double normal = contact_force(
+            overlap, slip_rate, pairs[d.material[i] * material_count + d.material[j]],
+            c.tensile_strength[k], c.shear_strength[k], c.shear_force[k], c.bonded[k]);
+        const double shear = c.shear_force[k];
+        const double fx = normal * nx - shear * ny, fy = normal * ny + shear * nx;
+        force[i].x -= fx;
+        force[i].y -= fy;
+        force[i].moment -= arm_i * shear;
+        force[j].x += fx;
+        force[j].y += fy;
+        force[j].moment -= arm_j * shear;
+    }
+}
+
+/// The force less local damping; a disc at rest is not damped.
+double damped(double force, double velocity, double damping) {
+    return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
+}
+
+/// Newton's law for every disc. Returns the largest square of a speed, (m/s)^2.
+double move_discs(State& state, const CyclePhysics& physics, std::span<const Force> force) {
+    const DiscColumns d = disc_columns(state);
+    const double dt = state.clock.time_step;
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
+        const double acceleration_per_force = dt / inertia;
+        const double spin_up = acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i]));
+        const double fy = force[i].y - d.mass[i] * physics.gravity;
+        d.vx[i] += damped(force[i].x, d.vx[i], physics.damping) * acceleration_per_force;
+        d.vy[i] += damped(fy, d.vy[i], physics.damping) * acceleration_per_force;
+        d.spin[i] += damped(force[i].moment, d.spin[i], physics.damping) * spin_up;
+        d.x[i] += d.vx[i] * dt;
+        d.y[i] += d.vy[i] * dt;
+        d.rotation[i] += d.spin[i] * dt;
+        fastest = std::max(fastest, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+    }
+    return fastest;
+}
+
+/// Greatest distance of a disc from where the neighbour search found it, m.
+double greatest_displacement(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double dx = d.x[i] - d.searched_x[i], dy = d.y[i] - d.searched_y[i];
+        const double square = dx * dx + dy * dy;
+        // A disc that crosses several radii between two checks, or is no number, is out of control.
+        if (!(square < 100.0 * state.mean_radius * state.mean_radius))
+            throw NumericalFailure(
+                "disc " + std::to_string(d.id[i]) + " ran away at x = " + std::to_string(d.x[i]) +
+                " m, y = " + std::to_string(d.y[i]) + " m (velocity " + std::to_string(d.vx[i]) +
+                ", " + std::to_string(d.vy[i]) + " m/s, cycle " +
+                std::to_string(state.clock.cycle) + ")");
+        greatest = std::max(greatest, square);
+    }
+    return std::sqrt(greatest);
+}
+
+} // namespace
+
+void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
+             std::int64_t cycles) {
+    // Only NaN hides from the displacement bound; it is looked for every so often.
+    constexpr std::int64_t between_checks = 1000;
+    std::vector<Force> force(state.discs.rows());
+    ContactTable pairs = pair_parameters(state);
+    Clock& clock = state.clock;
+    for (std::int64_t n = 0; n < cycles; ++n) {
+        if (state.displacement_bound > 0.5 * state.skin || clock.cycle % between_checks == 0) {
+            state.displacement_bound = greatest_displacement(state);
+            if (state.displacement_bound > 0.4 * state.skin)
+                find_contacts(state, base);
+        }
+        base_forces(state, base, force);
+        contact_forces(state, pairs, force);
+        const double fastest = move_discs(state, physics, force);
+        state.displacement_bound += std::sqrt(fastest) * clock.time_step;
+        clock.extension +=
+            base.motion.speed_at(static_cast<double>(clock.cycle) * clock.time_step) *
+            clock.time_step;
+        ++clock.cycle;
+    }
+}
+
+double stable_time_step(double mass, const Material& m, double safety) {
+    const double stiffness = 3.0 * 0.5 * (m.normal_stiffness + m.shear_stiffness);
+    return safety * std::sqrt(2.0 * mass / stiffness);
+}
+
+} // namespace listric

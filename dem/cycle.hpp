@@ -1,0 +1,34 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/state.hpp"
+
+#include <cstdint>
+#include <stdexcept>
+
+namespace listric {
+
+/// Physics of the cycle beyond the contact law.
+struct CyclePhysics {
+    double damping = 0.7; ///< local non-viscous damping: F_d = -damping |F| sign(v) per component
+    double gravity = 0.0; ///< m/s^2, downward
+};
+
+/// The numerics went wrong: what() names the disc and the place.
+struct NumericalFailure : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Advances by `cycles` cycles, searching neighbours whenever discs may have come closer than the
+/// list knows. One cycle: contact forces from positions and the velocities half a step earlier;
+/// then each disc's motion. This scalar version is the specification: forces on a disc are added
+/// in the order base contacts, then contacts by row. Throws NumericalFailure if a disc runs away.
+void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
+             std::int64_t cycles);
+
+/// Largest stable step times `safety` for a disc of mass `mass` (kg) with six contacts of its own
+/// kind: sqrt(2) sqrt(m / k), k = 3 (K + K_s), since the highest eigenvalue of a contact network is
+/// at most 2 k / m (Gershgorin) and the integration stable below 2 / omega.
+double stable_time_step(double mass, const Material& material, double safety);
+
+} // namespace listric

@@ -1,0 +1,9 @@
+#include "dem/event.hpp"
+
+#include "dem/units.hpp"
+
+namespace listric {
+
+double Schedule::seconds() const { return interval * seconds_per_year; }
+
+} // namespace listric

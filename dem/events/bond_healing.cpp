@@ -1,0 +1,77 @@
+#include "dem/events/bond_healing.hpp"
+
+#include "dem/bond.hpp"
+#include "dem/contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+namespace {
+
+/// Position and rotation at the last healing.
+struct HealedColumns {
+    std::span<double> x, y, rotation;
+};
+
+HealedColumns healed_columns(State& state) {
+    return {state.discs.get<double>("healed_x"), state.discs.get<double>("healed_y"),
+            state.discs.get<double>("healed_rotation")};
+}
+
+void remember(State& state) {
+    const DiscColumns d = disc_columns(state);
+    const HealedColumns h = healed_columns(state);
+    std::ranges::copy(d.x, h.x.begin());
+    std::ranges::copy(d.y, h.y.begin());
+    std::ranges::copy(d.rotation, h.rotation.begin());
+}
+
+} // namespace
+
+BondHealing::BondHealing(const BondHealingParameters& parameters, const BondStrength& strength,
+                         double extension_rate)
+    : Event("bond_healing", {parameters.interval, extension_rate}), parameters_(parameters),
+      strength_(strength) {}
+
+void BondHealing::begin(State& state) {
+    state.discs.add<double>("healed_x", "m", 0.0);
+    state.discs.add<double>("healed_y", "m", 0.0);
+    state.discs.add<double>("healed_rotation", "rad", 0.0);
+    remember(state);
+}
+
+bool BondHealing::apply(State& state, const RigidBase&) {
+    const DiscColumns d = disc_columns(state);
+    const ContactColumns c = contact_columns(state);
+    const HealedColumns h = healed_columns(state);
+    const double strain = parameters_.strain_rate * schedule().seconds();
+    const double window_start = state.clock.extension - schedule().spacing() * (1.0 - 1e-6);
+    const std::vector<bool> touches = touching(state);
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
+        if (c.bonded[k] || !touches[k] || !state.materials[d.material[i]].bondable ||
+            !state.materials[d.material[j]].bondable ||
+            std::max(d.start_extension[i], d.start_extension[j]) > window_start)
+            continue;
+        const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+        const double old_dx = h.x[j] - h.x[i], old_dy = h.y[j] - h.y[i];
+        const double distance = std::hypot(dx, dy), old_distance = std::hypot(old_dx, old_dy);
+        // Slip at the contact: turning of the line of centres less rolling of the two discs. A
+        // pair that turns as one body does not slip.
+        const double turn = std::atan2(old_dx * dy - old_dy * dx, old_dx * dx + old_dy * dy);
+        const double half = 0.5 * (d.radius[i] + d.radius[j] - distance);
+        const double slip = distance * turn -
+                            (d.radius[i] - half) * (d.rotation[i] - h.rotation[i]) -
+                            (d.radius[j] - half) * (d.rotation[j] - h.rotation[j]);
+        const double opening =
+            parameters_.measure == HealingMeasure::slip ? 0.0 : distance - old_distance;
+        if (std::hypot(slip, opening) < strain * (d.radius[i] + d.radius[j]))
+            install_bond(state, k, strength_, state.clock.cycle);
+    }
+    remember(state);
+    return false;
+}
+
+} // namespace listric

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "dem/event.hpp"
+
+namespace listric {
+
+/// Samples how quasi-static the run is [paper: mean unbalanced against mean contact force].
+///
+/// Its memory has one row: samples, mean_ratio_sum, max_ratio, last_ratio, touching.
+class Equilibrium : public Event {
+public:
+    Equilibrium(double interval, double extension_rate, double gravity);
+
+    bool apply(State& state, const RigidBase& base) override;
+
+private:
+    double gravity_;
+};
+
+} // namespace listric

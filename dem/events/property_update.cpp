@@ -1,0 +1,104 @@
+#include "dem/events/property_update.hpp"
+
+#include "dem/cells.hpp"
+#include "dem/power_cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+namespace {
+
+std::vector<std::int32_t> weak_rows(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::int32_t> rows;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.material[i] == weak)
+            rows.push_back(static_cast<std::int32_t>(i));
+    return rows;
+}
+
+} // namespace
+
+void add_weakened_columns(State& state) {
+    state.discs.add<double>("scanned_x", "m", 0.0);
+    state.discs.add<double>("scanned_y", "m", 0.0);
+    state.discs.add<double>("rock_radius", "m", 0.0);
+    state.discs.add<double>("rock_area", "m^2", 0.0);
+    state.discs.add<double>("correction", "1", 1.0);
+}
+
+WeakenedColumns weakened_columns(State& state) {
+    Table& t = state.discs;
+    return {t.get<double>("scanned_x"), t.get<double>("scanned_y"), t.get<double>("rock_radius"),
+            t.get<double>("rock_area"), t.get<double>("correction")};
+}
+
+double enlargement(double mean_stress, const Material& weak_material) {
+    const double q = std::max(0.0, mean_stress) / (0.5 * weak_material.normal_stiffness);
+    return 1.0 + q / (1.0 + 0.42 * q);
+}
+
+double weakened_volume_change(const State& state, const RigidBase& base) {
+    const std::vector<std::int32_t> rows = weak_rows(state);
+    const std::vector<PowerCell> cells = power_cells(state, base, rows);
+    const auto rock_area = state.discs.get<double>("rock_area");
+    double change = 0.0;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        if (const double before = rock_area[static_cast<std::size_t>(rows[k])];
+            before > 0.0 && cells[k].closed)
+            change += cells[k].area - before;
+    return change;
+}
+
+PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,
+                               double gravity, double density)
+    : Event("property_update", {parameters.update_interval, extension_rate}),
+      parameters_(parameters), overburden_(gravity * density) {}
+
+bool PropertyUpdate::apply(State& state, const RigidBase& base) {
+    const std::vector<std::int32_t> rows = weak_rows(state);
+    if (rows.empty())
+        return false;
+    const DiscColumns d = disc_columns(state);
+    const WeakenedColumns w = weakened_columns(state);
+    const std::vector<PowerCell> cells = power_cells(state, base, rows);
+
+    // Volume is conserved by zones, not by disc: the error is averaged over a fault's width.
+    std::vector<double> x, y;
+    for (std::int32_t row : rows) {
+        x.push_back(d.x[static_cast<std::size_t>(row)]);
+        y.push_back(d.y[static_cast<std::size_t>(row)]);
+    }
+    const double zone = parameters_.band_diameters * state.mean_radius;
+    const Cells near(x, y, zone);
+    constexpr double gain = 0.3;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto i = static_cast<std::size_t>(rows[k]);
+        const double factor = enlargement(
+            parameters_.mean_stress_ratio * overburden_ * std::max(0.0, -d.y[i]),
+            state.materials[weak]);
+        double now = 0.0, before = 0.0;
+        near.for_each_near(x[k], y[k], [&](std::int32_t other) {
+            const auto o = static_cast<std::size_t>(other);
+            const double rock_area = w.rock_area[static_cast<std::size_t>(rows[o])];
+            if (cells[o].closed && rock_area > 0.0 && std::hypot(x[o] - x[k], y[o] - y[k]) < zone) {
+                now += cells[o].area;
+                before += rock_area;
+            }
+        });
+        if (before > 0.0) {
+            // At constant stress a spacing follows twice the radius: dA / A = 2 factor dr / r.
+            const double error = now / before - 1.0;
+            w.correction[i] = std::clamp(w.correction[i] * (1.0 - gain * error / (2.0 * factor)),
+                                         1.0 / factor, 1.5);
+        }
+        const double target = w.rock_radius[i] * factor * w.correction[i];
+        d.radius[i] = std::clamp(target, d.radius[i] * (1.0 - parameters_.largest_change),
+                                 d.radius[i] * (1.0 + parameters_.largest_change));
+    }
+    return true;
+}
+
+} // namespace listric

@@ -1,0 +1,87 @@
+#include "dem/events/sedimentation.hpp"
+
+#include "dem/ground.hpp"
+#include "dem/random.hpp"
+#include "dem/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+namespace {
+
+struct Placed {
+    Point centre;
+    double radius;
+};
+
+/// Fills the ground up to the level until a long row of tries finds no more room.
+std::vector<Placed> fill(Ground& ground, double level, double smallest, double largest,
+                         std::uint64_t seed, std::uint64_t stratum) {
+    std::vector<Placed> placed;
+    const double width = ground.right() - ground.left();
+    const auto patience = static_cast<std::uint64_t>(20.0 * width / smallest);
+    std::uint64_t failures = 0;
+    for (std::uint64_t tries = 0; failures < patience; ++tries) {
+        const double x =
+            ground.left() + width * uniform(seed, Purpose::deposition_place, stratum, tries);
+        double radius = smallest + (largest - smallest) *
+                                       uniform(seed, Purpose::deposition_radius, stratum, tries);
+        ++failures;
+        if (ground.height(x, smallest) + smallest > level + 2.0 * largest)
+            continue;
+        auto centre = ground.rest(x, radius);
+        // Near the target a smaller disc may still fit.
+        if (!centre || centre->y + radius > level) {
+            radius = smallest;
+            centre = ground.rest(x, radius);
+        }
+        if (!centre || centre->y + radius > level + 0.5 * smallest)
+            continue;
+        ground.add(*centre, radius);
+        placed.push_back({*centre, radius});
+        failures = 0;
+    }
+    return placed;
+}
+
+} // namespace
+
+Sedimentation::Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
+                             double extension_rate)
+    : Event("sedimentation", {parameters.interval, extension_rate}), parameters_(parameters),
+      radius_ratio_(radius_ratio) {}
+
+bool Sedimentation::apply(State& state, const RigidBase& base) {
+    const double smallest = 2.0 * state.mean_radius / (1.0 + radius_ratio_);
+    const double largest = radius_ratio_ * smallest;
+    const auto stratum =
+        static_cast<std::int32_t>(std::lround(state.clock.extension / schedule().spacing()));
+    Ground ground(state, base, largest);
+    const std::vector<Placed> placed = fill(ground, parameters_.level, smallest, largest,
+                                            state.seed, static_cast<std::uint64_t>(stratum));
+    if (placed.empty())
+        return false;
+
+    constexpr double packing_porosity = 0.166; // of discs under gravity; pores of the rock come on top
+    const double density =
+        parameters_.grain_density * (1.0 - parameters_.surface_porosity) / (1.0 - packing_porosity);
+    const std::size_t first = add_discs(state, placed.size());
+    const DiscColumns d = disc_columns(state);
+    for (std::size_t k = 0; k < placed.size(); ++k) {
+        const std::size_t i = first + k;
+        d.x[i] = d.start_x[i] = placed[k].centre.x;
+        d.y[i] = d.start_y[i] = placed[k].centre.y;
+        d.start_extension[i] = state.clock.extension;
+        d.radius[i] = placed[k].radius;
+        d.mass[i] = density * pi * placed[k].radius * placed[k].radius;
+        d.material[i] = sediment;
+        d.stratum[i] = stratum;
+        state.ledger.deposited += d.mass[i];
+    }
+    sort_discs(state);
+    return true;
+}
+
+} // namespace listric

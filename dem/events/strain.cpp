@@ -1,0 +1,78 @@
+#include "dem/events/strain.hpp"
+
+#include "dem/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+namespace {
+
+void remember(State& state) {
+    const DiscColumns d = disc_columns(state);
+    std::ranges::copy(d.x, state.discs.get<double>("window_x").begin());
+    std::ranges::copy(d.y, state.discs.get<double>("window_y").begin());
+}
+
+} // namespace
+
+Strain::Strain(double window, double extension_rate)
+    : Event("strain", {window / extension_rate, extension_rate}) {}
+
+void Strain::begin(State& state) {
+    state.discs.add<double>("window_x", "m", 0.0);
+    state.discs.add<double>("window_y", "m", 0.0);
+    state.discs.add<double>("window_strain", "1", 0.0);
+    state.discs.add<double>("total_strain", "1", 0.0);
+    remember(state);
+}
+
+bool Strain::apply(State& state, const RigidBase&) {
+    const DiscColumns d = disc_columns(state);
+    const auto old_x = state.discs.get<double>("window_x");
+    const auto old_y = state.discs.get<double>("window_y");
+    const auto strain = state.discs.get<double>("window_strain");
+    const auto total = state.discs.get<double>("total_strain");
+    const double window_start = state.clock.extension - 0.5 * schedule().spacing();
+    const double reach = 2.6 * 2.0 * state.mean_radius;
+    const auto was_there = [&](std::size_t i) {
+        return d.stratum[i] == 0 || d.start_extension[i] < window_start;
+    };
+    const Cells cells(d.x, d.y, reach);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        strain[i] = 0.0;
+        if (!was_there(i))
+            continue;
+        // Neighbours now; gradient with respect to where they were.
+        double xx = 0.0, xy = 0.0, yy = 0.0, uxx = 0.0, uxy = 0.0, uyx = 0.0, uyy = 0.0;
+        const double ux_i = d.x[i] - old_x[i], uy_i = d.y[i] - old_y[i];
+        cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
+            const auto j = static_cast<std::size_t>(row);
+            if (!was_there(j) || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
+                return;
+            const double dx = old_x[j] - old_x[i], dy = old_y[j] - old_y[i];
+            const double ux = d.x[j] - old_x[j] - ux_i, uy = d.y[j] - old_y[j] - uy_i;
+            xx += dx * dx;
+            xy += dx * dy;
+            yy += dy * dy;
+            uxx += ux * dx;
+            uxy += ux * dy;
+            uyx += uy * dx;
+            uyy += uy * dy;
+        });
+        const double determinant = xx * yy - xy * xy;
+        if (determinant <= 1e-6 * xx * yy)
+            continue;
+        const double gxx = (uxx * yy - uxy * xy) / determinant;
+        const double gxy = (uxy * xx - uxx * xy) / determinant;
+        const double gyx = (uyx * yy - uyy * xy) / determinant;
+        const double gyy = (uyy * xx - uyx * xy) / determinant;
+        strain[i] = std::hypot(gxx - gyy, gxy + gyx);
+        total[i] += strain[i];
+    }
+    remember(state);
+    return false;
+}
+
+} // namespace listric

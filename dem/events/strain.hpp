@@ -1,0 +1,21 @@
+#pragma once
+
+#include "dem/event.hpp"
+
+namespace listric {
+
+/// Shear strain of the hanging wall, per window of extension and since the start.
+///
+/// Columns: window_strain (largest shear strain, gamma, of the last window) and total_strain (their
+/// sum). The displacement gradient of a disc is a least-squares fit to its neighbours'
+/// displacements within 2.6 mean diameters.
+class Strain : public Event {
+public:
+    /// @param window  extension between updates, m
+    Strain(double window, double extension_rate);
+
+    void begin(State& state) override;
+    bool apply(State& state, const RigidBase& base) override;
+};
+
+} // namespace listric

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "dem/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace listric {
+
+/// What the contact law needs of a pair of materials. Single precision halves the traffic of the
+/// cycle and is ample for properties; forces and positions are double.
+struct ContactParameters {
+    float normal_stiffness;      ///< K, N/m
+    float shear_stiffness_times_step; ///< K_s dt, N s/m
+    float friction;
+};
+
+/// Two linear springs in series (PFC's linear contact model).
+inline ContactParameters contact_parameters(const Material& a, const Material& b,
+                                            double time_step) {
+    const auto series = [](double p, double q) { return p * q / (p + q); };
+    return {static_cast<float>(series(a.normal_stiffness, b.normal_stiffness)),
+            static_cast<float>(series(a.shear_stiffness, b.shear_stiffness) * time_step),
+            static_cast<float>(std::min(a.friction, b.friction))};
+}
+
+/// Linear contact with a breakable contact bond and Coulomb friction, PFC2D's rules.
+///
+/// @param overlap    sum of radii less distance, m; negative across a gap
+/// @param slip_rate  relative tangential velocity of the contact point, m/s
+/// @param shear_force in: before this cycle; out: after it, N
+/// @param bonded     in and out: a bond breaks when its tensile or shear strength is exceeded
+/// @return normal force, N, positive in compression
+///
+/// While bonded there is neither slip nor resistance to rotation. A tensile break removes both
+/// forces; a shear break leaves what friction can carry.
+inline double contact_force(double overlap, double slip_rate, const ContactParameters& p,
+                            float tensile_strength, float shear_strength, double& shear_force,
+                            std::uint8_t& bonded) {
+    const double normal = static_cast<double>(p.normal_stiffness) * overlap;
+    const double shear =
+        shear_force - static_cast<double>(p.shear_stiffness_times_step) * slip_rate;
+    if (bonded && -normal <= static_cast<double>(tensile_strength) &&
+        std::abs(shear) <= static_cast<double>(shear_strength)) {
+        shear_force = shear;
+        return normal;
+    }
+    bonded = 0;
+    if (overlap <= 0.0) {
+        shear_force = 0.0;
+        return 0.0;
+    }
+    const double limit = static_cast<double>(p.friction) * normal;
+    shear_force = std::min(std::max(shear, -limit), limit);
+    return normal;
+}
+
+} // namespace listric

@@ -1,0 +1,98 @@
+#include "dem/monitor.hpp"
+
+#include "dem/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+namespace {
+
+/// Calls visit(row, i, j, normal, overlap) for every pair that touches or is bonded.
+template <class Visit>
+void for_each_touching(const State& state, Visit&& visit) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
+        const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+        const double distance = std::hypot(dx, dy);
+        const double overlap = d.radius[i] + d.radius[j] - distance;
+        if (overlap > 0.0 || c.bonded[k])
+            visit(k, i, j, Point{dx / distance, dy / distance}, overlap);
+    }
+}
+
+template <class Visit>
+void for_each_base_contact(const State& state, const RigidBase& base, Visit&& visit) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstBaseContactColumns c = base_contact_columns(state);
+    for (std::size_t k = 0; k < c.disc.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.disc[k]);
+        const auto s = static_cast<std::size_t>(c.surface[k]);
+        const Surface& surface = base.surfaces[s];
+        const auto foot = foot_point(
+            surface.chain, {d.x[i] - surface.translation * state.clock.extension, d.y[i]});
+        if (foot && foot->distance < d.radius[i])
+            visit(k, i, s, foot->normal, d.radius[i] - foot->distance);
+    }
+}
+
+} // namespace
+
+ForceBalance force_balance(const State& state, const RigidBase& base, double gravity) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const ConstBaseContactColumns b = base_contact_columns(state);
+    ForceBalance balance;
+    balance.reaction.resize(base.surfaces.size());
+    std::vector<Point> force(d.x.size());
+    double contact_sum = 0.0;
+    const auto act = [&](const Material& p, const Material& q, Point n, double overlap,
+                         double shear) {
+        const double normal = contact_parameters(p, q, 1.0).normal_stiffness * overlap;
+        return Point{normal * n.x - shear * n.y, normal * n.y + shear * n.x};
+    };
+    for_each_touching(state, [&](std::size_t k, std::size_t i, std::size_t j, Point n,
+                                 double overlap) {
+        const Point f = act(state.materials[d.material[i]], state.materials[d.material[j]], n,
+                            overlap, c.shear_force[k]);
+        force[i] = {force[i].x - f.x, force[i].y - f.y};
+        force[j] = {force[j].x + f.x, force[j].y + f.y};
+        contact_sum += std::hypot(f.x, f.y);
+        ++balance.touching;
+    });
+    for_each_base_contact(state, base, [&](std::size_t k, std::size_t i, std::size_t s, Point n,
+                                           double overlap) {
+        const Point f =
+            act(base.material, state.materials[d.material[i]], n, overlap, b.shear_force[k]);
+        force[i] = {force[i].x + f.x, force[i].y + f.y};
+        balance.reaction[s] = {balance.reaction[s].x + f.x, balance.reaction[s].y + f.y};
+    });
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double weight = d.mass[i] * gravity;
+        const double unbalanced = std::hypot(force[i].x, force[i].y - weight);
+        balance.weight += weight;
+        balance.mean_unbalanced += unbalanced;
+        balance.max_unbalanced = std::max(balance.max_unbalanced, unbalanced);
+    }
+    if (!d.x.empty())
+        balance.mean_unbalanced /= static_cast<double>(d.x.size());
+    if (balance.touching)
+        balance.mean_contact = contact_sum / static_cast<double>(balance.touching);
+    return balance;
+}
+
+std::vector<int> coordination(const State& state, const RigidBase& base) {
+    std::vector<int> count(state.discs.rows(), 0);
+    for_each_touching(state, [&](std::size_t, std::size_t i, std::size_t j, Point, double) {
+        ++count[i];
+        ++count[j];
+    });
+    for_each_base_contact(state, base, [&](std::size_t, std::size_t i, std::size_t, Point,
+                                           double) { ++count[i]; });
+    return count;
+}
+
+} // namespace listric

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/state.hpp"
+
+#include <vector>
+
+namespace listric {
+
+/// How far the state is from equilibrium [paper, "PFC2D: general features"].
+struct ForceBalance {
+    double mean_unbalanced = 0.0; ///< mean resultant force on a disc, N
+    double max_unbalanced = 0.0;  ///< N
+    double mean_contact = 0.0;    ///< mean force of touching pairs, N
+    std::vector<Point> reaction;  ///< force of each surface on the discs, N
+    double weight = 0.0;          ///< of all discs, N
+    std::int64_t touching = 0;    ///< pairs of discs
+
+    double mean_ratio() const { return mean_contact > 0.0 ? mean_unbalanced / mean_contact : 0.0; }
+    double max_ratio() const { return mean_contact > 0.0 ? max_unbalanced / mean_contact : 0.0; }
+};
+
+/// Forces as they stand, without advancing anything. `gravity` in m/s^2.
+ForceBalance force_balance(const State& state, const RigidBase& base, double gravity);
+
+/// Number of touching discs and surfaces of every disc.
+std::vector<int> coordination(const State& state, const RigidBase& base);
+
+} // namespace listric

@@ -1,0 +1,198 @@
+#include "dem/state.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace listric {
+
+State empty_state() {
+    State state;
+    Table& discs = state.discs;
+    discs.add<std::int64_t>("id", "1", -1);
+    for (const char* name : {"x", "y"})
+        discs.add<double>(name, "m", 0.0);
+    for (const char* name : {"vx", "vy"})
+        discs.add<double>(name, "m/s", 0.0);
+    discs.add<double>("rotation", "rad", 0.0);
+    discs.add<double>("spin", "rad/s", 0.0);
+    discs.add<double>("radius", "m", 0.0);
+    discs.add<double>("mass", "kg", 0.0);
+    discs.add<std::uint8_t>("material", "1", basement);
+    discs.add<std::int32_t>("stratum", "1", 0);
+    for (const char* name : {"start_x", "start_y", "start_extension", "searched_x", "searched_y"})
+        discs.add<double>(name, "m", 0.0);
+
+    Table& contacts = state.contacts;
+    contacts.add<std::int32_t>("first", "1", -1);
+    contacts.add<std::int32_t>("second", "1", -1);
+    contacts.add<double>("shear_force", "N", 0.0);
+    contacts.add<std::uint8_t>("bonded", "1", 0);
+    contacts.add<float>("tensile_strength", "N", 0.0f);
+    contacts.add<float>("shear_strength", "N", 0.0f);
+
+    state.base_contacts.add<std::int32_t>("disc", "1", -1);
+    state.base_contacts.add<std::int32_t>("surface", "1", -1);
+    state.base_contacts.add<double>("shear_force", "N", 0.0);
+    return state;
+}
+
+namespace {
+
+template <class Columns, class AnyTable>
+Columns discs_of(AnyTable& t) {
+    return {t.template get<std::int64_t>("id"),      t.template get<double>("x"),
+            t.template get<double>("y"),             t.template get<double>("vx"),
+            t.template get<double>("vy"),            t.template get<double>("rotation"),
+            t.template get<double>("spin"),          t.template get<double>("radius"),
+            t.template get<double>("mass"),          t.template get<std::uint8_t>("material"),
+            t.template get<std::int32_t>("stratum"), t.template get<double>("start_x"),
+            t.template get<double>("start_y"),       t.template get<double>("start_extension"),
+            t.template get<double>("searched_x"),    t.template get<double>("searched_y")};
+}
+
+template <class Columns, class AnyTable>
+Columns contacts_of(AnyTable& t) {
+    return {t.template get<std::int32_t>("first"),       t.template get<std::int32_t>("second"),
+            t.template get<double>("shear_force"),       t.template get<std::uint8_t>("bonded"),
+            t.template get<float>("tensile_strength"),   t.template get<float>("shear_strength")};
+}
+
+template <class Columns, class AnyTable>
+Columns base_contacts_of(AnyTable& t) {
+    return {t.template get<std::int32_t>("disc"), t.template get<std::int32_t>("surface"),
+            t.template get<double>("shear_force")};
+}
+
+} // namespace
+
+DiscColumns disc_columns(State& s) { return discs_of<DiscColumns>(s.discs); }
+ConstDiscColumns disc_columns(const State& s) { return discs_of<ConstDiscColumns>(s.discs); }
+ContactColumns contact_columns(State& s) { return contacts_of<ContactColumns>(s.contacts); }
+ConstContactColumns contact_columns(const State& s) {
+    return contacts_of<ConstContactColumns>(s.contacts);
+}
+BaseContactColumns base_contact_columns(State& s) {
+    return base_contacts_of<BaseContactColumns>(s.base_contacts);
+}
+ConstBaseContactColumns base_contact_columns(const State& s) {
+    return base_contacts_of<ConstBaseContactColumns>(s.base_contacts);
+}
+
+std::size_t add_discs(State& state, std::size_t count) {
+    const std::size_t first = state.discs.rows();
+    state.discs.resize(first + count);
+    for (std::int64_t& id : state.discs.get<std::int64_t>("id").subspan(first))
+        id = state.next_id++;
+    return first;
+}
+
+void reorder_discs(State& state, std::span<const std::int32_t> order) {
+    std::vector<std::int32_t> moved_to(state.discs.rows(), -1);
+    for (std::size_t k = 0; k < order.size(); ++k)
+        moved_to[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
+    state.discs.reorder(order);
+
+    ContactColumns contacts = contact_columns(state);
+    std::vector<std::int32_t> kept;
+    for (std::size_t c = 0; c < contacts.first.size(); ++c) {
+        std::int32_t& first = contacts.first[c];
+        std::int32_t& second = contacts.second[c];
+        first = moved_to[static_cast<std::size_t>(first)];
+        second = moved_to[static_cast<std::size_t>(second)];
+        // The shear force keeps its sign: swapping the discs turns both normal and force around.
+        if (first > second)
+            std::swap(first, second);
+        if (first >= 0)
+            kept.push_back(static_cast<std::int32_t>(c));
+    }
+    std::ranges::sort(kept, {}, [&](std::int32_t c) {
+        const auto k = static_cast<std::size_t>(c);
+        return std::pair(contacts.first[k], contacts.second[k]);
+    });
+    state.contacts.reorder(kept);
+
+    BaseContactColumns base_contacts = base_contact_columns(state);
+    kept.clear();
+    for (std::size_t c = 0; c < base_contacts.disc.size(); ++c) {
+        std::int32_t& disc = base_contacts.disc[c];
+        disc = moved_to[static_cast<std::size_t>(disc)];
+        if (disc >= 0)
+            kept.push_back(static_cast<std::int32_t>(c));
+    }
+    std::ranges::sort(kept, {}, [&](std::int32_t c) {
+        const auto k = static_cast<std::size_t>(c);
+        return std::pair(base_contacts.disc[k], base_contacts.surface[k]);
+    });
+    state.base_contacts.reorder(kept);
+}
+
+void sort_discs(State& state) {
+    const DiscColumns d = disc_columns(state);
+    const double strip = 3.0 * state.mean_radius;
+    std::vector<std::int32_t> order(d.x.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
+        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+        const double si = std::floor(d.x[i] / strip), sj = std::floor(d.x[j] / strip);
+        if (si != sj)
+            return si < sj;
+        return d.y[i] != d.y[j] ? d.y[i] < d.y[j] : d.id[i] < d.id[j];
+    });
+    reorder_discs(state, order);
+}
+
+namespace {
+
+void mix(std::uint64_t& h, std::uint64_t word) {
+    h = std::rotl(h ^ word, 23) * 0x9e3779b97f4a7c15u;
+    h ^= h >> 32;
+}
+
+void mix(std::uint64_t& h, double value) { mix(h, std::bit_cast<std::uint64_t>(value)); }
+void mix(std::uint64_t& h, float value) {
+    mix(h, static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(value)));
+}
+void mix(std::uint64_t& h, std::int64_t value) { mix(h, static_cast<std::uint64_t>(value)); }
+void mix(std::uint64_t& h, std::int32_t value) { mix(h, static_cast<std::int64_t>(value)); }
+void mix(std::uint64_t& h, std::uint8_t value) { mix(h, static_cast<std::uint64_t>(value)); }
+
+void mix(std::uint64_t& h, const Table& table) {
+    mix(h, static_cast<std::uint64_t>(table.rows()));
+    for (const Column& column : table.columns()) {
+        for (char letter : column.name)
+            mix(h, static_cast<std::uint8_t>(letter));
+        std::visit(
+            [&](const auto& values) {
+                for (const auto& value : values)
+                    mix(h, value);
+            },
+            column.values);
+    }
+}
+
+} // namespace
+
+std::uint64_t hash(const State& state) {
+    std::uint64_t h = 0x4c697374726963u;
+    mix(h, state.discs);
+    mix(h, state.contacts);
+    mix(h, state.base_contacts);
+    for (const Material& m : state.materials) {
+        mix(h, m.normal_stiffness);
+        mix(h, m.shear_stiffness);
+        mix(h, m.friction);
+        mix(h, static_cast<std::uint8_t>(m.bondable));
+    }
+    mix(h, state.clock.cycle);
+    for (double value : {state.clock.time_step, state.clock.extension, state.ledger.initial, state.ledger.deposited,
+                         state.ledger.removed, state.mean_radius, state.inertial_mass_floor,
+                         state.skin, state.displacement_bound})
+        mix(h, value);
+    mix(h, state.seed);
+    mix(h, state.next_id);
+    return h;
+}
+
+} // namespace listric

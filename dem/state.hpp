@@ -1,0 +1,114 @@
+#pragma once
+
+#include "dem/column.hpp"
+#include "dem/material.hpp"
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace listric {
+
+/// Where the simulation is. Geological time is extension over extension rate.
+struct Clock {
+    std::int64_t cycle = 0;  ///< cycles since extension began
+    double time_step = 0.0;  ///< s
+    double extension = 0.0;  ///< displacement of base and right wall, m
+};
+
+/// Mass that entered or left the model, kg per metre of thickness.
+struct Ledger {
+    double initial = 0.0;
+    double deposited = 0.0;
+    double removed = 0.0;
+};
+
+/// All that the next cycle depends on: copy it, hash it, save it.
+struct State {
+    Table discs;         ///< see DiscColumns
+    Table contacts;      ///< see ContactColumns
+    Table base_contacts; ///< see BaseContactColumns
+    std::vector<Material> materials; ///< by MaterialIndex
+    Clock clock;
+    Ledger ledger;
+    std::uint64_t seed = 1;
+    std::int64_t next_id = 0;         ///< ids grow and are never used again
+    double mean_radius = 0.0;         ///< of the basement, m: the model's resolution
+    double inertial_mass_floor = 0.0; ///< discs lighter than this move as if they had it, kg
+    double skin = 0.0;                ///< margin of the neighbour list, m
+    double displacement_bound = 0.0;  ///< no disc moved further since the neighbour search, m
+};
+
+/// Columns that every disc has.
+template <bool writable>
+struct BasicDiscColumns {
+    template <class T>
+    using Values = std::span<std::conditional_t<writable, T, const T>>;
+
+    Values<std::int64_t> id;
+    Values<double> x, y;             ///< centre, m; y up from the original surface
+    Values<double> vx, vy;           ///< m/s
+    Values<double> rotation, spin;   ///< rad, rad/s; counter-clockwise
+    Values<double> radius;           ///< m
+    Values<double> mass;             ///< kg per metre of thickness
+    Values<std::uint8_t> material;   ///< MaterialIndex
+    Values<std::int32_t> stratum;    ///< 0 before the rift, n for the n-th sedimentation
+    Values<double> start_x, start_y; ///< where the disc entered the model, m
+    Values<double> start_extension;  ///< and when, m of extension
+    Values<double> searched_x, searched_y; ///< where the last neighbour search found it, m
+};
+
+/// Columns of every pair of discs that are closer than the skin, sorted by (first, second).
+template <bool writable>
+struct BasicContactColumns {
+    template <class T>
+    using Values = std::span<std::conditional_t<writable, T, const T>>;
+
+    Values<std::int32_t> first, second; ///< rows of the disc table, first < second
+    Values<double> shear_force;         ///< N, on `second` along (-n_y, n_x)
+    Values<std::uint8_t> bonded;
+    Values<float> tensile_strength, shear_strength; ///< of the bond, N
+};
+
+/// Columns of every disc and surface of the base that are closer than the skin.
+template <bool writable>
+struct BasicBaseContactColumns {
+    template <class T>
+    using Values = std::span<std::conditional_t<writable, T, const T>>;
+
+    Values<std::int32_t> disc, surface; ///< row of the disc table; index of the surface
+    Values<double> shear_force;         ///< N, on the disc along (-n_y, n_x)
+};
+
+using DiscColumns = BasicDiscColumns<true>;
+using ContactColumns = BasicContactColumns<true>;
+using BaseContactColumns = BasicBaseContactColumns<true>;
+using ConstDiscColumns = BasicDiscColumns<false>;
+using ConstContactColumns = BasicContactColumns<false>;
+using ConstBaseContactColumns = BasicBaseContactColumns<false>;
+
+/// A state without discs but with all core columns.
+State empty_state();
+
+DiscColumns disc_columns(State& state);
+ContactColumns contact_columns(State& state);
+BaseContactColumns base_contact_columns(State& state);
+ConstDiscColumns disc_columns(const State& state);
+ConstContactColumns contact_columns(const State& state);
+ConstBaseContactColumns base_contact_columns(const State& state);
+
+/// Adds `count` discs with fresh ids, everything else at its initial value. Returns the first row.
+std::size_t add_discs(State& state, std::size_t count);
+
+/// Keeps the discs of `order` in that order; contacts follow, those of dropped discs vanish.
+void reorder_discs(State& state, std::span<const std::int32_t> order);
+
+/// Sorts discs into vertical strips, so that discs near each other are near in memory: a strip
+/// runs along the short side of the hanging wall and neighbours are at most two strips away.
+void sort_discs(State& state);
+
+/// Hash of every column and number of the state.
+std::uint64_t hash(const State& state);
+
+} // namespace listric
