@@ -117,10 +117,11 @@ std::string bench(const BenchRequest& request) {
                 c.tensile_strength[k] = c.shear_strength[k] = 1e12f; // never breaks, as the peers'
             }
         }
-    advance(state, p.base, p.physics, 200); // warm caches
+    const Execution execution{request.threads, request.plain};
+    advance(state, p.base, p.physics, 200, execution); // warm caches
     const auto wall = std::chrono::steady_clock::now();
     const std::clock_t cpu = std::clock();
-    advance(state, p.base, p.physics, request.steps);
+    advance(state, p.base, p.physics, request.steps, execution);
     const double cpu_seconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
     const double wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();

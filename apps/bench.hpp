@@ -15,6 +15,7 @@ struct BenchRequest {
     std::int64_t steps = 1000;
     int threads = 1;
     bool bonded = true;
+    bool plain = false;
 };
 
 /// Throws UsageError if the packing cannot be read.

@@ -74,6 +74,7 @@ int dispatch(int argc, char** argv) {
     add_scene_options(*run_command, request);
     run_command->add_option("--threads", options.threads, "Processor cores to use")
         ->check(CLI::Range(1, 1024));
+    run_command->add_flag("--plain", options.plain, "The scalar cycle: same bits, slower");
     run_command->add_option("--output", output, "Folder of results (default: out/SCENE)");
     run_command->add_option("--until", until, "End at this extension, such as 5km");
     run_command->add_flag("--resume", options.resume, "Go on from the newest snapshot");
@@ -97,6 +98,7 @@ int dispatch(int argc, char** argv) {
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}));
     bench_command->add_option("--threads", bench_request.threads, "Processor cores to use")
         ->check(CLI::Range(1, 1024));
+    bench_command->add_flag("--plain", bench_request.plain, "The scalar cycle");
     bench_command->add_flag("--unbonded", unbonded, "No contact bonds");
 
     try {

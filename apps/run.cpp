@@ -248,8 +248,9 @@ void cycle_toward(Run& run, double extension) {
     const double wanted = (extension - run.state.clock.extension) / per_cycle;
     const auto discs = static_cast<double>(run.state.discs.rows());
     const auto batch = static_cast<std::int64_t>(
-        std::clamp(std::floor(wanted), 1.0, std::max(1.0, std::floor(5e6 / discs))));
-    advance(run.state, run.base, run.physics, batch);
+        std::clamp(std::floor(wanted), 1.0, std::max(1.0, std::floor(2e7 / discs))));
+    advance(run.state, run.base, run.physics, batch,
+            {run.options.threads, run.options.plain});
     run.record.disc_steps += discs * static_cast<double>(batch);
 }
 

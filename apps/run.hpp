@@ -14,6 +14,7 @@ struct RunOptions {
     std::filesystem::path output;
     std::optional<double> until; ///< extension at which the run ends, m
     int threads = 1;
+    bool plain = false; ///< the scalar cycle instead of the fast one, for comparison
     bool resume = false;
     bool force = false;
     bool quiet = false;

@@ -17,28 +17,51 @@ Point centre(const Segment& s) {
     return {s.start.x + n.x * radius, s.start.y + n.y * radius};
 }
 
-/// Foot point if it lies on the segment itself.
+/// Foot if it lies on the segment itself. An arc turns by less than pi, so the two half-planes
+/// between its ends hold no other points.
 std::optional<Foot> foot_on(const Segment& s, Point p) {
     if (dot(p - s.start, s.start_tangent) < 0.0 || dot(p - s.end, s.end_tangent) > 0.0)
         return std::nullopt;
     if (s.curvature == 0.0) {
         const Point n = left_normal(s.start_tangent);
-        return Foot{dot(p - s.start, n), dot(p - s.start, s.start_tangent), n};
+        return Foot{dot(p - s.start, n), n};
     }
-    const Point c = centre(s);
-    const Point from_centre = p - c;
+    const Point from_centre = p - centre(s);
     const double r = std::sqrt(dot(from_centre, from_centre));
     if (r == 0.0)
         return std::nullopt;
-    const double radius = std::abs(1.0 / s.curvature);
     const double side = s.curvature > 0.0 ? 1.0 : -1.0;
-    const Point start = s.start - c;
-    const double turned = std::atan2(side * cross(start, from_centre), dot(start, from_centre));
-    // The two half-planes above hold for points opposite the arc as well.
-    if (turned < -1e-9 || turned * radius > s.length * (1.0 + 1e-9))
-        return std::nullopt;
-    return Foot{side * (radius - r), turned * radius,
+    return Foot{side * (std::abs(1.0 / s.curvature) - r),
                 {-side * from_centre.x / r, -side * from_centre.y / r}};
+}
+
+/// The corner at the end of segment `s`, if it points into the material and is closest to p there.
+std::optional<Foot> corner(const Segment& s, const Segment& next, Point p) {
+    const Point out = p - s.end;
+    const double distance = std::sqrt(dot(out, out));
+    if (dot(out, s.end_tangent) <= 0.0 || dot(out, next.start_tangent) >= 0.0 || distance == 0.0)
+        return std::nullopt;
+    return Foot{distance, {out.x / distance, out.y / distance}};
+}
+
+struct Found {
+    Foot foot;
+    std::size_t segment;
+    bool at_corner;
+};
+
+std::optional<Found> search(const Chain& chain, Point p) {
+    std::optional<Found> best;
+    const auto consider = [&](const std::optional<Foot>& foot, std::size_t k, bool at_corner) {
+        if (foot && (!best || std::abs(foot->distance) < std::abs(best->foot.distance)))
+            best = Found{*foot, k, at_corner};
+    };
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+        consider(foot_on(chain[k], p), k, false);
+        if (k + 1 < chain.size())
+            consider(corner(chain[k], chain[k + 1], p), k, true);
+    }
+    return best;
 }
 
 } // namespace
@@ -64,28 +87,29 @@ Segment arc(Point start, Point tangent, double radius, double turn) {
             side / radius};
 }
 
-std::optional<Foot> foot_point(const Chain& chain, Point p) {
-    std::optional<Foot> best;
-    double before = 0.0;
-    for (std::size_t k = 0; k < chain.size(); ++k) {
-        const Segment& s = chain[k];
-        if (auto foot = foot_on(s, p)) {
-            foot->arc_length += before;
-            if (!best || std::abs(foot->distance) < std::abs(best->distance))
-                best = foot;
-        }
-        before += s.length;
-        if (k + 1 == chain.size())
-            break;
-        // A corner that points into the material is a foot of its own.
-        const Point out = p - s.end;
-        if (dot(out, s.end_tangent) > 0.0 && dot(out, chain[k + 1].start_tangent) < 0.0) {
-            const double distance = std::sqrt(dot(out, out));
-            if (distance > 0.0 && (!best || distance < std::abs(best->distance)))
-                best = Foot{distance, before, {out.x / distance, out.y / distance}};
-        }
+std::optional<Foot> nearest(const Chain& chain, Point p) {
+    const auto found = search(chain, p);
+    return found ? std::optional(found->foot) : std::nullopt;
+}
+
+std::optional<FootPoint> foot_point(const Chain& chain, Point p) {
+    const auto found = search(chain, p);
+    if (!found)
+        return std::nullopt;
+    double arc_length = 0.0;
+    for (std::size_t k = 0; k < found->segment; ++k)
+        arc_length += chain[k].length;
+    const Segment& s = chain[found->segment];
+    if (found->at_corner)
+        arc_length += s.length;
+    else if (s.curvature == 0.0)
+        arc_length += dot(p - s.start, s.start_tangent);
+    else {
+        const Point c = centre(s);
+        const double turn = std::atan2(cross(s.start - c, p - c), dot(s.start - c, p - c));
+        arc_length += std::abs(turn / s.curvature);
     }
-    return best;
+    return FootPoint{found->foot, arc_length};
 }
 
 Point point_at(const Chain& chain, double arc_length) {

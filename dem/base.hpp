@@ -28,17 +28,23 @@ Segment arc(Point start, Point tangent, double radius, double turn);
 
 /// The point of a surface closest to a disc's centre.
 struct Foot {
-    double distance = 0.0;   ///< m; negative when the centre is beyond the surface
+    double distance = 0.0; ///< m; negative when the centre is beyond the surface
+    Point normal;          ///< unit vector into the material
+};
+
+struct FootPoint : Foot {
     double arc_length = 0.0; ///< m from the chain's start
-    Point normal;            ///< unit vector into the material
 };
 
 /// Segments joined end to end.
 using Chain = std::vector<Segment>;
 
-/// Closest foot point on the chain, its corners included. None if the chain's open ends are closest
-/// (a surface ends where it ends).
-std::optional<Foot> foot_point(const Chain& chain, Point p);
+/// Closest point on the chain, its corners included. None if one of the chain's open ends is
+/// closest: a surface ends where it ends.
+std::optional<Foot> nearest(const Chain& chain, Point p);
+
+/// The same with its place on the chain.
+std::optional<FootPoint> foot_point(const Chain& chain, Point p);
 
 Point point_at(const Chain& chain, double arc_length);
 

@@ -86,7 +86,7 @@ void find_base_contacts(State& state, const RigidBase& base) {
     for (std::size_t i = 0; i < d.x.size(); ++i)
         for (std::size_t s = 0; s < base.surfaces.size(); ++s) {
             const Surface& face = base.surfaces[s];
-            const auto foot = foot_point(
+            const auto foot = nearest(
                 face.chain, {d.x[i] - face.translation * state.clock.extension, d.y[i]});
             if (!foot || foot->distance > d.radius[i] + state.skin)
                 continue;

@@ -1,11 +1,15 @@
 #include "dem/cycle.hpp"
 
+#include "dem/base_contact.hpp"
 #include "dem/contacts.hpp"
+#include "dem/fast_cycle.hpp"
 #include "dem/law.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,33 +40,17 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force) {
     const BaseContactColumns c = base_contact_columns(state);
     std::ranges::fill(force, Force{0.0, 0.0, 0.0});
     const Clock& clock = state.clock;
-    const double speed =
-        base.motion.speed_at(static_cast<double>(clock.cycle) * clock.time_step);
+    const double speed = base.motion.speed_at(clock.time());
     for (std::size_t k = 0; k < c.disc.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.disc[k]);
-        const Surface& surface = base.surfaces[static_cast<std::size_t>(c.surface[k])];
-        const auto foot = foot_point(
-            surface.chain, {d.x[i] - surface.translation * clock.extension, d.y[i]});
-        if (!foot || foot->distance >= d.radius[i]) {
-            c.shear_force[k] = 0.0;
-            continue;
-        }
-        const double nx = foot->normal.x, ny = foot->normal.y;
-        // The conveyor runs along the chain, whose direction is (n_y, -n_x).
-        const double wall_vx = speed * (surface.translation + surface.conveyor * ny);
-        const double wall_vy = -speed * surface.conveyor * nx;
-        const double slip_rate = (d.vy[i] - wall_vy) * nx - (d.vx[i] - wall_vx) * ny -
-                                 d.spin[i] * foot->distance;
-        ContactParameters p = contact_parameters(base.material, state.materials[d.material[i]],
-                                                 clock.time_step);
-        p.friction = static_cast<float>(surface.friction);
-        std::uint8_t bonded = 0;
-        const double normal = contact_force(d.radius[i] - foot->distance, slip_rate, p, 0.0f,
-                                            0.0f, c.shear_force[k], bonded);
-        const double shear = c.shear_force[k];
-        force[i].x += normal * nx - shear * ny;
-        force[i].y += normal * ny + shear * nx;
-        force[i].moment -= foot->distance * shear;
+        const BaseContactForce f = base_contact_force(
+            base.surfaces[static_cast<std::size_t>(c.surface[k])], clock.extension, speed,
+            {d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]},
+            contact_parameters(base.material, state.materials[d.material[i]], clock.time_step),
+            c.shear_force[k]);
+        force[i].x += f.x;
+        force[i].y += f.y;
+        force[i].moment += f.moment;
     }
 }
 
@@ -79,7 +67,8 @@ void contact_forces(State& state, const ContactTable& pairs, std::span<Force> fo
             continue;
         }
         const double distance = std::sqrt(square);
-        const double nx = dx / distance, ny = dy / distance;
+        const double inverse = 1.0 / distance;
+        const double nx = dx * inverse, ny = dy * inverse;
         const double overlap = reach - distance;
         const double half = 0.5 * overlap;
         const double arm_i = d.radius[i] - half, arm_j = d.radius[j] - half;
@@ -104,7 +93,7 @@ double damped(double force, double velocity, double damping) {
     return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
 }
 
-/// Newton's law for every disc. Returns the largest square of a speed, (m/s)^2.
+/// Newton's law for every disc. Returns the largest component of a velocity, m/s.
 double move_discs(State& state, const CyclePhysics& physics, std::span<const Force> force) {
     const DiscColumns d = disc_columns(state);
     const double dt = state.clock.time_step;
@@ -120,7 +109,7 @@ double move_discs(State& state, const CyclePhysics& physics, std::span<const For
         d.x[i] += d.vx[i] * dt;
         d.y[i] += d.vy[i] * dt;
         d.rotation[i] += d.spin[i] * dt;
-        fastest = std::max(fastest, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+        fastest = std::max({fastest, std::abs(d.vx[i]), std::abs(d.vy[i])});
     }
     return fastest;
 }
@@ -144,30 +133,56 @@ double greatest_displacement(const State& state) {
     return std::sqrt(greatest);
 }
 
-} // namespace
-
-void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
-             std::int64_t cycles) {
-    // Only NaN hides from the displacement bound; it is looked for every so often.
-    constexpr std::int64_t between_checks = 1000;
+/// The plain cycle, see FastCycle::run for the contract. It is written to be read.
+std::int64_t run_plain(State& state, const RigidBase& base, const CyclePhysics& physics,
+                       std::int64_t cycles, double limit) {
     std::vector<Force> force(state.discs.rows());
-    ContactTable pairs = pair_parameters(state);
+    const ContactTable pairs = pair_parameters(state);
     Clock& clock = state.clock;
-    for (std::int64_t n = 0; n < cycles; ++n) {
-        if (state.displacement_bound > 0.5 * state.skin || clock.cycle % between_checks == 0) {
-            state.displacement_bound = greatest_displacement(state);
-            if (state.displacement_bound > 0.4 * state.skin)
-                find_contacts(state, base);
-        }
+    std::int64_t done = 0;
+    while (done < cycles && !(state.displacement_bound > limit)) {
+        const double speed = base.motion.speed_at(clock.time());
         base_forces(state, base, force);
         contact_forces(state, pairs, force);
         const double fastest = move_discs(state, physics, force);
-        state.displacement_bound += std::sqrt(fastest) * clock.time_step;
-        clock.extension +=
-            base.motion.speed_at(static_cast<double>(clock.cycle) * clock.time_step) *
-            clock.time_step;
+        state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
+        clock.extension += speed * clock.time_step;
         ++clock.cycle;
+        ++done;
     }
+    return done;
+}
+
+} // namespace
+
+void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
+             std::int64_t cycles, const Execution& execution) {
+    // Only NaN hides from the displacement bound; it is looked for every so often.
+    constexpr std::int64_t between_checks = 1000;
+    const double limit = 0.5 * state.skin;
+    std::optional<FastCycle> fast;
+    while (cycles > 0) {
+        if (state.displacement_bound > limit || state.clock.cycle % between_checks == 0) {
+            if (fast)
+                fast->unpack(state);
+            state.displacement_bound = greatest_displacement(state);
+            if (state.displacement_bound > 0.4 * state.skin) {
+                find_contacts(state, base);
+                fast.reset();
+            }
+        }
+        const std::int64_t batch =
+            std::min(cycles, between_checks - state.clock.cycle % between_checks);
+        if (execution.plain) {
+            cycles -= run_plain(state, base, physics, batch, limit);
+            continue;
+        }
+        if (!fast)
+            fast.emplace(state, base, physics, execution.threads);
+        cycles -= fast->run(state, batch, limit);
+    }
+    if (fast)
+        fast->unpack(state);
 }
 
 double stable_time_step(double mass, const Material& m, double safety) {

@@ -19,12 +19,18 @@ struct NumericalFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// How the cycle is computed; the result is the same to the last bit.
+struct Execution {
+    int threads = 1;
+    bool plain = false; ///< the scalar cycle, which is the specification of the fast one
+};
+
 /// Advances by `cycles` cycles, searching neighbours whenever discs may have come closer than the
 /// list knows. One cycle: contact forces from positions and the velocities half a step earlier;
-/// then each disc's motion. This scalar version is the specification: forces on a disc are added
-/// in the order base contacts, then contacts by row. Throws NumericalFailure if a disc runs away.
+/// then each disc's motion. Forces on a disc are added in the order base contacts, then contacts
+/// by row. Throws NumericalFailure if a disc runs away.
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
-             std::int64_t cycles);
+             std::int64_t cycles, const Execution& execution = {});
 
 /// Largest stable step times `safety` for a disc of mass `mass` (kg) with six contacts of its own
 /// kind: sqrt(2) sqrt(m / k), k = 3 (K + K_s), since the highest eigenvalue of a contact network is

@@ -27,7 +27,7 @@ RadiusRange radius_range(const HangingWallParameters& p) {
 double clearance(const RigidBase& base, Point p) {
     double least = 1e300;
     for (const Surface& s : base.surfaces)
-        if (const auto foot = foot_point(s.chain, p))
+        if (const auto foot = nearest(s.chain, p))
             least = std::min(least, foot->distance);
     return least;
 }

@@ -16,14 +16,9 @@ struct ContactParameters {
     float friction;
 };
 
-/// Two linear springs in series (PFC's linear contact model).
-inline ContactParameters contact_parameters(const Material& a, const Material& b,
-                                            double time_step) {
-    const auto series = [](double p, double q) { return p * q / (p + q); };
-    return {static_cast<float>(series(a.normal_stiffness, b.normal_stiffness)),
-            static_cast<float>(series(a.shear_stiffness, b.shear_stiffness) * time_step),
-            static_cast<float>(std::min(a.friction, b.friction))};
-}
+/// Two linear springs in series (PFC's linear contact model). Not inline: g++ 12 drops a rounding to
+/// single precision that it can see being widened again, and the two cycles would differ.
+ContactParameters contact_parameters(const Material& a, const Material& b, double time_step);
 
 /// Linear contact with a breakable contact bond and Coulomb friction, PFC2D's rules.
 ///

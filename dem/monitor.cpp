@@ -32,7 +32,7 @@ void for_each_base_contact(const State& state, const RigidBase& base, Visit&& vi
         const auto i = static_cast<std::size_t>(c.disc[k]);
         const auto s = static_cast<std::size_t>(c.surface[k]);
         const Surface& surface = base.surfaces[s];
-        const auto foot = foot_point(
+        const auto foot = nearest(
             surface.chain, {d.x[i] - surface.translation * state.clock.extension, d.y[i]});
         if (foot && foot->distance < d.radius[i])
             visit(k, i, s, foot->normal, d.radius[i] - foot->distance);

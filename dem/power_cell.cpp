@@ -61,7 +61,7 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
         polygon = {{{-half, -half}, true}, {{half, -half}, true},
                    {{half, half}, true},   {{-half, half}, true}};
         for (const Surface& s : base.surfaces)
-            if (const auto foot = foot_point(
+            if (const auto foot = nearest(
                     s.chain, {d.x[i] - s.translation * state.clock.extension, d.y[i]});
                 foot && foot->distance < half)
                 clip(polygon, scratch, {-foot->normal.x, -foot->normal.y}, foot->distance);

@@ -15,6 +15,8 @@ struct Clock {
     std::int64_t cycle = 0;  ///< cycles since extension began
     double time_step = 0.0;  ///< s
     double extension = 0.0;  ///< displacement of base and right wall, m
+
+    double time() const { return static_cast<double>(cycle) * time_step; } ///< s
 };
 
 /// Mass that entered or left the model, kg per metre of thickness.

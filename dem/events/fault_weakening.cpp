@@ -143,7 +143,8 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     const FaultWeakeningParameters& p = parameters_;
     const double diameter = 2.0 * state.mean_radius;
     const double circle_radius = 0.5 * p.circle_diameters * diameter;
-    const double threshold = p.strain_rate * schedule().seconds() * p.strained_width;
+    const double threshold = p.strain_rate * schedule().seconds() * p.strained_width *
+                             p.circle_diameters * diameter;
 
     // Discs that the last scan did not see have no displacement.
     const Sample sample = displacements(

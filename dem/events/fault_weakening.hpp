@@ -11,10 +11,10 @@ struct FaultWeakeningParameters {
     double interval = 5.0e4;           ///< time between scans, Delta t_w, a
     double strain_rate = 1.0e-13;      ///< least shear strain rate of a fault, 1/s
     double circle_diameters = 5.0;     ///< measure circle's diameter, mean disc diameters
-    double strained_width = 600.0;     ///< width that the strain rate refers to, m [Fig. 4e]
+    double strained_width = 0.6;       ///< width that the strain rate refers to, circle diameters
     double spacing_diameters = 5.0;    ///< least distance to a more active fault, mean diameters
-    double band_diameters = 3.0;       ///< width of the weakened band, mean diameters
-    double sound_share = 0.5;          ///< least share of sound discs in a band that is weakened
+    double band_diameters = 2.0;       ///< width of the weakened band, mean diameters
+    double sound_share = 0.7;          ///< least share of sound discs in a band that is weakened
     int angles = 12;                   ///< fault angles tried per sampling point
     double youngest_sediment = 2.0e5;  ///< sediment younger than this is left alone, a
     double stiffness_divisor = 200.0;  ///< stiffness of sound over weakened discs

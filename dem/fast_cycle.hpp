@@ -1,0 +1,121 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/cycle.hpp"
+#include "dem/law.hpp"
+#include "dem/simd.hpp"
+#include "dem/state.hpp"
+
+#include <cstdint>
+#include <new>
+#include <vector>
+
+namespace listric {
+
+// The plain cycle (cycle.cpp) in the layout of the machine, with the same bits.
+//
+// Why it gives the same bits: every contact is computed by the same operations in the same order,
+// eight at a time; and every disc adds its forces in the same order, base contacts first, then
+// contacts by row. Nothing is added by two threads, so their number does not matter.
+//
+// Why it is fast:
+// - A contact's force goes to a slot of its own, and a disc gathers its slots. Scattering with
+//   eight lanes would collide.
+// - A disc is one record of 64 bytes, a cache line. Eight pairs of records are loaded whole and
+//   transposed; gathers of single numbers take longer.
+// - Force and motion are one sweep. Contacts are sorted by their first disc, which comes before
+//   the second, so once a tile's contacts are done, all forces on its discs are known and no later
+//   contact reads them: the discs move at once, while they are in the cache. Slots are then free
+//   again, so that a small ring of them is enough.
+// - Discs move with their three velocities in one register.
+
+/// std::vector whose data start at a cache line.
+template <class T>
+struct CacheLineAllocator {
+    using value_type = T;
+    CacheLineAllocator() = default;
+    template <class U>
+    CacheLineAllocator(const CacheLineAllocator<U>&) {}
+    T* allocate(std::size_t n) {
+        return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64)));
+    }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+    bool operator==(const CacheLineAllocator&) const { return true; }
+};
+template <class T>
+using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+
+class FastCycle {
+public:
+    /// Packs a state whose contacts were just found. `threads` >= 1.
+    FastCycle(const State& state, const RigidBase& base, const CyclePhysics& physics, int threads);
+
+    /// Runs until `cycles` cycles are done or the displacement bound exceeds `limit` (m). Updates
+    /// clock and bound of the state, nothing else. Returns the number of cycles done.
+    std::int64_t run(State& state, std::int64_t cycles, double limit);
+
+    /// Writes positions, velocities, shear forces and bonds back into the state's columns.
+    void unpack(State& state) const;
+
+private:
+    struct alignas(64) Disc {
+        Double4 place;    ///< x, y, rotation, radius
+        Double4 velocity; ///< vx, vy, spin, 0
+    };
+    /// Time step over inertial mass, weight, time step over inertial moment.
+    using DiscConstants = Double4;
+    /// Force on the second disc; moments on the first (negative) and the second.
+    using Slot = Double4;
+
+    /// Eight contacts.
+    struct alignas(64) Block {
+        Double8 shear_force;
+        Float8 normal_stiffness, shear_stiffness_times_step, friction;
+        Float8 tensile_strength; ///< minus infinity: not bonded
+        Float8 shear_strength;
+        std::int32_t first[8], second[8];
+        std::uint32_t slot; ///< of the first contact; the others follow
+    };
+
+    struct BaseContact {
+        std::int32_t disc;
+        const Surface* surface;
+        ContactParameters parameters;
+        double shear_force;
+        std::uint32_t slot;
+    };
+
+    struct Tile {
+        std::size_t end_block;
+        std::size_t end_group;
+    };
+
+    /// The contiguous discs of one thread.
+    struct Strip {
+        AlignedVector<Block> blocks;          ///< contacts of its discs, by tiles
+        AlignedVector<Block> boundary_blocks; ///< those with a second disc in a later strip
+        std::vector<std::int32_t> block_rows, boundary_rows; ///< contact row of each lane, or -1
+        std::vector<BaseContact> base_contacts;
+        std::size_t first_base_row = 0;
+        std::vector<Tile> tiles;
+        std::vector<std::uint32_t> gathers; ///< see pack_gathers
+        std::size_t first_disc = 0;
+        alignas(64) double fastest = 0.0; ///< component of a velocity in this cycle, m/s
+    };
+
+    void pack_contacts(const State& state, int threads);
+    void compute(Block& block);
+    void compute_base(Strip& strip, double extension, double speed);
+    void sweep(Strip& strip);
+
+    const RigidBase& base_;
+    CyclePhysics physics_;
+    double time_step_;
+    std::size_t disc_count_;
+    AlignedVector<Disc> discs_;
+    AlignedVector<DiscConstants> constants_;
+    AlignedVector<Slot> slots_;
+    std::vector<Strip> strips_;
+};
+
+} // namespace listric

@@ -1,0 +1,17 @@
+#include "dem/law.hpp"
+
+namespace listric {
+
+namespace {
+
+double series(double a, double b) { return a * b / (a + b); }
+
+} // namespace
+
+ContactParameters contact_parameters(const Material& a, const Material& b, double time_step) {
+    return {static_cast<float>(series(a.normal_stiffness, b.normal_stiffness)),
+            static_cast<float>(series(a.shear_stiffness, b.shear_stiffness) * time_step),
+            static_cast<float>(std::min(a.friction, b.friction))};
+}
+
+} // namespace listric

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#if defined __SSE2__
+#include <immintrin.h>
+#endif
+
+namespace listric {
+
+/// Meeting point of a fixed number of threads. A cycle lasts about 0.1 ms, so waiting spins for
+/// some microseconds; then it sleeps, or else two threads on a shared machine would keep each other
+/// from the core that they wait for.
+class Barrier {
+public:
+    explicit Barrier(int threads) : threads_(threads) {}
+
+    void wait() {
+        if (threads_ == 1)
+            return;
+        const unsigned round = round_.load(std::memory_order_relaxed);
+        if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads_) {
+            arrived_.store(0, std::memory_order_relaxed);
+            round_.store(round + 1, std::memory_order_release);
+            round_.notify_all();
+            return;
+        }
+        for (int spins = 0; spins < 1000; ++spins) {
+            if (round_.load(std::memory_order_acquire) != round)
+                return;
+            pause();
+        }
+        round_.wait(round, std::memory_order_acquire);
+    }
+
+private:
+    static void pause() {
+#if defined __SSE2__
+        _mm_pause();
+#endif
+    }
+
+    const int threads_;
+    alignas(64) std::atomic<int> arrived_ = 0;
+    alignas(64) std::atomic<unsigned> round_ = 0;
+};
+
+/// Calls work(k) for k = 0 .. threads - 1, each on a thread of its own, and waits for all.
+template <class Work>
+void run_team(int threads, Work&& work) {
+    std::vector<std::jthread> others;
+    for (int k = 1; k < threads; ++k)
+        others.emplace_back([&work, k] { work(k); });
+    work(0);
+}
+
+} // namespace listric

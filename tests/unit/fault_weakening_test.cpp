@@ -1,0 +1,203 @@
+// A block of random discs cut by a plane along which its two sides slid by 1.2 times the threshold.
+// A measure circle of radius R whose centre lies h off the plane sees the slip reduced by the share
+// of discs on the wrong side, about 4 h / (pi R); so what is found lies within
+// h = (1 - 1 / 1.2) pi R / 4 = 61 m of the plane if discs were dense, and within one mean diameter
+// with discs of that size. The angle is one of the twelve tried, hence within one step, 15 degrees.
+
+#include "dem/events/fault_weakening.hpp"
+#include "dem/events/property_update.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+constexpr double r = 93.1, diameter = 2.0 * r, rate = 0.01;
+constexpr double degree = pi / 180.0;
+const double threshold = 1e-13 * 5e4 * seconds_per_year * 600.0;
+
+struct Block {
+    State state;
+    FaultWeakening event{{}, rate, 9.81, 2600.0};
+    Point middle;
+
+    Block() {
+        std::vector<Disc> discs = cloud(50, 45, r, 8);
+        for (Disc& disc : discs)
+            disc.y -= 9e3;
+        middle = {49.0 * r, -9e3 + 22.0 * std::sqrt(3.0) * r};
+        state = make_state(discs);
+        bond_all(state, {});
+        event.begin(state);
+        state.clock.extension = 500.0;
+    }
+
+    /// Distance of a point from the plane through the block's middle, > 0 on the left of the
+    /// plane's direction.
+    double off_plane(double x, double y, double angle) const {
+        return (y - middle.y) * std::cos(angle) - (x - middle.x) * std::sin(angle);
+    }
+
+    void slide(double angle, double slip) {
+        const DiscColumns d = disc_columns(state);
+        for (std::size_t i = 0; i < d.x.size(); ++i) {
+            const double half = off_plane(d.x[i], d.y[i], angle) > 0.0 ? 0.5 * slip : -0.5 * slip;
+            d.x[i] += half * std::cos(angle);
+            d.y[i] += half * std::sin(angle);
+        }
+    }
+    void apply() { event.apply(state, {}); }
+    std::span<double> found(const char* column) { return event.memory.get<double>(column); }
+    std::ptrdiff_t weak_discs() { return std::ranges::count(disc_columns(state).material, weak); }
+};
+
+TEST(FaultWeakening, FindsThePlane) {
+    for (double angle : {60.0, 120.0, 52.5, 0.0})
+        for (double sense : {-1.0, 1.0}) {
+            Block b;
+            b.slide(angle * degree, sense * 1.2 * threshold);
+            b.apply();
+            const auto x = b.found("x_m"), y = b.found("y_m"), a = b.found("angle_rad");
+            // The plane is 42 diameters long or more; gaps are below twice the spacing.
+            EXPECT_GE(x.size(), 4u) << angle;
+            for (std::size_t k = 0; k < x.size(); ++k) {
+                double turn = std::abs(a[k] - angle * degree);
+                turn = std::min(turn, pi - turn);
+                EXPECT_LE(turn, 15.0 * degree) << angle;
+                EXPECT_LT(std::abs(b.off_plane(x[k], y[k], angle * degree)), diameter) << angle;
+                const double slip = b.found("slip_m")[k];
+                EXPECT_GT(std::abs(slip), threshold);
+                EXPECT_LE(std::abs(slip), 1.2 * threshold * (1.0 + 1e-12));
+                // 165 degrees and 0 are neighbours but point opposite ways.
+                if (std::abs(a[k] - angle * degree) < 0.5 * pi) {
+                    EXPECT_GT(sense * slip, 0.0) << angle;
+                }
+                EXPECT_EQ(b.found("found_at_m")[k], 500.0);
+                for (std::size_t m = 0; m < k; ++m)
+                    EXPECT_GE(std::hypot(x[k] - x[m], y[k] - y[m]), 5.0 * diameter);
+            }
+        }
+}
+
+TEST(FaultWeakening, ConvertsTheBandAndNothingElse) {
+    Block b;
+    b.slide(60.0 * degree, 1.2 * threshold);
+    const std::vector<double> before(disc_columns(b.state).radius.begin(),
+                                     disc_columns(b.state).radius.end());
+    b.apply();
+    const DiscColumns d = disc_columns(b.state);
+    const WeakenedColumns w = weakened_columns(b.state);
+    const auto x = b.found("x_m"), y = b.found("y_m"), a = b.found("angle_rad");
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        bool in_band = false;
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            const double dx = d.x[i] - x[k], dy = d.y[i] - y[k];
+            in_band = in_band || (std::hypot(dx, dy) < 2.5 * diameter &&
+                                  std::abs(dy * std::cos(a[k]) - dx * std::sin(a[k])) <
+                                      1.5 * diameter);
+        }
+        ASSERT_EQ(d.material[i] == weak, in_band) << d.x[i] << " " << d.y[i];
+        EXPECT_EQ(w.rock_radius[i], in_band ? before[i] : 0.0);
+        EXPECT_EQ(w.scanned_x[i], d.x[i]);
+        const double q = 0.75 * 2600.0 * 9.81 * -d.y[i] / (0.5 * b.state.materials[weak].normal_stiffness);
+        const double enlarged = in_band ? 1.0 + q / (1.0 + 0.42 * q) : 1.0;
+        EXPECT_NEAR(d.radius[i], before[i] * enlarged, 1e-12 * before[i]);
+    }
+    EXPECT_GT(b.weak_discs(), 50);
+    const ContactColumns c = contact_columns(b.state);
+    std::size_t bonds = 0;
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        bonds += c.bonded[k];
+        if (c.bonded[k]) {
+            EXPECT_NE(d.material[static_cast<std::size_t>(c.first[k])], weak);
+            EXPECT_NE(d.material[static_cast<std::size_t>(c.second[k])], weak);
+        }
+    }
+    EXPECT_GT(bonds, 1000u);
+}
+
+TEST(FaultWeakening, NothingBelowTheThreshold) {
+    Block b;
+    b.slide(60.0 * degree, 0.99 * threshold);
+    b.apply();
+    EXPECT_EQ(b.event.memory.rows(), 0u);
+    EXPECT_EQ(b.weak_discs(), 0);
+}
+
+TEST(FaultWeakening, NothingUnderRigidMotion) {
+    Block b;
+    const DiscColumns d = disc_columns(b.state);
+    const double cosine = std::cos(0.033), sine = std::sin(0.033);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double x = d.x[i], y = d.y[i];
+        d.x[i] = cosine * x - sine * y + 500.0;
+        d.y[i] = sine * x + cosine * y - 300.0;
+    }
+    b.apply();
+    EXPECT_EQ(b.event.memory.rows(), 0u);
+    EXPECT_EQ(b.weak_discs(), 0);
+}
+
+TEST(FaultWeakening, SlipCountsFromTheLastScan) {
+    Block b;
+    b.slide(60.0 * degree, 1.2 * threshold);
+    b.apply();
+    const std::size_t first = b.event.memory.rows();
+    const std::ptrdiff_t discs = b.weak_discs();
+    ASSERT_GT(first, 0u);
+    b.apply();
+    EXPECT_EQ(b.event.memory.rows(), first);
+    EXPECT_EQ(b.weak_discs(), discs);
+}
+
+TEST(FaultWeakening, WeakBandsAreNotWidened) {
+    Block b;
+    const DiscColumns d = disc_columns(b.state);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (std::abs(b.off_plane(d.x[i], d.y[i], 60.0 * degree)) < 1.5 * diameter) {
+            d.material[i] = weak;
+            weakened_columns(b.state).rock_radius[i] = d.radius[i];
+        }
+    const std::ptrdiff_t before = b.weak_discs();
+    for (int window = 0; window < 3; ++window) {
+        b.slide(60.0 * degree, 1.2 * threshold);
+        b.apply();
+        EXPECT_EQ(b.weak_discs(), before);
+    }
+    EXPECT_GE(b.event.memory.rows(), 12u); // the fault's activity is recorded all the same
+}
+
+TEST(FaultWeakening, YoungSedimentIsLeftAlone) {
+    Block b;
+    b.state.clock.extension = 5000.0; // sediment younger than 2 km of extension is young
+    const DiscColumns d = disc_columns(b.state);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.y[i] > b.middle.y) {
+            d.stratum[i] = d.x[i] < b.middle.x ? 1 : 2;
+            d.start_extension[i] = d.x[i] < b.middle.x ? 2900.0 : 3100.0;
+        }
+    b.slide(0.5 * pi - 1e-9, 1.2 * threshold); // between the two strata
+    b.slide(60.0 * degree, 1.2 * threshold);
+    b.apply();
+    EXPECT_GT(b.weak_discs(), 0);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] == 2) {
+            ASSERT_NE(d.material[i], weak);
+        }
+}
+
+TEST(FaultWeakening, WeakMaterial) {
+    const Material m = weakened({1.7e11, 6.38e10, 0.05, true}, {});
+    EXPECT_DOUBLE_EQ(m.normal_stiffness, 8.5e8);
+    EXPECT_DOUBLE_EQ(m.shear_stiffness, 3.19e8);
+    EXPECT_EQ(m.friction, 0.0);
+    EXPECT_FALSE(m.bondable);
+}
+
+} // namespace
+} // namespace listric

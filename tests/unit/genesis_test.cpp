@@ -1,0 +1,134 @@
+// A coarse hanging wall (some 560 discs, 15 mean diameters thick) is dense, settled, level and
+// bonded. Porosity inside: a frictionless packing under gravity has 0.16-0.17 in two dimensions;
+// 0.15-0.18 allows for a small sample. Weight: settling stops at one percent, bonding changes no
+// force. Level: trimming is exact, the settling after it moves the top by less than half a radius.
+
+#include "dem/genesis.hpp"
+#include "dem/monitor.hpp"
+#include "dem/power_cell.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+GenesisRequest request(double mean_radius, std::uint64_t seed) {
+    GenesisRequest r;
+    r.hanging_wall.mean_radius = mean_radius;
+    r.base = listric_base(15e3, 40e3);
+    r.materials = {Material{}, Material{}, Material{8.5e8, 3.19e8, 0.0, false}};
+    r.bonds = BondStrength{};
+    r.physics = {0.7, 9.81};
+    r.seed = seed;
+    return r;
+}
+
+State make(const GenesisRequest& r) {
+    return make_hanging_wall(r, [](std::string_view, double) {});
+}
+
+TEST(Genesis, MakesASettledBondedHangingWall) {
+    const GenesisRequest r = request(500.0, 1);
+    const State state = make(r);
+    const ConstDiscColumns d = disc_columns(state);
+    EXPECT_GT(d.x.size(), 500u);
+    EXPECT_LT(d.x.size(), 650u);
+
+    // Porosity, away from surface and base.
+    std::vector<std::int32_t> inside;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const auto foot = foot_point(r.base.surfaces[0].chain, {d.x[i], d.y[i]});
+        if (d.y[i] < -2000.0 && d.x[i] < 38e3 && foot && foot->distance > 2000.0)
+            inside.push_back(static_cast<std::int32_t>(i));
+    }
+    ASSERT_GT(inside.size(), 200u);
+    const std::vector<PowerCell> cells = power_cells(state, r.base, inside);
+    double solid = 0.0, space = 0.0;
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+        ASSERT_TRUE(cells[k].closed);
+        const double radius = d.radius[static_cast<std::size_t>(inside[k])];
+        solid += pi * radius * radius;
+        space += cells[k].area;
+    }
+    EXPECT_GT(1.0 - solid / space, 0.15);
+    EXPECT_LT(1.0 - solid / space, 0.18);
+
+    // The base carries the weight, which is that of the rock.
+    const ForceBalance balance = force_balance(state, r.base, r.physics.gravity);
+    double lift = 0.0;
+    for (const Point& reaction : balance.reaction)
+        lift += reaction.y;
+    EXPECT_NEAR(lift, balance.weight, 0.02 * balance.weight);
+    EXPECT_LT(balance.mean_ratio(), 5e-3);
+    const double rock = 2600.0 * 9.81 *
+                        hanging_wall_area(r.hanging_wall, r.base.surfaces[0].chain);
+    EXPECT_NEAR(balance.weight, rock, 1e-9 * rock);
+    EXPECT_NEAR(state.ledger.initial * 9.81, rock, 1e-9 * rock);
+
+    // The surface is level.
+    std::vector<double> top(40, -1e9);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.x[i] >= 0.0 && d.x[i] < 40e3) {
+            double& t = top[static_cast<std::size_t>(d.x[i] / 1000.0)];
+            t = std::max(t, d.y[i] + d.radius[i]);
+        }
+    EXPECT_NEAR(std::accumulate(top.begin(), top.end(), 0.0) / 40.0, 0.0, 250.0);
+
+    // All contacts are bonded, with strengths as stresses on the mean section: mean within five
+    // standard errors, deviation a quarter of the mean.
+    const ConstContactColumns c = contact_columns(state);
+    double sum = 0.0, bonds = 0.0;
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]);
+        const auto j = static_cast<std::size_t>(c.second[k]);
+        const double reach = d.radius[i] + d.radius[j];
+        const bool touches = std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) < reach;
+        EXPECT_EQ(c.bonded[k] == 1, touches);
+        if (touches) {
+            sum += c.shear_strength[k] / reach;
+            bonds += 1.0;
+        }
+    }
+    EXPECT_GT(bonds, 1.8 * static_cast<double>(d.x.size()));
+    EXPECT_NEAR(sum / bonds, 2.0e8, 5.0 * 0.5e8 / std::sqrt(bonds));
+
+    // Nothing lies beyond the base by more than its elastic overlap; extension has not begun.
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        for (const Surface& s : r.base.surfaces)
+            if (const auto foot = foot_point(s.chain, {d.x[i], d.y[i]})) {
+                EXPECT_GT(foot->distance, 0.95 * d.radius[i]);
+            }
+        EXPECT_EQ(d.id[i], static_cast<std::int64_t>(i));
+        EXPECT_EQ(d.start_x[i], d.x[i]);
+        EXPECT_EQ(d.rotation[i], 0.0);
+    }
+    EXPECT_EQ(state.clock.cycle, 0);
+    EXPECT_EQ(state.clock.extension, 0.0);
+    EXPECT_EQ(state.materials[basement].friction, 0.05);
+}
+
+TEST(Genesis, SeedDecides) {
+    State first = make(request(1000.0, 1));
+    const State again = make(request(1000.0, 1));
+    State other = make(request(1000.0, 2));
+    EXPECT_EQ(hash(first), hash(again));
+    other.seed = first.seed; // which the hash sees as well
+    EXPECT_NE(hash(first), hash(other));
+}
+
+TEST(Genesis, AreaAboveTheDetachment) {
+    // The square of the flat's depth less a quarter circle is footwall. The chain is sampled at
+    // 20000 points, so a chord's sagitta of 1e-4 m times the length.
+    HangingWallParameters p;
+    const double expected = 40e3 * 15e3 - (1.0 - 0.25 * pi) * 15e3 * 15e3;
+    EXPECT_NEAR(hanging_wall_area(p, listric_chain(15e3, 80e3)), expected, 1e-7 * expected);
+    EXPECT_NEAR(hanging_wall_area(p, {line({0.0, -15e3}, {90e3, -15e3})}), 40e3 * 15e3, 1.0);
+}
+
+} // namespace
+} // namespace listric

@@ -1,0 +1,114 @@
+// Where a dropped disc comes to rest. Ground finds the place to 1e-6 m along x and heights over
+// the base to 1e-7 m; slopes in the pockets below are at most a few, so gaps stay below 1e-5 radii
+// and nothing overlaps by more than 1e-6 radii = 1e-4 m.
+
+#include "dem/ground.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+double gap(Point p, double radius, const Disc& disc) {
+    return std::hypot(p.x - disc.x, p.y - disc.y) - radius - disc.radius;
+}
+
+TEST(Ground, DiscRestsInThePocketBetweenTwo) {
+    const RigidBase base = box(4000.0, 1e5);
+    for (double right_radius : {70.0, 100.0, 120.0}) {
+        const std::vector<Disc> two{{1900.0, 100.0, 100.0}, {2120.0, right_radius, right_radius}};
+        const State state = make_state(two);
+        const Ground ground(state, base, 120.0);
+        for (double x : {1950.0, 2000.0, 2050.0, 2090.0}) {
+            const auto place = ground.rest(x, 80.0);
+            ASSERT_TRUE(place) << x;
+            EXPECT_NEAR(gap(*place, 80.0, two[0]), 0.0, 1e-5 * 80.0) << x;
+            EXPECT_NEAR(gap(*place, 80.0, two[1]), 0.0, 1e-5 * 80.0) << x;
+            EXPECT_GT(place->y, 100.0);
+        }
+    }
+}
+
+TEST(Ground, DiscRestsBetweenDetachmentAndDisc) {
+    constexpr double R = 15e3;
+    const RigidBase base = listric_base(R, 40e3);
+    // A disc on the arc, 30 degrees below its centre's level.
+    const double slope = pi / 6.0, r = 100.0;
+    const Disc on_arc{R - (R - r) * std::cos(slope), -(R - r) * std::sin(slope), r};
+    const State state = make_state({on_arc});
+    const Ground ground(state, base, 120.0);
+    const auto place = ground.rest(on_arc.x - 150.0, 80.0);
+    ASSERT_TRUE(place);
+    EXPECT_LT(place->x, on_arc.x);
+    EXPECT_NEAR(gap(*place, 80.0, on_arc), 0.0, 1e-5 * 80.0);
+    const auto foot = foot_point(base.surfaces[0].chain, *place);
+    ASSERT_TRUE(foot);
+    EXPECT_NEAR(foot->distance, 80.0, 1e-5 * 80.0);
+}
+
+TEST(Ground, HeightOverTheBaseAlone) {
+    constexpr double R = 15e3;
+    const RigidBase base = listric_base(R, 40e3);
+    const State state = make_state({{20e3, -R + 100.0, 100.0}});
+    const Ground ground(state, base, 100.0);
+    // The centre of a disc on the arc is on the circle of radius R - r.
+    for (double x : {1000.0, 5000.0, 14000.0}) {
+        const double expected = -std::sqrt(std::pow(R - 90.0, 2) - std::pow(R - x, 2));
+        EXPECT_NEAR(ground.height(x, 90.0), expected, 1e-6) << x;
+    }
+    EXPECT_NEAR(ground.height(30e3, 90.0), -R + 90.0, 1e-6);
+    EXPECT_NEAR(ground.height(20e3, 90.0), -R + 290.0, 1e-6);
+    EXPECT_EQ(ground.height(50.0, 90.0), std::numeric_limits<double>::infinity()); // backstop
+    EXPECT_FALSE(ground.rest(50.0, 90.0));
+}
+
+TEST(Ground, WallMovesWithTheExtension) {
+    const RigidBase base = listric_base(15e3, 40e3);
+    State state = make_state({{39.5e3, -15e3 + 100.0, 100.0}});
+    EXPECT_FALSE(Ground(state, base, 100.0).rest(40.2e3, 90.0));
+    state.clock.extension = 500.0;
+    EXPECT_TRUE(Ground(state, base, 100.0).rest(40.2e3, 90.0));
+}
+
+TEST(Ground, FillNeitherOverlapsNorSinks) {
+    constexpr double R = 15e3;
+    const RigidBase base = listric_base(R, 40e3);
+    std::vector<Disc> discs;
+    for (double slope : {0.25, 0.5 * pi}) // the ends of a stretch of the detachment
+        discs.push_back({R - (R - 100.0) * std::cos(slope), -(R - 100.0) * std::sin(slope), 100.0});
+    const State state = make_state(discs);
+    Ground ground(state, base, 120.0);
+    Random random(5);
+    std::size_t held_twice = 0;
+    for (int dropped = 0; dropped < 500; ++dropped) {
+        const double radius = random.between(70.0, 120.0);
+        // Narrow enough for the discs to pile up.
+        const auto place = ground.rest(random.between(9e3, 13e3), radius);
+        ASSERT_TRUE(place);
+        const auto foot = foot_point(base.surfaces[0].chain, *place);
+        ASSERT_TRUE(foot);
+        EXPECT_GE(foot->distance, radius * (1.0 - 1e-6));
+        int held_by = foot->distance < radius * (1.0 + 1e-5);
+        for (const Disc& other : discs) {
+            const double distance = gap(*place, radius, other);
+            EXPECT_GE(distance, -1e-6 * radius);
+            held_by += distance < 1e-5 * radius;
+        }
+        EXPECT_GE(held_by, 1);
+        held_twice += held_by >= 2;
+        ground.add(*place, radius);
+        discs.push_back({place->x, place->y, radius});
+    }
+    EXPECT_GE(held_twice, 490u);
+    const auto top = std::ranges::max(discs, {}, &Disc::y);
+    EXPECT_GT(top.y, -R + 1000.0); // it is a pile, not a layer
+}
+
+} // namespace
+} // namespace listric

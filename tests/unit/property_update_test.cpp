@@ -1,0 +1,120 @@
+// Weakened discs approach r_rock * (1 + q / (1 + 0.42 q)), q = mean stress over contact stiffness,
+// by at most five percent per update; mass never changes. Where the volume around a disc grew, the
+// correction takes it back. Tolerances are round-off of a few products.
+
+#include "dem/events/property_update.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+constexpr double r = 93.1;
+constexpr std::size_t middle = 60; ///< of 11 x 11 discs
+
+/// A hexagonal lattice at a depth of 10 km with the given disc weakened.
+struct Lattice {
+    State state;
+    PropertyUpdate event{{}, 0.01, 9.81, 2600.0};
+
+    explicit Lattice(double rock_area = 0.0) {
+        std::vector<Disc> discs = hexagonal(11, 11, r);
+        const double lift = discs[middle].y;
+        for (Disc& disc : discs)
+            disc.y -= 1e4 + lift;
+        state = make_state(discs);
+        add_weakened_columns(state);
+        disc_columns(state).material[middle] = weak;
+        weakened_columns(state).rock_radius[middle] = r;
+        weakened_columns(state).rock_area[middle] = rock_area;
+    }
+    double radius() { return disc_columns(state).radius[middle]; }
+    bool apply() { return event.apply(state, {}); }
+};
+
+const double cell = 2.0 * std::sqrt(3.0) * r * r;
+const double stress = 0.75 * 2600.0 * 9.81 * 1e4;
+
+TEST(PropertyUpdate, Enlargement) {
+    const Material soft{8.5e8, 3.19e8, 0.0, false};
+    EXPECT_DOUBLE_EQ(enlargement(4.25e8, soft), 1.0 + 1.0 / 1.42);
+    EXPECT_DOUBLE_EQ(enlargement(0.0, soft), 1.0);
+    EXPECT_DOUBLE_EQ(enlargement(-1e8, soft), 1.0);
+}
+
+TEST(PropertyUpdate, RadiusChangesByAtMostFivePercentAtATime) {
+    Lattice l;
+    const double target = r * enlargement(stress, l.state.materials[weak]);
+    ASSERT_GT(target, 1.3 * r);
+    double expected = r;
+    for (int k = 0; k < 10; ++k) {
+        expected = std::min(1.05 * expected, target);
+        EXPECT_TRUE(l.apply());
+        EXPECT_NEAR(l.radius(), expected, 1e-12 * r);
+    }
+    EXPECT_NEAR(l.radius(), target, 1e-12 * r);
+}
+
+TEST(PropertyUpdate, UnloadedDiscsShrinkBack) {
+    Lattice l;
+    const DiscColumns d = disc_columns(l.state);
+    for (double& y : d.y)
+        y += 1e4 + 1.0; // the weak disc lies a metre above the surface
+    d.radius[middle] = 1.3 * r;
+    l.apply();
+    EXPECT_NEAR(l.radius(), 0.95 * 1.3 * r, 1e-12 * r);
+    for (int k = 0; k < 10; ++k)
+        l.apply();
+    EXPECT_NEAR(l.radius(), r, 1e-12 * r);
+}
+
+TEST(PropertyUpdate, MassAndSoundDiscsAreUntouched) {
+    Lattice l(0.9 * cell);
+    const State before = l.state;
+    for (int k = 0; k < 5; ++k)
+        l.apply();
+    const ConstDiscColumns was = disc_columns(before);
+    const DiscColumns now = disc_columns(l.state);
+    for (std::size_t i = 0; i < now.x.size(); ++i) {
+        EXPECT_EQ(now.mass[i], was.mass[i]);
+        EXPECT_EQ(now.x[i], was.x[i]);
+        if (i != middle) {
+            EXPECT_EQ(now.radius[i], was.radius[i]);
+        }
+    }
+    EXPECT_EQ(weakened_columns(l.state).rock_radius[middle], r);
+}
+
+TEST(PropertyUpdate, LostAndWonVolumeIsTakenBack) {
+    Lattice grown(0.99 * cell), shrunk(1.01 * cell), same(cell);
+    for (Lattice* l : {&grown, &shrunk, &same})
+        l->apply();
+    const double factor = enlargement(stress, same.state.materials[weak]);
+    // dA / A = 2 factor dr / r, of which 0.3 is corrected at a time.
+    EXPECT_NEAR(weakened_columns(grown.state).correction[middle],
+                1.0 - 0.3 * (1.0 / 0.99 - 1.0) / (2.0 * factor), 1e-12);
+    EXPECT_NEAR(weakened_columns(shrunk.state).correction[middle],
+                1.0 - 0.3 * (1.0 / 1.01 - 1.0) / (2.0 * factor), 1e-12);
+    EXPECT_NEAR(weakened_columns(same.state).correction[middle], 1.0, 1e-12);
+}
+
+TEST(PropertyUpdate, VolumeChangeIsThatOfThePowerCells) {
+    Lattice l(0.9 * cell);
+    EXPECT_NEAR(weakened_volume_change(l.state, {}), 0.1 * cell, 1e-12 * cell);
+    disc_columns(l.state).radius[middle] *= 1.2; // enlargement is no volume
+    EXPECT_NEAR(weakened_volume_change(l.state, {}), 0.1 * cell, 1e-12 * cell);
+}
+
+TEST(PropertyUpdate, NothingToDoWithoutWeakDiscs) {
+    Lattice l;
+    disc_columns(l.state).material[middle] = basement;
+    const std::uint64_t before = hash(l.state);
+    EXPECT_FALSE(l.apply());
+    EXPECT_EQ(hash(l.state), before);
+}
+
+} // namespace
+} // namespace listric
