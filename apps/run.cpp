@@ -250,7 +250,7 @@ void cycle_toward(Run& run, double extension) {
     const auto batch = static_cast<std::int64_t>(
         std::clamp(std::floor(wanted), 1.0, std::max(1.0, std::floor(2e7 / discs))));
     advance(run.state, run.base, run.physics, batch,
-            {run.options.threads, run.options.plain});
+            {run.options.threads, run.options.plain ? Cycle::plain : Cycle::best});
     run.record.disc_steps += discs * static_cast<double>(batch);
 }
 

@@ -160,6 +160,8 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
     // Only NaN hides from the displacement bound; it is looked for every so often.
     constexpr std::int64_t between_checks = 1000;
     const double limit = 0.5 * state.skin;
+    const bool plain = execution.cycle == Cycle::plain ||
+                       (execution.cycle == Cycle::best && !has_wide_registers);
     std::optional<FastCycle> fast;
     while (cycles > 0) {
         if (state.displacement_bound > limit || state.clock.cycle % between_checks == 0) {
@@ -173,7 +175,7 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
         }
         const std::int64_t batch =
             std::min(cycles, between_checks - state.clock.cycle % between_checks);
-        if (execution.plain) {
+        if (plain) {
             cycles -= run_plain(state, base, physics, batch, limit);
             continue;
         }

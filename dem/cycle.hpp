@@ -19,10 +19,14 @@ struct NumericalFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The plain cycle is the scalar specification of the fast one; best is the fast one where the
+/// machine has the registers for it.
+enum class Cycle { best, plain, fast };
+
 /// How the cycle is computed; the result is the same to the last bit.
 struct Execution {
     int threads = 1;
-    bool plain = false; ///< the scalar cycle, which is the specification of the fast one
+    Cycle cycle = Cycle::best;
 };
 
 /// Advances by `cycles` cycles, searching neighbours whenever discs may have come closer than the

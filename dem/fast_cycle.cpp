@@ -64,13 +64,8 @@ void FastCycle::pack_contacts(const State& state, int threads) {
         const auto append = [&](AlignedVector<Block>& blocks, std::vector<std::int32_t>& rows,
                                 std::size_t& lane, std::size_t k) {
             if (lane == 0) {
-                blocks.emplace_back();
-                Block& block = blocks.back();
-                block.shear_force = Double8{};
-                block.normal_stiffness = block.shear_stiffness_times_step = block.friction =
-                    Float8{};
-                block.shear_strength = Float8{};
-                block.tensile_strength = Float8{} + not_bonded;
+                Block& block = blocks.emplace_back(); // zeros
+                std::ranges::fill(block.tensile_strength, not_bonded);
                 std::ranges::fill(block.first, idle);
                 std::ranges::fill(block.second, idle + 1);
                 rows.resize(rows.size() + 8, -1);
@@ -185,56 +180,59 @@ void FastCycle::pack_contacts(const State& state, int threads) {
     }
 }
 
-/// The contact law of law.hpp and cycle.cpp for eight contacts.
+/// The contact law of law.hpp and cycle.cpp, as many contacts at a time as there are lanes.
 inline void FastCycle::compute(Block& block) {
-    Double4 near_rows[8], rate_rows[8];
-    for (int k = 0; k < 8; ++k) {
-        const Disc& i = discs_[static_cast<std::size_t>(block.first[k])];
-        const Disc& j = discs_[static_cast<std::size_t>(block.second[k])];
-        const Double4 radii = __builtin_shufflevector(i.place, j.place, 1, 5, 3, 7);
-        near_rows[k] = __builtin_shufflevector(j.place - i.place, radii, 0, 1, 6, 7);
-        const Double4 spins = __builtin_shufflevector(i.velocity, j.velocity, 0, 4, 2, 6);
-        rate_rows[k] = __builtin_shufflevector(j.velocity - i.velocity, spins, 0, 1, 6, 7);
+    for (int start = 0; start < 8; start += lane_count) {
+        Double4 near_rows[lane_count], rate_rows[lane_count];
+        for (int k = 0; k < lane_count; ++k) {
+            const Disc& i = discs_[static_cast<std::size_t>(block.first[start + k])];
+            const Disc& j = discs_[static_cast<std::size_t>(block.second[start + k])];
+            const Double4 radii = __builtin_shufflevector(i.place, j.place, 1, 5, 3, 7);
+            near_rows[k] = __builtin_shufflevector(j.place - i.place, radii, 0, 1, 6, 7);
+            const Double4 spins = __builtin_shufflevector(i.velocity, j.velocity, 0, 4, 2, 6);
+            rate_rows[k] = __builtin_shufflevector(j.velocity - i.velocity, spins, 0, 1, 6, 7);
+        }
+        const auto [dx, dy, radius_i, radius_j] = transpose(near_rows);
+        const auto [dvx, dvy, spin_i, spin_j] = transpose(rate_rows);
+
+        const Lanes reach = radius_i + radius_j;
+        const Lanes square = dx * dx + dy * dy;
+        const Lanes distance = square_root(square);
+        const Lanes inverse = 1.0 / distance;
+        const Lanes nx = dx * inverse, ny = dy * inverse;
+        const Lanes overlap = reach - distance;
+        const Lanes half = 0.5 * overlap;
+        const Lanes arm_i = radius_i - half, arm_j = radius_j - half;
+        const Lanes slip_rate = dvy * nx - dvx * ny - (arm_i * spin_i + arm_j * spin_j);
+
+        const Lanes zero = {};
+        const Lanes elastic = load(block.normal_stiffness + start) * overlap;
+        const Lanes stuck = load(block.shear_force + start) -
+                            load(block.shear_stiffness_times_step + start) * slip_rate;
+        const Lanes tensile_strength = load(block.tensile_strength + start);
+        const Mask holds = (-elastic <= tensile_strength) &
+                           (magnitude(stuck) <= load(block.shear_strength + start));
+        const Mask pressed = (square < reach * reach) & (overlap > zero);
+        const Lanes limit = load(block.friction + start) * elastic;
+        const Lanes raised = stuck < -limit ? -limit : stuck;
+        const Lanes clipped = limit < raised ? limit : raised;
+        const Lanes shear = holds ? stuck : (pressed ? clipped : zero);
+        const Lanes normal = (holds | pressed) ? elastic : zero;
+        store(block.shear_force + start, shear);
+
+        const Mask breaks = ~holds & (tensile_strength > static_cast<double>(not_bonded));
+        if (any(breaks)) [[unlikely]]
+            for (int k = 0; k < lane_count; ++k)
+                if (breaks[k])
+                    block.tensile_strength[start + k] = not_bonded;
+
+        Double4 rows[lane_count];
+        transpose({normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear,
+                   -(arm_j * shear)},
+                  rows);
+        for (int k = 0; k < lane_count; ++k)
+            slots_[block.slot + static_cast<std::uint32_t>(start + k)] = rows[k];
     }
-    const auto [dx, dy, radius_i, radius_j] = transpose(near_rows);
-    const auto [dvx, dvy, spin_i, spin_j] = transpose(rate_rows);
-
-    const Double8 reach = radius_i + radius_j;
-    const Double8 square = dx * dx + dy * dy;
-    const Double8 distance = square_root(square);
-    const Double8 inverse = 1.0 / distance;
-    const Double8 nx = dx * inverse, ny = dy * inverse;
-    const Double8 overlap = reach - distance;
-    const Double8 half = 0.5 * overlap;
-    const Double8 arm_i = radius_i - half, arm_j = radius_j - half;
-    const Double8 slip_rate = dvy * nx - dvx * ny - (arm_i * spin_i + arm_j * spin_j);
-
-    const Double8 zero = {};
-    const Double8 elastic = widen(block.normal_stiffness) * overlap;
-    const Double8 stuck =
-        block.shear_force - widen(block.shear_stiffness_times_step) * slip_rate;
-    const Double8 tensile_strength = widen(block.tensile_strength);
-    const Mask8 holds = (-elastic <= tensile_strength) &
-                        (magnitude(stuck) <= widen(block.shear_strength));
-    const Mask8 pressed = (square < reach * reach) & (overlap > zero);
-    const Double8 limit = widen(block.friction) * elastic;
-    const Double8 raised = stuck < -limit ? -limit : stuck;
-    const Double8 clipped = limit < raised ? limit : raised;
-    const Double8 shear = holds ? stuck : (pressed ? clipped : zero);
-    const Double8 normal = (holds | pressed) ? elastic : zero;
-    block.shear_force = shear;
-
-    if (const Mask8 breaks = ~holds & (tensile_strength > static_cast<double>(not_bonded));
-        any(breaks)) [[unlikely]]
-        for (int k = 0; k < 8; ++k)
-            if (breaks[k])
-                block.tensile_strength[k] = not_bonded;
-
-    Double4 rows[8];
-    transpose({normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear, -(arm_j * shear)},
-              rows);
-    for (std::size_t k = 0; k < 8; ++k)
-        slots_[block.slot + k] = rows[k];
 }
 
 void FastCycle::compute_base(Strip& strip, double extension, double speed) {

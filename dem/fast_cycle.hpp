@@ -67,12 +67,12 @@ private:
     /// Force on the second disc; moments on the first (negative) and the second.
     using Slot = Double4;
 
-    /// Eight contacts.
+    /// Eight contacts, a lane each.
     struct alignas(64) Block {
-        Double8 shear_force;
-        Float8 normal_stiffness, shear_stiffness_times_step, friction;
-        Float8 tensile_strength; ///< minus infinity: not bonded
-        Float8 shear_strength;
+        double shear_force[8];
+        float normal_stiffness[8], shear_stiffness_times_step[8], friction[8];
+        float tensile_strength[8]; ///< minus infinity: not bonded
+        float shear_strength[8];
         std::int32_t first[8], second[8];
         std::uint32_t slot; ///< of the first contact; the others follow
     };

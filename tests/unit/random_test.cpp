@@ -2,9 +2,9 @@
 // bounded by five standard errors, which a sound generator violates once in two million seeds; the
 // keys are fixed, so a test that passes once passes always.
 
-#include "dem/random.hpp"
-
 #include <gtest/gtest.h>
+
+#include "dem/random.hpp"
 
 #include <algorithm>
 #include <set>

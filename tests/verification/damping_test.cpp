@@ -1,0 +1,75 @@
+// Local damping F_d = -a |F| sign(v) makes an oscillator a sequence of half cycles: towards rest
+// with stiffness K (1 - a), away from it with K (1 + a). Energy balance and times give
+//   amplitude ratio of successive peaks sqrt((1 - a) / (1 + a)), 0.420 at a = 0.7;
+//   half period (pi / 2) (1 / sqrt(1 - a) + 1 / sqrt(1 + a)) sqrt(m* / K).
+// The damping force jumps where the velocity changes sign, known to half a step only: an error of
+// first order in dt, below 1 % with 1000 steps in the shortest quarter cycle.
+
+#include "dem/cycle.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+constexpr double r = 93.1;
+
+struct Peak {
+    double time, amplitude;
+};
+
+/// Peaks of a bonded pair released one centimetre apart.
+std::vector<Peak> peaks(double damping, std::size_t count) {
+    const Material material;
+    State state = make_state(row(2, r), material);
+    bond_all(state, {});
+    const DiscColumns d = disc_columns(state);
+    d.x[1] += 0.01;
+    state.clock.time_step = 1e-3 * std::sqrt(0.5 * d.mass[0] / contact_stiffness(material));
+    std::vector<Peak> found{{0.0, 0.01}};
+    double before = 0.01, now = 0.01;
+    while (found.size() < count) {
+        advance(state, {}, {damping, 0.0}, 1);
+        const double next = d.x[1] - d.x[0] - 2.0 * r;
+        if ((now - before) * (next - now) < 0.0)
+            found.push_back({static_cast<double>(state.clock.cycle - 1) * state.clock.time_step,
+                             now});
+        before = now;
+        now = next;
+    }
+    return found;
+}
+
+TEST(Damping, AmplitudesAndPeriod) {
+    const Material material;
+    const double unit = std::sqrt(0.5 * density * pi * r * r / contact_stiffness(material));
+    for (double a : {0.2, 0.5, 0.7}) {
+        const double ratio = std::sqrt((1.0 - a) / (1.0 + a));
+        const double half = 0.5 * pi * (1.0 / std::sqrt(1.0 - a) + 1.0 / std::sqrt(1.0 + a)) * unit;
+        const std::vector<Peak> p = peaks(a, 5);
+        for (std::size_t k = 1; k < p.size(); ++k) {
+            EXPECT_NEAR(p[k].amplitude / p[k - 1].amplitude, -ratio, 0.01 * ratio) << a;
+            EXPECT_NEAR(p[k].time - p[k - 1].time, half, 0.01 * half) << a;
+        }
+    }
+    EXPECT_NEAR(std::sqrt(0.3 / 1.7), 0.420, 5e-4);
+}
+
+TEST(Damping, NoneKeepsTheAmplitude) {
+    const std::vector<Peak> p = peaks(0.0, 5);
+    EXPECT_NEAR(p.back().amplitude, 0.01, 1e-7);
+}
+
+TEST(Damping, FreeFallIsSlowedByItsShare) {
+    // From rest at the first step, undamped; then (1 - a) g.
+    State state = make_state({{0.0, 0.0, r}});
+    state.clock.time_step = 0.01;
+    advance(state, {}, {0.7, 9.81}, 101);
+    EXPECT_NEAR(disc_columns(state).vy[0], -9.81 * (0.01 + 0.3), 1e-12);
+}
+
+} // namespace
+} // namespace listric

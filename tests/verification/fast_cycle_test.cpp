@@ -1,0 +1,97 @@
+// The fast cycle computes the same bits as the plain one, which is its specification, with any
+// number of threads. Exact comparisons, over contacts that form, slip and break, over neighbour
+// searches, and with a base that moves.
+
+#include "dem/cycle.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+/// A disturbed lattice, partly bonded, partly of soft frictionless discs, dropped on a conveyor.
+struct Heap {
+    RigidBase base = box(62.0 * 93.1, 1e5, 0.4);
+    State state;
+
+    explicit Heap(std::size_t rows, float strength) {
+        std::vector<Disc> discs = cloud(28, rows, 93.1, 7);
+        for (Disc& disc : discs) {
+            disc.x += 300.0;
+            disc.y += 150.0;
+        }
+        state = make_state(discs, Material{1.7e11, 6.38e10, 0.3, true});
+        const DiscColumns d = disc_columns(state);
+        for (std::size_t i = 0; i < d.x.size(); i += 7) {
+            d.material[i] = weak;
+            d.vx[i] = 3.0;
+        }
+        sort_discs(state);
+        bond_all(state, base, strength);
+        state.clock.time_step = 0.006;
+        base.surfaces[1].conveyor = 1.0;
+        base.surfaces[2].translation = 1.0;
+        base.motion = {1.5, 3.0};
+    }
+};
+
+std::int64_t bonds(const State& state) {
+    return std::ranges::count(contact_columns(state).bonded, std::uint8_t{1});
+}
+
+constexpr CyclePhysics physics{0.7, 9.81};
+
+TEST(FastCycle, HasTheBitsOfThePlainOne) {
+    // 1 disc row: less than a tile; 45 rows: ten tiles.
+    for (std::size_t rows : {1, 3, 45})
+        for (float strength : {0.0f, 3e9f, 1e30f}) {
+            Heap heap(rows, strength);
+            State plain = heap.state;
+            const std::int64_t bonds_before = bonds(plain);
+            advance(plain, heap.base, physics, 1500, {1, Cycle::plain});
+            for (int threads : {1, 2, 3, 5}) {
+                State fast = heap.state;
+                advance(fast, heap.base, physics, 1500, {threads, Cycle::fast});
+                EXPECT_EQ(hash(fast), hash(plain))
+                    << rows << " rows, strength " << strength << ", threads " << threads;
+            }
+            if (rows == 45 && strength == 3e9f) {
+                EXPECT_LT(bonds(plain), bonds_before);
+                EXPECT_GT(bonds(plain), 0);
+            }
+            EXPECT_NE(hash(plain), hash(heap.state));
+        }
+}
+
+TEST(FastCycle, GoesOnWhereThePlainOneStopped) {
+    Heap heap(20, 3e9f);
+    State plain = heap.state, mixed = heap.state;
+    advance(plain, heap.base, physics, 1000, {1, Cycle::plain});
+    for (int k = 0; k < 10; ++k)
+        advance(mixed, heap.base, physics, 100, {2, k % 2 ? Cycle::plain : Cycle::fast});
+    EXPECT_EQ(hash(mixed), hash(plain));
+}
+
+TEST(FastCycle, NoDiscsAndOneDisc) {
+    const RigidBase base = box(1e3, 1e4);
+    for (std::size_t count : {0, 1}) {
+        State state = make_state(row(count, 50.0));
+        state.mean_radius = 50.0;
+        state.skin = 12.0;
+        state.clock.time_step = 0.001;
+        find_contacts(state, base);
+        State plain = state;
+        advance(state, base, physics, 50, {4, Cycle::fast});
+        advance(plain, base, physics, 50, {1, Cycle::plain});
+        EXPECT_EQ(hash(state), hash(plain));
+        EXPECT_EQ(state.clock.cycle, 50);
+    }
+}
+
+} // namespace
+} // namespace listric

@@ -1,0 +1,89 @@
+// Normal impact of two discs without damping is half a period of an oscillator:
+//   t_c = pi sqrt(m* / K), greatest overlap v sqrt(m* / K), greatest force v sqrt(m* K),
+//   restitution 1, with m* = m / 2 and K the contact's stiffness.
+// Contact begins on a step. Leapfrog's amplitude is off by (omega dt)^2 / 8, everything else is of
+// the same order: with N steps in contact (pi / N)^2, i.e. 1e-3 for N = 100.
+
+#include "dem/cycle.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+constexpr double r = 93.1, v = 0.5; // m, m/s
+const Material material;
+const double mass = density * pi * r * r;
+
+struct Impact {
+    double contact_time = 0.0, overlap = 0.0, force = 0.0, restitution = 0.0;
+};
+
+/// Two discs that touch approach with 2 v, or one a rigid floor of the same material with v.
+Impact impact(int steps, bool floor) {
+    State state = make_state(floor ? std::vector<Disc>{{0.0, r, r}} : row(2, r), material);
+    RigidBase base;
+    base.material = material;
+    if (floor)
+        base.surfaces = {{"floor", {line({-1e3, 0.0}, {1e3, 0.0})}}};
+    const DiscColumns d = disc_columns(state);
+    d.vx[0] = floor ? 0.0 : v;
+    d.vy[0] = floor ? -v : 0.0;
+    if (!floor)
+        d.vx[1] = -v;
+    const double reduced = floor ? mass : 0.5 * mass, stiffness = contact_stiffness(material);
+    state.clock.time_step = pi * std::sqrt(reduced / stiffness) / steps;
+    const auto overlap = [&] { return floor ? r - d.y[0] : 2.0 * r - (d.x[1] - d.x[0]); };
+
+    Impact result;
+    double before = 0.0;
+    for (int n = 1; n < 2 * steps; ++n) {
+        advance(state, base, {0.0, 0.0}, 1);
+        const double now = overlap();
+        result.overlap = std::max(result.overlap, now);
+        if (now <= 0.0 && before > 0.0)
+            result.contact_time = (n - 1 + before / (before - now)) * state.clock.time_step;
+        before = now;
+    }
+    result.force = stiffness * result.overlap;
+    result.restitution = floor ? d.vy[0] / v : d.vx[1] / v;
+    return result;
+}
+
+class ImpactTest : public testing::TestWithParam<bool> {
+protected:
+    double reduced = GetParam() ? mass : 0.5 * mass;
+    double approach = GetParam() ? v : 2.0 * v;
+    double stiffness = contact_stiffness(material);
+};
+
+TEST_P(ImpactTest, IsHalfAnOscillation) {
+    const Impact i = impact(100, GetParam());
+    EXPECT_NEAR(i.contact_time / (pi * std::sqrt(reduced / stiffness)), 1.0, 1e-3);
+    EXPECT_NEAR(i.overlap / (approach * std::sqrt(reduced / stiffness)), 1.0, 1e-3);
+    EXPECT_NEAR(i.force / (approach * std::sqrt(reduced * stiffness)), 1.0, 1e-3);
+    EXPECT_NEAR(i.restitution, 1.0, 1e-3);
+}
+
+TEST_P(ImpactTest, IsOfSecondOrder) {
+    // N even, so that a step falls on the greatest overlap.
+    const double exact = approach * std::sqrt(reduced / stiffness);
+    double coarse = impact(20, GetParam()).overlap / exact - 1.0;
+    EXPECT_NEAR(coarse, pi * pi / 400.0 / 8.0, 0.1 * coarse);
+    for (int steps : {40, 80, 160}) {
+        const double fine = impact(steps, GetParam()).overlap / exact - 1.0;
+        EXPECT_NEAR(coarse / fine, 4.0, 0.1) << steps;
+        coarse = fine;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfDiscs, ImpactTest, testing::Values(false));
+INSTANTIATE_TEST_SUITE_P(OnTheFloor, ImpactTest, testing::Values(true));
+
+} // namespace
+} // namespace listric

@@ -1,0 +1,85 @@
+// Leapfrog is stable for dt below 2 / omega of the fastest mode.
+//   chain: omega = 2 sqrt(K / m) cos(pi / (2 n)) with n discs and free ends; the limit is
+//     sqrt(m / K), 1 + 1e-4 times that for n = 100. At 0.99 the amplitude stays below
+//     1 / sqrt(1 - 0.99^2) = 7.1; at 1.01 it grows by 1.33 per step, 1e6 in 50 steps.
+//   hexagonal lattice without shear stiffness: sqrt(2/3) sqrt(m / K) = 0.816, which is what
+//     stable_time_step() gives for six contacts.
+// Bonds are unbreakable and displacements tiny, so that the system stays linear.
+
+#include "dem/cycle.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+constexpr double r = 93.1, amplitude = 1e-7;
+const double mass = density * pi * r * r;
+
+/// Greatest displacement, in units of the initial one, after the given steps of a lattice whose
+/// discs are displaced at random or, in a chain, alternately. Stops early once it is large.
+double growth(std::vector<Disc> discs, const Material& material, double time_step, int steps) {
+    State state = make_state(discs, material);
+    bond_all(state, {});
+    state.clock.time_step = time_step;
+    const DiscColumns d = disc_columns(state);
+    const bool chain = discs.back().y == 0.0;
+    Random random(6);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        d.x[i] += amplitude * (chain ? (i % 2 ? 1.0 : -1.0) : random.between(-1.0, 1.0));
+        d.y[i] += chain ? 0.0 : amplitude * random.between(-1.0, 1.0);
+        d.rotation[i] = 0.0;
+        d.spin[i] = chain ? 0.0 : 1e-6 * amplitude * random.between(-1.0, 1.0) / time_step;
+    }
+    double largest = 0.0;
+    for (int n = 0; n < steps && largest < 1e4; n += 10) {
+        advance(state, {}, {0.0, 0.0}, 10);
+        for (std::size_t i = 0; i < d.x.size(); ++i)
+            largest = std::max({largest, std::abs(d.x[i] - discs[i].x) / amplitude,
+                                std::abs(d.y[i] - discs[i].y) / amplitude,
+                                std::abs(d.rotation[i]) * r / amplitude});
+    }
+    return largest;
+}
+
+double unit(const Material& m) { return std::sqrt(mass / contact_stiffness(m)); }
+
+TEST(TimeStepLimit, OfTheChain) {
+    const Material m;
+    EXPECT_LT(growth(row(100, r), m, 0.99 * unit(m), 10000), 7.2);
+    EXPECT_GT(growth(row(100, r), m, 1.01 * unit(m), 100), 1e4);
+}
+
+TEST(TimeStepLimit, OfTheHexagonalLatticeWithoutShearStiffness) {
+    const Material m{1.7e11, 1e-3, 0.0, true};
+    const std::vector<Disc> lattice = hexagonal(20, 20, r);
+    const double limit = std::sqrt(2.0 / 3.0) * unit(m);
+    EXPECT_NEAR(stable_time_step(mass, m, 1.0), limit, 1e-12 * limit);
+    EXPECT_LT(growth(lattice, m, 0.99 * limit, 3000), 100.0);
+    EXPECT_GT(growth(lattice, m, 1.03 * limit, 1000), 1e4);
+}
+
+TEST(TimeStepLimit, StableTimeStepIsBelowIt) {
+    // Table 1's stiffnesses in the most connected packing, with the default safety ...
+    const std::vector<Disc> lattice = hexagonal(20, 20, r);
+    const Material m;
+    EXPECT_LT(growth(lattice, m, stable_time_step(mass, m, 0.8), 5000), 100.0);
+    // ... and without any: "largest stable step".
+    EXPECT_LT(growth(lattice, m, stable_time_step(mass, m, 0.99), 5000), 100.0);
+}
+
+TEST(TimeStepLimit, ShrinksWithMassAndStiffness) {
+    const Material m, stiff{4.0 * m.normal_stiffness, 4.0 * m.shear_stiffness, 0.0, true};
+    const double step = stable_time_step(mass, m, 0.8);
+    EXPECT_DOUBLE_EQ(stable_time_step(4.0 * mass, m, 0.8), 2.0 * step);
+    EXPECT_DOUBLE_EQ(stable_time_step(mass, stiff, 0.8), 0.5 * step);
+    EXPECT_DOUBLE_EQ(stable_time_step(mass, m, 0.4), 0.5 * step);
+}
+
+} // namespace
+} // namespace listric
