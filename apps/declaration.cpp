@@ -101,6 +101,8 @@ std::vector<Parameter> parameters(OutputParameters& p) {
         {"interval_m", &p.interval, "m", {.from = 1, .to = 1e6}, "", "extension between snapshots"},
         {"figures_at_m", &p.figures, "m", {.from = 0, .to = 1e6}, "",
          "extensions at which figures are drawn"},
+        {"series", one_of({"paraview", "none"}, p.series), "", {}, "",
+         "files beside each snapshot that ParaView opens"},
     };
 }
 

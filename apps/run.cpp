@@ -3,6 +3,7 @@
 #include "apps/effects.hpp"
 #include "apps/figures.hpp"
 #include "apps/measure.hpp"
+#include "apps/paraview.hpp"
 #include "apps/prediction.hpp"
 #include "apps/summary.hpp"
 #include "apps/version.hpp"
@@ -270,6 +271,8 @@ void append_history(Run& run) {
 void save(Run& run) {
     const Stopwatch watch(run.record, "output");
     write_snapshot(snapshot_path(run.options.output, run.state), run.state, run.events, run.record);
+    if (run.scene.output.series == SeriesFormat::paraview)
+        write_paraview(run.options.output, run.state, run.base, run.scene.extension.rate);
 }
 
 void draw(Run& run, Voice& voice) {
@@ -348,7 +351,7 @@ bool check_output(const Scene& scene, const RunOptions& options) {
                          (fs::exists(summary, error) ? "a finished run" : "an unfinished run") +
                          ": --resume continues it, --force replaces it, --output writes elsewhere");
     if (options.force) {
-        for (const char* part : {"snapshots", "figures", "summary.json", "history.csv",
+        for (const char* part : {"snapshots", "figures", "paraview", "paraview.pvd", "summary.json", "history.csv",
                                  "scene.toml", "log.txt"})
             fs::remove_all(output / part, error);
     }

@@ -53,9 +53,12 @@ struct GravityParameters {
     double acceleration = 9.81; ///< m/s^2
 };
 
+enum class SeriesFormat { paraview, none };
+
 struct OutputParameters {
     double interval = 500.0;                       ///< extension between snapshots, m
     std::vector<double> figures = {5e3, 10e3};     ///< extensions at which figures are drawn, m
+    SeriesFormat series = SeriesFormat::paraview;
 };
 
 /// Everything that determines a simulation. An effect is on exactly when its table is there.

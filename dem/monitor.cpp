@@ -1,6 +1,7 @@
 #include "dem/monitor.hpp"
 
 #include "dem/law.hpp"
+#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +83,41 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
     if (balance.touching)
         balance.mean_contact = contact_sum / static_cast<double>(balance.touching);
     return balance;
+}
+
+std::vector<Stress> disc_stresses(const State& state, const RigidBase& base) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const ConstBaseContactColumns b = base_contact_columns(state);
+    std::vector<Stress> stress(d.x.size());
+    // `out` points from the disc's centre to the contact, `normal` and `shear` act on the disc.
+    const auto add = [&](std::size_t i, double arm, Point out, double normal, Point t,
+                         double shear) {
+        const double fx = -normal * out.x + shear * t.x, fy = -normal * out.y + shear * t.y;
+        const double area = pi * d.radius[i] * d.radius[i];
+        stress[i].xx += fx * arm * out.x / area;
+        stress[i].yy += fy * arm * out.y / area;
+        stress[i].xy += 0.5 * arm * (fx * out.y + fy * out.x) / area;
+    };
+    for_each_touching(state, [&](std::size_t k, std::size_t i, std::size_t j, Point n,
+                                 double overlap) {
+        const double normal = contact_parameters(state.materials[d.material[i]],
+                                                 state.materials[d.material[j]], 1.0)
+                                  .normal_stiffness *
+                              overlap;
+        const Point t{-n.y, n.x};
+        add(i, d.radius[i] - 0.5 * overlap, n, normal, t, -c.shear_force[k]);
+        add(j, d.radius[j] - 0.5 * overlap, {-n.x, -n.y}, normal, t, c.shear_force[k]);
+    });
+    for_each_base_contact(state, base, [&](std::size_t k, std::size_t i, std::size_t, Point n,
+                                           double overlap) {
+        const double normal =
+            contact_parameters(base.material, state.materials[d.material[i]], 1.0)
+                .normal_stiffness *
+            overlap;
+        add(i, d.radius[i] - overlap, {-n.x, -n.y}, normal, {-n.y, n.x}, b.shear_force[k]);
+    });
+    return stress;
 }
 
 std::vector<int> coordination(const State& state, const RigidBase& base) {

@@ -23,6 +23,15 @@ struct ForceBalance {
 /// Forces as they stand, without advancing anything. `gravity` in m/s^2.
 ForceBalance force_balance(const State& state, const RigidBase& base, double gravity);
 
+/// Mean stress tensor of a disc, Pa, compression negative.
+struct Stress {
+    double xx = 0.0, yy = 0.0, xy = 0.0;
+};
+
+/// Stress of every disc: sum of force on it times arm to the contact, over its own area. Multiply by
+/// the solid fraction for the stress of the rock.
+std::vector<Stress> disc_stresses(const State& state, const RigidBase& base);
+
 /// Number of touching discs and surfaces of every disc.
 std::vector<int> coordination(const State& state, const RigidBase& base);
 

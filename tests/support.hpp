@@ -105,12 +105,12 @@ inline void bond_all(State& state, const RigidBase& base, float strength = 1e30f
     }
 }
 
-/// Floor along y = 0 and two walls.
+/// Floor along y = 0 and two walls, which go on beyond the corners so that outside is outside.
 inline RigidBase box(double width, double height, double friction = 0.0) {
     RigidBase base;
-    base.surfaces = {{"left", {line({0.0, height}, {0.0, 0.0})}, friction},
-                     {"floor", {line({0.0, 0.0}, {width, 0.0})}, friction},
-                     {"right", {line({width, 0.0}, {width, height})}, friction}};
+    base.surfaces = {{"left", {line({0.0, height}, {0.0, -height})}, friction},
+                     {"floor", {line({-width, 0.0}, {2.0 * width, 0.0})}, friction},
+                     {"right", {line({width, -height}, {width, height})}, friction}};
     return base;
 }
 
@@ -131,7 +131,7 @@ inline RigidBase listric_base(double radius, double length) {
     return base;
 }
 
-/// Mass in series with stiffness: the contact of two discs of one material.
+/// Of the contact of two discs of one material: two springs in series.
 inline double contact_stiffness(const Material& m) { return 0.5 * m.normal_stiffness; }
 
 /// Row of the contact of two discs given by their ids; the table's size if there is none.

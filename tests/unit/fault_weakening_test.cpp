@@ -1,8 +1,9 @@
 // A block of random discs cut by a plane along which its two sides slid by 1.2 times the threshold.
 // A measure circle of radius R whose centre lies h off the plane sees the slip reduced by the share
 // of discs on the wrong side, about 4 h / (pi R); so what is found lies within
-// h = (1 - 1 / 1.2) pi R / 4 = 61 m of the plane if discs were dense, and within one mean diameter
+// h = (1 - 1 / 1.2) pi R / 4 = 0.33 mean diameters of the plane if discs were dense, and within one mean diameter
 // with discs of that size. The angle is one of the twelve tried, hence within one step, 15 degrees.
+// The threshold is strain rate * interval * strained width.
 
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/property_update.hpp"
@@ -17,14 +18,15 @@ namespace {
 
 using namespace support;
 
-constexpr double r = 93.1, diameter = 2.0 * r, rate = 0.01;
+constexpr double r = 93.1, rate = 0.01;
 constexpr double degree = pi / 180.0;
-const double threshold = 1e-13 * 5e4 * seconds_per_year * 600.0;
+constexpr FaultWeakeningParameters parameters;
 
 struct Block {
     State state;
-    FaultWeakening event{{}, rate, 9.81, 2600.0};
+    FaultWeakening event{parameters, rate, 9.81, 2600.0};
     Point middle;
+    double diameter, threshold;
 
     Block() {
         std::vector<Disc> discs = cloud(50, 45, r, 8);
@@ -32,6 +34,9 @@ struct Block {
             disc.y -= 9e3;
         middle = {49.0 * r, -9e3 + 22.0 * std::sqrt(3.0) * r};
         state = make_state(discs);
+        diameter = 2.0 * state.mean_radius;
+        threshold = 1e-13 * 5e4 * seconds_per_year *
+                    (parameters.strained_width * parameters.circle_diameters * diameter);
         bond_all(state, {});
         event.begin(state);
         state.clock.extension = 500.0;
@@ -60,7 +65,7 @@ TEST(FaultWeakening, FindsThePlane) {
     for (double angle : {60.0, 120.0, 52.5, 0.0})
         for (double sense : {-1.0, 1.0}) {
             Block b;
-            b.slide(angle * degree, sense * 1.2 * threshold);
+            b.slide(angle * degree, sense * 1.2 * b.threshold);
             b.apply();
             const auto x = b.found("x_m"), y = b.found("y_m"), a = b.found("angle_rad");
             // The plane is 42 diameters long or more; gaps are below twice the spacing.
@@ -68,43 +73,45 @@ TEST(FaultWeakening, FindsThePlane) {
             for (std::size_t k = 0; k < x.size(); ++k) {
                 double turn = std::abs(a[k] - angle * degree);
                 turn = std::min(turn, pi - turn);
-                EXPECT_LE(turn, 15.0 * degree) << angle;
-                EXPECT_LT(std::abs(b.off_plane(x[k], y[k], angle * degree)), diameter) << angle;
+                EXPECT_LE(turn, 15.0 * degree + 1e-12) << angle;
+                EXPECT_LT(std::abs(b.off_plane(x[k], y[k], angle * degree)), b.diameter) << angle;
                 const double slip = b.found("slip_m")[k];
-                EXPECT_GT(std::abs(slip), threshold);
-                EXPECT_LE(std::abs(slip), 1.2 * threshold * (1.0 + 1e-12));
+                EXPECT_GT(std::abs(slip), b.threshold);
+                EXPECT_LE(std::abs(slip), 1.2 * b.threshold * (1.0 + 1e-12));
                 // 165 degrees and 0 are neighbours but point opposite ways.
                 if (std::abs(a[k] - angle * degree) < 0.5 * pi) {
                     EXPECT_GT(sense * slip, 0.0) << angle;
                 }
                 EXPECT_EQ(b.found("found_at_m")[k], 500.0);
                 for (std::size_t m = 0; m < k; ++m)
-                    EXPECT_GE(std::hypot(x[k] - x[m], y[k] - y[m]), 5.0 * diameter);
+                    EXPECT_GE(std::hypot(x[k] - x[m], y[k] - y[m]), 5.0 * b.diameter);
             }
         }
 }
 
 TEST(FaultWeakening, ConvertsTheBandAndNothingElse) {
     Block b;
-    b.slide(60.0 * degree, 1.2 * threshold);
+    b.slide(60.0 * degree, 1.2 * b.threshold);
     const std::vector<double> before(disc_columns(b.state).radius.begin(),
                                      disc_columns(b.state).radius.end());
     b.apply();
     const DiscColumns d = disc_columns(b.state);
     const WeakenedColumns w = weakened_columns(b.state);
     const auto x = b.found("x_m"), y = b.found("y_m"), a = b.found("angle_rad");
+    const double half_width = 0.5 * parameters.band_diameters * b.diameter;
+    const double soft = 0.5 * b.state.materials[weak].normal_stiffness;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         bool in_band = false;
         for (std::size_t k = 0; k < x.size(); ++k) {
             const double dx = d.x[i] - x[k], dy = d.y[i] - y[k];
-            in_band = in_band || (std::hypot(dx, dy) < 2.5 * diameter &&
+            in_band = in_band || (std::hypot(dx, dy) < 2.5 * b.diameter &&
                                   std::abs(dy * std::cos(a[k]) - dx * std::sin(a[k])) <
-                                      1.5 * diameter);
+                                      half_width);
         }
         ASSERT_EQ(d.material[i] == weak, in_band) << d.x[i] << " " << d.y[i];
         EXPECT_EQ(w.rock_radius[i], in_band ? before[i] : 0.0);
         EXPECT_EQ(w.scanned_x[i], d.x[i]);
-        const double q = 0.75 * 2600.0 * 9.81 * -d.y[i] / (0.5 * b.state.materials[weak].normal_stiffness);
+        const double q = 0.75 * 2600.0 * 9.81 * -d.y[i] / soft;
         const double enlarged = in_band ? 1.0 + q / (1.0 + 0.42 * q) : 1.0;
         EXPECT_NEAR(d.radius[i], before[i] * enlarged, 1e-12 * before[i]);
     }
@@ -123,7 +130,7 @@ TEST(FaultWeakening, ConvertsTheBandAndNothingElse) {
 
 TEST(FaultWeakening, NothingBelowTheThreshold) {
     Block b;
-    b.slide(60.0 * degree, 0.99 * threshold);
+    b.slide(60.0 * degree, 0.99 * b.threshold);
     b.apply();
     EXPECT_EQ(b.event.memory.rows(), 0u);
     EXPECT_EQ(b.weak_discs(), 0);
@@ -145,7 +152,7 @@ TEST(FaultWeakening, NothingUnderRigidMotion) {
 
 TEST(FaultWeakening, SlipCountsFromTheLastScan) {
     Block b;
-    b.slide(60.0 * degree, 1.2 * threshold);
+    b.slide(60.0 * degree, 1.2 * b.threshold);
     b.apply();
     const std::size_t first = b.event.memory.rows();
     const std::ptrdiff_t discs = b.weak_discs();
@@ -159,13 +166,14 @@ TEST(FaultWeakening, WeakBandsAreNotWidened) {
     Block b;
     const DiscColumns d = disc_columns(b.state);
     for (std::size_t i = 0; i < d.x.size(); ++i)
-        if (std::abs(b.off_plane(d.x[i], d.y[i], 60.0 * degree)) < 1.5 * diameter) {
+        if (std::abs(b.off_plane(d.x[i], d.y[i], 60.0 * degree)) <
+            0.5 * parameters.band_diameters * b.diameter) {
             d.material[i] = weak;
             weakened_columns(b.state).rock_radius[i] = d.radius[i];
         }
     const std::ptrdiff_t before = b.weak_discs();
     for (int window = 0; window < 3; ++window) {
-        b.slide(60.0 * degree, 1.2 * threshold);
+        b.slide(60.0 * degree, 1.2 * b.threshold);
         b.apply();
         EXPECT_EQ(b.weak_discs(), before);
     }
@@ -181,8 +189,8 @@ TEST(FaultWeakening, YoungSedimentIsLeftAlone) {
             d.stratum[i] = d.x[i] < b.middle.x ? 1 : 2;
             d.start_extension[i] = d.x[i] < b.middle.x ? 2900.0 : 3100.0;
         }
-    b.slide(0.5 * pi - 1e-9, 1.2 * threshold); // between the two strata
-    b.slide(60.0 * degree, 1.2 * threshold);
+    b.slide(0.5 * pi - 1e-9, 1.2 * b.threshold); // between the two strata
+    b.slide(60.0 * degree, 1.2 * b.threshold);
     b.apply();
     EXPECT_GT(b.weak_discs(), 0);
     for (std::size_t i = 0; i < d.x.size(); ++i)

@@ -102,6 +102,7 @@ TEST(Ground, FillNeitherOverlapsNorSinks) {
         }
         EXPECT_GE(held_by, 1);
         held_twice += held_by >= 2;
+        if (held_by<2) printf("DBG %d drop at x-: %g x+: %g   x-1m %g x+1m %g\n",dropped,ground.height(place->x-2e-6,radius)-place->y,ground.height(place->x+2e-6,radius)-place->y,ground.height(place->x-1,radius)-place->y,ground.height(place->x+1,radius)-place->y);
         ground.add(*place, radius);
         discs.push_back({place->x, place->y, radius});
     }

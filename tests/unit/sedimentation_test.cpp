@@ -56,7 +56,7 @@ TEST(Sedimentation, FillsToTheLevelWithoutOverlap) {
         EXPECT_GE(d.radius[i], smallest);
         EXPECT_LE(d.radius[i], largest);
         EXPECT_LE(d.y[i] + d.radius[i], depth + 0.5 * smallest);
-        auto& t = top[static_cast<std::size_t>(20.0 * d.x[i] / width)];
+        auto& t = top[static_cast<std::size_t>(std::clamp(20.0 * d.x[i] / width, 0.0, 19.0))];
         t = std::max(t, d.y[i] + d.radius[i]);
     }
     for (double t : top)

@@ -61,9 +61,9 @@ TEST(BondBreak, TensionRampedUp) {
     EXPECT_EQ(p.discs().vx[1], v); // no force is left
 }
 
-/// Shears the pair by spinning both discs alike, which leaves the geometry alone; stops at `end`.
+/// Shears the pair by spinning both discs alike, which leaves the geometry alone.
 std::vector<double> sheared(HeavyPair& p, int cycles) {
-    p.discs().spin[0] = p.discs().spin[1] = -1.0;
+    p.discs().spin[0] = p.discs().spin[1] = 1.0;
     std::vector<double> force;
     for (int n = 0; n < cycles; ++n) {
         p.cycle();

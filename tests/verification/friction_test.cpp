@@ -19,24 +19,29 @@ using namespace support;
 
 constexpr double g = 9.81, r = 1.0, seconds = 1.0, step = 2e-5;
 
-/// Discs resting on a plane that dips to the right.
+/// A disc, or a triangle of bonded discs with one side down, on a plane that dips to the right.
 struct Incline {
     State state;
     RigidBase base;
     Point down, normal;
 
-    Incline(double dip, double friction, std::size_t discs)
+    Incline(double dip, double friction, bool triangle)
         : down{std::cos(dip), -std::sin(dip)}, normal{std::sin(dip), std::cos(dip)} {
         base.surfaces = {{"plane",
                           {line({-1e3 * down.x, -1e3 * down.y}, {1e3 * down.x, 1e3 * down.y})},
                           friction}};
         const double mass = density * pi * r * r;
-        const double sink = mass * g * std::cos(dip) / contact_stiffness(base.material);
+        const double sink = (triangle ? 1.5 : 1.0) * mass * g * std::cos(dip) /
+                            contact_stiffness(base.material);
         std::vector<Disc> start;
-        for (std::size_t k = 0; k < discs; ++k) {
-            const double along = 2.0 * r * static_cast<double>(k);
-            start.push_back({along * down.x + (r - sink) * normal.x,
-                             along * down.y + (r - sink) * normal.y, r});
+        const auto add = [&](double along, double height) {
+            start.push_back({along * down.x + (height - sink) * normal.x,
+                             along * down.y + (height - sink) * normal.y, r});
+        };
+        add(0.0, r);
+        if (triangle) {
+            add(2.0 * r, r);
+            add(r, r + std::sqrt(3.0) * r);
         }
         state = make_state(start);
         state.clock.time_step = step;
@@ -50,9 +55,9 @@ struct Incline {
 };
 
 TEST(Friction, BlockSlides) {
-    // Two bonded discs cannot spin.
+    // Three bonded discs cannot spin: two would turn like gears.
     const double dip = pi / 6.0, mu = 0.3;
-    Incline i(dip, mu, 2);
+    Incline i(dip, mu, true);
     i.run(seconds);
     const double a = g * (std::sin(dip) - mu * std::cos(dip));
     EXPECT_NEAR(i.travelled(), 0.5 * a, 0.01 * 0.5 * a);
@@ -61,14 +66,14 @@ TEST(Friction, BlockSlides) {
 
 TEST(Friction, BlockStays) {
     const double dip = pi / 18.0; // tan 10 degrees = 0.176
-    Incline i(dip, 0.5, 2);
+    Incline i(dip, 0.5, true);
     i.run(seconds);
     EXPECT_NEAR(i.travelled(), 0.0, 1e-4); // elastic shear of the contact
 }
 
 TEST(Friction, DiscRolls) {
     const double dip = pi / 9.0; // tan 20 degrees = 0.364 < 3 mu
-    Incline i(dip, 0.3, 1);
+    Incline i(dip, 0.3, false);
     i.run(seconds);
     const double expected = 0.5 * 2.0 / 3.0 * g * std::sin(dip);
     EXPECT_NEAR(i.travelled(), expected, 0.01 * expected);
@@ -77,7 +82,7 @@ TEST(Friction, DiscRolls) {
 
 TEST(Friction, DiscSlipsAndSpinsUp) {
     const double dip = pi / 6.0, mu = 0.1; // tan 30 degrees = 0.577 > 3 mu
-    Incline i(dip, mu, 1);
+    Incline i(dip, mu, false);
     i.run(seconds);
     const double a = g * (std::sin(dip) - mu * std::cos(dip));
     EXPECT_NEAR(i.travelled(), 0.5 * a, 0.01 * 0.5 * a);
@@ -87,7 +92,7 @@ TEST(Friction, DiscSlipsAndSpinsUp) {
 
 TEST(Friction, ThrownDiscEndsRolling) {
     const double mu = 0.2, v = 3.0, end = v / (3.0 * mu * g);
-    Incline before(0.0, mu, 1), after(0.0, mu, 1);
+    Incline before(0.0, mu, false), after(0.0, mu, false);
     for (Incline* i : {&before, &after})
         disc_columns(i->state).vx[0] = v;
     before.run(0.95 * end);
@@ -102,7 +107,7 @@ TEST(Friction, ThrownDiscEndsRolling) {
 
 TEST(Friction, ConveyorTakesTheDiscAlong) {
     // Thrown from a moving base's point of view: the disc ends with a third of its speed.
-    Incline i(0.0, 0.2, 1);
+    Incline i(0.0, 0.2, false);
     i.base.surfaces[0].conveyor = 1.0;
     i.base.motion.speed = 3.0;
     i.run(1.5 * 3.0 / (3.0 * 0.2 * g));

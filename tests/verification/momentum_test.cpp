@@ -34,10 +34,16 @@ Momentum momentum(const State& state) {
     return sum;
 }
 
+/// A relaxed cluster, bonded with the given strength, whose discs fly apart or at each other.
 State cluster(float strength) {
     State state = make_state(cloud(8, 8, 93.1, 2));
-    bond_all(state, {}, strength);
+    bond_all(state, {});
     state.clock.time_step = 0.004;
+    advance(state, {}, {0.7, 0.0}, 5000);
+    const ContactColumns c = contact_columns(state);
+    for (std::size_t k = 0; k < c.first.size(); ++k)
+        if (c.bonded[k])
+            bond(state, k, strength, strength);
     Random random(9);
     const DiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
