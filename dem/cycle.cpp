@@ -188,7 +188,8 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
 }
 
 double stable_time_step(double mass, const Material& m, double safety) {
-    const double stiffness = 3.0 * 0.5 * (m.normal_stiffness + m.shear_stiffness);
+    const double normal = 0.5 * m.normal_stiffness, shear = 0.5 * m.shear_stiffness;
+    const double stiffness = std::max(3.0 * (normal + shear), 12.0 * shear);
     return safety * std::sqrt(2.0 * mass / stiffness);
 }
 

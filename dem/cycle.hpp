@@ -36,9 +36,10 @@ struct Execution {
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
              std::int64_t cycles, const Execution& execution = {});
 
-/// Largest stable step times `safety` for a disc of mass `mass` (kg) with six contacts of its own
-/// kind: sqrt(2) sqrt(m / k), k = 3 (K + K_s), since the highest eigenvalue of a contact network is
-/// at most 2 k / m (Gershgorin) and the integration stable below 2 / omega.
+/// Largest stable time step times `safety`, s, of discs of mass `mass` (kg) with six contacts each:
+/// sqrt(2 m / k), k the greater of 3 (K + K_s), for translation, and 12 K_s, for rotation (inertia
+/// m r^2 / 2). The highest eigenvalue of a network of such contacts is at most 2 k / m, since
+/// (a - b)^2 <= 2 a^2 + 2 b^2 in every contact's energy, and the integration is stable below 2 / omega.
 double stable_time_step(double mass, const Material& material, double safety);
 
 } // namespace listric

@@ -49,6 +49,16 @@ TEST(Determinism, CallsMayBeCut) {
     EXPECT_NE(disc_columns(once.state).searched_y[200], disc_columns(once.state).start_y[200]);
 }
 
+TEST(Determinism, NeitherThreadsNorRegistersMatter) {
+    Fall plain;
+    advance(plain.state, plain.base, physics, 1500, {1, Cycle::plain});
+    for (int threads : {1, 2, 5}) {
+        Fall fast;
+        advance(fast.state, fast.base, physics, 1500, {threads, Cycle::fast});
+        EXPECT_EQ(hash(fast.state), hash(plain.state)) << threads << " threads";
+    }
+}
+
 TEST(Determinism, CopiesGoOnAlike) {
     Fall fall;
     advance(fall.state, fall.base, physics, 1234);

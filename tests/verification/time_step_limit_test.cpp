@@ -43,7 +43,7 @@ double growth(std::vector<Disc> discs, const Material& material, double time_ste
         for (std::size_t i = 0; i < d.x.size(); ++i)
             largest = std::max({largest, std::abs(d.x[i] - discs[i].x) / amplitude,
                                 std::abs(d.y[i] - discs[i].y) / amplitude,
-                                std::abs(d.rotation[i]) * r / amplitude});
+                                std::abs(d.spin[i]) * r * time_step / amplitude});
     }
     return largest;
 }
