@@ -58,17 +58,19 @@ Packing read_packing(const std::filesystem::path& path) {
         throw UsageError(path.string() + ": cannot be read");
     std::istringstream record;
     int number = 0;
-    std::size_t n = 0;
+    std::int64_t n = 0;
     double width = 0, top = 0, normal = 0, shear = 0, friction = 0, density = 0, gravity = 0;
     if (!next_record(in, record, number) ||
-        !(record >> n >> width >> top >> normal >> shear >> friction >> density >> gravity) || n == 0)
+        !(record >> n >> width >> top >> normal >> shear >> friction >> density >> gravity) || n <= 0 ||
+        n > 100'000'000)
         throw UsageError(fmt::format("{}:{}: the header must be: n width top kn_contact ks_contact "
                                      "mu density gravity",
                                      path.string(), number));
-    Packing p = make_packing(n, width, normal, shear, friction, gravity);
+    const auto count = static_cast<std::size_t>(n);
+    Packing p = make_packing(count, width, normal, shear, friction, gravity);
     DiscColumns d = disc_columns(p.state);
     double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         if (!next_record(in, record, number) || !(record >> d.x[i] >> d.y[i] >> d.radius[i]) ||
             !(d.radius[i] > 0.0))
             throw UsageError(fmt::format("{}:{}: disc {} of {} must be: x y r, with r > 0",
@@ -76,6 +78,9 @@ Packing read_packing(const std::filesystem::path& path) {
         d.mass[i] = density * pi * d.radius[i] * d.radius[i];
         sum += d.radius[i];
     }
+    if (next_record(in, record, number))
+        throw UsageError(fmt::format("{}:{}: more than the {} discs of the header", path.string(),
+                                     number, n));
     p.state.mean_radius = sum / static_cast<double>(n);
     return p;
 }

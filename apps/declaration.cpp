@@ -218,6 +218,7 @@ std::vector<Parameter> top_level(Scene& scene) {
     std::vector<std::string_view> levels;
     std::ranges::transform(accuracy_levels(), std::back_inserter(levels), &AccuracyLevel::name);
     return {
+        {"name", &scene.name, "", {}, "", "of results; default: the file's name"},
         {"description", &scene.description, "", {}, "", "what the scene shows, in a line"},
         {"accuracy", one_of(levels, scene.accuracy), "", {}, "",
          "sets the defaults that trade time for detail"},

@@ -35,7 +35,7 @@ std::vector<std::unique_ptr<Event>> make_events(const Scene& s) {
         events.push_back(std::make_unique<Sedimentation>(*s.sedimentation,
                                                          s.hanging_wall->radius_ratio, rate));
     // Last, so that a window starts with the discs that were deposited at its start.
-    events.push_back(std::make_unique<Strain>(s.output.interval, rate));
+    events.push_back(std::make_unique<Strain>(strain_window, rate));
     return events;
 }
 

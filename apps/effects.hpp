@@ -9,6 +9,9 @@
 
 namespace listric {
 
+/// Extension over which strain is measured, m.
+inline constexpr double strain_window = 500.0;
+
 /// The events of a scene, in the order in which they are applied at the same moment. An effect
 /// whose table is not in the scene has no event, so it has no memory and no cost.
 std::vector<std::unique_ptr<Event>> make_events(const Scene& scene);

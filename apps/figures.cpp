@@ -4,6 +4,7 @@
 #include "apps/measure.hpp"
 #include "apps/npy.hpp"
 #include "dem/contacts.hpp"
+#include "dem/events/strain.hpp"
 #include "dem/power_cell.hpp"
 
 #include <nlohmann/json.hpp>
@@ -38,7 +39,12 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
     for (double y : d.start_y)
         depth.push_back(-y);
     put<double>(folder, "discs_start_depth", depth);
-    put<double>(folder, "discs_shear_strain", state.discs.get<double>("window_strain"));
+    const bool first_window = std::ranges::none_of(
+        events, [](const auto& e) { return e->name() == "strain" && e->applied > 0; });
+    if (first_window)
+        put<double>(folder, "discs_shear_strain", shear_strain(state));
+    else
+        put<double>(folder, "discs_shear_strain", state.discs.get<double>("window_strain"));
     put<double>(folder, "discs_total_shear_strain", state.discs.get<double>("total_strain"));
     if (scene.fault_weakening) {
         std::vector<std::uint8_t> is_weak;
@@ -105,7 +111,7 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
         {"seed", scene.seed},
         {"accuracy", scene.accuracy},
         {"effects", effect_names(scene)},
-        {"strain_window_m", scene.output.interval},
+        {"strain_window_m", strain_window},
         {"thickness_m", scene.hanging_wall->thickness},
     };
     std::ofstream(folder / "frame.json") << frame.dump(1);

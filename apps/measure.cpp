@@ -2,6 +2,7 @@
 
 #include "dem/contacts.hpp"
 #include "dem/events/property_update.hpp"
+#include "dem/events/strain.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -274,6 +275,7 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
     const Chain& detachment = base.surfaces.front().chain;
     const double extension = state.clock.extension;
     Measures m;
+    m.inertial_number = 0.0;
 
     const Profile profile = measure_profile(scene, state, base);
     for (double top : profile.pre_rift_top)
@@ -286,11 +288,17 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
     if (scene.sedimentation)
         m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, 250.0);
 
-    if (const Event* strain = find_event(events, "strain"); strain && strain->applied > 0) {
-        const auto window = state.discs.get<double>("window_strain");
-        const auto total = state.discs.get<double>("total_strain");
+    if (const Event* strain = find_event(events, "strain"); strain && extension > 0.0) {
+        // Before the first window is over, it is what there is of it.
+        const bool whole = strain->applied > 0;
+        const std::vector<double> so_far = whole ? std::vector<double>() : shear_strain(state);
+        const std::span<const double> window =
+            whole ? state.discs.get<double>("window_strain") : std::span<const double>(so_far);
+        const std::span<const double> total =
+            whole ? state.discs.get<double>("total_strain") : std::span<const double>(so_far);
         std::vector<double> last, sum, area, inertial;
-        const double rate = scene.extension.speed / strain->schedule().spacing();
+        const double rate =
+            scene.extension.speed / (whole ? strain->schedule().spacing() : extension);
         for (std::size_t i = 0; i < d.x.size(); ++i) {
             if (d.stratum[i] != 0)
                 continue;

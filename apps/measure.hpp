@@ -45,7 +45,7 @@ struct Measures {
     std::optional<double> volume_error_fraction;
     double mass_error_fraction = 0.0;
     double unbalanced_ratio_mean = 0.0, unbalanced_ratio_max = 0.0;
-    std::optional<double> inertial_number;       ///< of the tenth of the area strained most
+    double inertial_number = 0.0;                ///< of the tenth of the area strained most
     std::optional<std::vector<Depocentre>> depocentres;
     std::optional<std::vector<Fault>> faults;
 };

@@ -1,6 +1,7 @@
 #include "apps/program.hpp"
 
 #include "apps/bench.hpp"
+#include "apps/declaration.hpp"
 #include "apps/explain.hpp"
 #include "apps/run.hpp"
 #include "apps/version.hpp"
@@ -9,9 +10,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdio>
+#include <fcntl.h>
 #include <iostream>
+#include <optional>
 #include <thread>
+#include <unistd.h>
 
 namespace listric {
 
@@ -39,21 +45,24 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
     command.add_option("SCENE", request.scene, "Name of a scene (listric scenes) or a path")
         ->required();
     command.add_option("--set", request.set, "table.key=value; repeatable")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--without", request.without, "Switch off the effect TABLE; repeatable")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--accuracy", request.accuracy, "draft, standard, fine or sandbox");
     command.add_option("--seed", request.seed, "Of the packing and everything random");
 }
 
-int run(const SceneRequest& request, RunOptions options, const std::string& until,
-        const std::string& output) {
+int run(const SceneRequest& request, RunOptions options, const std::optional<std::string>& until, const std::string& output) {
     const Scene scene = load_scene(request);
-    if (!until.empty())
-        options.until = parse_length(until);
+    if (until)
+        options.until = parse_length(*until);
     options.output = output.empty() ? "out/" + scene.name : output;
     std::signal(SIGINT, [](int) { stop_requested = true; });
     std::signal(SIGTERM, [](int) { stop_requested = true; });
+    std::signal(SIGHUP, [](int) { stop_requested = true; });
+    std::signal(SIGPIPE, SIG_IGN); // whoever read the progress may leave
     return run_scene(scene, options) == RunOutcome::finished ? done : stopped;
 }
 
@@ -61,12 +70,13 @@ int dispatch(int argc, char** argv) {
     CLI::App app{"listric: a numerical sandbox for halfgrabens", "listric"};
     app.set_version_flag("--version", std::string(version));
     app.require_subcommand(1);
-    app.failure_message(CLI::FailureMessage::help);
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
     SceneRequest request;
     RunOptions options;
     options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    std::string until, output, folder;
+    std::optional<std::string> until;
+    std::string output, folder;
     BenchRequest bench_request;
     bool parameters = false, unbonded = false;
 
@@ -101,6 +111,18 @@ int dispatch(int argc, char** argv) {
     bench_command->add_flag("--plain", bench_request.plain, "The scalar cycle");
     bench_command->add_flag("--unbonded", unbonded, "No contact bonds");
 
+    if (argc > 1 && argv[1][0] != '-') {
+        std::vector<std::string_view> calls;
+        for (const CLI::App* command : app.get_subcommands({}))
+            calls.push_back(command->get_name());
+        const std::string_view call = argv[1];
+        if (std::ranges::find(calls, call) == calls.end()) {
+            const auto meant = nearest(call, calls);
+            throw UsageError(fmt::format("no call {}; {}there are {}", call,
+                                         meant ? fmt::format("did you mean {}? ", *meant) : "",
+                                         fmt::join(calls, ", ")));
+        }
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -111,7 +133,7 @@ int dispatch(int argc, char** argv) {
         return run(request, options, until, output);
     if (*scenes_command) {
         for (const auto& [name, description] : list_scenes())
-            fmt::print("{:<12} {}\n", name, description);
+            std::cout << fmt::format("{:<12} {}\n", name, description);
     } else if (*explain_command) {
         if (parameters)
             std::cout << parameter_reference();
@@ -125,14 +147,25 @@ int dispatch(int argc, char** argv) {
         bench_request.bonded = !unbonded;
         std::cout << bench(bench_request) << '\n';
     }
+    if (!std::cout.flush())
+        throw StorageError("standard output cannot be written");
     return done;
+}
+
+/// A file that the run opens must not become its standard error, if that was closed.
+void keep_standard_files_open() {
+    for (int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0)
+            return;
 }
 
 } // namespace
 
 int program(int argc, char** argv) {
+    keep_standard_files_open();
     const auto complain = [](const std::exception& error, ExitCode code) {
-        fmt::print(stderr, "listric: {}\n", error.what());
+        const std::string text = fmt::format("listric: {}\n", error.what());
+        std::fwrite(text.data(), 1, text.size(), stderr);
         return static_cast<int>(code);
     };
     try {

@@ -15,10 +15,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace listric {
@@ -47,6 +49,8 @@ struct Run {
     RunRecord record;
     SteadyClock::time_point started = SteadyClock::now();
     double seconds_before = 0.0; ///< wall time of the sessions that this one resumes
+    fs::path kept;               ///< snapshot of the present state, if there is one
+    double drawn_at = -1.0;      ///< extension of the last figures, m
 
     explicit Run(const Scene& s, const RunOptions& o)
         : scene(s), options(o), base(make_base(s)),
@@ -87,7 +91,7 @@ public:
     void say(const std::string& text) {
         log_ << text << std::endl;
         if (!quiet_)
-            fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
+            tell(fmt::format("{}{}\n", terminal_ ? "\r\x1b[K" : "", text));
     }
 
     void progress(const std::string& text) {
@@ -96,11 +100,16 @@ public:
             return;
         said_ = true;
         last_ = SteadyClock::now();
-        fmt::print(stderr, "{}{}{}", terminal_ ? "\r\x1b[K" : "", text, terminal_ ? "" : "\n");
-        std::fflush(stderr);
+        tell(fmt::format("{}{}{}", terminal_ ? "\r\x1b[K" : "", text, terminal_ ? "" : "\n"));
     }
 
 private:
+    /// Nobody needs to listen: a closed or full stderr must not end a run.
+    static void tell(const std::string& text) {
+        std::fwrite(text.data(), 1, text.size(), stderr);
+        std::fflush(stderr);
+    }
+
     std::ofstream log_;
     bool quiet_, terminal_, said_ = false;
     SteadyClock::time_point last_;
@@ -196,20 +205,29 @@ void begin(Run& run, Voice& voice) {
     voice.say(fmt::format("hanging wall: {} discs", run.state.discs.rows()));
 }
 
+/// Gives the events of a scene back what they remembered.
+void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> events) {
+    for (const auto& event : events) {
+        const auto memory = snapshot.event_memory.find(event->name());
+        if (memory == snapshot.event_memory.end())
+            throw StorageError("the snapshot knows nothing of " + event->name());
+        event->memory = std::move(memory->second);
+        event->applied = snapshot.event_applied.at(event->name());
+    }
+}
+
 /// Continues from the newest snapshot that can be read. False if there is none.
 bool restore(Run& run, Voice& voice) {
     std::vector<fs::path> snapshots = list_snapshots(run.options.output);
     for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
         try {
             Snapshot snapshot = read_snapshot(*path);
-            for (auto& event : run.events) {
-                event->memory = std::move(snapshot.event_memory.at(event->name()));
-                event->applied = snapshot.event_applied.at(event->name());
-            }
+            hand_over(snapshot, run.events);
             run.state = std::move(snapshot.state);
             run.record = std::move(snapshot.record);
             for (const auto& [part, seconds] : run.record.seconds_by_part)
                 run.seconds_before += seconds;
+            run.kept = *path;
             voice.say(fmt::format("resuming at {:.2f} m of extension from {}",
                                   run.state.clock.extension, path->string()));
             return true;
@@ -270,22 +288,33 @@ void append_history(Run& run) {
 
 void save(Run& run) {
     const Stopwatch watch(run.record, "output");
-    write_snapshot(snapshot_path(run.options.output, run.state), run.state, run.events, run.record);
+    run.kept = snapshot_path(run.options.output, run.state);
+    write_snapshot(run.kept, run.state, run.events, run.record);
     if (run.scene.output.series == SeriesFormat::paraview)
         write_paraview(run.options.output, run.state, run.base, run.scene.extension.rate);
 }
 
 void draw(Run& run, Voice& voice) {
     const Stopwatch watch(run.record, "figures");
+    run.drawn_at = run.state.clock.extension;
     const std::string problem = draw_figures(run.scene, run.state, run.base, run.events,
                                              run.options.output / "figures");
     if (!problem.empty())
         voice.say("warning: no figures: " + problem);
 }
 
-std::string resume_hint(const Run& run) {
-    return fmt::format("resume with: listric run {} --output {} --resume",
-                       (run.options.output / "scene.toml").string(), run.options.output.string());
+/// A word as a shell takes it.
+std::string quoted(const std::string& word) {
+    std::string result = "'";
+    for (char letter : word)
+        result += letter == '\'' ? "'\\''" : std::string(1, letter);
+    return result + "'";
+}
+
+std::string resume_hint(const fs::path& output) {
+    const char* call = std::getenv("LISTRIC_CALL"); // how the launcher was called
+    return fmt::format("resume with: {} run {} --output {} --resume", call ? call : "listric",
+                       quoted((output / "scene.toml").string()), quoted(output.string()));
 }
 
 void report(Run& run, Voice& voice) {
@@ -334,37 +363,73 @@ void march(Run& run, Voice& voice) {
     }
 }
 
-/// Looks at the output folder before any work is done. True if there is nothing left to do.
-bool check_output(const Scene& scene, const RunOptions& options) {
-    const fs::path& output = options.output;
-    const fs::path summary = output / "summary.json";
+/// Keeps other runs out of the output folder while it lives.
+class Lock {
+public:
+    explicit Lock(const fs::path& output)
+        : file_(open((output / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+        if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            close(file_);
+            throw UsageError(output.string() + ": another run is writing there");
+        }
+    }
+    ~Lock() {
+        if (file_ >= 0)
+            close(file_);
+    }
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
+
+private:
+    int file_;
+};
+
+bool holds_run(const fs::path& output) {
     std::error_code error;
-    const bool has_run = fs::exists(output / "scene.toml", error) || fs::exists(summary, error);
-    if (options.resume && fs::exists(summary, error) && !options.force) {
-        const auto reached = summary_extension(summary);
-        const double target = std::min(scene.extension.distance, options.until.value_or(1e300));
-        if (reached && *reached >= target - 0.5)
-            return true;
-    }
-    if (has_run && !options.resume && !options.force)
-        throw UsageError(output.string() + " holds " +
-                         (fs::exists(summary, error) ? "a finished run" : "an unfinished run") +
-                         ": --resume continues it, --force replaces it, --output writes elsewhere");
-    if (options.force) {
-        for (const char* part : {"snapshots", "figures", "paraview", "paraview.pvd", "summary.json", "history.csv",
-                                 "scene.toml", "log.txt"})
-            fs::remove_all(output / part, error);
-    }
-    fs::create_directories(output / "snapshots", error);
-    if (error)
-        throw StorageError(output.string() + ": cannot make the output folder: " + error.message());
-    write_text(output / ".write-test", "x");
-    fs::remove(output / ".write-test", error);
-    // Files of a session that was killed while writing.
-    for (const auto& entry : fs::recursive_directory_iterator(output, error))
-        if (entry.path().extension() == ".part")
-            fs::remove(entry.path(), error);
-    return false;
+    return fs::exists(output / "scene.toml", error) || fs::exists(output / "summary.json", error);
+}
+
+/// Removes the files of a folder for which `ours` is true of the name.
+template <class Ours>
+void remove_files(const fs::path& folder, Ours&& ours) {
+    std::error_code error;
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (ours(entry.path().filename().string()))
+            found.push_back(entry.path());
+    for (const fs::path& path : found)
+        fs::remove_all(path, error);
+}
+
+/// What a session that was killed left half done.
+void remove_remains(const fs::path& output) {
+    const auto half_written = [](const std::string& name) {
+        // name.PID.part, as write_text and write_snapshot make them
+        const std::size_t end = name.size() >= 5 && name.ends_with(".part") ? name.size() - 5 : 0;
+        const std::size_t dot = end ? name.rfind('.', end - 1) : name.npos;
+        return dot != name.npos && dot > 0 && end > dot + 1 &&
+               std::ranges::all_of(name.substr(dot + 1, end - dot - 1),
+                                   [](char c) { return c >= '0' && c <= '9'; });
+    };
+    for (const fs::path& folder : {output, output / "snapshots", output / "paraview"})
+        remove_files(folder, half_written);
+    remove_files(output / "figures", [](const std::string& name) {
+        return name.starts_with(".data-") || (name.starts_with(".") && name.ends_with(".tmp"));
+    });
+}
+
+/// Removes a run's own files, and nothing else that may be in the folder.
+void remove_run(const fs::path& output) {
+    const auto ends = [](const char* ending) {
+        return [ending](const std::string& name) { return name.ends_with(ending); };
+    };
+    remove_files(output / "snapshots", ends(".h5"));
+    remove_files(output / "paraview", ends(".vtp"));
+    remove_files(output / "figures", ends("km.png"));
+    std::error_code error;
+    for (const char* file :
+         {"summary.json", "history.csv", "paraview.pvd", "log.txt", "scene.toml"})
+        fs::remove(output / file, error);
 }
 
 /// A resumed run must be the same run.
@@ -392,6 +457,39 @@ void check_same_scene(const Scene& scene, const fs::path& file) {
         file.string(), line_a, line_b));
 }
 
+/// Refuses a folder that holds something else than what is asked for, before any work is done.
+/// True if the run to resume has reached its end already.
+bool check_output(const Scene& scene, const RunOptions& options) {
+    const fs::path& output = options.output;
+    const fs::path summary = output / "summary.json";
+    std::error_code error;
+    if (!holds_run(output) || options.force)
+        return false;
+    if (!options.resume)
+        throw UsageError(output.string() + " holds " +
+                         (fs::exists(summary, error) ? "a finished run" : "an unfinished run") +
+                         ": --resume continues it, --force replaces it, --output writes elsewhere");
+    check_same_scene(scene, output / "scene.toml");
+    const auto reached = summary_extension(summary);
+    const double target = std::min(scene.extension.distance, options.until.value_or(1e300));
+    return reached && *reached >= target - 0.5;
+}
+
+/// Makes the output folder ready for this run.
+void prepare_output(const RunOptions& options) {
+    const fs::path& output = options.output;
+    std::error_code error;
+    if (options.force && holds_run(output))
+        remove_run(output);
+    fs::create_directories(output / "snapshots", error);
+    if (error)
+        throw StorageError(output.string() + ": cannot make the output folder: " + error.message());
+    remove_remains(output);
+    write_text(output / ".write-test", "x");
+    fs::remove(output / ".write-test", error);
+    fs::remove(output / "summary.json", error); // of a run that now goes on
+}
+
 } // namespace
 
 std::vector<fs::path> list_snapshots(const fs::path& output) {
@@ -400,7 +498,10 @@ std::vector<fs::path> list_snapshots(const fs::path& output) {
     for (const auto& entry : fs::directory_iterator(output / "snapshots", error))
         if (entry.path().extension() == ".h5")
             snapshots.push_back(entry.path());
-    std::ranges::sort(snapshots);
+    // By extension: longer names are further.
+    std::ranges::sort(snapshots, {}, [](const fs::path& p) {
+        return std::pair(p.native().size(), p.native());
+    });
     return snapshots;
 }
 
@@ -408,8 +509,10 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     if (check_output(scene, options))
         return RunOutcome::finished;
     const fs::path& output = options.output;
-    if (options.resume)
-        check_same_scene(scene, output / "scene.toml");
+    std::error_code error;
+    fs::create_directories(output, error);
+    const Lock lock(output);
+    prepare_output(options);
 
     Voice voice(output / "log.txt", options.quiet);
     Run run(scene, options);
@@ -427,29 +530,32 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
             save(run);
         }
         march(run, voice);
-        if (!near_any(scene.output.figures, run.state.clock.extension, 0.5 * scene.output.interval))
+        if (run.drawn_at != run.state.clock.extension)
             draw(run, voice);
-        if (!fs::exists(snapshot_path(output, run.state)))
+        if (run.kept != snapshot_path(output, run.state))
             save(run);
         const Measures measures = measure(scene, run.state, run.base, run.events);
         write_text(output / "summary.json",
                    summary_json(scene, options.threads, run.state, run.record, measures,
-                                run.wall_seconds()));
+                                run.wall_seconds(), run_hash(run.state, run.events)));
         voice.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}",
                               run.state.clock.extension / 1e3, time_left(run.wall_seconds()),
                               (output / "figures").string()));
         return RunOutcome::finished;
     } catch (const Interrupted&) {
         voice.say("stopped at " + fmt::format("{:.2f}", run.state.clock.extension) +
-                  " m of extension; " + resume_hint(run));
+                  " m of extension; " + resume_hint(output));
         return RunOutcome::interrupted;
     } catch (const NumericalFailure& failure) {
         const auto snapshots = list_snapshots(output);
+        if (snapshots.empty())
+            throw NumericalFailure(std::string(failure.what()) +
+                                   "\nit happened before the first snapshot; a smaller "
+                                   "cycle.time_step_safety may help");
         throw NumericalFailure(fmt::format(
-            "{}\nthe last good state is {}; a smaller cycle.time_step_safety or extension.speed_m_per_s "
-            "may help; {}",
-            failure.what(), snapshots.empty() ? "none" : snapshots.back().string(),
-            resume_hint(run)));
+            "{}\nthe last good state is {}; a smaller cycle.time_step_safety or "
+            "extension.speed_m_per_s in a new run may help; to go on from that state, {}",
+            failure.what(), snapshots.back().string(), resume_hint(output)));
     }
 }
 
@@ -466,11 +572,8 @@ void draw_run(const fs::path& output) {
             !near_any(scene.output.figures, snapshot.state.clock.extension,
                       0.5 * scene.output.interval))
             continue;
-        auto events = make_events(scene);
-        for (auto& event : events) {
-            event->memory = std::move(snapshot.event_memory.at(event->name()));
-            event->applied = snapshot.event_applied.at(event->name());
-        }
+        const auto events = make_events(scene);
+        hand_over(snapshot, events);
         const std::string problem = draw_figures(scene, snapshot.state, make_base(scene), events,
                                                  output / "figures");
         if (!problem.empty())

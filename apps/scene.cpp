@@ -568,8 +568,7 @@ Scene load_scene(const SceneRequest& request) {
 
 std::string to_toml(const Scene& scene) {
     Scene copy = scene; // scene_tables() binds variables
-    std::string lines = fmt::format("# Scene {}: all parameters in force.\n\n{}", scene.name,
-                                    write(top_level(copy)));
+    std::string lines = fmt::format("# All parameters in force.\n\n{}", write(top_level(copy)));
     for (const SceneTable& table : scene_tables(copy)) {
         if (table.in_scene)
             lines +=

@@ -89,7 +89,7 @@ struct SceneRequest {
     std::vector<std::string> set = {};        ///< "table.key=value"
     std::vector<std::string> without = {};    ///< tables to drop
     std::optional<std::string> accuracy = {}; ///< draft, standard, fine, sandbox
-    std::optional<std::uint64_t> seed = {};
+    std::optional<std::int64_t> seed = {};
 };
 
 /// A scene that cannot be used; what() is one line: "file:line: parameter: what is wrong, cure".

@@ -4,9 +4,10 @@
 
 #include <hdf5.h>
 
+#include <bit>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace listric {
@@ -29,13 +30,6 @@ public:
     Handle(const Handle&) = delete;
     Handle& operator=(const Handle&) = delete;
     operator hid_t() const { return id_; }
-
-    /// Closes now and reports what closing reports: the last data reach the disk here.
-    void finish(const char* what) {
-        const hid_t id = std::exchange(id_, -1);
-        if (close_(id) < 0)
-            throw StorageError(what);
-    }
 
 private:
     hid_t id_;
@@ -192,12 +186,44 @@ void for_each_number(AnyState& s, Visit&& visit) {
     visit("displacement_bound", s.displacement_bound);
 }
 
-constexpr const char* format = "listric snapshot 1";
+constexpr const char* format = "listric snapshot 2";
 
-void write_file(const fs::path& path, const State& state,
-                std::span<const std::unique_ptr<Event>> events, const RunRecord& record) {
-    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                "cannot create the file");
+/// Hash of all that a snapshot holds, so that a damaged file is not taken for another state.
+std::uint64_t content_hash(const Snapshot& snapshot) {
+    std::uint64_t h = hash(snapshot.state);
+    const auto stir = [&h](std::uint64_t word) {
+        h = std::rotl(h ^ word, 29) * 0x9e3779b97f4a7c15u;
+    };
+    const auto stir_text = [&](std::string_view text) {
+        stir(text.size());
+        for (char letter : text)
+            stir(static_cast<unsigned char>(letter));
+    };
+    for (const auto& [name, memory] : snapshot.event_memory) {
+        stir_text(name);
+        stir(hash(memory));
+        stir(static_cast<std::uint64_t>(snapshot.event_applied.at(name)));
+    }
+    const RunRecord& record = snapshot.record;
+    stir_text(record.scene);
+    stir(hash(record.history));
+    stir(std::bit_cast<std::uint64_t>(record.disc_steps));
+    stir(std::bit_cast<std::uint64_t>(record.predicted_seconds));
+    for (const auto& [part, seconds] : record.seconds_by_part) {
+        stir_text(part);
+        stir(std::bit_cast<std::uint64_t>(seconds));
+    }
+    return h;
+}
+
+/// The HDF5 file as bytes. It is made in memory: a disk that fills up while HDF5 writes leaves the
+/// library in a state that cannot even be closed.
+std::vector<std::byte> file_image(const State& state, std::span<const std::unique_ptr<Event>> events,
+                                  const RunRecord& record) {
+    const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "properties");
+    check(H5Pset_fapl_core(in_memory, 1 << 20, false), "core driver");
+    const Handle file(H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose,
+                      "cannot create the file");
     write_attribute(file, "format", format);
     write_attribute(file, "version", std::string(version));
     write_attribute_value(file, "seed", static_cast<std::int64_t>(state.seed));
@@ -216,11 +242,14 @@ void write_file(const fs::path& path, const State& state,
         write_attribute_value(group, "friction", m.friction);
         write_attribute_value(group, "bondable", static_cast<std::int64_t>(m.bondable));
     }
+    Snapshot content{state, {}, {}, record};
     const Handle memories = create_group(file, "events");
     for (const auto& event : events) {
         const Handle group = create_group(memories, event->name());
         write_attribute_value(group, "applied", event->applied);
         write_table(group, event->memory);
+        content.event_memory[event->name()] = event->memory;
+        content.event_applied[event->name()] = event->applied;
     }
     const Handle run = create_group(file, "run");
     // An attribute holds at most 64 kB; a scene is a few kB.
@@ -231,20 +260,52 @@ void write_file(const fs::path& path, const State& state,
     const Handle parts = create_group(run, "seconds_by_part");
     for (const auto& [part, seconds] : record.seconds_by_part)
         write_attribute_value(parts, part.c_str(), seconds);
+    write_attribute_value(file, "content_hash",
+                          static_cast<std::int64_t>(content_hash(content)));
     check(H5Fflush(file, H5F_SCOPE_LOCAL), "flushing");
-    file.finish("closing");
+    const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+    std::vector<std::byte> image(size > 0 ? static_cast<std::size_t>(size) : 0);
+    if (size <= 0 || H5Fget_file_image(file, image.data(), image.size()) < 0)
+        throw StorageError("no file image");
+    return image;
 }
 
-/// Moves the finished file to its name; removes it when that fails.
-void rename_into_place(const fs::path& temporary, const fs::path& path) {
-    std::error_code error;
-    fs::rename(temporary, path, error);
-    if (error)
-        throw StorageError(path.string() + ": " + error.message());
+/// Writes bytes to a temporary name, to the disk, and renames. The file of the final name is
+/// complete or the old one, whenever the program or the machine stops.
+void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
+    const fs::path temporary = path.string() + "." + std::to_string(getpid()) + ".part";
+    const auto fail = [&] {
+        const int cause = errno;
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw StorageError(path.string() + ": cannot write: " + std::strerror(cause));
+    };
+    const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0)
+        fail();
+    bool good = true;
+    while (good && !bytes.empty()) {
+        const ssize_t written = write(file, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR)
+            continue;
+        good = written > 0;
+        if (good)
+            bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    good = good && fsync(file) == 0;
+    const int cause = errno;
+    if (close(file) != 0 && good)
+        fail();
+    errno = cause;
+    if (!good || rename(temporary.c_str(), path.c_str()) != 0)
+        fail();
 }
 
-fs::path temporary_name(const fs::path& path) {
-    return path.string() + "." + std::to_string(getpid()) + ".part";
+std::uint64_t run_hash(std::uint64_t state,
+                       const std::map<std::string_view, std::uint64_t>& memories) {
+    for (const auto& [name, memory] : memories)
+        state = std::rotl(state ^ memory, 29) * 0x9e3779b97f4a7c15u;
+    return state;
 }
 
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
@@ -254,18 +315,7 @@ void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 void write_snapshot(const fs::path& path, const State& state,
                     std::span<const std::unique_ptr<Event>> events, const RunRecord& record) {
     silence_hdf5();
-    const fs::path temporary = temporary_name(path);
-    try {
-        errno = 0;
-        write_file(temporary, state, events, record);
-    } catch (const StorageError& error) {
-        const int cause = errno;
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw StorageError(path.string() + ": cannot write the snapshot (" + error.what() +
-                           (cause ? std::string(": ") + std::strerror(cause) : "") + ")");
-    }
-    rename_into_place(temporary, path);
+    write_bytes(path, file_image(state, events, record));
 }
 
 Snapshot read_snapshot(const fs::path& path) {
@@ -274,7 +324,7 @@ Snapshot read_snapshot(const fs::path& path) {
         const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
                           "cannot be opened as HDF5");
         if (read_attribute(file, "format") != format)
-            throw StorageError("is not a snapshot of this program");
+            throw StorageError("is not a snapshot of this version of the program");
         Snapshot snapshot;
         State& state = snapshot.state;
         state.seed = static_cast<std::uint64_t>(read_attribute_value<std::int64_t>(file, "seed"));
@@ -315,26 +365,31 @@ Snapshot read_snapshot(const fs::path& path) {
         check(H5Aiterate2(parts, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect,
                           &snapshot.record.seconds_by_part),
               "parts");
+        if (content_hash(snapshot) != static_cast<std::uint64_t>(read_attribute_value<std::int64_t>(
+                                          file, "content_hash")))
+            throw StorageError("is damaged (its content does not match its hash)");
         return snapshot;
-    } catch (const StorageError& error) {
+    } catch (const std::exception& error) {
         throw StorageError(path.string() + ": " + error.what());
     }
 }
 
+std::uint64_t run_hash(const State& state, std::span<const std::unique_ptr<Event>> events) {
+    std::map<std::string_view, std::uint64_t> memories;
+    for (const auto& event : events)
+        memories[event->name()] = hash(event->memory);
+    return run_hash(hash(state), memories);
+}
+
+std::uint64_t run_hash(const Snapshot& snapshot) {
+    std::map<std::string_view, std::uint64_t> memories;
+    for (const auto& [name, memory] : snapshot.event_memory)
+        memories[name] = hash(memory);
+    return run_hash(hash(snapshot.state), memories);
+}
+
 void write_text(const fs::path& path, std::string_view text) {
-    const fs::path temporary = temporary_name(path);
-    errno = 0;
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out) {
-        const int cause = errno;
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw StorageError(path.string() + ": cannot write" +
-                           (cause ? std::string(": ") + std::strerror(cause) : ""));
-    }
-    rename_into_place(temporary, path);
+    write_bytes(path, std::as_bytes(std::span(text)));
 }
 
 } // namespace listric

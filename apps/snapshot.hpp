@@ -42,6 +42,10 @@ void write_snapshot(const std::filesystem::path& path, const State& state,
 /// Throws StorageError if the file is missing, incomplete or of another kind.
 Snapshot read_snapshot(const std::filesystem::path& path);
 
+/// Hash of the state and of what the events remember: equal for equal runs.
+std::uint64_t run_hash(const State& state, std::span<const std::unique_ptr<Event>> events);
+std::uint64_t run_hash(const Snapshot& snapshot);
+
 /// Writes text under a temporary name and renames it. Throws StorageError.
 void write_text(const std::filesystem::path& path, std::string_view text);
 

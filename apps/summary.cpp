@@ -29,7 +29,7 @@ void for_each_measure(const Measures& m, Visit&& visit) {
     visit("mass_error_fraction", std::optional(m.mass_error_fraction));
     visit("unbalanced_ratio_mean", std::optional(m.unbalanced_ratio_mean));
     visit("unbalanced_ratio_max", std::optional(m.unbalanced_ratio_max));
-    visit("inertial_number", m.inertial_number);
+    visit("inertial_number", std::optional(m.inertial_number));
 }
 
 } // namespace
@@ -64,7 +64,8 @@ std::string to_csv(const Table& table) {
 }
 
 std::string summary_json(const Scene& scene, int threads, const State& state,
-                         const RunRecord& record, const Measures& m, double wall_seconds) {
+                         const RunRecord& record, const Measures& m, double wall_seconds,
+                         std::uint64_t state_hash) {
     nlohmann::ordered_json json = {
         {"scene", scene.name},
         {"accuracy", scene.accuracy},
@@ -76,7 +77,7 @@ std::string summary_json(const Scene& scene, int threads, const State& state,
         {"predicted_wall_s", record.predicted_seconds},
         {"disc_steps_per_s", record.disc_steps / wall_seconds},
         {"finished", true},
-        {"state_hash", fmt::format("{:016x}", hash(state))},
+        {"state_hash", fmt::format("{:016x}", state_hash)},
         {"extension_m", state.clock.extension},
     };
     for_each_measure(m, [&](const char* name, std::optional<double> value) {

@@ -69,7 +69,7 @@ double Ground::height(double x, double radius) const {
     double high = low + 4.0 * width_;
     while (clearance({x, high}) < radius) {
         high += 4.0 * (high - low);
-        if (high - low > 1e6)
+        if (high - low > 5e4) // beyond a wall
             return infinity;
     }
     for (int n = 0; n < 60 && high - low > 1e-7; ++n) {
@@ -84,27 +84,35 @@ std::optional<Point> Ground::rest(double x, double radius) const {
     if (y == infinity)
         return std::nullopt;
     const double step = 0.05 * radius;
-    const double direction =
-        height(x - step, radius) < height(x + step, radius) ? -1.0 : 1.0;
-    for (;;) {
-        const double next = height(x + direction * step, radius);
-        if (next >= y)
+    // Down the slope to the lowest place within a step on either side. The ground jumps where the
+    // disc passes another's flank: then there is lower ground beyond, and it rolls on.
+    for (int rolls = 0; rolls < 1000; ++rolls) {
+        const double direction =
+            height(x - step, radius) < height(x + step, radius) ? -1.0 : 1.0;
+        for (double next = height(x + direction * step, radius); next < y;
+             next = height(x + direction * step, radius)) {
+            x += direction * step;
+            y = next;
+        }
+        constexpr double golden = 0.6180339887498949;
+        double low = x - step, high = x + step;
+        while (high - low > 1e-6) {
+            const double a = high - golden * (high - low), b = low + golden * (high - low);
+            if (height(a, radius) < height(b, radius))
+                high = b;
+            else
+                low = a;
+        }
+        x = 0.5 * (low + high);
+        y = height(x, radius);
+        for (const double side : {low - 1e-6, high + 1e-6})
+            if (const double lower = height(side, radius); lower < y - 1e-3) {
+                x = side;
+                y = lower;
+            }
+        if (height(x - 2e-6, radius) >= y - 1e-3 && height(x + 2e-6, radius) >= y - 1e-3)
             break;
-        x += direction * step;
-        y = next;
     }
-    // The lowest place is within a step on either side (golden section).
-    constexpr double golden = 0.6180339887498949;
-    double low = x - step, high = x + step;
-    while (high - low > 1e-6) {
-        const double a = high - golden * (high - low), b = low + golden * (high - low);
-        if (height(a, radius) < height(b, radius))
-            high = b;
-        else
-            low = a;
-    }
-    x = 0.5 * (low + high);
-    y = height(x, radius);
     if (y == infinity)
         return std::nullopt;
     return Point{x, y};

@@ -174,6 +174,12 @@ void mix(std::uint64_t& h, const Table& table) {
 
 } // namespace
 
+std::uint64_t hash(const Table& table) {
+    std::uint64_t h = 0x7461626c65u;
+    mix(h, table);
+    return h;
+}
+
 std::uint64_t hash(const State& state) {
     std::uint64_t h = 0x4c697374726963u;
     mix(h, state.discs);

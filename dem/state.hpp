@@ -110,6 +110,9 @@ void reorder_discs(State& state, std::span<const std::int32_t> order);
 /// runs along the short side of the hanging wall and neighbours are at most two strips away.
 void sort_discs(State& state);
 
+/// Hash of every name, type and value of a table.
+std::uint64_t hash(const Table& table);
+
 /// Hash of every column and number of the state.
 std::uint64_t hash(const State& state);
 

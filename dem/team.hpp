@@ -47,12 +47,29 @@ private:
     alignas(64) std::atomic<unsigned> round_ = 0;
 };
 
+/// Keeps the calling thread on one core while it lives, if `threads` threads are to fill all cores:
+/// the kernel likes to wake a team's threads on the core of the first, where they wait for each other.
+class Pinned {
+public:
+    Pinned(int thread, int threads);
+    ~Pinned();
+    Pinned(const Pinned&) = delete;
+    Pinned& operator=(const Pinned&) = delete;
+
+private:
+    std::vector<int> before_; ///< cores that the thread may use otherwise; empty: not pinned
+};
+
 /// Calls work(k) for k = 0 .. threads - 1, each on a thread of its own, and waits for all.
 template <class Work>
 void run_team(int threads, Work&& work) {
     std::vector<std::jthread> others;
     for (int k = 1; k < threads; ++k)
-        others.emplace_back([&work, k] { work(k); });
+        others.emplace_back([&work, k, threads] {
+            const Pinned pinned(k, threads);
+            work(k);
+        });
+    const Pinned pinned(0, threads);
     work(0);
 }
 

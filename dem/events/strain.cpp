@@ -28,28 +28,20 @@ void Strain::begin(State& state) {
     remember(state);
 }
 
-bool Strain::apply(State& state, const RigidBase&) {
-    const DiscColumns d = disc_columns(state);
+std::vector<double> shear_strain(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
     const auto old_x = state.discs.get<double>("window_x");
     const auto old_y = state.discs.get<double>("window_y");
-    const auto strain = state.discs.get<double>("window_strain");
-    const auto total = state.discs.get<double>("total_strain");
-    const double window_start = state.clock.extension - 0.5 * schedule().spacing();
     const double reach = 2.6 * 2.0 * state.mean_radius;
-    const auto was_there = [&](std::size_t i) {
-        return d.stratum[i] == 0 || d.start_extension[i] < window_start;
-    };
     const Cells cells(d.x, d.y, reach);
+    std::vector<double> strain(d.x.size(), 0.0);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        strain[i] = 0.0;
-        if (!was_there(i))
-            continue;
         // Neighbours now; gradient with respect to where they were.
         double xx = 0.0, xy = 0.0, yy = 0.0, uxx = 0.0, uxy = 0.0, uyx = 0.0, uyy = 0.0;
         const double ux_i = d.x[i] - old_x[i], uy_i = d.y[i] - old_y[i];
         cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
             const auto j = static_cast<std::size_t>(row);
-            if (!was_there(j) || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
+            if (std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
                 return;
             const double dx = old_x[j] - old_x[i], dy = old_y[j] - old_y[i];
             const double ux = d.x[j] - old_x[j] - ux_i, uy = d.y[j] - old_y[j] - uy_i;
@@ -69,8 +61,16 @@ bool Strain::apply(State& state, const RigidBase&) {
         const double gyx = (uyx * yy - uyy * xy) / determinant;
         const double gyy = (uyy * xx - uyx * xy) / determinant;
         strain[i] = std::hypot(gxx - gyy, gxy + gyx);
-        total[i] += strain[i];
     }
+    return strain;
+}
+
+bool Strain::apply(State& state, const RigidBase&) {
+    const std::vector<double> strain = shear_strain(state);
+    std::ranges::copy(strain, state.discs.get<double>("window_strain").begin());
+    const auto total = state.discs.get<double>("total_strain");
+    for (std::size_t i = 0; i < strain.size(); ++i)
+        total[i] += strain[i];
     remember(state);
     return false;
 }

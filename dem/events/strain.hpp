@@ -2,6 +2,8 @@
 
 #include "dem/event.hpp"
 
+#include <vector>
+
 namespace listric {
 
 /// Shear strain of the hanging wall, per window of extension and since the start.
@@ -17,5 +19,9 @@ public:
     void begin(State& state) override;
     bool apply(State& state, const RigidBase& base) override;
 };
+
+/// Largest shear strain of every disc since the last window began. Discs that were deposited since
+/// must have been remembered by then: Strain is applied after sedimentation.
+std::vector<double> shear_strain(const State& state);
 
 } // namespace listric

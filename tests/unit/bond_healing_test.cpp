@@ -38,7 +38,7 @@ struct Pair {
 TEST(BondHealing, PairAtRestHeals) {
     Pair p;
     ASSERT_TRUE(p.heals());
-    // Strengths as stress on the section, mean 2e4 +- 0.5e4 Pa and 2e8 +- 0.5e8 Pa: five deviations.
+    // Stresses on the section, 2e4 +- 0.5e4 Pa and 2e8 +- 0.5e8 Pa; five deviations.
     const ContactColumns c = contact_columns(p.state);
     EXPECT_NEAR(c.tensile_strength[0] / (2.0 * r), 2.0e4, 2.5e4);
     EXPECT_NEAR(c.shear_strength[0] / (2.0 * r), 2.0e8, 2.5e8);

@@ -1,9 +1,9 @@
-// A block of random discs cut by a plane along which its two sides slid by 1.2 times the threshold.
-// A measure circle of radius R whose centre lies h off the plane sees the slip reduced by the share
-// of discs on the wrong side, about 4 h / (pi R); so what is found lies within
-// h = (1 - 1 / 1.2) pi R / 4 = 0.33 mean diameters of the plane if discs were dense, and within one mean diameter
-// with discs of that size. The angle is one of the twelve tried, hence within one step, 15 degrees.
-// The threshold is strain rate * interval * strained width.
+// A block of random discs cut by a plane along which its two sides slid by 1.2 times the threshold,
+// strain rate * interval * strained width. A measure circle of radius R whose centre lies h off the
+// plane sees the slip reduced by the share of discs on the wrong side, about 4 h / (pi R); so what
+// is found lies within h = (1 - 1 / 1.2) pi R / 4 = 0.33 mean diameters of the plane if discs were
+// dense, and within one with discs of that size. The angle is one of the twelve tried, hence within
+// one step, 15 degrees.
 
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/property_update.hpp"
