@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace listric {
 
@@ -21,8 +22,10 @@ Strain::Strain(double window, double extension_rate)
     : Event("strain", {window / extension_rate, extension_rate}) {}
 
 void Strain::begin(State& state) {
-    state.discs.add<double>("window_x", "m", 0.0);
-    state.discs.add<double>("window_y", "m", 0.0);
+    // A disc deposited since the window began was nowhere then.
+    const double nowhere = std::numeric_limits<double>::quiet_NaN();
+    state.discs.add<double>("window_x", "m", nowhere);
+    state.discs.add<double>("window_y", "m", nowhere);
     state.discs.add<double>("window_strain", "1", 0.0);
     state.discs.add<double>("total_strain", "1", 0.0);
     remember(state);
@@ -36,12 +39,14 @@ std::vector<double> shear_strain(const State& state) {
     const Cells cells(d.x, d.y, reach);
     std::vector<double> strain(d.x.size(), 0.0);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
+        if (std::isnan(old_x[i]))
+            continue;
         // Neighbours now; gradient with respect to where they were.
         double xx = 0.0, xy = 0.0, yy = 0.0, uxx = 0.0, uxy = 0.0, uyx = 0.0, uyy = 0.0;
         const double ux_i = d.x[i] - old_x[i], uy_i = d.y[i] - old_y[i];
         cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
             const auto j = static_cast<std::size_t>(row);
-            if (std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
+            if (std::isnan(old_x[j]) || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
                 return;
             const double dx = old_x[j] - old_x[i], dy = old_y[j] - old_y[i];
             const double ux = d.x[j] - old_x[j] - ux_i, uy = d.y[j] - old_y[j] - uy_i;

@@ -20,8 +20,7 @@ public:
     bool apply(State& state, const RigidBase& base) override;
 };
 
-/// Largest shear strain of every disc since the last window began. Discs that were deposited since
-/// must have been remembered by then: Strain is applied after sedimentation.
+/// Largest shear strain of every disc since the last window began; 0 for discs deposited since.
 std::vector<double> shear_strain(const State& state);
 
 } // namespace listric
