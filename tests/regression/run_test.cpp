@@ -616,7 +616,7 @@ TEST_F(RunTest, UnwritableOutputIsAStorageFailure) {
 
 TEST_F(RunTest, AFolderInAFilesPlaceIsAStorageFailure) {
     const fs::path second = list_snapshots(run(scene(), "whole", {.until = 60.0}))[1];
-    for (const std::string name :
+    for (const std::string& name :
          {std::string("history.csv"), "snapshots/" + second.filename().string()}) {
         const fs::path output = folder / fmt::format("blocked {}", fs::path(name).stem().string());
         write(output / name / "inside", "");
