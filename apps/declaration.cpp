@@ -66,7 +66,7 @@ std::vector<Parameter> parameters(ExtensionParameters& p) {
         {"distance_m", &p.distance, "m", {.from = 0, .to = 1e6}, "", "total extension"},
         {"rate_m_per_a", &p.rate, "m/a", {.above = 0, .to = 1}, "", "geological extension rate"},
         {"speed_m_per_s", &p.speed, "m/s", {.above = 0, .to = 1e3}, "",
-         "speed in the model, metres per model second"},
+         "speed in the model, metres per model second; its default depends on the accuracy"},
         {"ramp_s", &p.ramp, "s", {.from = 0, .to = 1e6}, "",
          "model time over which the speed grows from rest"},
     };
@@ -210,7 +210,10 @@ SceneTable effect(std::string_view name, std::string_view doc, std::optional<Par
 
 std::span<const AccuracyLevel> accuracy_levels() {
     static constexpr std::array<AccuracyLevel, 4> levels{
-        {{"draft", 186.2}, {"standard", 93.1}, {"fine", 46.55}, {"sandbox", 18.62}}};
+        {{"draft", 186.2, 1.25},
+         {"standard", 93.1, 1.0},
+         {"fine", 46.55, 1.0},
+         {"sandbox", 18.62, 1.0}}};
     return levels;
 }
 

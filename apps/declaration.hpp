@@ -58,6 +58,7 @@ struct SceneTable {
 struct AccuracyLevel {
     std::string_view name;
     double mean_radius; ///< of the hanging wall's discs, m
+    double speed;       ///< of extension, m/s: unbalanced forces stay below 4e-3 of contact forces
 };
 std::span<const AccuracyLevel> accuracy_levels();
 

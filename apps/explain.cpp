@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <thread>
+
 namespace listric {
 
 namespace {
@@ -23,7 +26,8 @@ std::string duration(double seconds) {
 } // namespace
 
 std::string explain(const Scene& scene) {
-    const double rate = measure_rate(estimated_discs(scene), 0.7);
+    const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const double rate = measure_rate(estimated_discs(scene), threads, 0.7);
     const Prediction p = predict(scene, rate);
     std::string text;
     const auto add = [&](auto format, const auto&... values) {
@@ -47,11 +51,12 @@ std::string explain(const Scene& scene) {
         static_cast<double>(p.cycles) / 1e6, scene.extension.speed);
     add("  {:.2g} disc-steps, about {:.0f} MB of memory", p.disc_steps, p.memory / 1e6);
     add("");
-    add("on this machine ({:.0f} million disc-steps per second)", rate / 1e6);
+    add("on this machine, {} threads ({:.0f} million disc-steps per second)", threads, rate / 1e6);
     add("  {:<10} {:>10} {:>9} {:>12} {:>9}", "accuracy", "radius, m", "discs", "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {
         Scene other = scene;
         other.hanging_wall->mean_radius = level.mean_radius;
+        other.extension.speed = level.speed;
         const Prediction q = predict(other, rate);
         add("  {:<10} {:>10.4g} {:>9} {:>12} {:>9}{}", level.name, level.mean_radius,
             q.discs_at_start, q.cycles, duration(q.seconds),

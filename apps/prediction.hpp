@@ -21,6 +21,6 @@ Prediction predict(const Scene& scene, double disc_steps_per_second);
 
 /// Speed of the cycle on this machine, disc-steps per second: a bonded lattice of the scene's size
 /// is cycled for about `seconds`.
-double measure_rate(std::size_t discs, double seconds);
+double measure_rate(std::size_t discs, int threads, double seconds);
 
 } // namespace listric

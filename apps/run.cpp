@@ -524,7 +524,7 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
             write_text(output / "scene.toml", text);
             run.record.scene = text;
             run.record.predicted_seconds =
-                predict(scene, measure_rate(estimated_discs(scene), 0.2)).seconds;
+                predict(scene, measure_rate(estimated_discs(scene), options.threads, 0.2)).seconds;
             begin(run, voice);
             append_history(run);
             save(run);

@@ -549,8 +549,10 @@ Scene load_scene(const SceneRequest& request) {
             fail_unknown(entry, top, all);
         }
     }
-    scene.hanging_wall->mean_radius =
-        std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name)->mean_radius;
+    const AccuracyLevel& level =
+        *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
+    scene.hanging_wall->mean_radius = level.mean_radius;
+    scene.extension.speed = level.speed;
     for (SceneTable& table : all) {
         if (const toml::node* node = document.get(table.name)) {
             read_table({*node, std::string(table.name)}, table.parameters);
