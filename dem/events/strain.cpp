@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace listric {
 
@@ -14,6 +13,7 @@ void remember(State& state) {
     const DiscColumns d = disc_columns(state);
     std::ranges::copy(d.x, state.discs.get<double>("window_x").begin());
     std::ranges::copy(d.y, state.discs.get<double>("window_y").begin());
+    std::ranges::fill(state.discs.get<std::uint8_t>("in_window"), std::uint8_t{1});
 }
 
 } // namespace
@@ -22,10 +22,10 @@ Strain::Strain(double window, double extension_rate)
     : Event("strain", {window / extension_rate, extension_rate}) {}
 
 void Strain::begin(State& state) {
-    // A disc deposited since the window began was nowhere then.
-    const double nowhere = std::numeric_limits<double>::quiet_NaN();
-    state.discs.add<double>("window_x", "m", nowhere);
-    state.discs.add<double>("window_y", "m", nowhere);
+    state.discs.add<double>("window_x", "m", 0.0);
+    state.discs.add<double>("window_y", "m", 0.0);
+    // 0 for discs deposited since the window began
+    state.discs.add<std::uint8_t>("in_window", "1", 0);
     state.discs.add<double>("window_strain", "1", 0.0);
     state.discs.add<double>("total_strain", "1", 0.0);
     remember(state);
@@ -35,18 +35,19 @@ std::vector<double> shear_strain(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const auto old_x = state.discs.get<double>("window_x");
     const auto old_y = state.discs.get<double>("window_y");
+    const auto in_window = state.discs.get<std::uint8_t>("in_window");
     const double reach = 2.6 * 2.0 * state.mean_radius;
     const Cells cells(d.x, d.y, reach);
     std::vector<double> strain(d.x.size(), 0.0);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (std::isnan(old_x[i]))
+        if (!in_window[i])
             continue;
         // Neighbours now; gradient with respect to where they were.
         double xx = 0.0, xy = 0.0, yy = 0.0, uxx = 0.0, uxy = 0.0, uyx = 0.0, uyy = 0.0;
         const double ux_i = d.x[i] - old_x[i], uy_i = d.y[i] - old_y[i];
         cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
             const auto j = static_cast<std::size_t>(row);
-            if (std::isnan(old_x[j]) || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
+            if (!in_window[j] || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
                 return;
             const double dx = old_x[j] - old_x[i], dy = old_y[j] - old_y[i];
             const double ux = d.x[j] - old_x[j] - ux_i, uy = d.y[j] - old_y[j] - uy_i;
