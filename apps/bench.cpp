@@ -61,8 +61,8 @@ Packing read_packing(const std::filesystem::path& path) {
     std::int64_t n = 0;
     double width = 0, top = 0, normal = 0, shear = 0, friction = 0, density = 0, gravity = 0;
     if (!next_record(in, record, number) ||
-        !(record >> n >> width >> top >> normal >> shear >> friction >> density >> gravity) || n <= 0 ||
-        n > 100'000'000)
+        !(record >> n >> width >> top >> normal >> shear >> friction >> density >> gravity) ||
+        n <= 0 || n > 100'000'000)
         throw UsageError(fmt::format("{}:{}: the header must be: n width top kn_contact ks_contact "
                                      "mu density gravity",
                                      path.string(), number));
@@ -79,8 +79,8 @@ Packing read_packing(const std::filesystem::path& path) {
         sum += d.radius[i];
     }
     if (next_record(in, record, number))
-        throw UsageError(fmt::format("{}:{}: more than the {} discs of the header", path.string(),
-                                     number, n));
+        throw UsageError(
+            fmt::format("{}:{}: more than the {} discs of the header", path.string(), number, n));
     p.state.mean_radius = sum / static_cast<double>(n);
     return p;
 }
@@ -88,8 +88,8 @@ Packing read_packing(const std::filesystem::path& path) {
 Packing lattice() {
     constexpr std::size_t columns = 250, rows = 80;
     constexpr double radius = 93.1;
-    Packing p = make_packing(columns * rows, 2.0 * radius * (columns + 0.5), 8.5e10, 3.19e10, 0.5,
-                             9.81);
+    Packing p =
+        make_packing(columns * rows, 2.0 * radius * (columns + 0.5), 8.5e10, 3.19e10, 0.5, 9.81);
     DiscColumns d = disc_columns(p.state);
     for (std::size_t i = 0; i < columns * rows; ++i) {
         const std::size_t row = i / columns;

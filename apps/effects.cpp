@@ -32,8 +32,8 @@ std::vector<std::unique_ptr<Event>> make_events(const Scene& s) {
         events.push_back(
             std::make_unique<FaultWeakening>(*s.fault_weakening, rate, gravity, density));
     if (s.sedimentation)
-        events.push_back(std::make_unique<Sedimentation>(*s.sedimentation,
-                                                         s.hanging_wall->radius_ratio, rate));
+        events.push_back(
+            std::make_unique<Sedimentation>(*s.sedimentation, s.hanging_wall->radius_ratio, rate));
     // Last, so that a window starts with the discs that were deposited at its start.
     events.push_back(std::make_unique<Strain>(strain_window, rate));
     return events;
@@ -60,8 +60,8 @@ RigidBase make_base(const Scene& s) {
             detachment.push_back(arc(start, along, piece.radius, (dip - piece.end_dip) * degree));
             dip = piece.end_dip;
         } else {
-            detachment.push_back(line(
-                start, {start.x + piece.length * along.x, start.y + piece.length * along.y}));
+            detachment.push_back(
+                line(start, {start.x + piece.length * along.x, start.y + piece.length * along.y}));
         }
         start = detachment.back().end;
     }

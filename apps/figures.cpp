@@ -139,8 +139,7 @@ int run_program(const std::vector<std::string>& words) {
 } // namespace
 
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
-                         std::span<const std::unique_ptr<Event>> events,
-                         const fs::path& folder) {
+                         std::span<const std::unique_ptr<Event>> events, const fs::path& folder) {
     fs::path data;
     std::string problem;
     try {

@@ -162,8 +162,9 @@ std::vector<Fault> trace_faults(const Scene& scene, const State& state, const Ta
         f.rate = sum / static_cast<double>(members.size()) / scene.fault_weakening->interval * 1e3;
         faults.push_back(f);
     }
-    std::ranges::sort(faults, std::ranges::greater{},
-                      [](const Fault& f) { return std::hypot(f.top.x - f.bottom.x, f.top.y - f.bottom.y); });
+    std::ranges::sort(faults, std::ranges::greater{}, [](const Fault& f) {
+        return std::hypot(f.top.x - f.bottom.x, f.top.y - f.bottom.y);
+    });
     return faults;
 }
 
@@ -241,8 +242,8 @@ Profile measure_profile(const Scene& scene, const State& state, const RigidBase&
     const ConstDiscColumns d = disc_columns(state);
     const Chain& detachment = base.surfaces.front().chain;
     const double width = 2.0 * state.mean_radius;
-    const auto columns = static_cast<std::size_t>(
-        (scene.hanging_wall->length + state.clock.extension) / width);
+    const auto columns =
+        static_cast<std::size_t>((scene.hanging_wall->length + state.clock.extension) / width);
     Profile p;
     p.x.resize(columns);
     p.pre_rift_top.assign(columns, none);
@@ -260,8 +261,7 @@ Profile measure_profile(const Scene& scene, const State& state, const RigidBase&
     std::vector<double> thickness(columns);
     for (std::size_t k = 0; k < columns; ++k) {
         p.x[k] = (static_cast<double>(k) + 0.5) * width;
-        p.pre_rift_top[k] =
-            std::max(p.pre_rift_top[k], detachment_height(detachment, p.x[k]));
+        p.pre_rift_top[k] = std::max(p.pre_rift_top[k], detachment_height(detachment, p.x[k]));
         thickness[k] = std::max(0.0, surface[k] - p.pre_rift_top[k]);
     }
     p.sediment_thickness =
@@ -334,8 +334,7 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
                 unbonded += !c.bonded[k];
             }
         if (all)
-            m.basement_unbonded_fraction =
-                static_cast<double>(unbonded) / static_cast<double>(all);
+            m.basement_unbonded_fraction = static_cast<double>(unbonded) / static_cast<double>(all);
     }
     if (const Event* weakening = find_event(events, "fault_weakening")) {
         m.weak_fraction = static_cast<double>(std::ranges::count(d.material, weak)) /
@@ -352,8 +351,7 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
     if (const Event* equilibrium = find_event(events, "equilibrium");
         equilibrium && equilibrium->applied > 0) {
         const Table& t = equilibrium->memory;
-        m.unbalanced_ratio_mean =
-            t.get<double>("mean_ratio_sum")[0] / t.get<double>("samples")[0];
+        m.unbalanced_ratio_mean = t.get<double>("mean_ratio_sum")[0] / t.get<double>("samples")[0];
         m.unbalanced_ratio_max = t.get<double>("max_ratio")[0];
     }
     return m;

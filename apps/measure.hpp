@@ -26,26 +26,26 @@ struct Profile {
 
 /// A fault traced through the segments that the last scan found.
 struct Fault {
-    Point top, bottom;        ///< m
-    double dip = 0.0;         ///< degrees
-    bool normal = true;       ///< sense of slip; false: reverse
-    double rate = 0.0;        ///< mm/a
-    double born_at = 0.0;     ///< extension at which its place was first active, m
+    Point top, bottom;    ///< m
+    double dip = 0.0;     ///< degrees
+    bool normal = true;   ///< sense of slip; false: reverse
+    double rate = 0.0;    ///< mm/a
+    double born_at = 0.0; ///< extension at which its place was first active, m
 };
 
 /// The acceptance measures (docs/measures.md); those without meaning in a scene are absent.
 struct Measures {
-    double basin_area = 0.0;                     ///< m^2
-    std::optional<double> area_balance;          ///< basin area over extension times thickness
-    std::optional<Point> cutoff;                 ///< x and depth, m
-    std::optional<double> rollover_tilt;         ///< degrees, positive toward the detachment
+    double basin_area = 0.0;             ///< m^2
+    std::optional<double> area_balance;  ///< basin area over extension times thickness
+    std::optional<Point> cutoff;         ///< x and depth, m
+    std::optional<double> rollover_tilt; ///< degrees, positive toward the detachment
     std::optional<double> strain_top10, strain_top10_cumulative, strain_gini;
     std::optional<double> basement_unbonded_fraction;
-    std::optional<double> weak_fraction;         ///< of discs
+    std::optional<double> weak_fraction; ///< of discs
     std::optional<double> volume_error_fraction;
     double mass_error_fraction = 0.0;
     double unbalanced_ratio_mean = 0.0, unbalanced_ratio_max = 0.0;
-    double inertial_number = 0.0;                ///< of the tenth of the area strained most
+    double inertial_number = 0.0; ///< of the tenth of the area strained most
     std::optional<std::vector<Depocentre>> depocentres;
     std::optional<std::vector<Fault>> faults;
 };

@@ -16,9 +16,9 @@ template <class T>
 void write_npy(const std::filesystem::path& path, std::span<const T> values,
                std::size_t columns = 0) {
     const char kind = std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u';
-    const std::string shape = columns == 0 ? std::to_string(values.size()) + ","
-                                           : std::to_string(values.size() / columns) + ", " +
-                                                 std::to_string(columns);
+    const std::string shape =
+        columns == 0 ? std::to_string(values.size()) + ","
+                     : std::to_string(values.size() / columns) + ", " + std::to_string(columns);
     std::string header = std::string("{'descr': '<") + kind + std::to_string(sizeof(T)) +
                          "', 'fortran_order': False, 'shape': (" + shape + "), }";
     header.resize((header.size() + 11 + 63) / 64 * 64 - 11, ' ');

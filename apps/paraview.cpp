@@ -76,8 +76,7 @@ std::vector<float> points(const ConstDiscColumns& d) {
     return p;
 }
 
-template <class T, class Range>
-std::vector<T> as(const Range& values) {
+template <class T, class Range> std::vector<T> as(const Range& values) {
     std::vector<T> result;
     for (const auto& value : values)
         result.push_back(static_cast<T>(value));

@@ -76,15 +76,16 @@ Prediction predict(const Scene& scene, double rate) {
     // Sediment fills distance times thickness. With burial it shrinks, and small discs fill up to
     // the target: lis1 takes 1.85 times the discs of a packing of that area.
     if (scene.sedimentation)
-        p.discs_at_end += disc_count(h, scene.extension.distance * h.thickness *
-                                            (scene.compaction ? 1.85 : 1.1));
-    const double time = scene.extension.distance / scene.extension.speed + 0.5 * scene.extension.ramp;
+        p.discs_at_end +=
+            disc_count(h, scene.extension.distance * h.thickness * (scene.compaction ? 1.85 : 1.1));
+    const double time =
+        scene.extension.distance / scene.extension.speed + 0.5 * scene.extension.ramp;
     p.cycles = static_cast<std::int64_t>(time / p.time_step);
     p.disc_steps = 0.5 * static_cast<double>(p.discs_at_start + p.discs_at_end) *
                    static_cast<double>(p.cycles);
     // Settling takes about 70 crossings of the packing, see make_hanging_wall.
-    const double genesis = static_cast<double>(p.discs_at_start) *
-                           (3500.0 + 70.0 * h.thickness / h.mean_radius);
+    const double genesis =
+        static_cast<double>(p.discs_at_start) * (3500.0 + 70.0 * h.thickness / h.mean_radius);
     // Neighbour searches, events, snapshots and figures take about a tenth on top of the cycle.
     p.seconds = 1.1 * (p.disc_steps + genesis) / rate + 8.0;
     // Columns of a disc, three contacts each, and the neighbour search's copies.

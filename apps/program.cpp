@@ -54,7 +54,8 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
     command.add_option("--seed", request.seed, "Of the packing and everything random");
 }
 
-int run(const SceneRequest& request, RunOptions options, const std::optional<std::string>& until, const std::string& output) {
+int run(const SceneRequest& request, RunOptions options, const std::optional<std::string>& until,
+        const std::string& output) {
     const Scene scene = load_scene(request);
     if (until)
         options.until = parse_length(*until);

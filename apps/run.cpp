@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -53,8 +53,8 @@ struct Run {
     double drawn_at = -1.0;      ///< extension of the last figures, m
 
     explicit Run(const Scene& s, const RunOptions& o)
-        : scene(s), options(o), base(make_base(s)),
-          physics{s.cycle.damping, s.gravity ? s.gravity->acceleration : 0.0},
+        : scene(s), options(o),
+          base(make_base(s)), physics{s.cycle.damping, s.gravity ? s.gravity->acceleration : 0.0},
           events(make_events(s)) {}
 
     double wall_seconds() const { return seconds_before + seconds_since(started); }
@@ -62,9 +62,7 @@ struct Run {
         return std::min(scene.extension.distance, options.until.value_or(1e300));
     }
     /// Half a cycle's extension: events are due in the cycle nearest to their extension.
-    double tolerance() const {
-        return 0.5 * scene.extension.speed * state.clock.time_step;
-    }
+    double tolerance() const { return 0.5 * scene.extension.speed * state.clock.time_step; }
 };
 
 /// Adds the time until the end of its life to a part of the run.
@@ -125,8 +123,7 @@ std::string time_left(double seconds) {
 }
 
 fs::path snapshot_path(const fs::path& output, const State& state) {
-    return output / "snapshots" /
-           fmt::format("extension-{:08.2f}m.h5", state.clock.extension);
+    return output / "snapshots" / fmt::format("extension-{:08.2f}m.h5", state.clock.extension);
 }
 
 /// Genesis is the same for every scene with the same hanging wall, so it is kept.
@@ -274,8 +271,7 @@ void cycle_toward(Run& run, double extension) {
 }
 
 void append_history(Run& run) {
-    const auto row = history_row(
-        run.state, measure(run.scene, run.state, run.base, run.events));
+    const auto row = history_row(run.state, measure(run.scene, run.state, run.base, run.events));
     Table& history = run.record.history;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [name, value] : row)
@@ -297,8 +293,8 @@ void save(Run& run) {
 void draw(Run& run, Voice& voice) {
     const Stopwatch watch(run.record, "figures");
     run.drawn_at = run.state.clock.extension;
-    const std::string problem = draw_figures(run.scene, run.state, run.base, run.events,
-                                             run.options.output / "figures");
+    const std::string problem =
+        draw_figures(run.scene, run.state, run.base, run.events, run.options.output / "figures");
     if (!problem.empty())
         voice.say("warning: no figures: " + problem);
 }
@@ -322,10 +318,10 @@ void report(Run& run, Voice& voice) {
     const double spent = run.wall_seconds();
     const double cycling = std::max(1e-9, run.record.seconds_by_part["cycle"]);
     const double share = std::max(1e-3, done);
-    voice.progress(fmt::format("cycle {}  extension {:.2f} of {:.2f} km  {:.1f} M disc-steps/s  {} left",
-                               run.state.clock.cycle, run.state.clock.extension / 1e3,
-                               run.target() / 1e3, run.record.disc_steps / cycling / 1e6,
-                               time_left(spent / share * (1.0 - share))));
+    voice.progress(fmt::format(
+        "cycle {}  extension {:.2f} of {:.2f} km  {:.1f} M disc-steps/s  {} left",
+        run.state.clock.cycle, run.state.clock.extension / 1e3, run.target() / 1e3,
+        run.record.disc_steps / cycling / 1e6, time_left(spent / share * (1.0 - share))));
 }
 
 bool near_any(const std::vector<double>& marks, double extension, double tolerance) {
@@ -390,8 +386,7 @@ bool holds_run(const fs::path& output) {
 }
 
 /// Removes the files of a folder for which `ours` is true of the name.
-template <class Ours>
-void remove_files(const fs::path& folder, Ours&& ours) {
+template <class Ours> void remove_files(const fs::path& folder, Ours&& ours) {
     std::error_code error;
     std::vector<fs::path> found;
     for (const auto& entry : fs::directory_iterator(folder, error))
@@ -451,10 +446,10 @@ void check_same_scene(const Scene& scene, const fs::path& file) {
         line_a = next_line(a);
         line_b = next_line(b);
     }
-    throw UsageError(fmt::format(
-        "{}: the run to resume has other parameters: it has \"{}\", this call \"{}\"; resume it with "
-        "the parameters that it began with, or start anew with --force",
-        file.string(), line_a, line_b));
+    throw UsageError(fmt::format("{}: the run to resume has other parameters: it has \"{}\", this "
+                                 "call \"{}\"; resume it with "
+                                 "the parameters that it began with, or start anew with --force",
+                                 file.string(), line_a, line_b));
 }
 
 /// Refuses a folder that holds something else than what is asked for, before any work is done.
@@ -499,9 +494,8 @@ std::vector<fs::path> list_snapshots(const fs::path& output) {
         if (entry.path().extension() == ".h5")
             snapshots.push_back(entry.path());
     // By extension: longer names are further.
-    std::ranges::sort(snapshots, {}, [](const fs::path& p) {
-        return std::pair(p.native().size(), p.native());
-    });
+    std::ranges::sort(snapshots, {},
+                      [](const fs::path& p) { return std::pair(p.native().size(), p.native()); });
     return snapshots;
 }
 
@@ -574,8 +568,8 @@ void draw_run(const fs::path& output) {
             continue;
         const auto events = make_events(scene);
         hand_over(snapshot, events);
-        const std::string problem = draw_figures(scene, snapshot.state, make_base(scene), events,
-                                                 output / "figures");
+        const std::string problem =
+            draw_figures(scene, snapshot.state, make_base(scene), events, output / "figures");
         if (!problem.empty())
             throw StorageError(problem);
     }

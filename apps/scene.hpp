@@ -43,10 +43,10 @@ struct ExtensionParameters {
 
 /// Parameters of the cycle.
 struct CycleParameters {
-    double damping = 0.7;             ///< local non-viscous damping coefficient
-    double time_step_safety = 0.8;    ///< time step over the stability limit
+    double damping = 0.7;              ///< local non-viscous damping coefficient
+    double time_step_safety = 0.8;     ///< time step over the stability limit
     double inertial_mass_floor = 0.75; ///< least inertial mass, mean basement disc masses
-    double skin = 0.25;               ///< neighbour-list margin, mean radii
+    double skin = 0.25;                ///< neighbour-list margin, mean radii
 };
 
 struct GravityParameters {
@@ -56,8 +56,8 @@ struct GravityParameters {
 enum class SeriesFormat { paraview, none };
 
 struct OutputParameters {
-    double interval = 500.0;                       ///< extension between snapshots, m
-    std::vector<double> figures = {5e3, 10e3};     ///< extensions at which figures are drawn, m
+    double interval = 500.0;                   ///< extension between snapshots, m
+    std::vector<double> figures = {5e3, 10e3}; ///< extensions at which figures are drawn, m
     SeriesFormat series = SeriesFormat::paraview;
 };
 

@@ -41,8 +41,7 @@ void check(herr_t status, const char* what) {
         throw StorageError(what);
 }
 
-template <class T>
-hid_t hdf5_type() {
+template <class T> hid_t hdf5_type() {
     if constexpr (std::is_same_v<T, double>)
         return H5T_NATIVE_DOUBLE;
     else if constexpr (std::is_same_v<T, float>)
@@ -75,8 +74,7 @@ std::string read_attribute(hid_t object, const char* name) {
     return text;
 }
 
-template <class T>
-void write_attribute_value(hid_t object, const char* name, T value) {
+template <class T> void write_attribute_value(hid_t object, const char* name, T value) {
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "dataspace");
     const Handle attribute(
         H5Acreate2(object, name, hdf5_type<T>(), space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
@@ -84,8 +82,7 @@ void write_attribute_value(hid_t object, const char* name, T value) {
     check(H5Awrite(attribute, hdf5_type<T>(), &value), "writing an attribute");
 }
 
-template <class T>
-T read_attribute_value(hid_t object, const char* name) {
+template <class T> T read_attribute_value(hid_t object, const char* name) {
     const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, "missing attribute");
     T value{};
     check(H5Aread(attribute, hdf5_type<T>(), &value), "reading an attribute");
@@ -137,8 +134,7 @@ std::vector<std::string> names_in(hid_t group) {
     return names;
 }
 
-template <class T>
-Column read_values(hid_t set, const std::string& name, std::size_t size) {
+template <class T> Column read_values(hid_t set, const std::string& name, std::size_t size) {
     std::vector<T> values(size);
     check(H5Dread(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
           "reading a column");
@@ -171,8 +167,7 @@ Table read_table(hid_t parent, const std::string& name) {
 }
 
 /// The state's numbers, each as a member pointer would be; used to write and to read.
-template <class AnyState, class Visit>
-void for_each_number(AnyState& s, Visit&& visit) {
+template <class AnyState, class Visit> void for_each_number(AnyState& s, Visit&& visit) {
     visit("cycle", s.clock.cycle);
     visit("time_step", s.clock.time_step);
     visit("extension", s.clock.extension);
@@ -218,7 +213,8 @@ std::uint64_t content_hash(const Snapshot& snapshot) {
 
 /// The HDF5 file as bytes. It is made in memory: a disk that fills up while HDF5 writes leaves the
 /// library in a state that cannot even be closed.
-std::vector<std::byte> file_image(const State& state, std::span<const std::unique_ptr<Event>> events,
+std::vector<std::byte> file_image(const State& state,
+                                  std::span<const std::unique_ptr<Event>> events,
                                   const RunRecord& record) {
     const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "properties");
     check(H5Pset_fapl_core(in_memory, 1 << 20, false), "core driver");
@@ -260,8 +256,7 @@ std::vector<std::byte> file_image(const State& state, std::span<const std::uniqu
     const Handle parts = create_group(run, "seconds_by_part");
     for (const auto& [part, seconds] : record.seconds_by_part)
         write_attribute_value(parts, part.c_str(), seconds);
-    write_attribute_value(file, "content_hash",
-                          static_cast<std::int64_t>(content_hash(content)));
+    write_attribute_value(file, "content_hash", static_cast<std::int64_t>(content_hash(content)));
     check(H5Fflush(file, H5F_SCOPE_LOCAL), "flushing");
     const ssize_t size = H5Fget_file_image(file, nullptr, 0);
     std::vector<std::byte> image(size > 0 ? static_cast<std::size_t>(size) : 0);
@@ -338,11 +333,10 @@ Snapshot read_snapshot(const fs::path& path) {
         for (std::size_t k = 0; k < names_in(materials).size(); ++k) {
             const Handle group(H5Gopen2(materials, std::to_string(k).c_str(), H5P_DEFAULT),
                                H5Gclose, "material");
-            state.materials.push_back(
-                {read_attribute_value<double>(group, "normal_stiffness"),
-                 read_attribute_value<double>(group, "shear_stiffness"),
-                 read_attribute_value<double>(group, "friction"),
-                 read_attribute_value<std::int64_t>(group, "bondable") != 0});
+            state.materials.push_back({read_attribute_value<double>(group, "normal_stiffness"),
+                                       read_attribute_value<double>(group, "shear_stiffness"),
+                                       read_attribute_value<double>(group, "friction"),
+                                       read_attribute_value<std::int64_t>(group, "bondable") != 0});
         }
         const Handle memories(H5Gopen2(file, "events", H5P_DEFAULT), H5Gclose, "events");
         for (const std::string& name : names_in(memories)) {
@@ -365,8 +359,8 @@ Snapshot read_snapshot(const fs::path& path) {
         check(H5Aiterate2(parts, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect,
                           &snapshot.record.seconds_by_part),
               "parts");
-        if (content_hash(snapshot) != static_cast<std::uint64_t>(read_attribute_value<std::int64_t>(
-                                          file, "content_hash")))
+        if (content_hash(snapshot) !=
+            static_cast<std::uint64_t>(read_attribute_value<std::int64_t>(file, "content_hash")))
             throw StorageError("is damaged (its content does not match its hash)");
         return snapshot;
     } catch (const std::exception& error) {

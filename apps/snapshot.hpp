@@ -19,8 +19,8 @@ struct StorageError : std::runtime_error {
 
 /// What a run carries along besides the state.
 struct RunRecord {
-    std::string scene;   ///< the scene in force, as TOML
-    Table history;       ///< a row per window, see docs/measures.md; NaN: no meaning there
+    std::string scene; ///< the scene in force, as TOML
+    Table history;     ///< a row per window, see docs/measures.md; NaN: no meaning there
     std::map<std::string, double> seconds_by_part; ///< wall time spent so far
     double disc_steps = 0.0;                       ///< discs times cycles so far
     double predicted_seconds = 0.0;                ///< of the whole run

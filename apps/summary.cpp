@@ -13,8 +13,7 @@ namespace listric {
 namespace {
 
 /// Visits every measure that is a number: name and value, if it has one.
-template <class Visit>
-void for_each_measure(const Measures& m, Visit&& visit) {
+template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
     visit("basin_area_m2", std::optional(m.basin_area));
     visit("area_balance", m.area_balance);
     visit("cutoff_x_m", m.cutoff ? std::optional(m.cutoff->x) : std::nullopt);

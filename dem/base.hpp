@@ -14,10 +14,10 @@ struct Point {
 
 /// Straight or circular piece of a chain. The material lies to the left of its direction.
 struct Segment {
-    Point start, end;          ///< m
+    Point start, end;                 ///< m
     Point start_tangent, end_tangent; ///< unit vectors along the chain's direction
-    double length = 0.0;       ///< m
-    double curvature = 0.0;    ///< 1/m; 0 line, > 0 turns left (centre on the material's side)
+    double length = 0.0;              ///< m
+    double curvature = 0.0; ///< 1/m; 0 line, > 0 turns left (centre on the material's side)
 };
 
 Segment line(Point start, Point end);
@@ -62,9 +62,7 @@ struct Motion {
     double speed = 0.0; ///< m/s
     double ramp = 0.0;  ///< s
 
-    double speed_at(double time) const {
-        return time < ramp ? speed * (time / ramp) : speed;
-    }
+    double speed_at(double time) const { return time < ramp ? speed * (time / ramp) : speed; }
 };
 
 /// What the discs rest on: detachment, backstop above the breakaway and right wall.

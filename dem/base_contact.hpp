@@ -22,8 +22,7 @@ struct BaseContactForce {
 inline BaseContactForce base_contact_force(const Surface& surface, double extension, double speed,
                                            const BaseContactDisc& disc,
                                            ContactParameters parameters, double& shear_force) {
-    const auto foot =
-        nearest(surface.chain, {disc.x - surface.translation * extension, disc.y});
+    const auto foot = nearest(surface.chain, {disc.x - surface.translation * extension, disc.y});
     if (!foot || foot->distance >= disc.radius) {
         shear_force = 0.0;
         return {0.0, 0.0, 0.0};

@@ -19,9 +19,9 @@ inline void install_bond(State& state, std::size_t k, const BondStrength& streng
     const double section =
         strength.reading == StrengthReading::stress ? d.radius[i] + d.radius[j] : 1.0;
     const auto draw = [&](Purpose purpose, double mean, double deviation) {
-        const double z = normal(state.seed, purpose, static_cast<std::uint64_t>(low),
-                                static_cast<std::uint64_t>(high),
-                                static_cast<std::uint64_t>(occasion));
+        const double z =
+            normal(state.seed, purpose, static_cast<std::uint64_t>(low),
+                   static_cast<std::uint64_t>(high), static_cast<std::uint64_t>(occasion));
         return static_cast<float>(std::max(0.0, mean + deviation * z) * section);
     };
     c.bonded[k] = 1;

@@ -42,8 +42,7 @@ public:
     }
 
     /// Calls visit(disc) for every disc within one cell width of (x, y), and for some beyond.
-    template <class Visit>
-    void for_each_near(double x, double y, Visit&& visit) const {
+    template <class Visit> void for_each_near(double x, double y, Visit&& visit) const {
         if (discs_.empty())
             return;
         const std::int64_t c = column(x), r = row(y);

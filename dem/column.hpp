@@ -34,11 +34,10 @@ public:
     bool has(std::string_view name) const { return find(name) != nullptr; }
 
     /// Adds a column filled with `initial`; keeps the values of one that is already there.
-    template <class T>
-    std::span<T> add(std::string_view name, std::string_view unit, T initial) {
+    template <class T> std::span<T> add(std::string_view name, std::string_view unit, T initial) {
         if (!has(name))
-            columns_.push_back({std::string(name), std::string(unit),
-                                std::vector<T>(rows_, initial), initial});
+            columns_.push_back(
+                {std::string(name), std::string(unit), std::vector<T>(rows_, initial), initial});
         return get<T>(name);
     }
 
@@ -46,12 +45,10 @@ public:
     /// table sets the number of rows.
     void set(Column column);
 
-    template <class T>
-    std::span<T> get(std::string_view name) {
+    template <class T> std::span<T> get(std::string_view name) {
         return std::get<std::vector<T>>(const_cast<Column&>(require(name)).values);
     }
-    template <class T>
-    std::span<const T> get(std::string_view name) const {
+    template <class T> std::span<const T> get(std::string_view name) const {
         return std::get<std::vector<T>>(require(name).values);
     }
 

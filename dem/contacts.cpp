@@ -57,8 +57,8 @@ void find_disc_contacts(State& state) {
         });
         for (std::int32_t row = begin[i]; row < begin[i + 1]; ++row) {
             const auto r = static_cast<std::size_t>(row);
-            const auto pair =
-                std::ranges::find(found, old.second[r], &std::pair<std::int32_t, std::int32_t>::first);
+            const auto pair = std::ranges::find(found, old.second[r],
+                                                &std::pair<std::int32_t, std::int32_t>::first);
             if (pair != found.end())
                 pair->second = row;
             else if (old.bonded[r])
@@ -86,13 +86,13 @@ void find_base_contacts(State& state, const RigidBase& base) {
     for (std::size_t i = 0; i < d.x.size(); ++i)
         for (std::size_t s = 0; s < base.surfaces.size(); ++s) {
             const Surface& face = base.surfaces[s];
-            const auto foot = nearest(
-                face.chain, {d.x[i] - face.translation * state.clock.extension, d.y[i]});
+            const auto foot =
+                nearest(face.chain, {d.x[i] - face.translation * state.clock.extension, d.y[i]});
             if (!foot || foot->distance > d.radius[i] + state.skin)
                 continue;
             std::int32_t row = begin[i];
-            while (row < begin[i + 1] && old.surface[static_cast<std::size_t>(row)] !=
-                                             static_cast<std::int32_t>(s))
+            while (row < begin[i + 1] &&
+                   old.surface[static_cast<std::size_t>(row)] != static_cast<std::int32_t>(s))
                 ++row;
             disc.push_back(static_cast<std::int32_t>(i));
             surface.push_back(static_cast<std::int32_t>(s));
@@ -120,9 +120,10 @@ std::vector<bool> touching(const State& state) {
     const ConstContactColumns c = contact_columns(state);
     std::vector<bool> result(c.first.size());
     for (std::size_t k = 0; k < result.size(); ++k) {
-        const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
-        result[k] = c.bonded[k] ||
-                    std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) < d.radius[i] + d.radius[j];
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
+        result[k] =
+            c.bonded[k] || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) < d.radius[i] + d.radius[j];
     }
     return result;
 }

@@ -29,8 +29,8 @@ ContactTable pair_parameters(const State& state) {
     ContactTable table{};
     for (std::size_t a = 0; a < state.materials.size(); ++a)
         for (std::size_t b = 0; b < state.materials.size(); ++b)
-            table[a * material_count + b] = contact_parameters(
-                state.materials[a], state.materials[b], state.clock.time_step);
+            table[a * material_count + b] =
+                contact_parameters(state.materials[a], state.materials[b], state.clock.time_step);
     return table;
 }
 
@@ -58,7 +58,8 @@ void contact_forces(State& state, const ContactTable& pairs, std::span<Force> fo
     const DiscColumns d = disc_columns(state);
     const ContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
-        const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
         const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
         const double reach = d.radius[i] + d.radius[j];
         const double square = dx * dx + dy * dy;
@@ -123,11 +124,11 @@ double greatest_displacement(const State& state) {
         const double square = dx * dx + dy * dy;
         // A disc that crosses several radii between two checks, or is no number, is out of control.
         if (!(square < 100.0 * state.mean_radius * state.mean_radius))
-            throw NumericalFailure(
-                "disc " + std::to_string(d.id[i]) + " ran away at x = " + std::to_string(d.x[i]) +
-                " m, y = " + std::to_string(d.y[i]) + " m (velocity " + std::to_string(d.vx[i]) +
-                ", " + std::to_string(d.vy[i]) + " m/s, cycle " +
-                std::to_string(state.clock.cycle) + ")");
+            throw NumericalFailure("disc " + std::to_string(d.id[i]) +
+                                   " ran away at x = " + std::to_string(d.x[i]) +
+                                   " m, y = " + std::to_string(d.y[i]) + " m (velocity " +
+                                   std::to_string(d.vx[i]) + ", " + std::to_string(d.vy[i]) +
+                                   " m/s, cycle " + std::to_string(state.clock.cycle) + ")");
         greatest = std::max(greatest, square);
     }
     return std::sqrt(greatest);
@@ -155,13 +156,13 @@ std::int64_t run_plain(State& state, const RigidBase& base, const CyclePhysics& 
 
 } // namespace
 
-void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
-             std::int64_t cycles, const Execution& execution) {
+void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
+             const Execution& execution) {
     // Only NaN hides from the displacement bound; it is looked for every so often.
     constexpr std::int64_t between_checks = 1000;
     const double limit = 0.5 * state.skin;
-    const bool plain = execution.cycle == Cycle::plain ||
-                       (execution.cycle == Cycle::best && !has_wide_registers);
+    const bool plain =
+        execution.cycle == Cycle::plain || (execution.cycle == Cycle::best && !has_wide_registers);
     std::optional<FastCycle> fast;
     while (cycles > 0) {
         if (state.displacement_bound > limit || state.clock.cycle % between_checks == 0) {

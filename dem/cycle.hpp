@@ -33,13 +33,14 @@ struct Execution {
 /// list knows. One cycle: contact forces from positions and the velocities half a step earlier;
 /// then each disc's motion. Forces on a disc are added in the order base contacts, then contacts
 /// by row. Throws NumericalFailure if a disc runs away.
-void advance(State& state, const RigidBase& base, const CyclePhysics& physics,
-             std::int64_t cycles, const Execution& execution = {});
+void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
+             const Execution& execution = {});
 
 /// Largest stable time step times `safety`, s, of discs of mass `mass` (kg) with six contacts each:
 /// sqrt(2 m / k), k the greater of 3 (K + K_s), for translation, and 12 K_s, for rotation (inertia
 /// m r^2 / 2). The highest eigenvalue of a network of such contacts is at most 2 k / m, since
-/// (a - b)^2 <= 2 a^2 + 2 b^2 in every contact's energy, and the integration is stable below 2 / omega.
+/// (a - b)^2 <= 2 a^2 + 2 b^2 in every contact's energy, and the integration is stable below 2 /
+/// omega.
 double stable_time_step(double mass, const Material& material, double safety);
 
 } // namespace listric

@@ -35,8 +35,9 @@ FastCycle::FastCycle(const State& state, const RigidBase& base, const CyclePhysi
         discs_[i].velocity = Double4{d.vx[i], d.vy[i], d.spin[i], 0.0};
         const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
         const double acceleration_per_force = time_step_ / inertia;
-        constants_[i] = DiscConstants{acceleration_per_force, d.mass[i] * physics.gravity,
-                         acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i])), 0.0};
+        constants_[i] =
+            DiscConstants{acceleration_per_force, d.mass[i] * physics.gravity,
+                          acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i])), 0.0};
     }
     pack_contacts(state, threads);
 }
@@ -46,8 +47,8 @@ void FastCycle::pack_contacts(const State& state, int threads) {
     const ConstContactColumns c = contact_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);
     const std::size_t tiles = (disc_count_ + tile_discs - 1) / tile_discs;
-    const std::size_t strips =
-        std::clamp<std::size_t>(static_cast<std::size_t>(threads), 1, std::max<std::size_t>(tiles, 1));
+    const std::size_t strips = std::clamp<std::size_t>(static_cast<std::size_t>(threads), 1,
+                                                       std::max<std::size_t>(tiles, 1));
     strips_ = std::vector<Strip>(strips);
     const auto idle = static_cast<std::int32_t>(discs_.size() - 2);
 
@@ -110,7 +111,8 @@ void FastCycle::pack_contacts(const State& state, int threads) {
                     const std::int32_t k = strip.block_rows[8 * block + lane];
                     if (k < 0)
                         continue;
-                    const auto second = static_cast<std::size_t>(c.second[static_cast<std::size_t>(k)]);
+                    const auto second =
+                        static_cast<std::size_t>(c.second[static_cast<std::size_t>(k)]);
                     const Tile& gathers = strip.tiles[second / tile_discs - first_tile];
                     furthest = std::max(furthest, 8 * (gathers.end_block - block));
                 }
@@ -227,9 +229,9 @@ inline void FastCycle::compute(Block& block) {
                     block.tensile_strength[start + k] = not_bonded;
 
         Double4 rows[lane_count];
-        transpose({normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear,
-                   -(arm_j * shear)},
-                  rows);
+        transpose(
+            {normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear, -(arm_j * shear)},
+            rows);
         for (int k = 0; k < lane_count; ++k)
             slots_[block.slot + static_cast<std::uint32_t>(start + k)] = rows[k];
     }
@@ -280,9 +282,9 @@ void FastCycle::sweep(Strip& strip) {
                 const Double4 weight = __builtin_shufflevector(c, no_force, 4, 1, 4, 4);
                 const Double4 f = force[m] - weight;
                 const Double4 v = disc.velocity;
-                const Double4 drag = reinterpret_cast<Double4>(
-                    reinterpret_cast<Mask4>(damping * magnitude(f)) |
-                    (reinterpret_cast<Mask4>(v) & sign));
+                const Double4 drag =
+                    reinterpret_cast<Double4>(reinterpret_cast<Mask4>(damping * magnitude(f)) |
+                                              (reinterpret_cast<Mask4>(v) & sign));
                 const Double4 damped = v == no_force ? f : f - drag;
                 disc.velocity = v + damped * gain;
                 disc.place += disc.velocity * time_step;

@@ -30,20 +30,17 @@ namespace listric {
 // - Discs move with their three velocities in one register.
 
 /// std::vector whose data start at a cache line.
-template <class T>
-struct CacheLineAllocator {
+template <class T> struct CacheLineAllocator {
     using value_type = T;
     CacheLineAllocator() = default;
-    template <class U>
-    CacheLineAllocator(const CacheLineAllocator<U>&) {}
+    template <class U> CacheLineAllocator(const CacheLineAllocator<U>&) {}
     T* allocate(std::size_t n) {
         return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64)));
     }
     void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
     bool operator==(const CacheLineAllocator&) const { return true; }
 };
-template <class T>
-using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+template <class T> using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
 class FastCycle {
 public:

@@ -52,12 +52,14 @@ std::vector<Point> scatter(const RigidBase& base, std::span<const double> radius
         const auto c = static_cast<std::int64_t>(p.x / cell);
         const auto r = static_cast<std::int64_t>((p.y - bottom) / cell);
         bool free = true;
-        for (std::int64_t a = std::max<std::int64_t>(c - 1, 0); a <= std::min(c + 1, columns - 1); ++a)
-            for (std::int64_t b = std::max<std::int64_t>(r - 1, 0); b <= std::min(r + 1, rows - 1); ++b)
+        for (std::int64_t a = std::max<std::int64_t>(c - 1, 0); a <= std::min(c + 1, columns - 1);
+             ++a)
+            for (std::int64_t b = std::max<std::int64_t>(r - 1, 0); b <= std::min(r + 1, rows - 1);
+                 ++b)
                 for (std::int32_t other : cells[static_cast<std::size_t>(a * rows + b)]) {
                     const auto j = static_cast<std::size_t>(other);
-                    free = free && std::hypot(place[j].x - p.x, place[j].y - p.y) >=
-                                       radius[i] + radius[j];
+                    free = free &&
+                           std::hypot(place[j].x - p.x, place[j].y - p.y) >= radius[i] + radius[j];
                 }
         if (!free)
             continue;
@@ -170,8 +172,7 @@ double hanging_wall_area(const HangingWallParameters& p, const Chain& detachment
 
 std::size_t disc_count(const HangingWallParameters& p, double area) {
     const auto [smallest, largest] = radius_range(p);
-    const double mean_square =
-        (largest * largest + largest * smallest + smallest * smallest) / 3.0;
+    const double mean_square = (largest * largest + largest * smallest + smallest * smallest) / 3.0;
     return static_cast<std::size_t>((1.0 - p.porosity) * area / (pi * mean_square));
 }
 
@@ -202,18 +203,18 @@ State make_hanging_wall(const GenesisRequest& request,
     const double density = p.rock_density / (1.0 - porosity_under_gravity);
     const double mean_mass = density * pi * p.mean_radius * p.mean_radius;
     state.inertial_mass_floor = request.inertial_mass_floor * mean_mass;
-    state.clock.time_step = stable_time_step(request.inertial_mass_floor > 0.0
-                                                 ? state.inertial_mass_floor
-                                                 : density * pi * smallest * smallest,
-                                             state.materials[basement], request.time_step_safety);
+    state.clock.time_step =
+        stable_time_step(request.inertial_mass_floor > 0.0 ? state.inertial_mass_floor
+                                                           : density * pi * smallest * smallest,
+                         state.materials[basement], request.time_step_safety);
 
     add_discs(state, disc_count(p, area + lid * p.length));
     DiscColumns d = disc_columns(state);
     std::vector<double> radius(d.x.size()), seedling(d.x.size());
     constexpr double start_scale = 0.55;
     for (std::size_t i = 0; i < radius.size(); ++i) {
-        radius[i] = smallest + (largest - smallest) *
-                                   uniform(state.seed, Purpose::packing_radius, i);
+        radius[i] =
+            smallest + (largest - smallest) * uniform(state.seed, Purpose::packing_radius, i);
         seedling[i] = start_scale * radius[i];
         d.mass[i] = density * pi * radius[i] * radius[i];
     }

@@ -40,7 +40,8 @@ Ground::Ground(const State& state, const RigidBase& base, double largest_radius)
 }
 
 std::size_t Ground::column(double x) const {
-    const double c = std::clamp((x - left_) / width_, 0.0, static_cast<double>(columns_.size() - 1));
+    const double c =
+        std::clamp((x - left_) / width_, 0.0, static_cast<double>(columns_.size() - 1));
     return static_cast<std::size_t>(c);
 }
 
@@ -87,8 +88,7 @@ std::optional<Point> Ground::rest(double x, double radius) const {
     // Down the slope to the lowest place within a step on either side. The ground jumps where the
     // disc passes another's flank: then there is lower ground beyond, and it rolls on.
     for (int rolls = 0; rolls < 1000; ++rolls) {
-        const double direction =
-            height(x - step, radius) < height(x + step, radius) ? -1.0 : 1.0;
+        const double direction = height(x - step, radius) < height(x + step, radius) ? -1.0 : 1.0;
         for (double next = height(x + direction * step, radius); next < y;
              next = height(x + direction * step, radius)) {
             x += direction * step;

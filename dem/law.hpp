@@ -11,13 +11,13 @@ namespace listric {
 /// What the contact law needs of a pair of materials. Single precision halves the traffic of the
 /// cycle and is ample for properties; forces and positions are double.
 struct ContactParameters {
-    float normal_stiffness;      ///< K, N/m
+    float normal_stiffness;           ///< K, N/m
     float shear_stiffness_times_step; ///< K_s dt, N s/m
     float friction;
 };
 
-/// Two linear springs in series (PFC's linear contact model). Not inline: g++ 12 drops a rounding to
-/// single precision that it can see being widened again, and the two cycles would differ.
+/// Two linear springs in series (PFC's linear contact model). Not inline: g++ 12 drops a rounding
+/// to single precision that it can see being widened again, and the two cycles would differ.
 ContactParameters contact_parameters(const Material& a, const Material& b, double time_step);
 
 /// Linear contact with a breakable contact bond and Coulomb friction, PFC2D's rules.

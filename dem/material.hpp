@@ -7,10 +7,10 @@ namespace listric {
 
 /// Microproperties of the discs of one material [paper, Table 1].
 struct Material {
-    double normal_stiffness = 1.7e11;  ///< k_n of one disc, N/m per metre of thickness
-    double shear_stiffness = 6.38e10;  ///< k_s of one disc, N/m per metre of thickness
-    double friction = 0.05;            ///< mu_d; a contact has the smaller of its two discs'
-    bool bondable = true;              ///< whether bond healing may bond contacts of this material
+    double normal_stiffness = 1.7e11; ///< k_n of one disc, N/m per metre of thickness
+    double shear_stiffness = 6.38e10; ///< k_s of one disc, N/m per metre of thickness
+    double friction = 0.05;           ///< mu_d; a contact has the smaller of its two discs'
+    bool bondable = true;             ///< whether bond healing may bond contacts of this material
 };
 
 /// What Table 1 prints as bond strength: a stress on the discs' mean section, or a force.

@@ -11,12 +11,12 @@ namespace listric {
 namespace {
 
 /// Calls visit(row, i, j, normal, overlap) for every pair that touches or is bonded.
-template <class Visit>
-void for_each_touching(const State& state, Visit&& visit) {
+template <class Visit> void for_each_touching(const State& state, Visit&& visit) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
-        const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
         const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
         const double distance = std::hypot(dx, dy);
         const double overlap = d.radius[i] + d.radius[j] - distance;
@@ -33,8 +33,8 @@ void for_each_base_contact(const State& state, const RigidBase& base, Visit&& vi
         const auto i = static_cast<std::size_t>(c.disc[k]);
         const auto s = static_cast<std::size_t>(c.surface[k]);
         const Surface& surface = base.surfaces[s];
-        const auto foot = nearest(
-            surface.chain, {d.x[i] - surface.translation * state.clock.extension, d.y[i]});
+        const auto foot =
+            nearest(surface.chain, {d.x[i] - surface.translation * state.clock.extension, d.y[i]});
         if (foot && foot->distance < d.radius[i])
             visit(k, i, s, foot->normal, d.radius[i] - foot->distance);
     }
@@ -55,22 +55,22 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
         const double normal = contact_parameters(p, q, 1.0).normal_stiffness * overlap;
         return Point{normal * n.x - shear * n.y, normal * n.y + shear * n.x};
     };
-    for_each_touching(state, [&](std::size_t k, std::size_t i, std::size_t j, Point n,
-                                 double overlap) {
-        const Point f = act(state.materials[d.material[i]], state.materials[d.material[j]], n,
-                            overlap, c.shear_force[k]);
-        force[i] = {force[i].x - f.x, force[i].y - f.y};
-        force[j] = {force[j].x + f.x, force[j].y + f.y};
-        contact_sum += std::hypot(f.x, f.y);
-        ++balance.touching;
-    });
-    for_each_base_contact(state, base, [&](std::size_t k, std::size_t i, std::size_t s, Point n,
-                                           double overlap) {
-        const Point f =
-            act(base.material, state.materials[d.material[i]], n, overlap, b.shear_force[k]);
-        force[i] = {force[i].x + f.x, force[i].y + f.y};
-        balance.reaction[s] = {balance.reaction[s].x + f.x, balance.reaction[s].y + f.y};
-    });
+    for_each_touching(
+        state, [&](std::size_t k, std::size_t i, std::size_t j, Point n, double overlap) {
+            const Point f = act(state.materials[d.material[i]], state.materials[d.material[j]], n,
+                                overlap, c.shear_force[k]);
+            force[i] = {force[i].x - f.x, force[i].y - f.y};
+            force[j] = {force[j].x + f.x, force[j].y + f.y};
+            contact_sum += std::hypot(f.x, f.y);
+            ++balance.touching;
+        });
+    for_each_base_contact(
+        state, base, [&](std::size_t k, std::size_t i, std::size_t s, Point n, double overlap) {
+            const Point f =
+                act(base.material, state.materials[d.material[i]], n, overlap, b.shear_force[k]);
+            force[i] = {force[i].x + f.x, force[i].y + f.y};
+            balance.reaction[s] = {balance.reaction[s].x + f.x, balance.reaction[s].y + f.y};
+        });
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double weight = d.mass[i] * gravity;
         const double unbalanced = std::hypot(force[i].x, force[i].y - weight);
@@ -101,22 +101,22 @@ std::vector<Stress> disc_stresses(const State& state, const RigidBase& base) {
     };
     for_each_touching(state, [&](std::size_t k, std::size_t i, std::size_t j, Point n,
                                  double overlap) {
-        const double normal = contact_parameters(state.materials[d.material[i]],
-                                                 state.materials[d.material[j]], 1.0)
-                                  .normal_stiffness *
-                              overlap;
+        const double normal =
+            contact_parameters(state.materials[d.material[i]], state.materials[d.material[j]], 1.0)
+                .normal_stiffness *
+            overlap;
         const Point t{-n.y, n.x};
         add(i, d.radius[i] - 0.5 * overlap, n, normal, t, -c.shear_force[k]);
         add(j, d.radius[j] - 0.5 * overlap, {-n.x, -n.y}, normal, t, c.shear_force[k]);
     });
-    for_each_base_contact(state, base, [&](std::size_t k, std::size_t i, std::size_t, Point n,
-                                           double overlap) {
-        const double normal =
-            contact_parameters(base.material, state.materials[d.material[i]], 1.0)
-                .normal_stiffness *
-            overlap;
-        add(i, d.radius[i] - overlap, {-n.x, -n.y}, normal, {-n.y, n.x}, b.shear_force[k]);
-    });
+    for_each_base_contact(
+        state, base, [&](std::size_t k, std::size_t i, std::size_t, Point n, double overlap) {
+            const double normal =
+                contact_parameters(base.material, state.materials[d.material[i]], 1.0)
+                    .normal_stiffness *
+                overlap;
+            add(i, d.radius[i] - overlap, {-n.x, -n.y}, normal, {-n.y, n.x}, b.shear_force[k]);
+        });
     return stress;
 }
 
@@ -126,8 +126,8 @@ std::vector<int> coordination(const State& state, const RigidBase& base) {
         ++count[i];
         ++count[j];
     });
-    for_each_base_contact(state, base, [&](std::size_t, std::size_t i, std::size_t, Point,
-                                           double) { ++count[i]; });
+    for_each_base_contact(
+        state, base, [&](std::size_t, std::size_t i, std::size_t, Point, double) { ++count[i]; });
     return count;
 }
 

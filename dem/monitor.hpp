@@ -28,8 +28,8 @@ struct Stress {
     double xx = 0.0, yy = 0.0, xy = 0.0;
 };
 
-/// Stress of every disc: sum of force on it times arm to the contact, over its own area. Multiply by
-/// the solid fraction for the stress of the rock.
+/// Stress of every disc: sum of force on it times arm to the contact, over its own area. Multiply
+/// by the solid fraction for the stress of the rock.
 std::vector<Stress> disc_stresses(const State& state, const RigidBase& base);
 
 /// Number of touching discs and surfaces of every disc.

@@ -58,11 +58,13 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const auto i = static_cast<std::size_t>(rows[k]);
         const double half = 0.5 * reach;
-        polygon = {{{-half, -half}, true}, {{half, -half}, true},
-                   {{half, half}, true},   {{-half, half}, true}};
+        polygon = {{{-half, -half}, true},
+                   {{half, -half}, true},
+                   {{half, half}, true},
+                   {{-half, half}, true}};
         for (const Surface& s : base.surfaces)
-            if (const auto foot = nearest(
-                    s.chain, {d.x[i] - s.translation * state.clock.extension, d.y[i]});
+            if (const auto foot =
+                    nearest(s.chain, {d.x[i] - s.translation * state.clock.extension, d.y[i]});
                 foot && foot->distance < half)
                 clip(polygon, scratch, {-foot->normal.x, -foot->normal.y}, foot->distance);
         cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {

@@ -55,8 +55,7 @@ inline void store(double* to, Lanes v) { std::memcpy(to, &v, sizeof v); }
 
 inline Lanes square_root(Lanes v) {
 #if defined __AVX512F__
-    return reinterpret_cast<Lanes>(
-        _mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(v)));
+    return reinterpret_cast<Lanes>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(v)));
 #elif defined __AVX__
     return reinterpret_cast<Lanes>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(v)));
 #else

@@ -40,27 +40,32 @@ State empty_state() {
 
 namespace {
 
-template <class Columns, class AnyTable>
-Columns discs_of(AnyTable& t) {
-    return {t.template get<std::int64_t>("id"),      t.template get<double>("x"),
-            t.template get<double>("y"),             t.template get<double>("vx"),
-            t.template get<double>("vy"),            t.template get<double>("rotation"),
-            t.template get<double>("spin"),          t.template get<double>("radius"),
-            t.template get<double>("mass"),          t.template get<std::uint8_t>("material"),
-            t.template get<std::int32_t>("stratum"), t.template get<double>("start_x"),
-            t.template get<double>("start_y"),       t.template get<double>("start_extension"),
-            t.template get<double>("searched_x"),    t.template get<double>("searched_y")};
+template <class Columns, class AnyTable> Columns discs_of(AnyTable& t) {
+    return {t.template get<std::int64_t>("id"),
+            t.template get<double>("x"),
+            t.template get<double>("y"),
+            t.template get<double>("vx"),
+            t.template get<double>("vy"),
+            t.template get<double>("rotation"),
+            t.template get<double>("spin"),
+            t.template get<double>("radius"),
+            t.template get<double>("mass"),
+            t.template get<std::uint8_t>("material"),
+            t.template get<std::int32_t>("stratum"),
+            t.template get<double>("start_x"),
+            t.template get<double>("start_y"),
+            t.template get<double>("start_extension"),
+            t.template get<double>("searched_x"),
+            t.template get<double>("searched_y")};
 }
 
-template <class Columns, class AnyTable>
-Columns contacts_of(AnyTable& t) {
-    return {t.template get<std::int32_t>("first"),       t.template get<std::int32_t>("second"),
-            t.template get<double>("shear_force"),       t.template get<std::uint8_t>("bonded"),
-            t.template get<float>("tensile_strength"),   t.template get<float>("shear_strength")};
+template <class Columns, class AnyTable> Columns contacts_of(AnyTable& t) {
+    return {t.template get<std::int32_t>("first"),     t.template get<std::int32_t>("second"),
+            t.template get<double>("shear_force"),     t.template get<std::uint8_t>("bonded"),
+            t.template get<float>("tensile_strength"), t.template get<float>("shear_strength")};
 }
 
-template <class Columns, class AnyTable>
-Columns base_contacts_of(AnyTable& t) {
+template <class Columns, class AnyTable> Columns base_contacts_of(AnyTable& t) {
     return {t.template get<std::int32_t>("disc"), t.template get<std::int32_t>("surface"),
             t.template get<double>("shear_force")};
 }
@@ -192,9 +197,9 @@ std::uint64_t hash(const State& state) {
         mix(h, static_cast<std::uint8_t>(m.bondable));
     }
     mix(h, state.clock.cycle);
-    for (double value : {state.clock.time_step, state.clock.extension, state.ledger.initial, state.ledger.deposited,
-                         state.ledger.removed, state.mean_radius, state.inertial_mass_floor,
-                         state.skin, state.displacement_bound})
+    for (double value : {state.clock.time_step, state.clock.extension, state.ledger.initial,
+                         state.ledger.deposited, state.ledger.removed, state.mean_radius,
+                         state.inertial_mass_floor, state.skin, state.displacement_bound})
         mix(h, value);
     mix(h, state.seed);
     mix(h, state.next_id);

@@ -12,9 +12,9 @@ namespace listric {
 
 /// Where the simulation is. Geological time is extension over extension rate.
 struct Clock {
-    std::int64_t cycle = 0;  ///< cycles since extension began
-    double time_step = 0.0;  ///< s
-    double extension = 0.0;  ///< displacement of base and right wall, m
+    std::int64_t cycle = 0; ///< cycles since extension began
+    double time_step = 0.0; ///< s
+    double extension = 0.0; ///< displacement of base and right wall, m
 
     double time() const { return static_cast<double>(cycle) * time_step; } ///< s
 };
@@ -28,9 +28,9 @@ struct Ledger {
 
 /// All that the next cycle depends on: copy it, hash it, save it.
 struct State {
-    Table discs;         ///< see DiscColumns
-    Table contacts;      ///< see ContactColumns
-    Table base_contacts; ///< see BaseContactColumns
+    Table discs;                     ///< see DiscColumns
+    Table contacts;                  ///< see ContactColumns
+    Table base_contacts;             ///< see BaseContactColumns
     std::vector<Material> materials; ///< by MaterialIndex
     Clock clock;
     Ledger ledger;
@@ -43,29 +43,25 @@ struct State {
 };
 
 /// Columns that every disc has.
-template <bool writable>
-struct BasicDiscColumns {
-    template <class T>
-    using Values = std::span<std::conditional_t<writable, T, const T>>;
+template <bool writable> struct BasicDiscColumns {
+    template <class T> using Values = std::span<std::conditional_t<writable, T, const T>>;
 
     Values<std::int64_t> id;
-    Values<double> x, y;             ///< centre, m; y up from the original surface
-    Values<double> vx, vy;           ///< m/s
-    Values<double> rotation, spin;   ///< rad, rad/s; counter-clockwise
-    Values<double> radius;           ///< m
-    Values<double> mass;             ///< kg per metre of thickness
-    Values<std::uint8_t> material;   ///< MaterialIndex
-    Values<std::int32_t> stratum;    ///< 0 before the rift, n for the n-th sedimentation
-    Values<double> start_x, start_y; ///< where the disc entered the model, m
-    Values<double> start_extension;  ///< and when, m of extension
+    Values<double> x, y;                   ///< centre, m; y up from the original surface
+    Values<double> vx, vy;                 ///< m/s
+    Values<double> rotation, spin;         ///< rad, rad/s; counter-clockwise
+    Values<double> radius;                 ///< m
+    Values<double> mass;                   ///< kg per metre of thickness
+    Values<std::uint8_t> material;         ///< MaterialIndex
+    Values<std::int32_t> stratum;          ///< 0 before the rift, n for the n-th sedimentation
+    Values<double> start_x, start_y;       ///< where the disc entered the model, m
+    Values<double> start_extension;        ///< and when, m of extension
     Values<double> searched_x, searched_y; ///< where the last neighbour search found it, m
 };
 
 /// Columns of every pair of discs that are closer than the skin, sorted by (first, second).
-template <bool writable>
-struct BasicContactColumns {
-    template <class T>
-    using Values = std::span<std::conditional_t<writable, T, const T>>;
+template <bool writable> struct BasicContactColumns {
+    template <class T> using Values = std::span<std::conditional_t<writable, T, const T>>;
 
     Values<std::int32_t> first, second; ///< rows of the disc table, first < second
     Values<double> shear_force;         ///< N, on `second` along (-n_y, n_x)
@@ -74,10 +70,8 @@ struct BasicContactColumns {
 };
 
 /// Columns of every disc and surface of the base that are closer than the skin.
-template <bool writable>
-struct BasicBaseContactColumns {
-    template <class T>
-    using Values = std::span<std::conditional_t<writable, T, const T>>;
+template <bool writable> struct BasicBaseContactColumns {
+    template <class T> using Values = std::span<std::conditional_t<writable, T, const T>>;
 
     Values<std::int32_t> disc, surface; ///< row of the disc table; index of the surface
     Values<double> shear_force;         ///< N, on the disc along (-n_y, n_x)

@@ -48,7 +48,8 @@ private:
 };
 
 /// Keeps the calling thread on one core while it lives, if `threads` threads are to fill all cores:
-/// the kernel likes to wake a team's threads on the core of the first, where they wait for each other.
+/// the kernel likes to wake a team's threads on the core of the first, where they wait for each
+/// other.
 class Pinned {
 public:
     Pinned(int thread, int threads);
@@ -61,8 +62,7 @@ private:
 };
 
 /// Calls work(k) for k = 0 .. threads - 1, each on a thread of its own, and waits for all.
-template <class Work>
-void run_team(int threads, Work&& work) {
+template <class Work> void run_team(int threads, Work&& work) {
     std::vector<std::jthread> others;
     for (int k = 1; k < threads; ++k)
         others.emplace_back([&work, k, threads] {

@@ -50,7 +50,8 @@ bool BondHealing::apply(State& state, const RigidBase&) {
     const double window_start = state.clock.extension - schedule().spacing() * (1.0 - 1e-6);
     const std::vector<bool> touches = touching(state);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
-        const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
         if (c.bonded[k] || !touches[k] || !state.materials[d.material[i]].bondable ||
             !state.materials[d.material[j]].bondable ||
             std::max(d.start_extension[i], d.start_extension[j]) > window_start)

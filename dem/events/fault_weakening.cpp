@@ -143,12 +143,12 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     const FaultWeakeningParameters& p = parameters_;
     const double diameter = 2.0 * state.mean_radius;
     const double circle_radius = 0.5 * p.circle_diameters * diameter;
-    const double threshold = p.strain_rate * schedule().seconds() * p.strained_width *
-                             p.circle_diameters * diameter;
+    const double threshold =
+        p.strain_rate * schedule().seconds() * p.strained_width * p.circle_diameters * diameter;
 
     // Discs that the last scan did not see have no displacement.
-    const Sample sample = displacements(
-        state, std::max(p.youngest_sediment, 0.99 * p.interval) * schedule().extension_rate);
+    const Sample sample = displacements(state, std::max(p.youngest_sediment, 0.99 * p.interval) *
+                                                   schedule().extension_rate);
     const Cells cells(sample.x, sample.y, circle_radius);
     const std::vector<FaultSegment> faults =
         thin_out(scan(sample, cells, circle_radius, 0.5 * diameter, threshold, p.angles),

@@ -76,9 +76,9 @@ bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     constexpr double gain = 0.3;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const auto i = static_cast<std::size_t>(rows[k]);
-        const double factor = enlargement(
-            parameters_.mean_stress_ratio * overburden_ * std::max(0.0, -d.y[i]),
-            state.materials[weak]);
+        const double factor =
+            enlargement(parameters_.mean_stress_ratio * overburden_ * std::max(0.0, -d.y[i]),
+                        state.materials[weak]);
         double now = 0.0, before = 0.0;
         near.for_each_near(x[k], y[k], [&](std::int32_t other) {
             const auto o = static_cast<std::size_t>(other);

@@ -64,7 +64,8 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
     if (placed.empty())
         return false;
 
-    constexpr double packing_porosity = 0.166; // of discs under gravity; pores of the rock come on top
+    constexpr double packing_porosity =
+        0.166; // of discs under gravity; pores of the rock come on top
     const double density =
         parameters_.grain_density * (1.0 - parameters_.surface_porosity) / (1.0 - packing_porosity);
     const std::size_t first = add_discs(state, placed.size());

@@ -1,5 +1,5 @@
-// Shear strain of simple shear is gamma, of rigid rotation second order in the angle, and a disc that
-// was deposited in the window does not count for its neighbours.
+// Shear strain of simple shear is gamma, of rigid rotation second order in the angle, and a disc
+// that was deposited in the window does not count for its neighbours.
 
 #include "dem/events/strain.hpp"
 #include "tests/support.hpp"
