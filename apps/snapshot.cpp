@@ -178,10 +178,11 @@ template <class AnyState, class Visit> void for_each_number(AnyState& s, Visit&&
     visit("mean_radius", s.mean_radius);
     visit("inertial_mass_floor", s.inertial_mass_floor);
     visit("skin", s.skin);
+    visit("searched_extension", s.searched_extension);
     visit("displacement_bound", s.displacement_bound);
 }
 
-constexpr const char* format = "listric snapshot 2";
+constexpr const char* format = "listric snapshot 3";
 
 /// Hash of all that a snapshot holds, so that a damaged file is not taken for another state.
 std::uint64_t content_hash(const Snapshot& snapshot) {

@@ -1,5 +1,6 @@
 #include "dem/base.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace listric {
@@ -110,6 +111,13 @@ std::optional<FootPoint> foot_point(const Chain& chain, Point p) {
         arc_length += std::abs(turn / s.curvature);
     }
     return FootPoint{found->foot, arc_length};
+}
+
+double greatest_translation(const RigidBase& base) {
+    double greatest = 0.0;
+    for (const Surface& surface : base.surfaces)
+        greatest = std::max(greatest, std::abs(surface.translation));
+    return greatest;
 }
 
 Point point_at(const Chain& chain, double arc_length) {

@@ -72,4 +72,7 @@ struct RigidBase {
     Motion motion;
 };
 
+/// Greatest translation of a surface, in units of the extension speed.
+double greatest_translation(const RigidBase& base);
+
 } // namespace listric

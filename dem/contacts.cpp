@@ -9,110 +9,179 @@ namespace listric {
 
 namespace {
 
-/// Contact rows by first disc: those of disc i are begin[i] .. begin[i + 1] - 1.
-std::vector<std::int32_t> rows_by_disc(std::span<const std::int32_t> disc, std::size_t discs) {
-    std::vector<std::int32_t> begin(discs + 1, 0);
-    for (std::int32_t i : disc)
-        ++begin[static_cast<std::size_t>(i) + 1];
-    for (std::size_t i = 0; i < discs; ++i)
-        begin[i + 1] += begin[i];
-    return begin;
+/// A pair to be listed: of two discs, or of disc and surface.
+struct Pair {
+    std::int32_t first, second;
+    auto operator<=>(const Pair&) const = default;
+};
+
+/// The discs whose pairs are searched.
+struct Searched {
+    std::vector<std::int32_t> rows;
+    std::vector<std::uint8_t> flags; ///< by row of the disc table
+};
+
+Searched all_discs(const State& state) {
+    Searched searched{{}, std::vector<std::uint8_t>(state.discs.rows(), 1)};
+    searched.rows.resize(state.discs.rows());
+    for (std::size_t i = 0; i < searched.rows.size(); ++i)
+        searched.rows[i] = static_cast<std::int32_t>(i);
+    return searched;
 }
 
-/// Replaces the table's rows by `count` rows; new row k inherits all columns of old row
-/// inherited[k], or starts afresh where that is -1.
-void replace_rows(Table& table, std::vector<std::int32_t>& inherited) {
-    const auto old_rows = static_cast<std::int32_t>(table.rows());
-    table.resize(table.rows() + 1); // one more row, of initial values
-    for (std::int32_t& row : inherited)
-        if (row < 0)
-            row = old_rows;
+/// Gives a table the rows of `kept` (rows that stay, in order) and `found` (sorted pairs), sorted
+/// by pair. A found pair that was listed before keeps its columns, others start afresh. Returns
+/// whether anything changed.
+template <class Keeps>
+bool merge(Table& table, const char* first_name, const char* second_name,
+           std::span<const Pair> found, Keeps&& keeps) {
+    const auto first = table.get<std::int32_t>(first_name);
+    const auto second = table.get<std::int32_t>(second_name);
+    const auto old_rows = static_cast<std::int32_t>(first.size());
+    std::vector<std::int32_t> inherited;
+    std::vector<Pair> added;
+    inherited.reserve(first.size() + found.size());
+    auto next = found.begin();
+    const auto add = [&] {
+        inherited.push_back(old_rows); // a row of initial values, appended below
+        added.push_back(*next++);
+    };
+    for (std::int32_t row = 0; row < old_rows; ++row) {
+        const auto k = static_cast<std::size_t>(row);
+        const Pair pair{first[k], second[k]};
+        while (next != found.end() && *next < pair)
+            add();
+        const bool again = next != found.end() && *next == pair;
+        if (again)
+            ++next;
+        if (again || keeps(k))
+            inherited.push_back(row);
+    }
+    while (next != found.end())
+        add();
+    if (added.empty() && inherited.size() == first.size())
+        return false;
+    table.resize(first.size() + 1);
     table.reorder(inherited);
+    const auto new_first = table.get<std::int32_t>(first_name);
+    const auto new_second = table.get<std::int32_t>(second_name);
+    auto pair = added.begin();
+    for (std::size_t k = 0; k < inherited.size(); ++k)
+        if (inherited[k] == old_rows) {
+            new_first[k] = pair->first;
+            new_second[k] = pair->second;
+            ++pair;
+        }
+    return true;
 }
 
-void find_disc_contacts(State& state) {
-    const DiscColumns d = disc_columns(state);
-    const std::size_t n = d.x.size();
-    const double largest = n ? *std::ranges::max_element(d.radius) : 0.0;
-    const Cells cells(d.x, d.y, 2.0 * largest + state.skin);
+bool find_disc_contacts(State& state, const Searched& searched) {
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    const double largest = d.x.empty() ? 0.0 : *std::ranges::max_element(d.radius);
+    const Cells cells(d.searched_x, d.searched_y, 2.0 * largest + state.skin);
+    const bool all = searched.rows.size() == d.x.size();
 
-    const ContactColumns old = contact_columns(state);
-    const std::vector<std::int32_t> begin = rows_by_disc(old.first, n);
-
-    std::vector<std::int32_t> first, second, inherited;
-    first.reserve(3 * n);
-    second.reserve(3 * n);
-    inherited.reserve(3 * n);
-    std::vector<std::pair<std::int32_t, std::int32_t>> found; // second disc, old row
-    for (std::size_t i = 0; i < n; ++i) {
-        found.clear();
-        cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t candidate) {
+    std::vector<Pair> found;
+    found.reserve(4 * searched.rows.size());
+    for (const std::int32_t row : searched.rows) {
+        const auto i = static_cast<std::size_t>(row);
+        const auto pairs_before = static_cast<std::ptrdiff_t>(found.size());
+        cells.for_each_near(d.searched_x[i], d.searched_y[i], [&](std::int32_t candidate) {
             const auto j = static_cast<std::size_t>(candidate);
-            if (j <= i)
+            // Of two searched discs, the first finds the pair.
+            if (j == i || (j < i && searched.flags[j]))
                 return;
-            const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+            const double dx = d.searched_x[j] - d.searched_x[i];
+            const double dy = d.searched_y[j] - d.searched_y[i];
             const double reach = d.radius[i] + d.radius[j] + state.skin;
             if (dx * dx + dy * dy < reach * reach)
-                found.emplace_back(candidate, -1);
+                found.push_back({std::min(row, candidate), std::max(row, candidate)});
         });
-        for (std::int32_t row = begin[i]; row < begin[i + 1]; ++row) {
-            const auto r = static_cast<std::size_t>(row);
-            const auto pair = std::ranges::find(found, old.second[r],
-                                                &std::pair<std::int32_t, std::int32_t>::first);
-            if (pair != found.end())
-                pair->second = row;
-            else if (old.bonded[r])
-                found.emplace_back(old.second[r], row);
-        }
-        std::ranges::sort(found);
-        for (const auto& [j, row] : found) {
-            first.push_back(static_cast<std::int32_t>(i));
-            second.push_back(j);
-            inherited.push_back(row);
-        }
+        if (all)
+            std::sort(found.begin() + pairs_before, found.end());
     }
-    replace_rows(state.contacts, inherited);
-    const ContactColumns contacts = contact_columns(state);
-    std::ranges::copy(first, contacts.first.begin());
-    std::ranges::copy(second, contacts.second.begin());
+    if (!all)
+        std::ranges::sort(found);
+    const ConstContactColumns c = contact_columns(std::as_const(state));
+    return merge(state.contacts, "first", "second", found, [&](std::size_t k) {
+        return c.bonded[k] || !(searched.flags[static_cast<std::size_t>(c.first[k])] ||
+                                searched.flags[static_cast<std::size_t>(c.second[k])]);
+    });
 }
 
-void find_base_contacts(State& state, const RigidBase& base) {
-    const DiscColumns d = disc_columns(state);
-    const BaseContactColumns old = base_contact_columns(state);
-    const std::vector<std::int32_t> begin = rows_by_disc(old.disc, d.x.size());
-
-    std::vector<std::int32_t> disc, surface, inherited;
-    for (std::size_t i = 0; i < d.x.size(); ++i)
+bool find_base_contacts(State& state, const RigidBase& base, const Searched& searched) {
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    std::vector<Pair> found;
+    for (const std::int32_t row : searched.rows)
         for (std::size_t s = 0; s < base.surfaces.size(); ++s) {
+            const auto i = static_cast<std::size_t>(row);
             const Surface& face = base.surfaces[s];
             const auto foot =
-                nearest(face.chain, {d.x[i] - face.translation * state.clock.extension, d.y[i]});
-            if (!foot || foot->distance > d.radius[i] + state.skin)
-                continue;
-            std::int32_t row = begin[i];
-            while (row < begin[i + 1] &&
-                   old.surface[static_cast<std::size_t>(row)] != static_cast<std::int32_t>(s))
-                ++row;
-            disc.push_back(static_cast<std::int32_t>(i));
-            surface.push_back(static_cast<std::int32_t>(s));
-            inherited.push_back(row < begin[i + 1] ? row : -1);
+                nearest(face.chain, {d.searched_x[i] - face.translation * state.searched_extension,
+                                     d.searched_y[i]});
+            if (foot && foot->distance <= d.radius[i] + state.skin)
+                found.push_back({row, static_cast<std::int32_t>(s)});
         }
-    replace_rows(state.base_contacts, inherited);
-    const BaseContactColumns contacts = base_contact_columns(state);
-    std::ranges::copy(disc, contacts.disc.begin());
-    std::ranges::copy(surface, contacts.surface.begin());
+    const ConstBaseContactColumns c = base_contact_columns(std::as_const(state));
+    return merge(state.base_contacts, "disc", "surface", found, [&](std::size_t k) {
+        return !searched.flags[static_cast<std::size_t>(c.disc[k])];
+    });
+}
+
+template <class Columns> double displacement_square(const Columns& d, std::size_t i) {
+    const double dx = d.x[i] - d.searched_x[i], dy = d.y[i] - d.searched_y[i];
+    return dx * dx + dy * dy;
+}
+
+/// How far a surface is from its searched place, m.
+double surface_travel(const State& state, const RigidBase& base) {
+    return greatest_translation(base) * std::abs(state.clock.extension - state.searched_extension);
 }
 
 } // namespace
 
 void find_contacts(State& state, const RigidBase& base) {
-    find_disc_contacts(state);
-    find_base_contacts(state, base);
     const DiscColumns d = disc_columns(state);
     std::ranges::copy(d.x, d.searched_x.begin());
     std::ranges::copy(d.y, d.searched_y.begin());
+    state.searched_extension = state.clock.extension;
     state.displacement_bound = 0.0;
+    const Searched searched = all_discs(state);
+    find_disc_contacts(state, searched);
+    find_base_contacts(state, base, searched);
+}
+
+double greatest_displacement(const State& state, const RigidBase& base) {
+    const ConstDiscColumns d = disc_columns(state);
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double square = displacement_square(d, i);
+        if (square > greatest || std::isnan(square))
+            greatest = square;
+    }
+    // The first argument of std::max wins if it is no number.
+    return std::max(std::sqrt(greatest), surface_travel(state, base));
+}
+
+bool update_contacts(State& state, const RigidBase& base) {
+    const DiscColumns d = disc_columns(state);
+    const double stays = 0.2 * state.skin;
+    Searched searched{{}, std::vector<std::uint8_t>(d.x.size(), 0)};
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (displacement_square(d, i) > stays * stays) {
+            searched.rows.push_back(static_cast<std::int32_t>(i));
+            searched.flags[i] = 1;
+            d.searched_x[i] = d.x[i];
+            d.searched_y[i] = d.y[i];
+        }
+    bool changed = find_disc_contacts(state, searched);
+    if (surface_travel(state, base) > stays) {
+        state.searched_extension = state.clock.extension;
+        searched = all_discs(state);
+    }
+    changed |= find_base_contacts(state, base, searched);
+    state.displacement_bound = greatest_displacement(state, base);
+    return changed;
 }
 
 std::vector<bool> touching(const State& state) {

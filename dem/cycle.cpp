@@ -6,10 +6,8 @@
 #include "dem/law.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,19 +18,6 @@ namespace {
 struct Force {
     double x, y, moment; ///< N, N, N m
 };
-
-constexpr std::size_t material_count = 4;
-using ContactTable = std::array<ContactParameters, material_count * material_count>;
-
-/// Contact parameters of every pair of materials.
-ContactTable pair_parameters(const State& state) {
-    ContactTable table{};
-    for (std::size_t a = 0; a < state.materials.size(); ++a)
-        for (std::size_t b = 0; b < state.materials.size(); ++b)
-            table[a * material_count + b] =
-                contact_parameters(state.materials[a], state.materials[b], state.clock.time_step);
-    return table;
-}
 
 /// Forces of the base on the discs, which also starts their sum.
 void base_forces(State& state, const RigidBase& base, std::span<Force> force) {
@@ -54,7 +39,7 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force) {
     }
 }
 
-void contact_forces(State& state, const ContactTable& pairs, std::span<Force> force) {
+void contact_forces(State& state, const PairParameters& pairs, std::span<Force> force) {
     const DiscColumns d = disc_columns(state);
     const ContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
@@ -75,9 +60,9 @@ void contact_forces(State& state, const ContactTable& pairs, std::span<Force> fo
         const double arm_i = d.radius[i] - half, arm_j = d.radius[j] - half;
         const double slip_rate = (d.vy[j] - d.vy[i]) * nx - (d.vx[j] - d.vx[i]) * ny -
                                  (arm_i * d.spin[i] + arm_j * d.spin[j]);
-        const double normal = contact_force(
-            overlap, slip_rate, pairs[d.material[i] * material_count + d.material[j]],
-            c.tensile_strength[k], c.shear_strength[k], c.shear_force[k], c.bonded[k]);
+        const double normal = contact_force(overlap, slip_rate, pairs(d.material[i], d.material[j]),
+                                            c.tensile_strength[k], c.shear_strength[k],
+                                            c.shear_force[k], c.bonded[k]);
         const double shear = c.shear_force[k];
         const double fx = normal * nx - shear * ny, fy = normal * ny + shear * nx;
         force[i].x -= fx;
@@ -115,77 +100,76 @@ double move_discs(State& state, const CyclePhysics& physics, std::span<const For
     return fastest;
 }
 
-/// Greatest distance of a disc from where the neighbour search found it, m.
-double greatest_displacement(const State& state) {
+/// Throws if a disc is several radii from its searched place, or nowhere: it is out of control.
+void refuse_runaways(const State& state) {
+    if (state.displacement_bound < 10.0 * state.mean_radius)
+        return;
     const ConstDiscColumns d = disc_columns(state);
-    double greatest = 0.0;
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        const double dx = d.x[i] - d.searched_x[i], dy = d.y[i] - d.searched_y[i];
-        const double square = dx * dx + dy * dy;
-        // A disc that crosses several radii between two checks, or is no number, is out of control.
-        if (!(square < 100.0 * state.mean_radius * state.mean_radius))
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (!(std::hypot(d.x[i] - d.searched_x[i], d.y[i] - d.searched_y[i]) <
+              10.0 * state.mean_radius))
             throw NumericalFailure("disc " + std::to_string(d.id[i]) +
                                    " ran away at x = " + std::to_string(d.x[i]) +
                                    " m, y = " + std::to_string(d.y[i]) + " m (velocity " +
                                    std::to_string(d.vx[i]) + ", " + std::to_string(d.vy[i]) +
                                    " m/s, cycle " + std::to_string(state.clock.cycle) + ")");
-        greatest = std::max(greatest, square);
-    }
-    return std::sqrt(greatest);
 }
 
-/// The plain cycle, see FastCycle::run for the contract. It is written to be read.
-std::int64_t run_plain(State& state, const RigidBase& base, const CyclePhysics& physics,
-                       std::int64_t cycles, double limit) {
-    std::vector<Force> force(state.discs.rows());
-    const ContactTable pairs = pair_parameters(state);
+/// One plain cycle. It is written to be read.
+void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
+                   const PairParameters& pairs, std::span<Force> force) {
     Clock& clock = state.clock;
-    std::int64_t done = 0;
-    while (done < cycles && !(state.displacement_bound > limit)) {
-        const double speed = base.motion.speed_at(clock.time());
-        base_forces(state, base, force);
-        contact_forces(state, pairs, force);
-        const double fastest = move_discs(state, physics, force);
-        state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
-        clock.extension += speed * clock.time_step;
-        ++clock.cycle;
-        ++done;
+    const double speed = base.motion.speed_at(clock.time());
+    base_forces(state, base, force);
+    contact_forces(state, pairs, force);
+    const double fastest =
+        std::max(move_discs(state, physics, force), greatest_translation(base) * speed);
+    state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
+    clock.extension += speed * clock.time_step;
+    ++clock.cycle;
+}
+
+void advance_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
+                     std::int64_t cycles) {
+    std::vector<Force> force(state.discs.rows());
+    const PairParameters pairs(state.materials, state.clock.time_step);
+    for (; cycles > 0; --cycles) {
+        if (is_check_due(state.displacement_bound, state.skin, state.clock.cycle)) {
+            state.displacement_bound = greatest_displacement(state, base);
+            refuse_runaways(state);
+            if (is_update_due(state.displacement_bound, state.skin))
+                update_contacts(state, base);
+        }
+        cycle_plainly(state, base, physics, pairs, force);
     }
-    return done;
+}
+
+void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
+                  std::int64_t cycles, int threads) {
+    FastCycle fast(state, base, physics, threads);
+    while (cycles > 0) {
+        cycles -= fast.run(state, cycles);
+        if (cycles == 0)
+            break;
+        fast.unpack(state);
+        refuse_runaways(state);
+        if (update_contacts(state, base))
+            fast.pack_contacts(state);
+        fast.pack_searched_places(state);
+    }
+    fast.unpack(state);
 }
 
 } // namespace
 
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
              const Execution& execution) {
-    // Only NaN hides from the displacement bound; it is looked for every so often.
-    constexpr std::int64_t between_checks = 1000;
-    const double limit = 0.5 * state.skin;
     const bool plain =
         execution.cycle == Cycle::plain || (execution.cycle == Cycle::best && !has_wide_registers);
-    std::optional<FastCycle> fast;
-    while (cycles > 0) {
-        if (state.displacement_bound > limit || state.clock.cycle % between_checks == 0) {
-            if (fast)
-                fast->unpack(state);
-            state.displacement_bound = greatest_displacement(state);
-            if (state.displacement_bound > 0.4 * state.skin) {
-                find_contacts(state, base);
-                fast.reset();
-            }
-        }
-        const std::int64_t batch =
-            std::min(cycles, between_checks - state.clock.cycle % between_checks);
-        if (plain) {
-            cycles -= run_plain(state, base, physics, batch, limit);
-            continue;
-        }
-        if (!fast)
-            fast.emplace(state, base, physics, execution.threads);
-        cycles -= fast->run(state, batch, limit);
-    }
-    if (fast)
-        fast->unpack(state);
+    if (plain)
+        advance_plainly(state, base, physics, cycles);
+    else
+        advance_fast(state, base, physics, cycles, execution.threads);
 }
 
 double stable_time_step(double mass, const Material& m, double safety) {

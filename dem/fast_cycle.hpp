@@ -7,6 +7,7 @@
 #include "dem/state.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <vector>
 
@@ -44,12 +45,17 @@ template <class T> using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
 class FastCycle {
 public:
-    /// Packs a state whose contacts were just found. `threads` >= 1.
+    /// Packs a state. `threads` >= 1. Base and physics must outlive this.
     FastCycle(const State& state, const RigidBase& base, const CyclePhysics& physics, int threads);
 
-    /// Runs until `cycles` cycles are done or the displacement bound exceeds `limit` (m). Updates
-    /// clock and bound of the state, nothing else. Returns the number of cycles done.
-    std::int64_t run(State& state, std::int64_t cycles, double limit);
+    /// Runs until `cycles` cycles are done or the lists must be updated. Updates clock and bound of
+    /// the state, nothing else. Returns the number of cycles done.
+    std::int64_t run(State& state, std::int64_t cycles);
+
+    /// Packs new contact lists, of the same discs.
+    void pack_contacts(const State& state);
+
+    void pack_searched_places(const State& state);
 
     /// Writes positions, velocities, shear forces and bonds back into the state's columns.
     void unpack(State& state) const;
@@ -82,6 +88,13 @@ private:
         std::uint32_t slot;
     };
 
+    /// Contacts, eight at a time.
+    struct Blocks {
+        AlignedVector<Block> blocks;
+        std::vector<std::int32_t> rows; ///< of the contact table by lane; -1: idle
+    };
+
+    /// Discs that move together once their contacts are computed.
     struct Tile {
         std::size_t end_block;
         std::size_t end_group;
@@ -89,21 +102,37 @@ private:
 
     /// The contiguous discs of one thread.
     struct Strip {
-        AlignedVector<Block> blocks;          ///< contacts of its discs, by tiles
-        AlignedVector<Block> boundary_blocks; ///< those with a second disc in a later strip
-        std::vector<std::int32_t> block_rows, boundary_rows; ///< contact row of each lane, or -1
+        std::size_t first_disc = 0, end_disc = 0;
+        Blocks inner;    ///< contacts of its discs, by tiles
+        Blocks boundary; ///< those with a second disc in a later strip
         std::vector<BaseContact> base_contacts;
         std::size_t first_base_row = 0;
         std::vector<Tile> tiles;
         std::vector<std::uint32_t> gathers; ///< see pack_gathers
-        std::size_t first_disc = 0;
-        alignas(64) double fastest = 0.0; ///< component of a velocity in this cycle, m/s
+        /// Greatest component of a velocity, m/s, in even and in odd cycles: while one is written,
+        /// others may still read the other.
+        alignas(64) double fastest[2] = {0.0, 0.0};
+        double furthest = 0.0; ///< greatest distance from a searched place, squared, m^2
     };
 
-    void pack_contacts(const State& state, int threads);
+    struct Place {
+        double x, y; ///< m
+    };
+
+    std::size_t pack_blocks(const State& state, std::size_t row, Strip& strip) const;
+    std::size_t pack_base_contacts(const State& state, std::size_t row, std::size_t slot,
+                                   Strip& strip);
+    std::size_t assign_slots(std::size_t slot, Strip& strip);
+    void pack_gathers(const State& state);
+
     void compute(Block& block);
     void compute_base(Strip& strip, double extension, double speed);
-    void sweep(Strip& strip);
+    double sweep(Strip& strip);
+    double furthest(const Strip& strip) const;
+
+    static constexpr std::size_t tile_discs = 128; ///< a tile's records and slots fit the cache
+    static constexpr std::size_t group_discs = 4;  ///< discs that gather together
+    static constexpr float not_bonded = -std::numeric_limits<float>::infinity();
 
     const RigidBase& base_;
     CyclePhysics physics_;
@@ -111,8 +140,11 @@ private:
     std::size_t disc_count_;
     AlignedVector<Disc> discs_;
     AlignedVector<DiscConstants> constants_;
+    std::vector<Place> searched_places_;
     AlignedVector<Slot> slots_;
     std::vector<Strip> strips_;
+
+    std::vector<std::uint32_t> slot_of_, base_slot_of_; ///< by row of the contact tables
 };
 
 } // namespace listric

@@ -14,4 +14,11 @@ ContactParameters contact_parameters(const Material& a, const Material& b, doubl
             static_cast<float>(std::min(a.friction, b.friction))};
 }
 
+PairParameters::PairParameters(std::span<const Material> materials, double time_step)
+    : count_(materials.size()) {
+    for (const Material& a : materials)
+        for (const Material& b : materials)
+            table_.push_back(contact_parameters(a, b, time_step));
+}
+
 } // namespace listric

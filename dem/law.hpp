@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace listric {
 
@@ -19,6 +21,19 @@ struct ContactParameters {
 /// Two linear springs in series (PFC's linear contact model). Not inline: g++ 12 drops a rounding
 /// to single precision that it can see being widened again, and the two cycles would differ.
 ContactParameters contact_parameters(const Material& a, const Material& b, double time_step);
+
+/// Contact parameters of every pair of a state's materials.
+class PairParameters {
+public:
+    PairParameters(std::span<const Material> materials, double time_step);
+    const ContactParameters& operator()(std::uint8_t a, std::uint8_t b) const {
+        return table_[a * count_ + b];
+    }
+
+private:
+    std::size_t count_;
+    std::vector<ContactParameters> table_;
+};
 
 /// Linear contact with a breakable contact bond and Coulomb friction, PFC2D's rules.
 ///

@@ -199,7 +199,8 @@ std::uint64_t hash(const State& state) {
     mix(h, state.clock.cycle);
     for (double value : {state.clock.time_step, state.clock.extension, state.ledger.initial,
                          state.ledger.deposited, state.ledger.removed, state.mean_radius,
-                         state.inertial_mass_floor, state.skin, state.displacement_bound})
+                         state.inertial_mass_floor, state.skin, state.searched_extension,
+                         state.displacement_bound})
         mix(h, value);
     mix(h, state.seed);
     mix(h, state.next_id);

@@ -39,7 +39,8 @@ struct State {
     double mean_radius = 0.0;         ///< of the basement, m: the model's resolution
     double inertial_mass_floor = 0.0; ///< discs lighter than this move as if they had it, kg
     double skin = 0.0;                ///< margin of the neighbour list, m
-    double displacement_bound = 0.0;  ///< no disc moved further since the neighbour search, m
+    double searched_extension = 0.0;  ///< where the last search of all surfaces found them, m
+    double displacement_bound = 0.0;  ///< no disc or surface is further from where it was found, m
 };
 
 /// Columns that every disc has.
