@@ -13,19 +13,21 @@
 namespace listric {
 
 /// The contact law of law.hpp and cycle.cpp, as many contacts at a time as there are lanes.
-inline void FastCycle::compute(Block& block) {
+template <bool bonded, bool frictional> void FastCycle::compute(Block& block) {
+    constexpr bool shears = bonded || frictional;
     for (int start = 0; start < 8; start += lane_count) {
-        Double4 near_rows[lane_count], rate_rows[lane_count];
+        Double4 near_rows[lane_count], rate_rows[shears ? lane_count : 1];
         for (int k = 0; k < lane_count; ++k) {
             const Disc& i = discs_[static_cast<std::size_t>(block.first[start + k])];
             const Disc& j = discs_[static_cast<std::size_t>(block.second[start + k])];
             const Double4 radii = __builtin_shufflevector(i.place, j.place, 1, 5, 3, 7);
             near_rows[k] = __builtin_shufflevector(j.place - i.place, radii, 0, 1, 6, 7);
-            const Double4 spins = __builtin_shufflevector(i.velocity, j.velocity, 0, 4, 2, 6);
-            rate_rows[k] = __builtin_shufflevector(j.velocity - i.velocity, spins, 0, 1, 6, 7);
+            if constexpr (shears) {
+                const Double4 spins = __builtin_shufflevector(i.velocity, j.velocity, 0, 4, 2, 6);
+                rate_rows[k] = __builtin_shufflevector(j.velocity - i.velocity, spins, 0, 1, 6, 7);
+            }
         }
         const auto [dx, dy, radius_i, radius_j] = transpose(near_rows);
-        const auto [dvx, dvy, spin_i, spin_j] = transpose(rate_rows);
 
         const Lanes reach = radius_i + radius_j;
         const Lanes square = dx * dx + dy * dy;
@@ -35,28 +37,37 @@ inline void FastCycle::compute(Block& block) {
         const Lanes overlap = reach - distance;
         const Lanes half = 0.5 * overlap;
         const Lanes arm_i = radius_i - half, arm_j = radius_j - half;
-        const Lanes slip_rate = dvy * nx - dvx * ny - (arm_i * spin_i + arm_j * spin_j);
-
-        const Lanes zero = {};
         const Lanes elastic = load(block.normal_stiffness + start) * overlap;
-        const Lanes stuck = load(block.shear_force + start) -
-                            load(block.shear_stiffness_times_step + start) * slip_rate;
-        const Lanes tensile_strength = load(block.tensile_strength + start);
-        const Mask holds = (-elastic <= tensile_strength) &
-                           (magnitude(stuck) <= load(block.shear_strength + start));
+        const Lanes zero = {};
         const Mask pressed = (square < reach * reach) & (overlap > zero);
-        const Lanes limit = load(block.friction + start) * elastic;
-        const Lanes raised = stuck < -limit ? -limit : stuck;
-        const Lanes clipped = limit < raised ? limit : raised;
-        const Lanes shear = holds ? stuck : (pressed ? clipped : zero);
+
+        Mask holds = {}; // the bond
+        Lanes shear = zero;
+        if constexpr (shears) {
+            const auto [dvx, dvy, spin_i, spin_j] = transpose(rate_rows);
+            const Lanes slip_rate = dvy * nx - dvx * ny - (arm_i * spin_i + arm_j * spin_j);
+            const Lanes stuck = load(block.shear_force + start) -
+                                load(block.shear_stiffness_times_step + start) * slip_rate;
+            if constexpr (frictional) {
+                const Lanes limit = load(block.friction + start) * elastic;
+                const Lanes raised = stuck < -limit ? -limit : stuck;
+                const Lanes clipped = limit < raised ? limit : raised;
+                shear = pressed & (limit > zero) ? clipped : zero;
+            }
+            if constexpr (bonded) {
+                const Lanes tensile_strength = load(block.tensile_strength + start);
+                holds = (-elastic <= tensile_strength) &
+                        (magnitude(stuck) <= load(block.shear_strength + start));
+                shear = holds ? stuck : shear;
+                const Mask breaks = ~holds & (tensile_strength > static_cast<double>(not_bonded));
+                if (any(breaks)) [[unlikely]]
+                    for (int k = 0; k < lane_count; ++k)
+                        if (breaks[k])
+                            block.tensile_strength[start + k] = not_bonded;
+            }
+        }
         const Lanes normal = (holds | pressed) ? elastic : zero;
         store(block.shear_force + start, shear);
-
-        const Mask breaks = ~holds & (tensile_strength > static_cast<double>(not_bonded));
-        if (any(breaks)) [[unlikely]]
-            for (int k = 0; k < lane_count; ++k)
-                if (breaks[k])
-                    block.tensile_strength[start + k] = not_bonded;
 
         Double4 rows[lane_count];
         transpose(
@@ -78,7 +89,12 @@ void FastCycle::compute_base(Strip& strip, double extension, double speed) {
     }
 }
 
-double FastCycle::sweep(Strip& strip) {
+template <bool bonded, bool frictional> void FastCycle::compute_boundary(Strip& strip) {
+    for (Block& block : strip.boundary.blocks)
+        compute<bonded, frictional>(block);
+}
+
+template <bool bonded, bool frictional> double FastCycle::sweep(Strip& strip) {
     const Double4 no_force = {};
     const Double4 damping = no_force + physics_.damping;
     const Double4 time_step = no_force + time_step_;
@@ -91,7 +107,7 @@ double FastCycle::sweep(Strip& strip) {
     std::size_t block = 0, group = strip.first_disc / group_discs;
     for (const Tile& tile : strip.tiles) {
         for (; block < tile.end_block; ++block)
-            compute(strip.inner.blocks[block]);
+            compute<bonded, frictional>(strip.inner.blocks[block]);
         for (; group < tile.end_group; ++group) {
             Double4 force[group_discs] = {};
             const std::uint32_t in = list[0], out = list[1];
@@ -126,6 +142,16 @@ double FastCycle::sweep(Strip& strip) {
     return std::max(fastest[0], fastest[1]);
 }
 
+FastCycle::Kernels FastCycle::choose_kernels() const {
+    if (bonded_ && frictional_)
+        return {&FastCycle::compute_boundary<true, true>, &FastCycle::sweep<true, true>};
+    if (bonded_)
+        return {&FastCycle::compute_boundary<true, false>, &FastCycle::sweep<true, false>};
+    if (frictional_)
+        return {&FastCycle::compute_boundary<false, true>, &FastCycle::sweep<false, true>};
+    return {&FastCycle::compute_boundary<false, false>, &FastCycle::sweep<false, false>};
+}
+
 /// Square of the greatest distance of the strip's discs from their searched places, m^2.
 double FastCycle::furthest(const Strip& strip) const {
     double greatest = 0.0;
@@ -140,6 +166,7 @@ double FastCycle::furthest(const Strip& strip) const {
 }
 
 std::int64_t FastCycle::run(State& state, std::int64_t cycles) {
+    const Kernels kernels = choose_kernels();
     const Clock start = state.clock;
     const double start_bound = state.displacement_bound;
     const double surface_translation = greatest_translation(base_);
@@ -165,11 +192,10 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles) {
             }
             const double speed = base_.motion.speed_at(clock.time());
             compute_base(strip, clock.extension, speed);
-            for (Block& block : strip.boundary.blocks)
-                compute(block);
+            (this->*kernels.compute_boundary)(strip);
             barrier.wait();
             const auto parity = static_cast<std::size_t>(clock.cycle % 2);
-            strip.fastest[parity] = sweep(strip);
+            strip.fastest[parity] = (this->*kernels.sweep)(strip);
             barrier.wait();
             double fastest = surface_translation * speed;
             for (const Strip& s : strips_)

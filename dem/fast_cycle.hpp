@@ -29,6 +29,7 @@ namespace listric {
 //   contact reads them: the discs move at once, while they are in the cache. Slots are then free
 //   again, so that a small ring of them is enough.
 // - Discs move with their three velocities in one register.
+// - Scenes without bonds or friction run cycles compiled without them.
 
 /// std::vector whose data start at a cache line.
 template <class T> struct CacheLineAllocator {
@@ -119,15 +120,23 @@ private:
         double x, y; ///< m
     };
 
-    std::size_t pack_blocks(const State& state, std::size_t row, Strip& strip) const;
+    std::size_t pack_blocks(const State& state, std::size_t row, Strip& strip);
     std::size_t pack_base_contacts(const State& state, std::size_t row, std::size_t slot,
                                    Strip& strip);
     std::size_t assign_slots(std::size_t slot, Strip& strip);
     void pack_gathers(const State& state);
 
-    void compute(Block& block);
+    /// The cycle is compiled for contacts with and without bonds and friction, and chosen when
+    /// contacts are packed: bonds never form within a cycle.
+    template <bool bonded, bool frictional> void compute(Block& block);
+    template <bool bonded, bool frictional> void compute_boundary(Strip& strip);
+    template <bool bonded, bool frictional> double sweep(Strip& strip);
+    struct Kernels {
+        void (FastCycle::*compute_boundary)(Strip&);
+        double (FastCycle::*sweep)(Strip&);
+    };
+    Kernels choose_kernels() const;
     void compute_base(Strip& strip, double extension, double speed);
-    double sweep(Strip& strip);
     double furthest(const Strip& strip) const;
 
     static constexpr std::size_t tile_discs = 128; ///< a tile's records and slots fit the cache
@@ -143,6 +152,7 @@ private:
     std::vector<Place> searched_places_;
     AlignedVector<Slot> slots_;
     std::vector<Strip> strips_;
+    bool bonded_ = false, frictional_ = false; ///< whether any contact is
 
     std::vector<std::uint32_t> slot_of_, base_slot_of_; ///< by row of the contact tables
 };

@@ -50,6 +50,7 @@ void FastCycle::pack_searched_places(const State& state) {
 void FastCycle::pack_contacts(const State& state) {
     slot_of_.resize(state.contacts.rows());
     base_slot_of_.resize(state.base_contacts.rows());
+    bonded_ = frictional_ = false;
     std::size_t slot = 1; // slot 0 stays zero
     std::size_t row = 0, base_row = 0;
     for (Strip& strip : strips_) {
@@ -64,7 +65,7 @@ void FastCycle::pack_contacts(const State& state) {
 
 /// Fills the strip's blocks with the contacts of its discs, which begin at `row`. Returns the row
 /// after them.
-std::size_t FastCycle::pack_blocks(const State& state, std::size_t row, Strip& strip) const {
+std::size_t FastCycle::pack_blocks(const State& state, std::size_t row, Strip& strip) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
     const PairParameters pairs(state.materials, time_step_);
@@ -86,6 +87,8 @@ std::size_t FastCycle::pack_blocks(const State& state, std::size_t row, Strip& s
         block.friction[lane] = p.friction;
         block.tensile_strength[lane] = c.bonded[row] ? c.tensile_strength[row] : not_bonded;
         block.shear_strength[lane] = c.shear_strength[row];
+        bonded_ |= c.bonded[row] != 0;
+        frictional_ |= p.friction > 0.0f;
         block.first[lane] = c.first[row];
         block.second[lane] = c.second[row];
         to.rows[to.rows.size() - 8 + lane] = static_cast<std::int32_t>(row);

@@ -62,7 +62,8 @@ inline double contact_force(double overlap, double slip_rate, const ContactParam
         return 0.0;
     }
     const double limit = static_cast<double>(p.friction) * normal;
-    shear_force = std::min(std::max(shear, -limit), limit);
+    // Zero without friction, never -0, so that a frictionless cycle need not know the velocities.
+    shear_force = limit > 0.0 ? std::min(std::max(shear, -limit), limit) : 0.0;
     return normal;
 }
 

@@ -19,13 +19,13 @@ struct Heap {
     RigidBase base = box(62.0 * 93.1, 1e5, 0.4);
     State state;
 
-    explicit Heap(std::size_t rows, float strength) {
+    explicit Heap(std::size_t rows, float strength, double friction = 0.3) {
         std::vector<Disc> discs = cloud(28, rows, 93.1, 7);
         for (Disc& disc : discs) {
             disc.x += 300.0;
             disc.y += 150.0;
         }
-        state = make_state(discs, Material{1.7e11, 6.38e10, 0.3, true});
+        state = make_state(discs, Material{1.7e11, 6.38e10, friction, true});
         const DiscColumns d = disc_columns(state);
         for (std::size_t i = 0; i < d.x.size(); i += 7) {
             d.material[i] = weak;
@@ -65,6 +65,20 @@ TEST(FastCycle, HasTheBitsOfThePlainOne) {
                 EXPECT_GT(bonds(plain), 0);
             }
             EXPECT_NE(hash(plain), hash(heap.state));
+        }
+}
+
+TEST(FastCycle, WithoutBondsAndWithoutFriction) {
+    for (float strength : {-1.0f, 3e9f})
+        for (double friction : {0.0, 0.3}) {
+            Heap heap(20, strength, friction);
+            if (strength < 0.0f)
+                std::ranges::fill(contact_columns(heap.state).bonded, std::uint8_t{0});
+            State plain = heap.state, fast = heap.state;
+            advance(plain, heap.base, physics, 1500, {1, Cycle::plain});
+            advance(fast, heap.base, physics, 1500, {2, Cycle::fast});
+            EXPECT_EQ(hash(fast), hash(plain))
+                << "strength " << strength << ", friction " << friction;
         }
 }
 
