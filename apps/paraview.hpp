@@ -7,10 +7,11 @@
 
 namespace listric {
 
-/// Writes the discs (radius, material, stratum, velocity, stress, rotation) and contacts (bonded,
-/// normal and shear force) of one moment as VTK PolyData into output/paraview, and the series
-/// output/paraview.pvd over all moments there, with time in Ma. Opens in ParaView 5.11: show discs
-/// as Point Gaussian or 2D Glyph, scaled by radius. Throws StorageError.
+/// Writes one moment as VTK PolyData into output/paraview: discs (points: radius, material,
+/// stratum, start depth, rotation, velocity, stress, coordination, bonds), contacts (lines: bonded,
+/// normal and shear force, compression positive) and base (lines). The series output/paraview.pvd
+/// holds all moments there, with time in Ma; docs/paraview.md tells how to look at it. Throws
+/// StorageError.
 void write_paraview(const std::filesystem::path& output, const State& state, const RigidBase& base,
                     double extension_rate);
 

@@ -1,0 +1,289 @@
+// The series for ParaView, opened and drawn by ParaView's own libraries (or VTK's, its readers).
+
+#include "apps/effects.hpp"
+#include "apps/run.hpp"
+#include "dem/contacts.hpp"
+#include "dem/monitor.hpp"
+#include "dem/units.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace listric {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+// 565 discs; sediment, weak discs and broken bonds in 300 m of extension.
+const std::string small_scene = R"([hanging_wall]
+length_m = 4000.0
+thickness_m = 1500.0
+mean_radius_m = 50.0
+[detachment]
+segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
+[extension]
+distance_m = 300.0
+speed_m_per_s = 4.0
+ramp_s = 2.0
+[output]
+interval_m = 100.0
+figures_at_m = []
+[gravity]
+[bonds]
+[fault_weakening]
+interval_a = 6000.0
+youngest_sediment_a = 5000.0
+[bond_healing]
+[sedimentation]
+interval_a = 6000.0
+)";
+
+/// Largest relative error of a double that is stored as a float.
+constexpr double single_precision = 6e-8;
+
+std::string contents(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Replaces the first occurrence in a file by words of the same length.
+void replace(const fs::path& file, const std::string& what, const std::string& with) {
+    std::string text = contents(file);
+    const std::size_t place = text.find(what);
+    ASSERT_NE(place, text.npos) << what;
+    std::ofstream(file, std::ios::binary) << text.replace(place, what.size(), with);
+}
+
+/// Replaces the last bytes of the last array.
+void end_in(const fs::path& file, const std::string& bytes) {
+    std::string text = contents(file);
+    const std::size_t end = text.rfind("\n</AppendedData>");
+    std::ofstream(file, std::ios::binary) << text.replace(end - bytes.size(), bytes.size(), bytes);
+}
+
+bool on_path(const std::string& program) {
+    return std::system(("command -v " + program + " >/dev/null").c_str()) == 0;
+}
+
+class ParaviewTest : public testing::Test {
+protected:
+    struct Seen {
+        int code;
+        std::string out, err;
+    };
+
+    void SetUp() override {
+        if (!on_path("xvfb-run") && !std::getenv("DISPLAY"))
+            GTEST_SKIP() << "no display, and no xvfb-run (packages xvfb, xauth) to lend one";
+        fs::create_directories(folder);
+        std::ofstream(folder / "small.toml") << small_scene;
+        setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+        RunOptions options;
+        options.output = run;
+        options.quiet = true;
+        // Drawing the figures takes longer than the run: a NumPy that ends the script.
+        fs::create_directories(folder / "python");
+        std::ofstream(folder / "python/numpy.py") << "import os\nos._exit(1)\n";
+        setenv("PYTHONPATH", (folder / "python").c_str(), 1);
+        scene = load_scene({.scene = (folder / "small.toml").string()});
+        run_scene(scene, options);
+        unsetenv("PYTHONPATH");
+        if (look().code == 77)
+            GTEST_SKIP() << "no ParaView to open the series: " << look().err;
+    }
+
+    ~ParaviewTest() override {
+        fs::remove_all(folder);
+        unsetenv("XDG_CACHE_HOME");
+    }
+
+    /// Opens the series, and draws it if a picture is named.
+    Seen look(const std::string& picture = "") const {
+        std::string line = fmt::format("/usr/bin/python3 '{}' '{}'",
+                                       LISTRIC_SOURCE_DIR "/tests/regression/render_paraview.py",
+                                       (run / "paraview.pvd").string());
+        if (!picture.empty())
+            line = fmt::format("{}{} '{}'", on_path("xvfb-run") ? "xvfb-run -a " : "", line,
+                               (folder / picture).string());
+        const int status =
+            std::system(fmt::format("{} >'{}' 2>'{}'", line, (folder / "stdout").string(),
+                                    (folder / "stderr").string())
+                            .c_str());
+        return {WEXITSTATUS(status), contents(folder / "stdout"), contents(folder / "stderr")};
+    }
+
+    fs::path last(const std::string& part) const {
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(run / "paraview"))
+            if (entry.path().filename().string().starts_with(part))
+                files.push_back(entry.path());
+        return std::ranges::max(files);
+    }
+
+    const fs::path folder =
+        fs::path(testing::TempDir()) / fmt::format("listric-paraview-{}", getpid());
+    const fs::path run = folder / "run";
+    Scene scene;
+};
+
+/// Pixels whose centre lies in a disc.
+int covered_pixels(const State& state, const json& picture) {
+    const int width = picture["width"], height = picture["height"];
+    const double pixel = picture["metres_per_pixel"];
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<bool> covered(static_cast<std::size_t>(width * height));
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double x = (d.x[i] - picture["left_m"].get<double>()) / pixel - 0.5;
+        const double y = (d.y[i] - picture["bottom_m"].get<double>()) / pixel - 0.5;
+        const double radius = d.radius[i] / pixel;
+        for (int row = std::max(0, static_cast<int>(y - radius));
+             row < std::min<double>(height, y + radius + 1.0); ++row)
+            for (int column = std::max(0, static_cast<int>(x - radius));
+                 column < std::min<double>(width, x + radius + 1.0); ++column)
+                if (std::hypot(column - x, row - y) < radius)
+                    covered[static_cast<std::size_t>(row * width + column)] = true;
+    }
+    return static_cast<int>(std::ranges::count(covered, true));
+}
+
+double sum(std::span<const double> values) {
+    double result = 0.0;
+    for (const double value : values)
+        result += value;
+    return result;
+}
+
+/// Sums are of numbers rounded to single precision, so their error is at most that of the sum of
+/// magnitudes, `scale`.
+void expect_sum(const json& moment, const char* name, double expected, double scale) {
+    EXPECT_NEAR(moment["sums"][name].get<double>(), expected, single_precision * scale) << name;
+}
+
+void expect_range(const json& low, const json& high, std::span<const double> values) {
+    const auto [lowest, highest] = std::ranges::minmax(values);
+    EXPECT_FLOAT_EQ(low.get<float>(), static_cast<float>(lowest));
+    EXPECT_FLOAT_EQ(high.get<float>(), static_cast<float>(highest));
+}
+
+TEST_F(ParaviewTest, EveryMomentHoldsWhatTheSnapshotDoes) {
+    const Seen seen = look();
+    ASSERT_EQ(seen.code, 0) << seen.err;
+    const json moments = json::parse(seen.out)["moments"];
+    const auto snapshots = list_snapshots(run);
+    ASSERT_EQ(snapshots.size(), 4); // 0, 100, 200, 300 m
+    ASSERT_EQ(moments.size(), snapshots.size());
+    const RigidBase base = make_base(scene);
+    for (std::size_t k = 0; k < snapshots.size(); ++k) {
+        SCOPED_TRACE(snapshots[k]);
+        const State state = read_snapshot(snapshots[k]).state;
+        const json& moment = moments[k];
+        const ConstDiscColumns d = disc_columns(state);
+        const ConstContactColumns c = contact_columns(state);
+        // File names tell the moment to 0.01 m.
+        EXPECT_NEAR(moment["time_ma"].get<double>(),
+                    state.clock.extension / scene.extension.rate / 1e6,
+                    0.005 / scene.extension.rate / 1e6);
+        EXPECT_EQ(moment["discs"], d.x.size());
+        EXPECT_EQ(moment["contacts"], std::ranges::count(touching(state), true));
+        EXPECT_EQ(moment["bonded"], std::ranges::count(c.bonded, 1));
+        EXPECT_EQ(moment["sums"]["bonds"], 2.0 * std::ranges::count(c.bonded, 1));
+        expect_sum(moment, "radius_m", sum(d.radius), sum(d.radius));
+        expect_range(moment["lowest"]["radius_m"], moment["highest"]["radius_m"], d.radius);
+        for (const auto& [name, component, values] :
+             {std::tuple{"place_m", 0, d.x}, std::tuple{"place_m", 1, d.y},
+              std::tuple{"velocity_m_per_s", 0, d.vx}, std::tuple{"velocity_m_per_s", 1, d.vy}})
+            expect_range(moment["lowest"][name][component], moment["highest"][name][component],
+                         values);
+        EXPECT_EQ(moment["highest"]["stratum"], std::ranges::max(d.stratum));
+        EXPECT_EQ(moment["highest"]["material"], std::ranges::max(d.material));
+        double xx = 0.0, yy = 0.0, magnitude = 0.0;
+        for (const Stress& s : disc_stresses(state, base)) {
+            xx += s.xx;
+            yy += s.yy;
+            magnitude += std::abs(s.xx) + std::abs(s.yy);
+        }
+        EXPECT_NEAR(moment["sums"]["stress_pa"][0].get<double>(), xx, single_precision * magnitude);
+        EXPECT_NEAR(moment["sums"]["stress_pa"][1].get<double>(), yy, single_precision * magnitude);
+        const double forces = force_balance(state, base, 0.0).mean_contact *
+                              static_cast<double>(std::ranges::count(touching(state), true));
+        // Rounded: stiffness, overlap, their product, shear force.
+        EXPECT_NEAR(moment["contact_forces_n"].get<double>(), forces,
+                    4.0 * single_precision * forces);
+        EXPECT_EQ(moment["surfaces"], base.surfaces.size());
+        // The right wall is where the extension has brought it.
+        EXPECT_FLOAT_EQ(moment["right_wall_x_m"].get<float>(),
+                        static_cast<float>(scene.hanging_wall->length + state.clock.extension));
+    }
+    // What the numbers are to be about has happened.
+    EXPECT_GE(moments.back()["highest"]["stratum"], 2);
+    EXPECT_EQ(moments.back()["highest"]["material"], weak);
+    EXPECT_LT(moments.back()["bonded"], moments.back()["contacts"]);
+}
+
+TEST_F(ParaviewTest, ThePictureShowsTheDiscs) {
+    const Seen seen = look("picture.png");
+    ASSERT_EQ(seen.code, 0) << seen.err;
+    EXPECT_THAT(contents(folder / "picture.png"), HasSubstr("IEND"));
+    const json picture = json::parse(seen.out)["picture"];
+    const State state = read_snapshot(list_snapshots(run).back()).state;
+    const ConstDiscColumns d = disc_columns(state);
+    const double pixel = picture["metres_per_pixel"];
+    // Single precision may shift a rim, here by at most a hundredth of a pixel.
+    const double rims = 2.0 * pi * sum(d.radius) / pixel;
+    EXPECT_NEAR(picture["pixels"]["discs"].get<double>(), covered_pixels(state, picture),
+                0.01 * rims);
+    // A line a pixel wide has as many pixels as its longer side. The ends of two lines may share
+    // one, and each end may be a pixel longer or shorter.
+    const ConstContactColumns c = contact_columns(state);
+    double lines = 0.0, bonds = 0.0;
+    for (std::size_t k = 0; k < c.first.size(); ++k)
+        if (c.bonded[k]) {
+            const auto i = static_cast<std::size_t>(c.first[k]);
+            const auto j = static_cast<std::size_t>(c.second[k]);
+            lines += std::max(std::abs(d.x[j] - d.x[i]), std::abs(d.y[j] - d.y[i])) / pixel;
+            bonds += 1.0;
+        }
+    EXPECT_NEAR(picture["pixels"]["bonds"].get<double>(), lines, 2.0 * bonds);
+    // Two pixels wide: at least the flat and the right wall.
+    EXPECT_GT(picture["pixels"]["base"].get<double>(),
+              2.0 * (scene.hanging_wall->length + scene.hanging_wall->thickness) / pixel);
+}
+
+TEST_F(ParaviewTest, DamageIsNoticed) {
+    const fs::path series = run / "paraview.pvd", whole = folder / "whole";
+    fs::copy(run, whole, fs::copy_options::recursive);
+    // What is to be said, and what is done for it.
+    const std::vector<std::pair<std::string, std::function<void()>>> damages = {
+        {"radius_x", [&] { replace(last("discs"), "radius_m", "radius_x"); }},
+        {"stress of", [&] { replace(last("discs"), "\"XY\"", "\"XZ\""); }},
+        {"not finite", [&] { end_in(last("discs"), "\xff\xff\xff\x7f"); }},
+        {"parts at", [&] { replace(series, "name=\"base\"", "nama=\"base\""); }},
+        {"contacts", [&] { fs::remove(last("contacts")); }},
+        {"discs", [&] { fs::resize_file(last("discs"), fs::file_size(last("discs")) / 2); }},
+    };
+    EXPECT_EQ(look().code, 0);
+    for (const auto& [said, damage] : damages) {
+        damage();
+        const Seen seen = look();
+        EXPECT_EQ(seen.code, 1) << said;
+        EXPECT_THAT(seen.err, HasSubstr(said));
+        fs::remove_all(run);
+        fs::copy(whole, run, fs::copy_options::recursive);
+    }
+}
+
+} // namespace
+} // namespace listric
