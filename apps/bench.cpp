@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <fstream>
 #include <sstream>
@@ -85,11 +86,13 @@ Packing read_packing(const std::filesystem::path& path) {
     return p;
 }
 
-Packing lattice() {
-    constexpr std::size_t columns = 250, rows = 80;
+/// Close-packed, about three times as wide as high, as a hanging wall is.
+Packing lattice(double discs) {
     constexpr double radius = 93.1;
-    Packing p =
-        make_packing(columns * rows, 2.0 * radius * (columns + 0.5), 8.5e10, 3.19e10, 0.5, 9.81);
+    const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(3.125 * discs)));
+    const auto rows = static_cast<std::size_t>(std::ceil(discs / static_cast<double>(columns)));
+    Packing p = make_packing(columns * rows, 2.0 * radius * (static_cast<double>(columns) + 0.5),
+                             8.5e10, 3.19e10, 0.5, 9.81);
     DiscColumns d = disc_columns(p.state);
     for (std::size_t i = 0; i < columns * rows; ++i) {
         const std::size_t row = i / columns;
@@ -105,7 +108,8 @@ Packing lattice() {
 } // namespace
 
 std::string bench(const BenchRequest& request) {
-    Packing p = request.packing.empty() ? lattice() : read_packing(request.packing);
+    Packing p = request.packing.empty() ? lattice(static_cast<double>(request.discs))
+                                        : read_packing(request.packing);
     State& state = p.state;
     state.skin = 0.25 * state.mean_radius;
     state.clock.time_step = 0.005; // s, that of the peers' decks

@@ -12,6 +12,7 @@ namespace listric {
 /// x = 0, x = width and y = 0. Without a file, a lattice of `discs` discs is made.
 struct BenchRequest {
     std::filesystem::path packing;
+    std::int64_t discs = 20000; ///< of the lattice, about
     std::int64_t steps = 1000;
     int threads = 1;
     bool bonded = true;

@@ -105,6 +105,8 @@ int dispatch(int argc, char** argv) {
 
     CLI::App* bench_command = app.add_subcommand("bench", "Speed of the cycle on this machine");
     bench_command->add_option("--packing", bench_request.packing, "Packing file");
+    bench_command->add_option("--discs", bench_request.discs, "Discs of a lattice, without a file")
+        ->check(CLI::Range(1, 100'000'000));
     bench_command->add_option("--steps", bench_request.steps, "Cycles to time")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}));
     bench_command->add_option("--threads", bench_request.threads, "Processor cores to use")
