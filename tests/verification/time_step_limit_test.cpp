@@ -8,6 +8,7 @@
 
 #include "dem/cycle.hpp"
 #include "tests/support.hpp"
+#include "tests/verification/every_cycle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +19,17 @@ namespace {
 
 using namespace support;
 
+class TimeStepLimit : public OnEveryCycle {};
+
+INSTANTIATE_TEST_SUITE_P(On, TimeStepLimit, every_cycle(), cycle_name);
+
 constexpr double r = 93.1, amplitude = 1e-7;
 const double mass = density * pi * r * r;
 
 /// Greatest displacement, in units of the initial one, after the given steps of a lattice whose
 /// discs are displaced at random or, in a chain, in its fastest mode. Stops once it is large.
-double growth(std::vector<Disc> discs, const Material& material, double time_step, int steps) {
+double growth(std::vector<Disc> discs, const Material& material, double time_step, int steps,
+              const Execution& execution) {
     State state = make_state(discs, material);
     bond_all(state, {});
     state.clock.time_step = time_step;
@@ -39,7 +45,7 @@ double growth(std::vector<Disc> discs, const Material& material, double time_ste
     }
     double largest = 0.0;
     for (int n = 0; n < steps && largest < 1e4; n += 10) {
-        advance(state, {}, {0.0, 0.0}, 10);
+        advance(state, {}, {0.0, 0.0}, 10, execution);
         for (std::size_t i = 0; i < d.x.size(); ++i)
             largest = std::max({largest, std::abs(d.x[i] - discs[i].x) / amplitude,
                                 std::abs(d.y[i] - discs[i].y) / amplitude,
@@ -50,33 +56,36 @@ double growth(std::vector<Disc> discs, const Material& material, double time_ste
 
 double unit(const Material& m) { return std::sqrt(mass / contact_stiffness(m)); }
 
-TEST(TimeStepLimit, OfTheChain) {
+TEST_P(TimeStepLimit, OfTheChain) {
     const Material m;
-    EXPECT_LT(growth(row(100, r), m, 0.99 * unit(m), 10000), 7.2);
-    EXPECT_GT(growth(row(100, r), m, 1.01 * unit(m), 100), 1e4);
+    EXPECT_LT(growth(row(100, r), m, 0.99 * unit(m), 10000, GetParam()), 7.2);
+    EXPECT_GT(growth(row(100, r), m, 1.01 * unit(m), 100, GetParam()), 1e4);
 }
 
-TEST(TimeStepLimit, OfTheHexagonalLatticeWithoutShearStiffness) {
+TEST_P(TimeStepLimit, OfTheHexagonalLatticeWithoutShearStiffness) {
     const Material m{1.7e11, 1e-3, 0.0, true};
     const std::vector<Disc> lattice = hexagonal(20, 20, r);
     const double limit = std::sqrt(2.0 / 3.0) * unit(m);
     EXPECT_NEAR(stable_time_step(mass, m, 1.0), limit, 1e-12 * limit);
-    EXPECT_LT(growth(lattice, m, 0.99 * limit, 3000), 100.0);
-    EXPECT_GT(growth(lattice, m, 1.03 * limit, 1000), 1e4);
+    EXPECT_LT(growth(lattice, m, 0.99 * limit, 3000, GetParam()), 100.0);
+    EXPECT_GT(growth(lattice, m, 1.03 * limit, 1000, GetParam()), 1e4);
 }
 
-TEST(TimeStepLimit, StableTimeStepIsBelowIt) {
+TEST_P(TimeStepLimit, StableTimeStepIsBelowIt) {
     // Table 1's stiffnesses in the most connected packing, with the default safety.
     const Material m;
-    EXPECT_LT(growth(hexagonal(20, 20, r), m, stable_time_step(mass, m, 0.8), 5000), 100.0);
+    EXPECT_LT(growth(hexagonal(20, 20, r), m, stable_time_step(mass, m, 0.8), 5000, GetParam()),
+              100.0);
 }
 
-TEST(TimeStepLimit, StableTimeStepNeedsNoSafety) {
+TEST_P(TimeStepLimit, StableTimeStepNeedsNoSafety) {
     // Fastest modes of the lattice: omega^2 = 6 (K + K_s) / m of discs that shake, 24 K_s / m of
     // discs that all spin alike. The second is the higher one from K_s = K / 3.
     for (double ratio : {0.2, 0.375, 0.7, 1.0}) {
         const Material m{1.7e11, ratio * 1.7e11, 0.05, true};
-        EXPECT_LT(growth(hexagonal(20, 20, r), m, stable_time_step(mass, m, 0.98), 3000), 100.0)
+        EXPECT_LT(
+            growth(hexagonal(20, 20, r), m, stable_time_step(mass, m, 0.98), 3000, GetParam()),
+            100.0)
             << "K_s / K = " << ratio;
     }
 }
