@@ -38,7 +38,8 @@ struct HeavyPair {
         bond(state, 0, tensile, shear);
     }
     void cycle() { advance(state, {}, {0.0, 0.0}, 1, execution); }
-    /// Normal force in the next cycle, from what it does to the discs' own mass.
+    /// Normal force in the next cycle, from what it does to the discs' own mass. The pair itself
+    /// does not advance.
     double normal() {
         State light = state;
         light.inertial_mass_floor = 0.0;
@@ -59,6 +60,7 @@ TEST_P(BondBreak, TensionAtTheStrengthToTwelveDigits) {
     for (double excess : {-1e-12, 0.0, 1e-12}) {
         HeavyPair p(GetParam(), -stretch * (1.0 + excess), 0.5, 128.0f, 1e6f);
         contact_columns(p.state).shear_force[0] = 10.0;
+        EXPECT_NEAR(p.normal(), excess <= 0.0 ? -128.0 : 0.0, 1e-9) << excess; // at once
         p.cycle();
         EXPECT_EQ(p.bonded(), excess <= 0.0) << excess;
         EXPECT_EQ(p.shear(), excess <= 0.0 ? 10.0 : 0.0) << excess;
@@ -87,6 +89,7 @@ TEST_P(BondBreak, ShearAtTheStrengthToTwelveDigits) {
             HeavyPair p(GetParam(), 0.125, 0.5, 1e6f, 100.0f);
             const double force = sign * 100.0 * (1.0 + excess);
             contact_columns(p.state).shear_force[0] = force;
+            EXPECT_NEAR(p.normal(), 128.0, 1e-9) << force;
             p.cycle();
             EXPECT_EQ(p.bonded(), excess <= 0.0) << force;
             EXPECT_NEAR(p.shear(), excess <= 0.0 ? force : sign * 64.0, 1e-9) << force;
@@ -104,6 +107,7 @@ TEST_P(BondBreak, ShearUnderTensionLeavesNoForce) {
     EXPECT_EQ(p.shear(), 99.0);
     EXPECT_NEAR(p.normal(), -128.0, 1e-9);
     contact_columns(p.state).shear_force[0] = 101.0;
+    EXPECT_EQ(p.normal(), 0.0);
     p.cycle();
     EXPECT_FALSE(p.bonded());
     EXPECT_EQ(p.shear(), 0.0);

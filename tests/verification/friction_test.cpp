@@ -68,7 +68,9 @@ TEST_P(Friction, BlockSlides) {
     i.run(seconds);
     const double a = g * (std::sin(dip) - mu * std::cos(dip));
     EXPECT_NEAR(i.travelled(), 0.5 * a, 0.01 * 0.5 * a);
-    EXPECT_NEAR(disc_columns(i.state).rotation[0], 0.0, 1e-3);
+    // Friction sets in at once and loads the front disc: undamped, the block then rocks and hops a
+    // little, a hundredth of the way at most. A disc alone would turn by 1.6.
+    EXPECT_NEAR(disc_columns(i.state).rotation[0], 0.0, 0.01 * 0.5 * a / r);
 }
 
 TEST_P(Friction, BlockStays) {
