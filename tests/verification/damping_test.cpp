@@ -7,6 +7,7 @@
 
 #include "dem/cycle.hpp"
 #include "tests/support.hpp"
+#include "tests/verification/every_cycle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +16,10 @@ namespace {
 
 using namespace support;
 
+class Damping : public OnEveryCycle {};
+
+INSTANTIATE_TEST_SUITE_P(On, Damping, every_cycle(), cycle_name);
+
 constexpr double r = 93.1;
 
 struct Peak {
@@ -22,7 +27,7 @@ struct Peak {
 };
 
 /// Peaks of a bonded pair released one centimetre apart.
-std::vector<Peak> peaks(double damping, std::size_t count) {
+std::vector<Peak> peaks(double damping, std::size_t count, const Execution& execution) {
     const Material material;
     State state = make_state(row(2, r), material);
     bond_all(state, {});
@@ -32,24 +37,24 @@ std::vector<Peak> peaks(double damping, std::size_t count) {
     std::vector<Peak> found{{0.0, 0.01}};
     double before = 0.01, now = 0.01;
     while (found.size() < count) {
-        advance(state, {}, {damping, 0.0}, 1);
+        advance(state, {}, {damping, 0.0}, 1, execution);
         const double next = d.x[1] - d.x[0] - 2.0 * r;
         if ((now - before) * (next - now) < 0.0)
-            found.push_back({static_cast<double>(state.clock.cycle - 1) * state.clock.time_step,
-                             now});
+            found.push_back(
+                {static_cast<double>(state.clock.cycle - 1) * state.clock.time_step, now});
         before = now;
         now = next;
     }
     return found;
 }
 
-TEST(Damping, AmplitudesAndPeriod) {
+TEST_P(Damping, AmplitudesAndPeriod) {
     const Material material;
     const double unit = std::sqrt(0.5 * density * pi * r * r / contact_stiffness(material));
     for (double a : {0.2, 0.5, 0.7}) {
         const double ratio = std::sqrt((1.0 - a) / (1.0 + a));
         const double half = 0.5 * pi * (1.0 / std::sqrt(1.0 - a) + 1.0 / std::sqrt(1.0 + a)) * unit;
-        const std::vector<Peak> p = peaks(a, 5);
+        const std::vector<Peak> p = peaks(a, 5, GetParam());
         for (std::size_t k = 1; k < p.size(); ++k) {
             EXPECT_NEAR(p[k].amplitude / p[k - 1].amplitude, -ratio, 0.01 * ratio) << a;
             EXPECT_NEAR(p[k].time - p[k - 1].time, half, 0.01 * half) << a;
@@ -58,16 +63,16 @@ TEST(Damping, AmplitudesAndPeriod) {
     EXPECT_NEAR(std::sqrt(0.3 / 1.7), 0.420, 5e-4);
 }
 
-TEST(Damping, NoneKeepsTheAmplitude) {
-    const std::vector<Peak> p = peaks(0.0, 5);
+TEST_P(Damping, NoneKeepsTheAmplitude) {
+    const std::vector<Peak> p = peaks(0.0, 5, GetParam());
     EXPECT_NEAR(p.back().amplitude, 0.01, 1e-7);
 }
 
-TEST(Damping, FreeFallIsSlowedByItsShare) {
+TEST_P(Damping, FreeFallIsSlowedByItsShare) {
     // From rest at the first step, undamped; then (1 - a) g.
     State state = make_state({{0.0, 0.0, r}});
     state.clock.time_step = 0.01;
-    advance(state, {}, {0.7, 9.81}, 101);
+    advance(state, {}, {0.7, 9.81}, 101, GetParam());
     EXPECT_NEAR(disc_columns(state).vy[0], -9.81 * (0.01 + 0.3), 1e-12);
 }
 

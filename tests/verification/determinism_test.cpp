@@ -3,6 +3,7 @@
 
 #include "dem/cycle.hpp"
 #include "tests/support.hpp"
+#include "tests/verification/every_cycle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,10 @@ namespace listric {
 namespace {
 
 using namespace support;
+
+class Determinism : public OnEveryCycle {};
+
+INSTANTIATE_TEST_SUITE_P(On, Determinism, every_cycle(), cycle_name);
 
 constexpr CyclePhysics physics{0.7, 9.81};
 
@@ -33,16 +38,16 @@ struct Fall {
     }
 };
 
-TEST(Determinism, CallsMayBeCut) {
+TEST_P(Determinism, CallsMayBeCut) {
     Fall once, often;
     const std::uint64_t start = hash(once.state);
-    advance(once.state, once.base, physics, 3000);
+    advance(once.state, once.base, physics, 3000, GetParam());
     for (int k = 0; k < 30; ++k)
-        advance(often.state, often.base, physics, 100);
+        advance(often.state, often.base, physics, 100, GetParam());
     EXPECT_EQ(hash(once.state), hash(often.state));
     for (std::int64_t cycles : {1, 7, 992})
-        advance(often.state, often.base, physics, cycles);
-    advance(once.state, once.base, physics, 1000);
+        advance(often.state, often.base, physics, cycles, GetParam());
+    advance(once.state, once.base, physics, 1000, GetParam());
     EXPECT_EQ(hash(once.state), hash(often.state));
     EXPECT_NE(hash(once.state), start);
     // Neighbours were searched anew on the way.
@@ -59,14 +64,14 @@ TEST(Determinism, NeitherThreadsNorRegistersMatter) {
     }
 }
 
-TEST(Determinism, CopiesGoOnAlike) {
+TEST_P(Determinism, CopiesGoOnAlike) {
     Fall fall;
-    advance(fall.state, fall.base, physics, 1234);
+    advance(fall.state, fall.base, physics, 1234, GetParam());
     State copy = fall.state;
     ASSERT_EQ(hash(copy), hash(fall.state));
-    advance(fall.state, fall.base, physics, 1500);
+    advance(fall.state, fall.base, physics, 1500, GetParam());
     EXPECT_NE(hash(copy), hash(fall.state)); // columns are not shared
-    advance(copy, fall.base, physics, 1500);
+    advance(copy, fall.base, physics, 1500, GetParam());
     EXPECT_EQ(hash(copy), hash(fall.state));
 }
 

@@ -6,10 +6,12 @@
 
 #include "dem/cycle.hpp"
 #include "tests/support.hpp"
+#include "tests/verification/every_cycle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace listric {
 namespace {
@@ -25,7 +27,7 @@ struct Impact {
 };
 
 /// Two discs that touch approach with 2 v, or one a rigid floor of the same material with v.
-Impact impact(int steps, bool floor) {
+Impact impact(int steps, bool floor, const Execution& execution) {
     State state = make_state(floor ? std::vector<Disc>{{0.0, r, r}} : row(2, r), material);
     RigidBase base;
     base.material = material;
@@ -43,47 +45,53 @@ Impact impact(int steps, bool floor) {
     Impact result;
     double before = 0.0;
     for (int n = 1; n < 2 * steps; ++n) {
-        advance(state, base, {0.0, 0.0}, 1);
-        const double now = overlap();
+        const double velocity = floor ? d.vy[0] : d.vx[1];
+        advance(state, base, {0.0, 0.0}, 1, execution);
+        const double now = overlap(), gain = (floor ? d.vy[0] : d.vx[1]) - velocity;
         result.overlap = std::max(result.overlap, now);
+        result.force = std::max(result.force, mass * gain / state.clock.time_step);
         if (now <= 0.0 && before > 0.0)
             result.contact_time = (n - 1 + before / (before - now)) * state.clock.time_step;
         before = now;
     }
-    result.force = stiffness * result.overlap;
     result.restitution = floor ? d.vy[0] / v : d.vx[1] / v;
     return result;
 }
 
-class ImpactTest : public testing::TestWithParam<bool> {
+class Impacts : public testing::TestWithParam<std::tuple<bool, Execution>> {
 protected:
-    double reduced = GetParam() ? mass : 0.5 * mass;
-    double approach = GetParam() ? v : 2.0 * v;
+    bool floor = std::get<bool>(GetParam());
+    Execution execution = std::get<Execution>(GetParam());
+    double reduced = floor ? mass : 0.5 * mass;
+    double approach = floor ? v : 2.0 * v;
     double stiffness = contact_stiffness(material);
 };
 
-TEST_P(ImpactTest, IsHalfAnOscillation) {
-    const Impact i = impact(100, GetParam());
+TEST_P(Impacts, IsHalfAnOscillation) {
+    const Impact i = impact(100, floor, execution);
     EXPECT_NEAR(i.contact_time / (pi * std::sqrt(reduced / stiffness)), 1.0, 1e-3);
     EXPECT_NEAR(i.overlap / (approach * std::sqrt(reduced / stiffness)), 1.0, 1e-3);
     EXPECT_NEAR(i.force / (approach * std::sqrt(reduced * stiffness)), 1.0, 1e-3);
     EXPECT_NEAR(i.restitution, 1.0, 1e-3);
 }
 
-TEST_P(ImpactTest, IsOfSecondOrder) {
+TEST_P(Impacts, IsOfSecondOrder) {
     // N even, so that a step falls on the greatest overlap.
     const double exact = approach * std::sqrt(reduced / stiffness);
-    double coarse = impact(20, GetParam()).overlap / exact - 1.0;
+    double coarse = impact(20, floor, execution).overlap / exact - 1.0;
     EXPECT_NEAR(coarse, pi * pi / 400.0 / 8.0, 0.1 * coarse);
     for (int steps : {40, 80, 160}) {
-        const double fine = impact(steps, GetParam()).overlap / exact - 1.0;
+        const double fine = impact(steps, floor, execution).overlap / exact - 1.0;
         EXPECT_NEAR(coarse / fine, 4.0, 0.1) << steps;
         coarse = fine;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfDiscs, ImpactTest, testing::Values(false));
-INSTANTIATE_TEST_SUITE_P(OnTheFloor, ImpactTest, testing::Values(true));
+INSTANTIATE_TEST_SUITE_P(Of, Impacts, testing::Combine(testing::Bool(), every_cycle()),
+                         [](const auto& test) {
+                             return (std::get<bool>(test.param) ? "floor_" : "discs_") +
+                                    name(std::get<Execution>(test.param));
+                         });
 
 } // namespace
 } // namespace listric

@@ -6,6 +6,7 @@
 
 #include "dem/cycle.hpp"
 #include "tests/support.hpp"
+#include "tests/verification/every_cycle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,10 @@ namespace listric {
 namespace {
 
 using namespace support;
+
+class Wave : public OnEveryCycle {};
+
+INSTANTIATE_TEST_SUITE_P(On, Wave, every_cycle(), cycle_name);
 
 constexpr double r = 93.1, amplitude = 1e-3;
 constexpr std::size_t n = 60;
@@ -23,7 +28,7 @@ struct Mode {
     double residue;                ///< greatest share of other modes in the displacement
 };
 
-Mode swing(int p) {
+Mode swing(int p, const Execution& execution) {
     const Material material;
     State state = make_state(row(n, r), material);
     bond_all(state, {});
@@ -49,10 +54,10 @@ Mode swing(int p) {
     };
     // u_{s+1} + u_{s-1} = 2 cos(theta) u_s for a mode; fitted over the run.
     double before = projection(), numerator = 0.0, denominator = 0.0;
-    advance(state, {}, {0.0, 0.0}, 1);
+    advance(state, {}, {0.0, 0.0}, 1, execution);
     double now = projection();
     for (std::int64_t s = 1; s < steps; ++s) {
-        advance(state, {}, {0.0, 0.0}, 1);
+        advance(state, {}, {0.0, 0.0}, 1, execution);
         const double next = projection();
         numerator += (next + before) * now;
         denominator += 2.0 * now * now;
@@ -61,8 +66,8 @@ Mode swing(int p) {
     }
     mode.measured = std::acos(numerator / denominator);
     for (std::size_t j = 0; j < n; ++j)
-        mode.residue = std::max(mode.residue,
-                                std::abs(d.x[j] - rest[j] - now * shape[j]) / amplitude);
+        mode.residue =
+            std::max(mode.residue, std::abs(d.x[j] - rest[j] - now * shape[j]) / amplitude);
     // Started at rest half a step early: u_s = A cos((s + 1/2) theta) / cos(theta / 2).
     EXPECT_NEAR(now,
                 amplitude * std::cos((static_cast<double>(steps) + 0.5) * mode.frequency) /
@@ -71,18 +76,18 @@ Mode swing(int p) {
     return mode;
 }
 
-TEST(Wave, DispersionOfTheChain) {
+TEST_P(Wave, DispersionOfTheChain) {
     for (int p : {1, 2, 10, 30, 59}) {
-        const Mode mode = swing(p);
+        const Mode mode = swing(p, GetParam());
         EXPECT_NEAR(mode.measured, mode.frequency, 1e-6 * mode.frequency) << p;
         EXPECT_LT(mode.residue, 1e-5) << p;
     }
 }
 
-TEST(Wave, SpeedOfLongWavesIsOfSecondOrder) {
+TEST_P(Wave, SpeedOfLongWavesIsOfSecondOrder) {
     // c / (d sqrt(K / m)) = omega / (k sqrt(K / m)) from the measured frequency.
-    const auto shortfall = [](int p) {
-        const Mode mode = swing(p);
+    const auto shortfall = [&](int p) {
+        const Mode mode = swing(p, GetParam());
         return 1.0 - 2.0 * std::sin(0.5 * mode.measured) / (0.1 * mode.k);
     };
     for (int p : {4, 8}) {
