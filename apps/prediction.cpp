@@ -40,7 +40,7 @@ double measure_rate(std::size_t discs, int threads, double seconds) {
     RigidBase base;
     const double width = 2.02 * radius * static_cast<double>(columns);
     base.surfaces = {{"floor", {line({-width, 0.0}, {2.0 * width, 0.0})}, 0.5, 0.0, 0.0}};
-    state.clock.time_step = 0.1 * stable_time_step(d.mass[0], state.materials[0], 0.8);
+    state.clock.time_step = 0.1 * stable_time_step(d.mass[0], state.materials[0], 0.7, 1.0);
     sort_discs(state);
     find_contacts(state, base);
     const ContactColumns c = contact_columns(state);
@@ -70,7 +70,8 @@ Prediction predict(const Scene& scene, double rate) {
     const double floor = scene.cycle.inertial_mass_floor > 0.0 ? scene.cycle.inertial_mass_floor
                                                                : smallest * smallest;
     Prediction p;
-    p.time_step = stable_time_step(floor * mean_mass, m, scene.cycle.time_step_safety);
+    p.time_step =
+        stable_time_step(floor * mean_mass, m, scene.cycle.damping, scene.cycle.time_step_safety);
     p.discs_at_start = estimated_discs(scene);
     p.discs_at_end = p.discs_at_start;
     // Sediment fills distance times thickness. With burial it shrinks, and small discs fill up to

@@ -172,10 +172,10 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics, s
         advance_fast(state, base, physics, cycles, execution.threads);
 }
 
-double stable_time_step(double mass, const Material& m, double safety) {
+double stable_time_step(double mass, const Material& m, double damping, double safety) {
     const double normal = 0.5 * m.normal_stiffness, shear = 0.5 * m.shear_stiffness;
     const double stiffness = std::max(3.0 * (normal + shear), 12.0 * shear);
-    return safety * std::sqrt(2.0 * mass / stiffness);
+    return safety * std::sqrt(2.0 * mass / (stiffness * (1.0 + damping)));
 }
 
 } // namespace listric

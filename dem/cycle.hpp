@@ -37,10 +37,11 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics, s
              const Execution& execution = {});
 
 /// Largest stable time step times `safety`, s, of discs of mass `mass` (kg) with six contacts each:
-/// sqrt(2 m / k), k the greater of 3 (K + K_s), for translation, and 12 K_s, for rotation (inertia
-/// m r^2 / 2). The highest eigenvalue of a network of such contacts is at most 2 k / m, since
-/// (a - b)^2 <= 2 a^2 + 2 b^2 in every contact's energy, and the integration is stable below 2 /
-/// omega.
-double stable_time_step(double mass, const Material& material, double safety);
+/// sqrt(2 m / (k (1 + damping))), k the greater of 3 (K + K_s), for translation, and 12 K_s, for
+/// rotation (inertia m r^2 / 2). The highest eigenvalue of a network of such contacts is at most
+/// 2 k / m, since (a - b)^2 <= 2 a^2 + 2 b^2 in every contact's energy, and the integration is
+/// stable below 2 / omega. In the fastest mode velocities change sign with every step, so that
+/// local damping always adds to the springs' force.
+double stable_time_step(double mass, const Material& material, double damping, double safety);
 
 } // namespace listric

@@ -203,10 +203,10 @@ State make_hanging_wall(const GenesisRequest& request,
     const double density = p.rock_density / (1.0 - porosity_under_gravity);
     const double mean_mass = density * pi * p.mean_radius * p.mean_radius;
     state.inertial_mass_floor = request.inertial_mass_floor * mean_mass;
-    state.clock.time_step =
-        stable_time_step(request.inertial_mass_floor > 0.0 ? state.inertial_mass_floor
-                                                           : density * pi * smallest * smallest,
-                         state.materials[basement], request.time_step_safety);
+    state.clock.time_step = stable_time_step(
+        request.inertial_mass_floor > 0.0 ? state.inertial_mass_floor
+                                          : density * pi * smallest * smallest,
+        state.materials[basement], request.physics.damping, request.time_step_safety);
 
     add_discs(state, disc_count(p, area + lid * p.length));
     DiscColumns d = disc_columns(state);

@@ -34,7 +34,7 @@ struct GenesisRequest {
     std::vector<Material> materials;
     std::optional<BondStrength> bonds;
     CyclePhysics physics;
-    double time_step_safety = 0.8;
+    double time_step_safety = 0.95;
     double inertial_mass_floor = 0.75; ///< mean basement disc masses
     double skin = 0.25;                ///< mean radii
     std::uint64_t seed = 1;

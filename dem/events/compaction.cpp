@@ -22,7 +22,6 @@ bool Compaction::apply(State& state, const RigidBase&) {
     const auto rock_radius =
         weakening ? state.discs.get<double>("rock_radius") : std::span<double>{};
     const auto rock_area = weakening ? state.discs.get<double>("rock_area") : std::span<double>{};
-    bool changed = false;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (d.stratum[i] == 0)
             continue;
@@ -37,9 +36,8 @@ bool Compaction::apply(State& state, const RigidBase&) {
             rock_radius[i] *= std::sqrt(shrinkage);
             rock_area[i] *= shrinkage;
         }
-        changed = true;
     }
-    return changed;
+    return false; // lists of smaller discs still hold every contact
 }
 
 } // namespace listric

@@ -57,7 +57,7 @@ double strength(std::size_t columns, std::size_t rows, double friction,
                 {r * static_cast<double>(2 * c + shorter), root * r * static_cast<double>(row), r});
     }
     State state = make_state(discs, material);
-    state.clock.time_step = stable_time_step(disc_columns(state).mass[0], material, 0.7);
+    state.clock.time_step = stable_time_step(disc_columns(state).mass[0], material, 0.7, 0.9);
     const CyclePhysics physics{0.7, 0.0};
 
     // Strains: first the same in both directions, which mobilises no friction; then 3 : -1, along

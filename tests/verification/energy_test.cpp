@@ -133,7 +133,8 @@ private:
 bool searched(const State& a, const State& b) {
     const ConstDiscColumns c = disc_columns(a), d = disc_columns(b);
     return !std::ranges::equal(c.searched_x, d.searched_x) ||
-           !std::ranges::equal(c.searched_y, d.searched_y);
+           !std::ranges::equal(c.searched_y, d.searched_y) ||
+           a.searched_extension != b.searched_extension;
 }
 
 /// A bonded block falls on a rough conveyor, which carries it against a wall that comes closer.
@@ -151,14 +152,14 @@ Account fall(double damping, const Execution& execution) {
     }
     State state = make_state(discs, base.material);
     bond_all(state, base, 2e6f);
-    state.clock.time_step = stable_time_step(disc_columns(state).mass[0], base.material, 0.02);
+    state.clock.time_step = stable_time_step(disc_columns(state).mass[0], base.material, 0.0, 0.02);
 
     Account account(base, {damping, 9.81});
     while (state.clock.time() < seconds) {
         State before = state;
         advance(state, base, {damping, 9.81}, 1, execution);
         if (searched(before, state)) // the tables' rows were others
-            find_contacts(before, base);
+            update_contacts(before, base);
         account.enter(before, state);
     }
     return account;
@@ -186,7 +187,7 @@ State shaken(double step_share) {
     State state = make_state(hexagonal(4, 4, r));
     bond_all(state, {});
     const DiscColumns d = disc_columns(state);
-    state.clock.time_step = stable_time_step(d.mass[0], state.materials[basement], step_share);
+    state.clock.time_step = stable_time_step(d.mass[0], state.materials[basement], 0.0, step_share);
     // Without momentum: the lattice stays where it is.
     Random random(5);
     const auto n = static_cast<double>(d.x.size());

@@ -92,7 +92,7 @@ TEST_P(TimeStepLimit, OfTheHexagonalLatticeWithoutShearStiffness) {
     const Material m{1.7e11, 1e-3, 0.0, true};
     const std::vector<Disc> lattice = hexagonal(20, 20, r);
     const double limit = std::sqrt(2.0 / 3.0) * unit(m);
-    EXPECT_NEAR(stable_time_step(mass, m, 1.0), limit, 1e-12 * limit);
+    EXPECT_NEAR(stable_time_step(mass, m, 0.0, 1.0), limit, 1e-12 * limit);
     EXPECT_LT(growth(lattice, m, 0.99 * limit, 3000, GetParam()), 100.0);
     EXPECT_GT(growth(lattice, m, 1.01 * limit, 1000, GetParam()), 1e4);
 }
@@ -109,14 +109,13 @@ TEST_P(TimeStepLimit, OfTheHexagonalLattice) {
                 << "K_s / K = " << ratio << ", damping " << a;
             EXPECT_GT(growth(lattice, m, 1.02 * limit, 1000, GetParam(), a), 1e4)
                 << "K_s / K = " << ratio << ", damping " << a;
-            // Conservative, but for damping by no more than a tenth.
-            EXPECT_LE(stable_time_step(mass, m, 1.0), (1.0 + 1e-12) * undamped);
-            EXPECT_GE(stable_time_step(mass, m, 1.0), 0.9 * undamped);
+            // Conservative by no more than a tenth.
+            EXPECT_LE(stable_time_step(mass, m, a, 1.0), (1.0 + 1e-12) * limit);
+            EXPECT_GE(stable_time_step(mass, m, a, 1.0), 0.9 * limit);
         }
 }
 
 TEST_P(TimeStepLimit, StableTimeStepIsBelowThatOfAPacking) {
-    // Undamped it needs no safety; the default one makes room for the default damping.
     GenesisRequest request = packing_request(12e3, 10e3, 250.0);
     request.bonds = BondStrength{1e30, 0.0, 1e30, 0.0, StrengthReading::force};
     const State packing = [&] {
@@ -126,7 +125,8 @@ TEST_P(TimeStepLimit, StableTimeStepIsBelowThatOfAPacking) {
     }();
     for (double damping : {0.0, 0.7}) {
         State state = packing;
-        state.clock.time_step *= (damping == 0.0 ? 1.0 : 0.8) / request.time_step_safety;
+        state.clock.time_step *=
+            std::sqrt((1.0 + request.physics.damping) / (1.0 + damping)) / request.time_step_safety;
         const DiscColumns d = disc_columns(state);
         Random random(8);
         for (std::size_t i = 0; i < d.x.size(); ++i) {
@@ -141,10 +141,10 @@ TEST_P(TimeStepLimit, StableTimeStepIsBelowThatOfAPacking) {
 
 TEST(TimeStepLimit, ShrinksWithMassAndStiffness) {
     const Material m, stiff{4.0 * m.normal_stiffness, 4.0 * m.shear_stiffness, 0.0, true};
-    const double step = stable_time_step(mass, m, 0.8);
-    EXPECT_DOUBLE_EQ(stable_time_step(4.0 * mass, m, 0.8), 2.0 * step);
-    EXPECT_DOUBLE_EQ(stable_time_step(mass, stiff, 0.8), 0.5 * step);
-    EXPECT_DOUBLE_EQ(stable_time_step(mass, m, 0.4), 0.5 * step);
+    const double step = stable_time_step(mass, m, 0.7, 0.8);
+    EXPECT_DOUBLE_EQ(stable_time_step(4.0 * mass, m, 0.7, 0.8), 2.0 * step);
+    EXPECT_DOUBLE_EQ(stable_time_step(mass, stiff, 0.7, 0.8), 0.5 * step);
+    EXPECT_DOUBLE_EQ(stable_time_step(mass, m, 0.7, 0.4), 0.5 * step);
 }
 
 } // namespace

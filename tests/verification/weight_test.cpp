@@ -29,7 +29,7 @@ void settle(State& state, const RigidBase& base, double mass_floor, const Execut
     const double lightest = *std::ranges::min_element(disc_columns(state).mass);
     state.inertial_mass_floor = mass_floor;
     state.clock.time_step =
-        stable_time_step(std::max(lightest, mass_floor), state.materials[basement], 0.7);
+        stable_time_step(std::max(lightest, mass_floor), state.materials[basement], 0.7, 0.9);
     find_contacts(state, base);
     advance(state, base, physics, 20000, execution);
 }
