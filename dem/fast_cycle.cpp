@@ -12,6 +12,21 @@
 
 namespace listric {
 
+namespace {
+
+/// Asks for memory that is needed soon.
+inline void prefetch(const void* start, std::size_t bytes) {
+    for (std::size_t offset = 0; offset < bytes; offset += 64)
+        __builtin_prefetch(static_cast<const char*>(start) + offset);
+}
+
+/// Element `k`, or the end.
+template <class Vector> const auto* ahead(const Vector& vector, std::size_t k) {
+    return vector.data() + std::min(k, vector.size());
+}
+
+} // namespace
+
 /// The contact law of law.hpp and cycle.cpp, as many contacts at a time as there are lanes.
 template <bool bonded, bool frictional> void FastCycle::compute(Block& block) {
     constexpr bool shears = bonded || frictional;
@@ -106,9 +121,17 @@ template <bool bonded, bool frictional> double FastCycle::sweep(Strip& strip) {
     const std::uint32_t* list = strip.gathers.data();
     std::size_t block = 0, group = strip.first_disc / group_discs;
     for (const Tile& tile : strip.tiles) {
-        for (; block < tile.end_block; ++block)
+        for (; block < tile.end_block; ++block) {
+            prefetch(ahead(strip.inner.blocks, block + 16), sizeof(Block));
             compute<bonded, frictional>(strip.inner.blocks[block]);
+        }
         for (; group < tile.end_group; ++group) {
+            const std::size_t first = group * group_discs;
+            prefetch(ahead(discs_, first + strip.look_ahead), group_discs * sizeof(Disc));
+            prefetch(ahead(constants_, first + 64), group_discs * sizeof(DiscConstants));
+            prefetch(
+                ahead(strip.gathers, static_cast<std::size_t>(list - strip.gathers.data()) + 512),
+                128);
             Double4 force[group_discs] = {};
             const std::uint32_t in = list[0], out = list[1];
             list += 2;

@@ -70,6 +70,7 @@ std::size_t FastCycle::pack_blocks(const State& state, std::size_t row, Strip& s
     const ConstContactColumns c = contact_columns(state);
     const PairParameters pairs(state.materials, time_step_);
     const auto idle = static_cast<std::int32_t>(discs_.size() - 2);
+    std::int32_t furthest = 0; // second disc from the first
     const auto append = [&](Blocks& to, std::size_t& lane) {
         if (lane == 0) {
             Block& block = to.blocks.emplace_back(); // zeros
@@ -87,6 +88,7 @@ std::size_t FastCycle::pack_blocks(const State& state, std::size_t row, Strip& s
         block.friction[lane] = p.friction;
         block.tensile_strength[lane] = c.bonded[row] ? c.tensile_strength[row] : not_bonded;
         block.shear_strength[lane] = c.shear_strength[row];
+        furthest = std::max(furthest, c.second[row] - c.first[row]);
         bonded_ |= c.bonded[row] != 0;
         frictional_ |= p.friction > 0.0f;
         block.first[lane] = c.first[row];
@@ -110,6 +112,7 @@ std::size_t FastCycle::pack_blocks(const State& state, std::size_t row, Strip& s
                 append(strip.boundary, boundary_lane);
         strip.tiles.push_back({strip.inner.blocks.size(), (end + group_discs - 1) / group_discs});
     }
+    strip.look_ahead = static_cast<std::size_t>(furthest) + 2 * tile_discs;
     return row;
 }
 

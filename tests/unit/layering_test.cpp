@@ -125,7 +125,8 @@ bool is_allowed(const std::string& layer, const std::string& header) {
     const bool is_finite_element_library = starts_with(header, {"deal.II/", "petsc", "slepc"});
     if (layer == "dem")
         return is_standard || header == "immintrin.h" || // the compiler's own
-               header == "sched.h" ||                   // placing threads on cores
+               header == "sched.h" ||                    // placing threads on cores
+               header == "sys/mman.h" ||                 // large pages
                header.starts_with("dem/");
     if (layer == "fem")
         return !starts_with(header, {"dem/", "apps/", "coupling/"});
