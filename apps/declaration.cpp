@@ -15,7 +15,7 @@ namespace {
 // Ranges that several parameters share.
 constexpr Range years{.from = 1, .to = 1e7};
 constexpr Range length{.above = 0, .to = 1e6};
-constexpr Range dip{.from = 0, .to = 90};
+constexpr Range dip{.from = 0, .to = 90, .reason = "else the detachment rises or folds back"};
 constexpr Range friction{.from = 0, .to = 10};
 constexpr Range stiffness{.from = 1e3, .to = 1e15};
 constexpr Range strength{.from = 0, .to = 1e12};
@@ -257,11 +257,11 @@ std::vector<Parameter> parameters(BondStrength& p) {
 
 std::vector<Parameter> parameters(DetachmentSegment& p) {
     const Parameter start_dip{"start_dip_deg", &p.start_dip, "deg", dip, "",
-                              "dip at the near end, where the chain has a kink"};
+                              "dip at the near end, where the chain has a kink; 0 is flat, 90 straight down"};
     if (p.kind == DetachmentSegment::Kind::line)
         return {{"length_m", &p.length, "m", length, "", "length of the line"}, start_dip};
     return {{"radius_m", &p.radius, "m", length, "", "radius of the arc"},
-            {"end_dip_deg", &p.end_dip, "deg", dip, "", "dip at the far end"},
+            {"end_dip_deg", &p.end_dip, "deg", dip, "", "dip at the far end; 0 is flat, 90 straight down"},
             start_dip};
 }
 

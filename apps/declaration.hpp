@@ -16,6 +16,7 @@ struct Range {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     double from = -infinity, above = -infinity; ///< from: included; above: excluded
     double to = infinity, below = infinity;     ///< to: included; below: excluded
+    std::string_view reason = {};               ///< why not elsewhere, where that is not plain
 
     bool contains(double x) const {
         return std::isfinite(x) && x >= from && x > above && x <= to && x < below;

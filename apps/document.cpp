@@ -94,7 +94,9 @@ double number(const Entry& entry, const Parameter& parameter) {
         fail_type(entry, type_of(parameter));
     const double x = integer ? static_cast<double>(integer->get()) : floating->get();
     if (!parameter.range.contains(x))
-        fail(entry, fmt::format("out of range ({}), allowed: {}", text(x), text(parameter.range)));
+        fail(entry,
+             fmt::format("out of range ({}), allowed: {}{}{}", text(x), text(parameter.range),
+                         parameter.range.reason.empty() ? "" : "; ", parameter.range.reason));
     return x;
 }
 

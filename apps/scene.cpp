@@ -156,6 +156,12 @@ void check_detachment(const Scene& scene, const toml::table& document) {
         fail(entry, "has no arc and no line, needs at least one, for example "
                     "segments = [{arc = {radius_m = 15000.0, end_dip_deg = 0.0}}]");
     double dip = detachment.start_dip;
+    if (const auto first = detachment.segments.front().start_dip; first && *first != dip)
+        fail(
+            entry_at(document, "detachment.segments"),
+            fmt::format("does not join: the first piece has start_dip_deg = {}, but the detachment "
+                        "start_dip_deg = {}; both are the dip at the breakaway, give one",
+                        text(*first), text(dip)));
     for (const DetachmentSegment& segment : detachment.segments) {
         const double start = segment.start_dip.value_or(dip);
         const bool is_arc = segment.kind == DetachmentSegment::Kind::arc;
