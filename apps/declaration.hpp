@@ -16,6 +16,7 @@ struct Range {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     double from = -infinity, above = -infinity; ///< from: included; above: excluded
     double to = infinity, below = infinity;     ///< to: included; below: excluded
+    std::string_view reason = {};               ///< why not elsewhere, where that is not plain
 
     bool contains(double x) const {
         return std::isfinite(x) && x >= from && x > above && x <= to && x < below;
@@ -71,6 +72,12 @@ std::vector<SceneTable> scene_tables(Scene& scene);
 
 /// The parameters of one arc or line of the detachment.
 std::vector<Parameter> parameters(DetachmentSegment& segment);
+
+/// Microproperties, [material]: of a scene's basement or of a material file.
+std::vector<Parameter> parameters(Material& material);
+
+/// Strengths of contact bonds, [bonds].
+std::vector<Parameter> parameters(BondStrength& bonds);
 
 /// "above 0, at most 10"; empty if every number is allowed.
 std::string text(const Range& range);

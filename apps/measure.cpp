@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace listric {
@@ -60,21 +61,9 @@ std::optional<Point> find_cutoff(const State& state, const Chain& detachment) {
     return Point{p.x, -p.y};
 }
 
-/// Rotation, degrees, of the least-squares rigid motion of the block that started next to the
-/// detachment in its upper half.
-std::optional<double> head_block_tilt(const Scene& scene, const State& state,
-                                      const Chain& detachment) {
+/// Rotation, degrees, of the least-squares rigid motion of a block of discs.
+std::optional<double> rotation_of(const State& state, std::span<const std::size_t> block) {
     const ConstDiscColumns d = disc_columns(state);
-    constexpr double block_width = 5e3;
-    std::vector<std::size_t> block;
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] != 0 || -d.start_y[i] > 0.5 * scene.hanging_wall->thickness)
-            continue;
-        const auto foot = foot_point(detachment, {d.start_x[i], d.start_y[i]});
-        const double distance = foot ? foot->distance : d.start_x[i];
-        if (distance < block_width)
-            block.push_back(i);
-    }
     if (block.size() < 3)
         return std::nullopt;
     Point before, after;
@@ -93,6 +82,72 @@ std::optional<double> head_block_tilt(const Scene& scene, const State& state,
         cosine += ax * bx + ay * by;
     }
     return std::atan2(sine, cosine) * 180.0 / pi;
+}
+
+/// Mean rotation, degrees, of the square patches of a block that deforms.
+std::optional<double> mean_rotation(const State& state, std::span<const std::size_t> block,
+                                    double patch) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::size_t>> patches;
+    for (std::size_t i : block)
+        patches[{std::llround(d.start_x[i] / patch), std::llround(d.start_y[i] / patch)}].push_back(
+            i);
+    double sum = 0.0, discs = 0.0;
+    for (const auto& [place, members] : patches) {
+        constexpr std::size_t fewest = 4; // slivers at the block's edge tell nothing
+        if (members.size() < fewest)
+            continue;
+        sum += *rotation_of(state, members) * static_cast<double>(members.size());
+        discs += static_cast<double>(members.size());
+    }
+    return discs > 0.0 ? std::optional(sum / discs) : std::nullopt;
+}
+
+/// Rows of the pre-rift discs of whose start `chosen(start, foot on the detachment)` is true.
+template <class Chosen>
+std::vector<std::size_t> block_of(const State& state, const Chain& detachment, Chosen&& chosen) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::size_t> block;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] == 0)
+            if (const Point start{d.start_x[i], d.start_y[i]};
+                chosen(start, foot_point(detachment, start)))
+                block.push_back(i);
+    return block;
+}
+
+/// Rotation of the block that started next to the detachment in its upper half.
+std::optional<double> head_block_tilt(const Scene& scene, const State& state,
+                                      const Chain& detachment) {
+    constexpr double block_width = 5e3;
+    return rotation_of(state, block_of(state, detachment, [&](Point start, const auto& foot) {
+                           return -start.y <= 0.5 * scene.hanging_wall->thickness &&
+                                  (foot ? foot->distance : start.x) < block_width;
+                       }));
+}
+
+/// Rotations of three parts of the hanging wall of a ramp-flat-ramp detachment.
+void measure_ramp_flat_ramp(Measures& m, const State& state, const Chain& detachment) {
+    const auto parts = find_ramp_flat_ramp(detachment);
+    if (!parts)
+        return;
+    constexpr double block_size = 1.5e3, toe_dip = 15.0 * pi / 180.0;
+    m.breakaway_rotation =
+        rotation_of(state, block_of(state, detachment, [&](Point start, const auto&) {
+                        return std::hypot(start.x, start.y) < block_size;
+                    }));
+    m.toe_rotation = rotation_of(state, block_of(state, detachment, [&](Point, const auto& foot) {
+                                     return foot && foot->arc_length < parts->flat_start &&
+                                            std::atan2(foot->normal.x, foot->normal.y) < toe_dip &&
+                                            foot->distance < block_size;
+                                 }));
+    const double height = -detachment.back().end.y - parts->flat_depth;
+    const auto on_lower_ramp = [&](Point start, const auto& foot) {
+        return -start.y > parts->flat_depth && foot && foot->arc_length > parts->lower_start &&
+               foot->normal.x > 1e-6 && foot->distance < 0.5 * height;
+    };
+    m.lower_block_rotation =
+        mean_rotation(state, block_of(state, detachment, on_lower_ramp), block_size);
 }
 
 const Event* find_event(std::span<const std::unique_ptr<Event>> events, std::string_view name) {
@@ -238,6 +293,36 @@ std::vector<Depocentre> find_depocentres(std::span<const double> x, std::span<co
     return found;
 }
 
+std::optional<RampFlatRamp> find_ramp_flat_ramp(const Chain& detachment) {
+    constexpr double level = 1e-6; // of a unit tangent's y
+    constexpr double least_depth = 1.0;
+    const auto flat = [](Point tangent) { return std::abs(tangent.y) < level; };
+    RampFlatRamp found;
+    double at = 0.0;
+    bool on_flat = false, in_kink = false;
+    for (const Segment& s : detachment) {
+        if (in_kink && s.curvature >= 0.0)
+            break;
+        if (on_flat && !in_kink && !(flat(s.start_tangent) && flat(s.end_tangent))) {
+            in_kink = true;
+            found.flat_end = at;
+            if (s.curvature >= 0.0) { // a corner
+                found.lower_start = at;
+                break;
+            }
+        }
+        if (in_kink)
+            found.lower_start = at + s.length;
+        if (!on_flat && flat(s.end_tangent) && s.end.y < -least_depth) {
+            on_flat = true;
+            found.flat_depth = -s.end.y;
+            found.flat_start = flat(s.start_tangent) ? at : at + s.length;
+        }
+        at += s.length;
+    }
+    return in_kink ? std::optional(found) : std::nullopt;
+}
+
 Profile measure_profile(const Scene& scene, const State& state, const RigidBase& base) {
     const ConstDiscColumns d = disc_columns(state);
     const Chain& detachment = base.surfaces.front().chain;
@@ -284,6 +369,7 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
         m.area_balance = m.basin_area / (extension * scene.hanging_wall->thickness);
         m.cutoff = find_cutoff(state, detachment);
         m.rollover_tilt = head_block_tilt(scene, state, detachment);
+        measure_ramp_flat_ramp(m, state, detachment);
     }
     if (scene.sedimentation)
         m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, 250.0);

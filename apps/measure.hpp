@@ -39,6 +39,8 @@ struct Measures {
     std::optional<double> area_balance;  ///< basin area over extension times thickness
     std::optional<Point> cutoff;         ///< x and depth, m
     std::optional<double> rollover_tilt; ///< degrees, positive toward the detachment
+    /// Rotations over a ramp-flat-ramp detachment, degrees, positive toward the detachment.
+    std::optional<double> breakaway_rotation, toe_rotation, lower_block_rotation;
     std::optional<double> strain_top10, strain_top10_cumulative, strain_gini;
     std::optional<double> basement_unbonded_fraction;
     std::optional<double> weak_fraction; ///< of discs
@@ -49,6 +51,17 @@ struct Measures {
     std::optional<std::vector<Depocentre>> depocentres;
     std::optional<std::vector<Fault>> faults;
 };
+
+/// Where a detachment that descends to a flat and then further has its parts, m along the chain.
+struct RampFlatRamp {
+    double flat_start = 0.0;  ///< the upper ramp soles out
+    double flat_end = 0.0;    ///< the kink begins
+    double lower_start = 0.0; ///< the kink ends
+    double flat_depth = 0.0;  ///< m
+};
+
+/// None for a detachment that soles out once.
+std::optional<RampFlatRamp> find_ramp_flat_ramp(const Chain& detachment);
 
 Profile measure_profile(const Scene& scene, const State& state, const RigidBase& base);
 

@@ -19,6 +19,9 @@ template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
     visit("cutoff_x_m", m.cutoff ? std::optional(m.cutoff->x) : std::nullopt);
     visit("cutoff_z_m", m.cutoff ? std::optional(m.cutoff->y) : std::nullopt);
     visit("rollover_tilt_deg", m.rollover_tilt);
+    visit("breakaway_rotation_deg", m.breakaway_rotation);
+    visit("toe_rotation_deg", m.toe_rotation);
+    visit("lower_block_rotation_deg", m.lower_block_rotation);
     visit("strain_top10", m.strain_top10);
     visit("strain_top10_cumulative", m.strain_top10_cumulative);
     visit("strain_gini", m.strain_gini);
@@ -54,7 +57,8 @@ std::string to_csv(const Table& table) {
         const char* separator = "";
         for (const Column& column : table.columns()) {
             const double value = std::get<std::vector<double>>(column.values)[row];
-            text += separator + (std::isnan(value) ? std::string() : fmt::format("{}", value));
+            text += separator;
+            text += std::isnan(value) ? std::string() : fmt::format("{}", value);
             separator = ",";
         }
         text += '\n';

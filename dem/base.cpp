@@ -36,13 +36,15 @@ std::optional<Foot> foot_on(const Segment& s, Point p) {
                 {-side * from_centre.x / r, -side * from_centre.y / r}};
 }
 
-/// The corner at the end of segment `s`, if it points into the material and is closest to p there.
+/// The corner at the end of segment `s`, if no other point of the two segments is closest to p:
+/// over a corner that points into the material, or beyond one that points out of it.
 std::optional<Foot> corner(const Segment& s, const Segment& next, Point p) {
     const Point out = p - s.end;
     const double distance = std::sqrt(dot(out, out));
     if (dot(out, s.end_tangent) <= 0.0 || dot(out, next.start_tangent) >= 0.0 || distance == 0.0)
         return std::nullopt;
-    return Foot{distance, {out.x / distance, out.y / distance}};
+    const double side = cross(s.end_tangent, out) < 0.0 ? -1.0 : 1.0;
+    return Foot{side * distance, {side * out.x / distance, side * out.y / distance}};
 }
 
 struct Found {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace listric {
@@ -176,6 +177,14 @@ std::size_t disc_count(const HangingWallParameters& p, double area) {
     return static_cast<std::size_t>((1.0 - p.porosity) * area / (pi * mean_square));
 }
 
+double stable_time_step(double mass, std::span<const Material> materials, double damping,
+                        double safety) {
+    double step = std::numeric_limits<double>::infinity();
+    for (const Material& material : materials)
+        step = std::min(step, stable_time_step(mass, material, damping, safety));
+    return step;
+}
+
 State make_hanging_wall(const GenesisRequest& request,
                         const std::function<void(std::string_view, double)>& report) {
     const HangingWallParameters& p = request.hanging_wall;
@@ -203,10 +212,10 @@ State make_hanging_wall(const GenesisRequest& request,
     const double density = p.rock_density / (1.0 - porosity_under_gravity);
     const double mean_mass = density * pi * p.mean_radius * p.mean_radius;
     state.inertial_mass_floor = request.inertial_mass_floor * mean_mass;
-    state.clock.time_step = stable_time_step(
-        request.inertial_mass_floor > 0.0 ? state.inertial_mass_floor
-                                          : density * pi * smallest * smallest,
-        state.materials[basement], request.physics.damping, request.time_step_safety);
+    state.clock.time_step =
+        stable_time_step(request.inertial_mass_floor > 0.0 ? state.inertial_mass_floor
+                                                           : density * pi * smallest * smallest,
+                         state.materials, request.physics.damping, request.time_step_safety);
 
     add_discs(state, disc_count(p, area + lid * p.length));
     DiscColumns d = disc_columns(state);

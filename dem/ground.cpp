@@ -7,11 +7,27 @@
 namespace listric {
 
 namespace {
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<Surface> joined(const RigidBase& base) {
+    std::vector<Surface> surfaces;
+    for (const Surface& s : base.surfaces) {
+        surfaces.push_back(s);
+        for (const Surface& before : base.surfaces) {
+            const Point end = before.chain.back().end, start = s.chain.front().start;
+            if (end.x == start.x && end.y == start.y && before.translation == s.translation)
+                surfaces.back().chain.insert(surfaces.back().chain.begin(), before.chain.begin(),
+                                             before.chain.end());
+        }
+    }
+    return surfaces;
 }
 
+} // namespace
+
 Ground::Ground(const State& state, const RigidBase& base, double largest_radius)
-    : base_(&base), extension_(state.clock.extension) {
+    : surfaces_(joined(base)), extension_(state.clock.extension) {
     const ConstDiscColumns d = disc_columns(state);
     const auto [low_x, high_x] = std::ranges::minmax(d.x);
     const double largest = std::max(largest_radius, *std::ranges::max_element(d.radius));
@@ -47,7 +63,7 @@ std::size_t Ground::column(double x) const {
 
 double Ground::clearance(Point p) const {
     double least = infinity;
-    for (const Surface& s : base_->surfaces)
+    for (const Surface& s : surfaces_)
         if (const auto foot = nearest(s.chain, {p.x - s.translation * extension_, p.y}))
             least = std::min(least, foot->distance);
     return least;

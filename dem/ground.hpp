@@ -36,7 +36,9 @@ private:
     std::size_t column(double x) const;
     double clearance(Point p) const;
 
-    const RigidBase* base_;
+    /// Of the base. Where one ends at the start of another, as the backstop does at the breakaway,
+    /// they are joined: then what lies beyond their corner is outside.
+    std::vector<Surface> surfaces_;
     double extension_, left_, width_, bottom_;
     std::vector<std::vector<Obstacle>> columns_;
 };

@@ -97,10 +97,68 @@ TEST(Base, ConcaveCornerTakesTheNearerSide) {
     EXPECT_NEAR(foot->normal.x, 1.0, 1e-15);
 }
 
+TEST(Base, BeyondAConcaveCornerIsOutside) {
+    // Down at 60 degrees, then on at 30: the footwall's corner points away from the material.
+    const Point t{0.5, -0.5 * std::sqrt(3.0)}, u{0.5 * std::sqrt(3.0), -0.5};
+    const Point kink{t.x, t.y};
+    const Chain chain{line({0.0, 0.0}, kink), line(kink, {kink.x + u.x, kink.y + u.y})};
+    const Point out{-std::sin(pi / 4.0), -std::cos(pi / 4.0)}; // along the bisector
+    const auto foot = foot_point(chain, {kink.x + 2.0 * out.x, kink.y + 2.0 * out.y});
+    ASSERT_TRUE(foot);
+    EXPECT_NEAR(foot->distance, -2.0, 1e-14);
+    EXPECT_NEAR(foot->normal.x, -out.x, 1e-14);
+    EXPECT_NEAR(foot->normal.y, -out.y, 1e-14);
+    EXPECT_NEAR(foot->arc_length, 1.0, 1e-14);
+}
+
+TEST(Base, SignOfTheDistanceTellsTheSideOfAnyChain) {
+    // Convex and concave kinks, an arc that steepens and one that flattens: the distance is
+    // positive exactly above the chain, and going by it along the normal leads onto the chain.
+    const double degree = pi / 180.0;
+    Chain chain;
+    Point at{0.0, 0.0};
+    const auto direction = [&](double dip) {
+        return Point{std::cos(dip * degree), -std::sin(dip * degree)};
+    };
+    const auto add_line = [&](double dip, double length) {
+        const Point t = direction(dip);
+        chain.push_back(line(at, {at.x + length * t.x, at.y + length * t.y}));
+        at = chain.back().end;
+    };
+    const auto add_arc = [&](double from, double to, double radius) {
+        chain.push_back(arc(at, direction(from), radius, (from - to) * degree));
+        at = chain.back().end;
+    };
+    add_line(70.0, 3.0);
+    add_line(20.0, 4.0);     // concave
+    add_line(80.0, 2.0);     // convex
+    add_arc(50.0, 0.0, 3.0); // concave, then flattens
+    add_arc(0.0, 60.0, 1.0); // steepens
+    add_line(0.0, 8.0);      // concave
+    double length = 0.0;
+    for (const Segment& s : chain)
+        length += s.length;
+    support::Random random(3);
+    for (int k = 0; k < 2000; ++k) {
+        const Point p{random.between(0.5, at.x - 6.0), random.between(at.y - 2.0, 0.0)};
+        double low = 0.0, high = length;
+        for (int n = 0; n < 60; ++n)
+            (point_at(chain, 0.5 * (low + high)).x < p.x ? low : high) = 0.5 * (low + high);
+        const double height = p.y - point_at(chain, low).y;
+        const auto foot = foot_point(chain, p);
+        ASSERT_TRUE(foot) << p.x << " " << p.y;
+        EXPECT_EQ(foot->distance > 0.0, height > 0.0) << p.x << " " << p.y;
+        EXPECT_LE(std::abs(foot->distance), std::abs(height) + 1e-12);
+        const Point on = point_at(chain, foot->arc_length);
+        EXPECT_NEAR(p.x - foot->distance * foot->normal.x, on.x, 1e-12);
+        EXPECT_NEAR(p.y - foot->distance * foot->normal.y, on.y, 1e-12);
+    }
+}
+
 TEST(Base, OpenEndsHaveNoFoot) {
     const Chain chain = listric_chain(R, 40e3);
-    EXPECT_FALSE(foot_point(chain, {100.0, 1.0}));          // above the breakaway
-    EXPECT_FALSE(foot_point(chain, {R + 40e3 + 1.0, -R}));  // beyond the flat
+    EXPECT_FALSE(foot_point(chain, {100.0, 1.0}));         // above the breakaway
+    EXPECT_FALSE(foot_point(chain, {R + 40e3 + 1.0, -R})); // beyond the flat
     EXPECT_TRUE(foot_point(chain, {100.0, -1.0}));
     EXPECT_TRUE(foot_point(chain, {R + 40e3 - 1.0, -R}));
     EXPECT_FALSE(foot_point({}, {0.0, 0.0}));

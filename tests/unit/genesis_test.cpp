@@ -65,8 +65,7 @@ TEST(Genesis, MakesASettledBondedHangingWall) {
         lift += reaction.y;
     EXPECT_NEAR(lift, balance.weight, 0.02 * balance.weight);
     EXPECT_LT(balance.mean_ratio(), 5e-3);
-    const double rock = 2600.0 * 9.81 *
-                        hanging_wall_area(r.hanging_wall, r.base.surfaces[0].chain);
+    const double rock = 2600.0 * 9.81 * hanging_wall_area(r.hanging_wall, r.base.surfaces[0].chain);
     EXPECT_NEAR(balance.weight, rock, 1e-9 * rock);
     EXPECT_NEAR(state.ledger.initial * 9.81, rock, 1e-9 * rock);
 
@@ -110,6 +109,34 @@ TEST(Genesis, MakesASettledBondedHangingWall) {
     EXPECT_EQ(state.clock.cycle, 0);
     EXPECT_EQ(state.clock.extension, 0.0);
     EXPECT_EQ(state.materials[basement].friction, 0.05);
+}
+
+TEST(Genesis, FillsAnyChainAndNothingElse) {
+    // Kinks of both kinds: 60, 20, 80 degrees, then an arc to the flat, as a user may draw them.
+    GenesisRequest r = request(500.0, 1);
+    Chain chain{line({0.0, 0.0}, {2e3, -2e3 * std::tan(pi / 3.0)})};
+    const Point ledge = chain.back().end;
+    chain.push_back(line(ledge, {ledge.x + 5e3, ledge.y - 5e3 * std::tan(pi / 9.0)}));
+    const double steep = 80.0 * pi / 180.0;
+    const double radius = (15e3 + chain.back().end.y) / (1.0 - std::cos(steep));
+    chain.push_back(arc(chain.back().end, {std::cos(steep), -std::sin(steep)}, radius, steep));
+    chain.push_back(line(chain.back().end, {90e3, chain.back().end.y}));
+    r.base.surfaces.front().chain = chain;
+    const State state = make(r);
+    const ConstDiscColumns d = disc_columns(state);
+    double solid = 0.0, deepest = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const auto foot = foot_point(chain, {d.x[i], d.y[i]});
+        ASSERT_TRUE(!foot || foot->distance > 0.9 * d.radius[i]) << d.x[i] << " " << d.y[i];
+        if (d.x[i] < ledge.x) {
+            ASSERT_GT(d.y[i], -d.x[i] * std::tan(pi / 3.0)) << "beyond the kink";
+        }
+        solid += pi * d.radius[i] * d.radius[i];
+        deepest = std::min(deepest, d.y[i]);
+    }
+    EXPECT_GT(deepest, -15e3);
+    // At this resolution a tenth of the discs lies at a wall, where packing is looser.
+    EXPECT_NEAR(solid / hanging_wall_area(r.hanging_wall, chain), 1.0 - 0.166, 0.02);
 }
 
 TEST(Genesis, SeedDecides) {

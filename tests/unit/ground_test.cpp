@@ -76,6 +76,32 @@ TEST(Ground, NothingRestsOutsideTheBase) {
     }
 }
 
+TEST(Ground, NothingFallsBehindAnInclinedBreakaway) {
+    // Behind the breakaway a gap opens between the backstop's end and the detachment's normal.
+    for (double dip : {85.0, 60.0, 30.0}) {
+        const double a = dip * pi / 180.0;
+        RigidBase base = listric_base(15e3, 40e3);
+        base.surfaces[0].chain = {
+            line({0.0, 0.0}, {8e3 * std::cos(a), -8e3 * std::sin(a)}),
+            line({8e3 * std::cos(a), -8e3 * std::sin(a)}, {80e3, -8e3 * std::sin(a)})};
+        const Disc first{200.0, 200.0 * std::tan(-a) + 100.0 / std::cos(a), 100.0};
+        const State state = make_state({first});
+        const Ground ground(state, base, 120.0);
+        for (double x = -400.0; x < 3e3; x += 7.0) {
+            const double height = ground.height(x, 90.0);
+            if (x < 90.0 * std::sin(a)) {
+                EXPECT_EQ(height, std::numeric_limits<double>::infinity()) << dip << " " << x;
+                continue;
+            }
+            const auto place = ground.rest(x, 90.0);
+            if (place) {
+                EXPECT_GE(place->x, 90.0 * std::sin(a) - 1e-6) << dip << " " << x;
+                EXPECT_GE(place->y, -8e3 * std::sin(a) + 90.0 - 1e-6) << dip << " " << x;
+            }
+        }
+    }
+}
+
 TEST(Ground, WallMovesWithTheExtension) {
     const RigidBase base = listric_base(15e3, 40e3);
     State state = make_state({{39.5e3, -15e3 + 100.0, 100.0}});

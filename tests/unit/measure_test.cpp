@@ -1,7 +1,9 @@
 // Concentration measures on densities whose answers are known, and depocentres of a drawn profile.
 // Piecewise constant densities are exact; the linear one, sampled in n cells, is off by O(1/n^2).
 
+#include "apps/effects.hpp"
 #include "apps/measure.hpp"
+#include "tests/support.hpp"
 
 #include <gtest/gtest.h>
 
@@ -107,8 +109,8 @@ TEST(Depocentre, RipplesAreNone) {
 
 TEST(Depocentre, ProminenceIsToTheHigherPass) {
     // Between two thicker ones: passes of 300 and 100, so 700 has a prominence of 400.
-    const Drawn d({{0, 0.0}, {10, 900.0}, {20, 300.0}, {30, 700.0}, {40, 100.0}, {50, 1000.0},
-                   {60, 0.0}});
+    const Drawn d(
+        {{0, 0.0}, {10, 900.0}, {20, 300.0}, {30, 700.0}, {40, 100.0}, {50, 1000.0}, {60, 0.0}});
     const std::vector<Depocentre> found = find_depocentres(d.x, d.thickness, 250.0);
     ASSERT_EQ(found.size(), 3u);
     EXPECT_EQ(found[1].prominence, 800.0); // 900, over the pass of 100
@@ -130,6 +132,108 @@ TEST(Depocentre, NoSedimentNoDepocentre) {
     const Drawn d({{0, 0.0}, {30, 0.0}});
     EXPECT_TRUE(find_depocentres(d.x, d.thickness, 250.0).empty());
     EXPECT_TRUE(find_depocentres({}, {}, 250.0).empty());
+}
+
+// ------------------------------------------------------------------------------- ramp-flat-ramp
+
+TEST(RampFlatRamp, PartsOfTheDetachment) {
+    const auto parts =
+        find_ramp_flat_ramp(make_base(load_scene({.scene = "rfr"})).surfaces.front().chain);
+    ASSERT_TRUE(parts);
+    const double kink = 300.0 * std::acos(1.0 - 8.0 / 8.3);
+    EXPECT_NEAR(parts->flat_start, 3.5e3 * pi, 1e-6);
+    EXPECT_NEAR(parts->flat_end, 3.5e3 * pi + 4705.42, 1e-6);
+    EXPECT_NEAR(parts->lower_start, 3.5e3 * pi + 4705.42 + kink, 1e-4);
+    EXPECT_NEAR(parts->flat_depth, 7e3, 1e-6);
+
+    const Chain sharp{line({0.0, 0.0}, {1e3, -1e3}), line({1e3, -1e3}, {3e3, -1e3}),
+                      line({3e3, -1e3}, {4e3, -3e3}), line({4e3, -3e3}, {9e3, -3e3})};
+    const auto corner = find_ramp_flat_ramp(sharp);
+    ASSERT_TRUE(corner);
+    EXPECT_NEAR(corner->flat_start, std::sqrt(2.0) * 1e3, 1e-9);
+    EXPECT_NEAR(corner->flat_end, std::sqrt(2.0) * 1e3 + 2e3, 1e-9);
+    EXPECT_EQ(corner->lower_start, corner->flat_end);
+
+    for (const char* simple : {"lis1", "lis2"})
+        EXPECT_FALSE(
+            find_ramp_flat_ramp(make_base(load_scene({.scene = simple})).surfaces.front().chain))
+            << simple;
+}
+
+/// Discs on a square lattice that fills a scene's hanging wall.
+State lattice(const Scene& scene, const RigidBase& base) {
+    std::vector<support::Disc> discs;
+    for (double x = 100.0; x < scene.hanging_wall->length; x += 200.0)
+        for (double y = -100.0; y > -scene.hanging_wall->thickness; y -= 200.0)
+            if (nearest(base.surfaces.front().chain, {x, y})->distance > 0.0)
+                discs.push_back({x, y, 100.0});
+    return support::make_state(discs);
+}
+
+/// Turns the discs of which `moves(start)` is true about a far point.
+template <class Moves> void turn(State& state, double degrees, Moves&& moves) {
+    const DiscColumns d = disc_columns(state);
+    const double cosine = std::cos(degrees * pi / 180.0), sine = std::sin(degrees * pi / 180.0);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (moves(Point{d.start_x[i], d.start_y[i]})) {
+            const double x = d.start_x[i] - 30e3, y = d.start_y[i] - 5e3;
+            d.x[i] = 30e3 + cosine * x - sine * y;
+            d.y[i] = 5e3 + sine * x + cosine * y;
+        }
+}
+
+TEST(RampFlatRamp, RotationsOfItsParts) {
+    const Scene scene = load_scene(
+        {.scene = "rfr",
+         .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
+    const RigidBase base = make_base(scene);
+    State state = lattice(scene, base);
+    state.clock.extension = 1000.0;
+    const auto at_breakaway = [](Point p) { return std::hypot(p.x, p.y) < 1.6e3; };
+    const auto below_flat = [](Point p) { return p.y < -7e3; };
+    turn(state, 80.0, at_breakaway);
+    turn(state, 43.0, below_flat);
+    turn(state, -15.0, [&](Point p) { return !at_breakaway(p) && !below_flat(p); });
+    const Measures m = measure(scene, state, base, {});
+    EXPECT_NEAR(m.breakaway_rotation.value(), 80.0, 1e-9);
+    EXPECT_NEAR(m.lower_block_rotation.value(), 43.0, 1e-9);
+    EXPECT_NEAR(m.toe_rotation.value(), -15.0, 1e-9);
+}
+
+TEST(RampFlatRamp, OtherDetachmentsHaveNoSuchParts) {
+    const Scene scene = load_scene(
+        {.scene = "lis2",
+         .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
+    const RigidBase base = make_base(scene);
+    State state = lattice(scene, base);
+    state.clock.extension = 1000.0;
+    turn(state, 19.1, [](Point) { return true; });
+    const Measures m = measure(scene, state, base, {});
+    EXPECT_FALSE(m.breakaway_rotation || m.toe_rotation || m.lower_block_rotation);
+    EXPECT_NEAR(m.rollover_tilt.value(), 19.1, 1e-9);
+}
+
+TEST(Cutoff, OfTheConstantSlipOfLis2) {
+    // Everything slides by e = 10 km along the arc of 30 km about (26, 15) km: the cutoff lies at
+    // (6.34, 7.67) km. The lattice shows it to a lattice spacing and a radius.
+    const Scene scene = load_scene(
+        {.scene = "lis2",
+         .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
+    const RigidBase base = make_base(scene);
+    State state = lattice(scene, base);
+    state.clock.extension = 10e3;
+    const DiscColumns d = disc_columns(state);
+    const Point centre{30e3 * std::sin(pi / 3.0), 15e3};
+    const double cosine = std::cos(1.0 / 3.0), sine = std::sin(1.0 / 3.0);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double x = d.start_x[i] - centre.x, y = d.start_y[i] - centre.y;
+        d.x[i] = centre.x + cosine * x - sine * y;
+        d.y[i] = centre.y + sine * x + cosine * y;
+    }
+    const Measures m = measure(scene, state, base, {});
+    EXPECT_NEAR(m.cutoff.value().x, 6.34e3, 250.0);
+    EXPECT_NEAR(m.cutoff.value().y, 7.67e3, 250.0);
+    EXPECT_NEAR(m.rollover_tilt.value(), 19.0986, 1e-3);
 }
 
 } // namespace

@@ -305,10 +305,10 @@ TEST_F(SceneTest, NamesLikeNoOtherAreAnsweredWithAllNames) {
     EXPECT_EQ(error(minimal + "[cycle]\ncolour = 'red'\n"),
               "scene.toml:5: cycle.colour: unknown key, allowed: damping, time_step_safety, "
               "inertial_mass_floor, skin");
-    EXPECT_THAT(error(minimal + "[magnetism]\n"),
-                AllOf(StartsWith("scene.toml:4: magnetism: unknown table, allowed: name, description, "),
-                      HasSubstr("hanging_wall, detachment"),
-                      EndsWith("sedimentation, compaction")));
+    EXPECT_THAT(
+        error(minimal + "[magnetism]\n"),
+        AllOf(StartsWith("scene.toml:4: magnetism: unknown table, allowed: name, description, "),
+              HasSubstr("hanging_wall, detachment"), EndsWith("sedimentation, compaction")));
 }
 
 TEST_F(SceneTest, TypesAreChecked) {
@@ -461,7 +461,14 @@ TEST_F(SceneTest, SegmentsAreArcsOrLines) {
               "allowed: above 0, at most 1e6");
     EXPECT_EQ(segments("{arc = {radius_m = 1e4, end_dip_deg = 91}}"),
               "scene.toml:4: detachment.segments[0].arc.end_dip_deg: out of range (91), "
-              "allowed: at least 0, at most 90");
+              "allowed: at least 0, at most 90; else the detachment rises or folds back");
+    EXPECT_EQ(segments("{line = {length_m = 1e4, start_dip_deg = -5}}"),
+              "scene.toml:4: detachment.segments[0].line.start_dip_deg: out of range (-5), "
+              "allowed: at least 0, at most 90; else the detachment rises or folds back");
+    EXPECT_EQ(
+        segments("{line = {length_m = 1e4, start_dip_deg = 60}}"),
+        "scene.toml:3: detachment.segments: does not join: the first piece has start_dip_deg = "
+        "60, but the detachment start_dip_deg = 90; both are the dip at the breakaway, give one");
 }
 
 TEST_F(SceneTest, TheDetachmentReachesTheThicknessAndSolesOut) {
@@ -495,6 +502,54 @@ TEST_F(SceneTest, RampFlatRamp) {
                             300.0 * (7e3 + 300.0 * quarter) + 7700.0 * 7300.0 +
                             7700.0 * 7700.0 * (1.0 - quarter) + 20e3 * 15e3;
     EXPECT_NEAR(hanging_wall_area(scene) / expected, 1.0, 1e-7);
+}
+
+TEST_F(SceneTest, TheExperimentsDifferInTheirDetachmentsAlone) {
+    const auto without_detachment = [&](const std::string& name) {
+        Scene scene = load_scene({.scene = name});
+        scene.name = scene.description = "";
+        scene.detachment = load_scene({.scene = "lis1"}).detachment;
+        return bits(scene);
+    };
+    EXPECT_EQ(without_detachment("lis2"), without_detachment("lis1"));
+    EXPECT_EQ(without_detachment("rfr"), without_detachment("lis1"));
+    Scene control = load_scene({.scene = "lis1", .without = {"fault_weakening", "bond_healing"}});
+    control.name = "lis1-0";
+    Scene lis1_0 = load_scene({.scene = "lis1-0"});
+    lis1_0.description = control.description;
+    EXPECT_EQ(bits(lis1_0), bits(control));
+}
+
+TEST_F(SceneTest, DetachmentsOfTheExperiments) {
+    const auto area = [](const std::string& name) {
+        return hanging_wall_area(load_scene({.scene = name}));
+    };
+    // LIS2: below the flat's depth, a rectangle; over the arc, integral of R (cos a - cos 60).
+    const double R = 30e3, a = pi / 3.0, run = R * std::sin(a);
+    const double over_arc = R * R * (0.5 * a + 0.25 * std::sin(2.0 * a)) - R * std::cos(a) * run;
+    EXPECT_NEAR(area("lis2") / (over_arc + (40e3 - run) * 15e3), 1.0, 1e-7);
+    // RFR: the kink is a sharp corner at (12, 7) km but for the sliver that its arc cuts off.
+    const double quarter = pi / 4.0;
+    const double sharp =
+        7e3 * 7e3 * quarter + 5e3 * 7e3 + 8e3 * 7e3 + 8e3 * 8e3 * quarter + 20e3 * 15e3;
+    EXPECT_GT(area("rfr"), sharp);
+    EXPECT_LT(area("rfr"), sharp + 300.0 * 300.0);
+}
+
+TEST_F(SceneTest, AnyChainOfLinesAndArcs) {
+    const auto chain = [&](const std::string& list) {
+        return error("[hanging_wall]\nthickness_m = 9000\n[detachment]\nstart_dip_deg = 50\n"
+                     "segments = [" +
+                     list + "]\n");
+    };
+    // Sharp kinks of both kinds; the flat to beyond the wall is added.
+    EXPECT_EQ(
+        chain("{line = {length_m = 5221.8291}}, {line = {length_m = 6000, start_dip_deg = 10}}, "
+              "{arc = {radius_m = 4788.8, start_dip_deg = 60}}, "
+              "{arc = {radius_m = 1563.758, end_dip_deg = 60}}, "
+              "{line = {length_m = 781.7, start_dip_deg = 90}}, "
+              "{line = {length_m = 100, start_dip_deg = 0}}"),
+        "no error");
 }
 
 TEST_F(SceneTest, AreaOfTheHangingWall) {
