@@ -148,7 +148,9 @@ std::vector<Parameter> parameters(SedimentationParameters& p) {
     return {
         {"interval_a", &p.interval, "a", years, "Delta t_s", "time between sedimentations"},
         {"level_m", &p.level, "m", {.from = -1e5, .to = 1e5}, "",
-         "level filled up to, above the original surface"},
+         "of the target, above the original surface, where no target line is given"},
+        {"target", &p.target, "", {.from = -1e5, .to = 1e5}, "",
+         "target line: points [x, y] in m, or stages {time_a, points}; fills below, erodes above"},
         {"surface_porosity", &p.surface_porosity, "", {.from = 0, .to = 0.9}, "Phi_ini",
          "porosity of fresh sediment"},
         {"grain_density_kg_per_m3", &p.grain_density, "kg/m3", density, "",
@@ -213,6 +215,12 @@ std::vector<Parameter> top_level(Scene& scene) {
 }
 
 std::vector<SceneTable> scene_tables(Scene& scene) {
+    SceneTable sedimentation =
+        effect("sedimentation", "adapts the surface to a target: deposits below, erodes above",
+               scene.sedimentation);
+    const Parameter target_csv{"target_csv", &scene.target_csv, "", {}, "",
+                               "file with the target line: columns time_a, x_m, y_m; linear between times"};
+    sedimentation.parameters.push_back(target_csv);
     return {
         table("hanging_wall", "the block that slides and breaks, before extension",
               scene.hanging_wall),
@@ -226,7 +234,7 @@ std::vector<SceneTable> scene_tables(Scene& scene) {
         effect("fault_weakening", "automatic fault detection (AFD) with its property update",
                scene.fault_weakening),
         effect("bond_healing", "intelligent crack management (ICM)", scene.bond_healing),
-        effect("sedimentation", "syn-rift sediment fills the basin", scene.sedimentation),
+        sedimentation,
         effect("compaction", "sediment loses pore space with burial", scene.compaction),
     };
 }
@@ -306,6 +314,9 @@ std::string type_of(const Parameter& parameter) {
         std::string operator()(const std::vector<double>*) const { return "array of numbers"; }
         std::string operator()(const std::vector<DetachmentSegment>*) const {
             return "array of {arc = {...}} and {line = {...}}";
+        }
+        std::string operator()(const std::vector<TargetStage>*) const {
+            return "array of points [x, y], or of {time_a = ..., points = [[x, y], ...]}";
         }
     } name;
     return std::visit(name, parameter.variable);

@@ -31,8 +31,9 @@ struct Choice {
 };
 
 /// The variable behind a parameter.
-using Variable = std::variant<double*, std::optional<double>*, int*, std::uint64_t*, std::string*,
-                              Choice, std::vector<double>*, std::vector<DetachmentSegment>*>;
+using Variable =
+    std::variant<double*, std::optional<double>*, int*, std::uint64_t*, std::string*, Choice,
+                 std::vector<double>*, std::vector<DetachmentSegment>*, std::vector<TargetStage>*>;
 
 /// The one declaration of a parameter: reading, writing and the reference follow from it.
 /// A default outside the range means that the parameter must be given.

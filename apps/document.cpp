@@ -119,6 +119,7 @@ bool must_be_given(const Parameter& parameter) {
 }
 
 DetachmentSegment read_segment(const Entry& entry);
+std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parameter);
 
 /// Reads an entry into a variable, one function for each type of variable.
 struct Reader {
@@ -152,6 +153,8 @@ struct Reader {
         for (const toml::node& node : array(entry, parameter))
             x->push_back(read_segment({node, item_path(x->size())}));
     }
+
+    void operator()(std::vector<TargetStage>* x) const { *x = read_target(entry, parameter); }
 
 private:
     template <class Integer> void read_integer(Integer* x) const {
@@ -207,7 +210,64 @@ DetachmentSegment read_segment(const Entry& entry) {
     return segment;
 }
 
+/// Points [x, y] by ascending x; the parameter's range holds for y.
+std::vector<Point> read_points(const Entry& entry, const Parameter& parameter) {
+    constexpr double far = 1e7; // m
+    Parameter x_parameter = parameter;
+    x_parameter.range = {.from = -far, .to = far};
+    std::vector<Point> points;
+    for (const toml::node& node : array(entry, parameter)) {
+        const Entry item{node, fmt::format("{}[{}]", entry.path, points.size())};
+        const toml::array* pair = node.as_array();
+        if (!pair || pair->size() != 2)
+            fail(item, "needs two numbers, for example [12000.0, -350.0]");
+        const Point p{number({*pair->get(0), item.path + "[0]"}, x_parameter),
+                      number({*pair->get(1), item.path + "[1]"}, parameter)};
+        if (!points.empty() && p.x <= points.back().x)
+            fail(item,
+                 fmt::format("is not sorted: x = {} comes after {}; sort the points by x, each "
+                             "x once",
+                             text(p.x), text(points.back().x)));
+        points.push_back(p);
+    }
+    if (points.empty())
+        fail(entry,
+             "has no points, needs at least one, for example [[0.0, 0.0], [40000.0, -500.0]]");
+    return points;
+}
+
+std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parameter) {
+    const toml::array& items = array(entry, parameter);
+    if (items.empty() || !items.front().is_table())
+        return {{0.0, read_points(entry, parameter)}};
+    Parameter years = parameter;
+    years.range = {.from = 0, .to = 1e10};
+    std::vector<TargetStage> stages;
+    for (const toml::node& node : items) {
+        const Entry item{node, fmt::format("{}[{}]", entry.path, stages.size())};
+        const toml::table* table = node.as_table();
+        const toml::node* points = table ? table->get("points") : nullptr;
+        const toml::node* time = table ? table->get("time_a") : nullptr;
+        if (!points || !time || table->size() != 2)
+            fail(item,
+                 "needs time_a and points, for example {time_a = 0.0, points = [[0.0, 0.0]]}");
+        TargetStage stage;
+        stage.time = number({*time, item.path + ".time_a"}, years);
+        if (!stages.empty() && stage.time <= stages.back().time)
+            fail(item, fmt::format("is not sorted: time_a = {} comes after {}; sort the stages by "
+                                   "time, each time once",
+                                   text(stage.time), text(stages.back().time)));
+        stage.points = read_points({*points, item.path + ".points"}, parameter);
+        stages.push_back(stage);
+    }
+    return stages;
+}
+
+} // namespace
+
 // ----------------------------------------------------------------------- files and --set options
+
+namespace {
 
 /// `origin` is where messages say that the text comes from.
 toml::table parse(const std::string& text, const std::string& origin) {
@@ -348,6 +408,23 @@ struct Writer {
         return fmt::format("[{}]", fmt::join(items, ", "));
     }
     std::string operator()(const std::vector<DetachmentSegment>* x) const;
+    std::string operator()(const std::vector<TargetStage>* x) const {
+        const auto points = [](const TargetStage& stage) {
+            std::vector<std::string> items;
+            for (const Point& p : stage.points)
+                items.push_back(fmt::format("[{}, {}]", toml_float(p.x), toml_float(p.y)));
+            return fmt::format("[{}]", fmt::join(items, ", "));
+        };
+        if (x->empty())
+            return "";
+        if (x->size() == 1 && x->front().time == 0.0)
+            return points(x->front());
+        std::string lines;
+        for (const TargetStage& stage : *x)
+            lines += fmt::format("    {{time_a = {}, points = {}}},\n", toml_float(stage.time),
+                                 points(stage));
+        return fmt::format("[\n{}]", lines);
+    }
 };
 
 std::string write(const Parameter& parameter) {
@@ -374,9 +451,9 @@ std::string Writer::operator()(const std::vector<DetachmentSegment>* x) const {
 std::string write(const std::vector<Parameter>& parameters) {
     std::string lines;
     for (const Parameter& parameter : parameters)
-        lines +=
-            fmt::format("{:<40}  # {}\n", fmt::format("{} = {}", parameter.key, write(parameter)),
-                        parameter.doc);
+        if (const std::string value = write(parameter); !value.empty())
+            lines += fmt::format("{:<40}  # {}\n", fmt::format("{} = {}", parameter.key, value),
+                                 parameter.doc);
     return lines;
 }
 

@@ -25,7 +25,8 @@ std::vector<std::unique_ptr<Event>> make_events(const Scene& s) {
             std::make_unique<PropertyUpdate>(*s.fault_weakening, rate, gravity, density));
     if (s.compaction)
         events.push_back(std::make_unique<Compaction>(
-            *s.compaction, s.sedimentation->surface_porosity, s.sedimentation->level, rate));
+            *s.compaction, s.sedimentation->surface_porosity,
+            Target(s.sedimentation->level, s.sedimentation->target), rate));
     if (s.bond_healing)
         events.push_back(std::make_unique<BondHealing>(*s.bond_healing, *s.bonds, rate));
     if (s.fault_weakening)

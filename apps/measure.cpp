@@ -431,6 +431,10 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
     }
     const Ledger& ledger = state.ledger;
     const double mass = std::accumulate(d.mass.begin(), d.mass.end(), 0.0);
+    if (scene.sedimentation) {
+        m.deposited_fraction = ledger.deposited / ledger.initial;
+        m.eroded_fraction = ledger.removed / ledger.initial;
+    }
     m.mass_error_fraction =
         std::abs(mass - (ledger.initial + ledger.deposited - ledger.removed)) / ledger.initial;
 

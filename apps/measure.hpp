@@ -45,6 +45,7 @@ struct Measures {
     std::optional<double> basement_unbonded_fraction;
     std::optional<double> weak_fraction; ///< of discs
     std::optional<double> volume_error_fraction;
+    std::optional<double> deposited_fraction, eroded_fraction; ///< of mass, over the initial
     double mass_error_fraction = 0.0;
     double unbalanced_ratio_mean = 0.0, unbalanced_ratio_max = 0.0;
     double inertial_number = 0.0; ///< of the tenth of the area strained most

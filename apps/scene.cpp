@@ -3,6 +3,7 @@
 #include "apps/document.hpp"
 #include "apps/effects.hpp"
 #include "apps/material_file.hpp"
+#include "apps/target_csv.hpp"
 #include "dem/genesis.hpp"
 
 #include <fmt/format.h>
@@ -70,6 +71,12 @@ void drop_effects(const std::vector<std::string>& without, std::vector<SceneTabl
     }
 }
 
+/// A path is relative to where it is written: to the scene's file, or to where the call is made.
+std::string located(const std::string& path, const toml::node* node, const fs::path& folder) {
+    const bool in_file = node && !node->source().path->starts_with("--");
+    return in_file ? (folder / path).string() : path;
+}
+
 // ------------------------------------------------------------------------------------- materials
 
 /// Files of the materials of a scene, by name or path: table [materials].
@@ -110,11 +117,9 @@ bool read_materials(Scene& scene, const toml::table& document, const fs::path& f
         read_table({*table, "materials"}, declared);
     const auto load = [&](const char* key, const std::string& name) {
         const toml::node* node = table ? table->as_table()->get(key) : nullptr;
-        // A path is relative to where it is written: to the scene's file, or to where the call is.
-        const bool in_file = node && !node->source().path->starts_with("--");
         fs::path file;
         try {
-            file = materials.find(is_path(name) && in_file ? (folder / name).string() : name);
+            file = materials.find(is_path(name) ? located(name, node, folder) : name);
         } catch (const SceneError& error) {
             if (node)
                 fail({*node, fmt::format("materials.{}", key)}, error.what());
@@ -269,6 +274,17 @@ Scene load_scene(const SceneRequest& request) {
             read_table({*node, std::string(table.name)}, table.parameters);
             table.in_scene = true;
         }
+    }
+    if (!scene.target_csv.empty()) {
+        const Entry entry = entry_at(document, "sedimentation.target_csv");
+        if (!scene.sedimentation->target.empty())
+            fail(entry, "beside sedimentation.target; give one of them");
+        const std::string file = located(scene.target_csv, &entry.node, path.parent_path());
+        std::error_code error;
+        if (!fs::is_regular_file(file, error))
+            fail(entry, fmt::format("{}: no such file", file));
+        scene.sedimentation->target = read_target_csv(file);
+        scene.target_csv.clear();
     }
     drop_effects(request.without, all);
     for (const SceneTable& table : all) {

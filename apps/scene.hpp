@@ -81,6 +81,10 @@ struct Scene {
     std::optional<BondHealingParameters> bond_healing;
     std::optional<SedimentationParameters> sedimentation;
     std::optional<CompactionParameters> compaction;
+
+    /// Parameter of [sedimentation]; load_scene reads the file into its target and empties the
+    /// name, so that what a run writes stands alone.
+    std::string target_csv;
 };
 
 /// How a call modifies a scene.

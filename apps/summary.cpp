@@ -28,6 +28,8 @@ template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
     visit("basement_unbonded_fraction", m.basement_unbonded_fraction);
     visit("weak_fraction", m.weak_fraction);
     visit("volume_error_fraction", m.volume_error_fraction);
+    visit("deposited_fraction", m.deposited_fraction);
+    visit("eroded_fraction", m.eroded_fraction);
     visit("mass_error_fraction", std::optional(m.mass_error_fraction));
     visit("unbalanced_ratio_mean", std::optional(m.unbalanced_ratio_mean));
     visit("unbalanced_ratio_max", std::optional(m.unbalanced_ratio_max));

@@ -6,9 +6,9 @@
 namespace listric {
 
 Compaction::Compaction(const CompactionParameters& parameters, double surface_porosity,
-                       double level, double extension_rate)
+                       Target surface, double extension_rate)
     : Event("compaction", {parameters.interval, extension_rate}), parameters_(parameters),
-      surface_porosity_(surface_porosity), level_(level) {}
+      surface_porosity_(surface_porosity), surface_(std::move(surface)) {}
 
 void Compaction::begin(State& state) {
     state.discs.add<double>("porosity", "1", surface_porosity_);
@@ -22,10 +22,11 @@ bool Compaction::apply(State& state, const RigidBase&) {
     const auto rock_radius =
         weakening ? state.discs.get<double>("rock_radius") : std::span<double>{};
     const auto rock_area = weakening ? state.discs.get<double>("rock_area") : std::span<double>{};
+    const TargetLine surface = surface_.at(state.clock.extension / schedule().extension_rate);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (d.stratum[i] == 0)
             continue;
-        const double depth = std::max(0.0, level_ - d.y[i]);
+        const double depth = std::max(0.0, surface.height(d.x[i]) - d.y[i]);
         const double now = surface_porosity_ * std::exp(-parameters_.coefficient * depth);
         if (now >= porosity[i])
             continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/event.hpp"
+#include "dem/target_line.hpp"
 
 namespace listric {
 
@@ -15,7 +16,8 @@ struct CompactionParameters {
 /// Shrinks sediment discs as they are buried; mass is kept and uplift restores nothing.
 class Compaction : public Event {
 public:
-    Compaction(const CompactionParameters& parameters, double surface_porosity, double level,
+    /// @param surface  that sediment is buried under
+    Compaction(const CompactionParameters& parameters, double surface_porosity, Target surface,
                double extension_rate);
 
     void begin(State& state) override;
@@ -24,7 +26,7 @@ public:
 private:
     CompactionParameters parameters_;
     double surface_porosity_;
-    double level_; ///< of the surface, m
+    Target surface_;
 };
 
 } // namespace listric

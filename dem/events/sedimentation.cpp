@@ -1,5 +1,6 @@
 #include "dem/events/sedimentation.hpp"
 
+#include "dem/cycle.hpp"
 #include "dem/ground.hpp"
 #include "dem/random.hpp"
 #include "dem/units.hpp"
@@ -16,8 +17,27 @@ struct Placed {
     double radius;
 };
 
-/// Fills the ground up to the level until a long row of tries finds no more room.
-std::vector<Placed> fill(Ground& ground, double level, double smallest, double largest,
+/// Removes the discs that lie wholly above the line. Returns their mass, kg per metre.
+double erode(State& state, const TargetLine& line) {
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    std::vector<std::int32_t> kept;
+    double removed = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        if (line.above({d.x[i], d.y[i]}) > d.radius[i])
+            removed += d.mass[i];
+        else
+            kept.push_back(static_cast<std::int32_t>(i));
+    }
+    if (kept.empty())
+        throw NumericalFailure("erosion: the target line lies below the whole hanging wall; raise "
+                               "sedimentation.level_m or the line");
+    if (kept.size() < d.x.size())
+        reorder_discs(state, kept);
+    return removed;
+}
+
+/// Fills the ground up to the line until a long row of tries finds no more room.
+std::vector<Placed> fill(Ground& ground, const TargetLine& line, double smallest, double largest,
                          std::uint64_t seed, std::uint64_t stratum) {
     std::vector<Placed> placed;
     const double width = ground.right() - ground.left();
@@ -29,15 +49,15 @@ std::vector<Placed> fill(Ground& ground, double level, double smallest, double l
         double radius = smallest + (largest - smallest) *
                                        uniform(seed, Purpose::deposition_radius, stratum, tries);
         ++failures;
-        if (ground.height(x, smallest) + smallest > level + 2.0 * largest)
+        if (ground.height(x, smallest) + smallest > line.height(x) + 2.0 * largest)
             continue;
         auto centre = ground.rest(x, radius);
         // Near the target a smaller disc may still fit.
-        if (!centre || centre->y + radius > level) {
+        if (!centre || line.above(*centre) + radius > 0.0) {
             radius = smallest;
             centre = ground.rest(x, radius);
         }
-        if (!centre || centre->y + radius > level + 0.5 * smallest)
+        if (!centre || line.above(*centre) + radius > 0.5 * smallest)
             continue;
         ground.add(*centre, radius);
         placed.push_back({*centre, radius});
@@ -51,18 +71,21 @@ std::vector<Placed> fill(Ground& ground, double level, double smallest, double l
 Sedimentation::Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
                              double extension_rate)
     : Event("sedimentation", {parameters.interval, extension_rate}), parameters_(parameters),
-      radius_ratio_(radius_ratio) {}
+      target_(parameters.level, parameters.target), radius_ratio_(radius_ratio) {}
 
 bool Sedimentation::apply(State& state, const RigidBase& base) {
     const double smallest = 2.0 * state.mean_radius / (1.0 + radius_ratio_);
     const double largest = radius_ratio_ * smallest;
     const auto stratum =
         static_cast<std::int32_t>(std::lround(state.clock.extension / schedule().spacing()));
+    const TargetLine line = target_.at(state.clock.extension / schedule().extension_rate);
+    const double removed = erode(state, line);
+    state.ledger.removed += removed;
     Ground ground(state, base, largest);
-    const std::vector<Placed> placed = fill(ground, parameters_.level, smallest, largest,
-                                            state.seed, static_cast<std::uint64_t>(stratum));
+    const std::vector<Placed> placed =
+        fill(ground, line, smallest, largest, state.seed, static_cast<std::uint64_t>(stratum));
     if (placed.empty())
-        return false;
+        return removed > 0.0;
 
     constexpr double packing_porosity =
         0.166; // of discs under gravity; pores of the rock come on top

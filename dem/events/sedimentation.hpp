@@ -1,22 +1,26 @@
 #pragma once
 
 #include "dem/event.hpp"
+#include "dem/target_line.hpp"
 
 namespace listric {
 
-/// Syn-rift sedimentation to a target level [paper, "Syn-rift sedimentation"; Table 1].
+/// Deposition and erosion to a target line [paper, "Syn-rift sedimentation"; Table 1].
 struct SedimentationParameters {
-    double interval = 5.0e4;       ///< time between sedimentations, Delta t_s, a
-    double level = 0.0;            ///< target level above the original surface, m
-    double surface_porosity = 0.5; ///< Phi_ini
-    double grain_density = 2600.0; ///< density at zero porosity, kg/m^3
-    Material material = {};        ///< of sediment discs: bonded by healing only
+    double interval = 5.0e4;              ///< time between sedimentations, Delta t_s, a
+    double level = 0.0;                   ///< of the target, above the original surface, m
+    std::vector<TargetStage> target = {}; ///< the target line; empty: the level
+    double surface_porosity = 0.5;        ///< Phi_ini
+    double grain_density = 2600.0;        ///< density at zero porosity, kg/m^3
+    Material material = {};               ///< of sediment discs: bonded by healing only
 };
 
-/// Fills the space between surface and target level with unbonded discs of a new stratum.
+/// Adapts the surface to the target line, whatever its shape.
 ///
-/// Each disc falls at a random place, rolls down over discs and base to where two of them hold it,
-/// and stays if it is not above the target. It touches without overlap, so nothing is shocked.
+/// Discs that lie wholly above it are removed with their bonds. The space between surface and line
+/// is filled with unbonded discs of a new stratum: each falls at a random place, rolls down over
+/// discs and base to where two of them hold it, and stays if it is not above the line. It touches
+/// without overlap, so nothing is shocked. The ledger has what came and what went.
 class Sedimentation : public Event {
 public:
     Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
@@ -26,6 +30,7 @@ public:
 
 private:
     SedimentationParameters parameters_;
+    Target target_;
     double radius_ratio_;
 };
 

@@ -912,6 +912,9 @@ TEST_F(RunTest, TheSummaryHasEveryName) {
                              "basement_unbonded_fraction",
                              "weak_fraction",
                              "volume_error_fraction",
+                             "deposited_fraction",
+                             "eroded_fraction",
+                             "mass_error_fraction",
                              "depocentres",
                              "faults"})
         EXPECT_TRUE(all.contains(name)) << name;
@@ -927,6 +930,53 @@ TEST_F(RunTest, TheSummaryHasEveryName) {
             EXPECT_TRUE(fault.contains(name)) << name;
     expect_no_empty_values(all, "summary");
     expect_no_empty_values(summary(run(scene(), "at rest", {.until = 0.0})), "summary at rest");
+}
+
+TEST_F(RunTest, ErosionToAFallingLineIsAccountedForAndResumes) {
+    write(folder / "falling.csv", "time_a,x_m,y_m\n0,0,0\n30000,0,-300\n30000,4000,-100\n");
+    const Scene what = scene({"sedimentation.target_csv=" + (folder / "falling.csv").string()});
+    const fs::path whole = run(what, "whole");
+    const json all = summary(whole);
+    EXPECT_GT(all["eroded_fraction"].get<double>(), 0.03);
+    EXPECT_LT(all["eroded_fraction"].get<double>(), 0.25);
+    // Sums of some thousand masses are rounded: 1e-16 each.
+    EXPECT_LT(all["mass_error_fraction"].get<double>(), 1e-13);
+    const State state = read_snapshot(list_snapshots(whole).back()).state;
+    const ConstDiscColumns d = disc_columns(state);
+    const TargetLine line({{0.0, -300.0}, {4000.0, -100.0}});
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        EXPECT_LT(line.above({d.x[i], d.y[i]}), d.radius[i] + state.mean_radius) << d.x[i];
+    // What the run wrote stands alone: the file may be gone when it is resumed.
+    run(what, "parts", {.until = 130.0});
+    fs::remove(folder / "falling.csv");
+    const Scene again = load_scene({.scene = (folder / "parts/scene.toml").string()});
+    expect_same_run(whole, run(again, "parts", {.resume = true}));
+}
+
+TEST_F(RunTest, NoDiscLeavesAKinkedDetachment) {
+    // Kinks of both kinds, sharp, and an inclined breakaway: 1500 m deep in all.
+    const std::vector<std::string> kinked{
+        "detachment.start_dip_deg=60",
+        "detachment.segments=[{line={length_m=600}}, {line={length_m=600, start_dip_deg=5}}, "
+        "{line={length_m=1036.71, start_dip_deg=65}}, "
+        "{line={length_m=100, start_dip_deg=0}}]",
+        "hanging_wall.thickness_m=1511.5"};
+    const Scene what = scene(kinked);
+    const fs::path output = run(what, "run");
+    const RigidBase base = make_base(what);
+    const State state = read_snapshot(list_snapshots(output).back()).state;
+    const ConstDiscColumns d = disc_columns(state);
+    const Chain& detachment = base.surfaces.front().chain;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const auto foot = nearest(detachment, {d.x[i], d.y[i]});
+        EXPECT_TRUE(foot || (d.x[i] > 0.0 && d.y[i] > -100.0)) << d.x[i] << " " << d.y[i];
+        if (foot) {
+            EXPECT_GT(foot->distance, 0.3 * d.radius[i]) << d.x[i] << " " << d.y[i];
+        }
+    }
+    const json all = summary(output);
+    EXPECT_TRUE(all.contains("rollover_tilt_deg"));
+    EXPECT_FALSE(all.contains("toe_rotation_deg")); // 5 degrees are no flat
 }
 
 TEST_F(RunTest, TheHistoryEndsWhereTheSummaryDoes) {

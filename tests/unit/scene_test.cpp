@@ -111,6 +111,15 @@ std::string bits(Scene scene) {
                 items += operator()(&item) + " ";
             return items;
         }
+        std::string operator()(const std::vector<TargetStage>* x) const {
+            std::string items;
+            for (const TargetStage& stage : *x) {
+                items += "at " + operator()(&stage.time) + ": ";
+                for (const Point& p : stage.points)
+                    items += operator()(&p.x) + " " + operator()(&p.y) + " ";
+            }
+            return items;
+        }
         std::string operator()(const std::vector<DetachmentSegment>* x) const {
             std::string items;
             for (const DetachmentSegment& s : *x)

@@ -1,14 +1,16 @@
-// Sedimentation fills up to the target with discs that touch without overlap, books their mass,
-// and leaves what is full alone. Ground places discs to 1e-4 m; the fill's bulk density is that of
-// the grains at surface porosity, to ten percent since a tenth of the discs touches a wall or the
-// surface, where packing is looser.
+// Sedimentation fills up to the target with discs that touch without overlap, removes what lies
+// above it, books both masses, and leaves what is full alone. Ground places discs to 1e-4 m; the
+// fill's bulk density is that of the grains at surface porosity, to ten percent since a tenth of
+// the discs touches a wall or the surface, where packing is looser.
 
+#include "dem/cycle.hpp"
 #include "dem/events/sedimentation.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 namespace listric {
 namespace {
@@ -111,6 +113,118 @@ TEST(Sedimentation, DependsOnTheSeedAlone) {
     EXPECT_EQ(hash(a.state), hash(same.state));
     other.state.seed = a.state.seed;
     EXPECT_NE(hash(a.state), hash(other.state));
+}
+
+/// Height of the surface, m, in columns one mean diameter wide.
+std::vector<double> surface(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<double> top(20, 0.0);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        auto& t = top[static_cast<std::size_t>(std::clamp(20.0 * d.x[i] / width, 0.0, 19.0))];
+        t = std::max(t, d.y[i] + d.radius[i]);
+    }
+    return top;
+}
+
+double mass_of(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    return std::accumulate(d.mass.begin(), d.mass.end(), 0.0);
+}
+
+TEST(Sedimentation, ErosionRemovesWhatLiesAboveAndAccountsForIt) {
+    Basin b;
+    b.event.apply(b.state, b.base);
+    bond_all(b.state, b.base);
+    const std::vector<std::int32_t> strata(disc_columns(b.state).stratum.begin(),
+                                           disc_columns(b.state).stratum.end());
+    const double before = mass_of(b.state);
+    const std::size_t contacts = b.state.contacts.rows();
+    constexpr double level = 0.5 * depth;
+    std::set<std::int64_t> above;
+    double above_mass = 0.0;
+    {
+        const DiscColumns d = disc_columns(b.state);
+        for (std::size_t i = 0; i < d.x.size(); ++i)
+            if (d.y[i] - d.radius[i] > level) {
+                above.insert(d.id[i]);
+                above_mass += d.mass[i];
+            }
+    }
+    ASSERT_GT(above.size(), 50u);
+    Ledger& ledger = b.state.ledger;
+    const double deposited = ledger.deposited;
+    Sedimentation lower({.level = level}, 1.66, rate);
+    b.state.clock.extension += lower.schedule().spacing();
+    ASSERT_TRUE(lower.apply(b.state, b.base));
+
+    const DiscColumns d = disc_columns(b.state);
+    std::set<std::int64_t> left;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        EXPECT_LE(d.y[i] - d.radius[i], level);
+        EXPECT_FALSE(above.contains(d.id[i]));
+        left.insert(d.id[i]);
+        if (d.id[i] >= 20 && d.stratum[i] != 4) {
+            EXPECT_EQ(d.stratum[i], 3); // of what remains, not of this sedimentation
+        }
+    }
+    for (std::size_t id = 0; id < strata.size(); ++id)
+        EXPECT_EQ(left.contains(static_cast<std::int64_t>(id)),
+                  !above.contains(static_cast<std::int64_t>(id)));
+    // The bonds went with the discs, the others stayed.
+    const ContactColumns c = contact_columns(b.state);
+    EXPECT_GT(c.first.size(), 0u);
+    EXPECT_LT(c.first.size(), contacts);
+    EXPECT_TRUE(std::ranges::count(c.bonded, 1) > 100);
+    EXPECT_NEAR(ledger.removed, above_mass, 1e-12 * before);
+    EXPECT_NEAR(mass_of(b.state), ledger.initial + ledger.deposited - ledger.removed,
+                1e-12 * before);
+    EXPECT_LT(ledger.deposited - deposited, 0.02 * before);
+    // Cutting and filling leave the surface within a disc diameter of the line.
+    const double diameter = 2.0 * 2.0 * r / 2.66 * 1.66;
+    for (double top : surface(b.state))
+        EXPECT_NEAR(top, level, diameter);
+}
+
+TEST(Sedimentation, TheSurfaceFollowsAPolyline) {
+    // A valley and a hill with slopes of up to 20 degrees: looser piles would roll down.
+    Basin b(0.5 * depth);
+    b.event.apply(b.state, b.base);
+    const std::vector<Point> points{{0.0, 0.5 * depth},
+                                    {0.3 * width, 0.5 * depth - 0.1 * width},
+                                    {0.7 * width, 0.5 * depth + 0.04 * width},
+                                    {width, 0.5 * depth + 0.1 * width}};
+    Sedimentation shaped({.target = {{0.0, points}}}, 1.66, rate);
+    b.state.clock.extension += shaped.schedule().spacing();
+    ASSERT_TRUE(shaped.apply(b.state, b.base));
+    EXPECT_GT(b.state.ledger.removed, 0.0);
+    EXPECT_NEAR(mass_of(b.state),
+                b.state.ledger.initial + b.state.ledger.deposited - b.state.ledger.removed,
+                1e-12 * b.state.ledger.deposited);
+    const TargetLine line(points);
+    const double diameter = 2.0 * 2.0 * r / 2.66 * 1.66;
+    const std::vector<double> top = surface(b.state);
+    for (std::size_t k = 0; k < top.size(); ++k)
+        EXPECT_NEAR(top[k], line.height((static_cast<double>(k) + 0.5) * width / 20.0), diameter)
+            << k;
+}
+
+TEST(Sedimentation, ATargetThatFallsWithTime) {
+    // 3 intervals of 50,000 a have passed: the line stands at 0.7 depth, and later at 0.4.
+    Basin b;
+    Sedimentation falling({.target = {{0.0, {{0.0, depth}}}, {500e3, {{0.0, 0.0}}}}}, 1.66, rate);
+    falling.apply(b.state, b.base);
+    const double diameter = 2.0 * 2.0 * r / 2.66 * 1.66;
+    for (double top : surface(b.state))
+        EXPECT_NEAR(top, 0.7 * depth, diameter);
+    b.state.clock.extension = 6.0 * falling.schedule().spacing();
+    falling.apply(b.state, b.base);
+    for (double top : surface(b.state))
+        EXPECT_NEAR(top, 0.4 * depth, diameter);
+}
+
+TEST(Sedimentation, ATargetBelowEverythingIsRefused) {
+    Basin b(-1e4);
+    EXPECT_THROW(b.event.apply(b.state, b.base), NumericalFailure);
 }
 
 } // namespace
