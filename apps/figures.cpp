@@ -29,7 +29,8 @@ void put(const fs::path& folder, const char* name, const Range& values, std::siz
 
 /// Plain arrays that the drawing script reads; names and units are in its head.
 void export_frame(const Scene& scene, const State& state, const RigidBase& base,
-                  std::span<const std::unique_ptr<Event>> events, const fs::path& folder) {
+                  std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
+                  const fs::path& folder) {
     const ConstDiscColumns d = disc_columns(state);
     put<double>(folder, "discs_x", d.x);
     put<double>(folder, "discs_y", d.y);
@@ -91,12 +92,13 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
             rows.insert(rows.end(), {c.x, c.thickness, c.prominence});
         put<double>(folder, "depocentres", rows, 3);
     }
-    if (m.faults) {
-        rows.clear();
-        for (const Fault& f : *m.faults)
-            rows.insert(rows.end(), {f.top.x, f.top.y, f.bottom.x, f.bottom.y, f.rate});
-        put<double>(folder, "faults", rows, 5);
+    rows.clear();
+    for (std::size_t k = 0; k < faults.faults.size(); ++k) {
+        const Fault& f = faults.faults[k];
+        for (Point p : f.trace.points)
+            rows.insert(rows.end(), {static_cast<double>(k), p.x, p.y, f.rate});
     }
+    put<double>(folder, "faults", rows, 4);
 
     nlohmann::json frame = {
         {"scene", scene.name},
@@ -139,7 +141,8 @@ int run_program(const std::vector<std::string>& words) {
 } // namespace
 
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
-                         std::span<const std::unique_ptr<Event>> events, const fs::path& folder) {
+                         std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
+                         const fs::path& folder) {
     fs::path data;
     std::string problem;
     try {
@@ -148,7 +151,7 @@ std::string draw_figures(const Scene& scene, const State& state, const RigidBase
         if (!mkdtemp(pattern.data()))
             throw std::runtime_error("cannot make a folder in " + folder.string());
         data = pattern;
-        export_frame(scene, state, base, events, data);
+        export_frame(scene, state, base, events, faults, data);
         const int code = run_program({"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/figures.py",
                                       data.string(), folder.string()});
         if (code != 0)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/fault.hpp"
 #include "apps/scene.hpp"
 #include "dem/base.hpp"
 #include "dem/event.hpp"
@@ -15,7 +16,7 @@ namespace listric {
 /// Draws the pictures of one state into `folder`. Returns an empty string, or why it could not:
 /// pictures are worth a warning, not the run.
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
-                         std::span<const std::unique_ptr<Event>> events,
+                         std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
                          const std::filesystem::path& folder);
 
 } // namespace listric

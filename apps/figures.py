@@ -182,9 +182,9 @@ def load_frame(directory):
     def km(array):
         return None if array is None else np.asarray(array, dtype=float) / 1000.0
 
-    faults = load_array(directory, "faults", columns=5, optional=True)
+    faults = load_array(directory, "faults", columns=4, optional=True)
     if faults is not None:
-        faults = faults * np.array([1e-3, 1e-3, 1e-3, 1e-3, 1.0])
+        faults = faults * np.array([1.0, 1e-3, 1e-3, 1.0])
     profile = km(load_array(directory, "profile", columns=3, optional=True, finite=False))
     if profile is not None and len(profile) < 2:
         profile = None
@@ -466,6 +466,8 @@ def strain_panel(ax, cax, frame):
         ax.plot(frame.profile[:, 0], frame.profile[:, 1], color=TOP_GREEN,
                 linewidth=1.0, zorder=6)
         handles.append((Line2D([], [], color=TOP_GREEN, linewidth=1.0), "pre-rift top"))
+    if frame.faults is not None and len(frame.faults):
+        handles += draw_faults(ax, frame.faults)
     window = frame.meta["strain_window_m"]
     describe(ax, f"Shear strain, last {window:g} m of extension", handles)
 
@@ -473,12 +475,14 @@ def strain_panel(ax, cax, frame):
 def draw_faults(ax, faults):
     """Active faults, line width by slip rate (mm/a); returns legend entries."""
     handles, lower = [], -math.inf
+    lines = [faults[faults[:, 0] == number] for number in np.unique(faults[:, 0])]
     for upper, width, label in FAULT_CLASSES:
-        chosen = faults[(faults[:, 4] >= lower) & (faults[:, 4] < upper)]
+        chosen = [line[:, 1:3] for line in lines
+                  if lower <= line[0, 3] < upper]
         lower = upper
         if len(chosen):
             ax.add_collection(LineCollection(
-                chosen[:, :4].reshape(-1, 2, 2), colors=INK, linewidths=width,
+                chosen, colors=INK, linewidths=width, capstyle="round",
                 path_effects=[Stroke(linewidth=width + 1.2, foreground="white"), Normal()],
                 zorder=7), autolim=False)
             handles.append((Line2D([], [], color=INK, linewidth=width),

@@ -102,72 +102,6 @@ const Event* find_event(std::span<const std::unique_ptr<Event>> events, std::str
     return nullptr;
 }
 
-/// Links the segments of the last scan into faults: neighbours within two spacings whose planes
-/// differ by less than 25 degrees.
-std::vector<Fault> trace_faults(const Scene& scene, const State& state, const Table& segments) {
-    std::vector<Fault> faults;
-    if (segments.rows() == 0)
-        return faults;
-    const auto x = segments.get<double>("x_m"), y = segments.get<double>("y_m");
-    const auto angle = segments.get<double>("angle_rad"), slip = segments.get<double>("slip_m");
-    const auto found_at = segments.get<double>("found_at_m");
-    const double last = found_at.back();
-    const double reach = 2.0 * scene.fault_weakening->spacing_diameters * 2.0 * state.mean_radius;
-    const auto angle_between = [](double a, double b) {
-        const double difference = std::abs(a - b);
-        return std::min(difference, pi - difference);
-    };
-    std::vector<std::size_t> open;
-    for (std::size_t k = 0; k < x.size(); ++k)
-        if (found_at[k] == last)
-            open.push_back(k);
-    while (!open.empty()) {
-        std::vector<std::size_t> members{open.back()};
-        open.pop_back();
-        for (std::size_t m = 0; m < members.size(); ++m)
-            for (std::size_t o = open.size(); o-- > 0;) {
-                const std::size_t a = members[m], b = open[o];
-                const double dx = x[b] - x[a], dy = y[b] - y[a];
-                const double distance = std::hypot(dx, dy);
-                double along = std::atan2(dy, dx);
-                if (along < 0.0)
-                    along += pi;
-                if (distance < reach && angle_between(angle[a], angle[b]) < 25.0 * pi / 180.0 &&
-                    angle_between(angle[a], along) < 45.0 * pi / 180.0) {
-                    members.push_back(b);
-                    open.erase(open.begin() + static_cast<std::ptrdiff_t>(o));
-                }
-            }
-        if (members.size() < 3)
-            continue;
-        Fault f;
-        const auto [lowest, highest] =
-            std::ranges::minmax(members, {}, [&](std::size_t m) { return y[m]; });
-        f.top = {x[highest], y[highest]};
-        f.bottom = {x[lowest], y[lowest]};
-        f.dip = std::atan2(f.top.y - f.bottom.y, std::abs(f.top.x - f.bottom.x)) * 180.0 / pi;
-        double signed_slip = 0.0, sum = 0.0;
-        f.born_at = last;
-        for (std::size_t m : members) {
-            // The left side of direction t is the upper one. Normal: it moves down dip.
-            const bool rises_right = angle[m] < 0.5 * pi;
-            signed_slip += rises_right ? -slip[m] : slip[m];
-            sum += std::abs(slip[m]);
-            for (std::size_t k = 0; k < x.size(); ++k)
-                if (std::hypot(x[k] - x[m], y[k] - y[m]) < 0.5 * reach &&
-                    angle_between(angle[k], angle[m]) < 25.0 * pi / 180.0)
-                    f.born_at = std::min(f.born_at, found_at[k]);
-        }
-        f.normal = signed_slip > 0.0;
-        f.rate = sum / static_cast<double>(members.size()) / scene.fault_weakening->interval * 1e3;
-        faults.push_back(f);
-    }
-    std::ranges::sort(faults, std::ranges::greater{}, [](const Fault& f) {
-        return std::hypot(f.top.x - f.bottom.x, f.top.y - f.bottom.y);
-    });
-    return faults;
-}
-
 } // namespace
 
 double share_of_densest(std::span<const double> density, std::span<const double> area,
@@ -336,12 +270,11 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
         if (all)
             m.basement_unbonded_fraction = static_cast<double>(unbonded) / static_cast<double>(all);
     }
-    if (const Event* weakening = find_event(events, "fault_weakening")) {
+    if (find_event(events, "fault_weakening")) {
         m.weak_fraction = static_cast<double>(std::ranges::count(d.material, weak)) /
                           static_cast<double>(d.x.size());
         m.volume_error_fraction = std::abs(weakened_volume_change(state, base)) /
                                   hanging_wall_area(*scene.hanging_wall, detachment);
-        m.faults = trace_faults(scene, state, weakening->memory);
     }
     const Ledger& ledger = state.ledger;
     const double mass = std::accumulate(d.mass.begin(), d.mass.end(), 0.0);

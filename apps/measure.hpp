@@ -24,15 +24,6 @@ struct Profile {
     std::vector<double> sediment_thickness; ///< m, smoothed over 1 km
 };
 
-/// A fault traced through the segments that the last scan found.
-struct Fault {
-    Point top, bottom;    ///< m
-    double dip = 0.0;     ///< degrees
-    bool normal = true;   ///< sense of slip; false: reverse
-    double rate = 0.0;    ///< mm/a
-    double born_at = 0.0; ///< extension at which its place was first active, m
-};
-
 /// The acceptance measures (docs/measures.md); those without meaning in a scene are absent.
 struct Measures {
     double basin_area = 0.0;             ///< m^2
@@ -47,7 +38,6 @@ struct Measures {
     double unbalanced_ratio_mean = 0.0, unbalanced_ratio_max = 0.0;
     double inertial_number = 0.0; ///< of the tenth of the area strained most
     std::optional<std::vector<Depocentre>> depocentres;
-    std::optional<std::vector<Fault>> faults;
 };
 
 Profile measure_profile(const Scene& scene, const State& state, const RigidBase& base);

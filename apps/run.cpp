@@ -1,6 +1,7 @@
 #include "apps/run.hpp"
 
 #include "apps/effects.hpp"
+#include "apps/fault_history.hpp"
 #include "apps/figures.hpp"
 #include "apps/measure.hpp"
 #include "apps/paraview.hpp"
@@ -290,11 +291,18 @@ void save(Run& run) {
         write_paraview(run.options.output, run.state, run.base, run.scene.extension.rate);
 }
 
+FaultReport report_faults(Run& run) {
+    const Stopwatch watch(run.record, "measures");
+    const std::vector<fs::path> snapshots = list_snapshots(run.options.output);
+    return report_faults(run.scene, run.base, run.state, snapshots);
+}
+
 void draw(Run& run, Voice& voice) {
+    const FaultReport faults = report_faults(run);
     const Stopwatch watch(run.record, "figures");
     run.drawn_at = run.state.clock.extension;
-    const std::string problem =
-        draw_figures(run.scene, run.state, run.base, run.events, run.options.output / "figures");
+    const std::string problem = draw_figures(run.scene, run.state, run.base, run.events, faults,
+                                             run.options.output / "figures");
     if (!problem.empty())
         voice.say("warning: no figures: " + problem);
 }
@@ -529,8 +537,9 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
         if (run.kept != snapshot_path(output, run.state))
             save(run);
         const Measures measures = measure(scene, run.state, run.base, run.events);
+        const FaultReport faults = report_faults(run);
         write_text(output / "summary.json",
-                   summary_json(scene, options.threads, run.state, run.record, measures,
+                   summary_json(scene, options.threads, run.state, run.record, measures, faults,
                                 run.wall_seconds(), run_hash(run.state, run.events)));
         voice.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}",
                               run.state.clock.extension / 1e3, time_left(run.wall_seconds()),
@@ -568,8 +577,10 @@ void draw_run(const fs::path& output) {
             continue;
         const auto events = make_events(scene);
         hand_over(snapshot, events);
+        const RigidBase base = make_base(scene);
+        const FaultReport faults = report_faults(scene, base, snapshot.state, snapshots);
         const std::string problem =
-            draw_figures(scene, snapshot.state, make_base(scene), events, output / "figures");
+            draw_figures(scene, snapshot.state, base, events, faults, output / "figures");
         if (!problem.empty())
             throw StorageError(problem);
     }
