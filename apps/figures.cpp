@@ -3,10 +3,12 @@
 #include "apps/effects.hpp"
 #include "apps/measure.hpp"
 #include "apps/npy.hpp"
+#include "apps/snapshot.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/strain.hpp"
 #include "dem/power_cell.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -56,14 +58,27 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
     if (scene.bonds) {
         const ConstContactColumns c = contact_columns(state);
         const std::vector<bool> touches = touching(state);
-        std::vector<double> broken;
-        for (std::size_t k = 0; k < touches.size(); ++k)
-            if (touches[k] && !c.bonded[k]) {
-                const auto i = static_cast<std::size_t>(c.first[k]);
-                const auto j = static_cast<std::size_t>(c.second[k]);
-                broken.insert(broken.end(), {d.x[i], d.y[i], d.x[j], d.y[j]});
+        std::vector<double> broken, bonded;
+        std::vector<double> all(d.x.size(), 0.0), unbonded(d.x.size(), 0.0);
+        for (std::size_t k = 0; k < touches.size(); ++k) {
+            const auto i = static_cast<std::size_t>(c.first[k]);
+            const auto j = static_cast<std::size_t>(c.second[k]);
+            if (touches[k] || c.bonded[k]) {
+                auto& lines = c.bonded[k] ? bonded : broken;
+                const bool in_sediment = d.stratum[i] > 0 && d.stratum[j] > 0;
+                lines.insert(lines.end(),
+                             {d.x[i], d.y[i], d.x[j], d.y[j], in_sediment ? 1.0 : 0.0});
+                for (std::size_t disc : {i, j}) {
+                    all[disc] += 1.0;
+                    unbonded[disc] += !c.bonded[k];
+                }
             }
-        put<double>(folder, "broken", broken, 4);
+        }
+        put<double>(folder, "broken", broken, 5);
+        put<double>(folder, "bonded", bonded, 5);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            unbonded[i] = all[i] > 0.0 ? unbonded[i] / all[i] : 1.0;
+        put<double>(folder, "discs_unbonded_share", unbonded);
     }
     const Chain& detachment = base.surfaces.front().chain;
     const double wall = scene.hanging_wall->length + state.clock.extension;
@@ -140,30 +155,46 @@ int run_program(const std::vector<std::string>& words) {
 
 } // namespace
 
+FigureFrames::FigureFrames(const fs::path& folder) : folder_(folder) {
+    fs::create_directories(folder);
+    std::string pattern = (folder / ".data-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+        throw StorageError("cannot make a folder in " + folder.string());
+    data_ = pattern;
+}
+
+FigureFrames::~FigureFrames() {
+    std::error_code ignored;
+    fs::remove_all(data_, ignored);
+}
+
+void FigureFrames::add(const Scene& scene, const State& state, const RigidBase& base,
+                       std::span<const std::unique_ptr<Event>> events, const FaultReport& faults) {
+    const fs::path frame = data_ / fmt::format("{:06d}", frames_++);
+    fs::create_directories(frame);
+    export_frame(scene, state, base, events, faults, frame);
+}
+
+void FigureFrames::draw(const std::string& kind) const {
+    const int code = run_program({"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/figures.py", kind,
+                                  data_.string(), folder_.string()});
+    if (code != 0)
+        throw StorageError(fmt::format("the drawing script failed (exit code {}; it needs "
+                                       "/usr/bin/python3 with matplotlib)",
+                                       code));
+}
+
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
                          std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
                          const fs::path& folder) {
-    fs::path data;
-    std::string problem;
     try {
-        fs::create_directories(folder);
-        std::string pattern = (folder / ".data-XXXXXX").string();
-        if (!mkdtemp(pattern.data()))
-            throw std::runtime_error("cannot make a folder in " + folder.string());
-        data = pattern;
-        export_frame(scene, state, base, events, faults, data);
-        const int code = run_program({"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/figures.py",
-                                      data.string(), folder.string()});
-        if (code != 0)
-            problem = "the drawing script failed (exit code " + std::to_string(code) +
-                      "; it needs /usr/bin/python3 with matplotlib)";
+        FigureFrames frames(folder);
+        frames.add(scene, state, base, events, faults);
+        frames.draw("sections");
     } catch (const std::exception& error) {
-        problem = error.what();
+        return error.what();
     }
-    std::error_code ignored;
-    if (!data.empty())
-        fs::remove_all(data, ignored);
-    return problem;
+    return {};
 }
 
 } // namespace listric

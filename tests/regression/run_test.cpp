@@ -978,6 +978,23 @@ TEST_F(RunTest, FiguresAreDrawnAndRedrawn) {
         EXPECT_THAT(file.first, AllOf(StartsWith("\x89PNG"), HasSubstr("IEND"))) << path;
 }
 
+TEST_F(RunTest, AnimationAndSheetOfSeveralMoments) {
+    unsetenv("PYTHONPATH");
+    const fs::path output = run(scene({"output.figures_at_m=[20, 40]"}), "run", {.until = 60.0});
+    const auto drawn = names_ending(output / "figures", ".png");
+    EXPECT_THAT(drawn, Contains(StartsWith("experiment-")));
+    const Ended ended = call({"figures", output.string(), "--animation"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(names_ending(output / "figures", ".png"), drawn);
+    EXPECT_EQ(names_ending(output / "figures", ".gif").size() +
+                  names_ending(output / "figures", ".mp4").size(),
+              1u);
+    // Neither survives the run that replaces this one.
+    run(scene(), "run", {.until = 20.0, .force = true});
+    EXPECT_THAT(names_ending(output / "figures", ".gif"), IsEmpty());
+    EXPECT_THAT(names_ending(output / "figures", ".mp4"), IsEmpty());
+}
+
 TEST_F(RunTest, WithoutMatplotlibARunWarnsAndFinishes) {
     draw_with("raise ImportError('no NumPy here')\n");
     const Ended ended = call_run(folder / "run", {"--until", "20"});
