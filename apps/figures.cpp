@@ -1,6 +1,7 @@
 #include "apps/figures.hpp"
 
 #include "apps/effects.hpp"
+#include "apps/kinematics.hpp"
 #include "apps/measure.hpp"
 #include "apps/npy.hpp"
 #include "apps/snapshot.hpp"
@@ -101,6 +102,18 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
     put<double>(folder, "profile", rows, 3);
 
     const Measures m = measure(scene, state, base, events);
+    if (m.inclined_shear_angle) {
+        const auto put_curve = [&](const char* name, const std::vector<Point>& curve) {
+            rows.clear();
+            for (Point p : curve)
+                rows.insert(rows.end(), {p.x, p.y});
+            put<double>(folder, name, rows, 2);
+        };
+        const double extension = state.clock.extension;
+        put_curve("predicted_shear",
+                  inclined_shear_top(detachment, extension, *m.inclined_shear_angle, wall));
+        put_curve("predicted_normals", normals_top(detachment, extension, wall));
+    }
     if (m.depocentres) {
         rows.clear();
         for (const Depocentre& c : *m.depocentres)
@@ -131,6 +144,16 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
         {"strain_window_m", strain_window},
         {"thickness_m", scene.hanging_wall->thickness},
     };
+    const auto add = [&](const char* name, const std::optional<double>& value) {
+        if (value)
+            frame[name] = *value;
+    };
+    add("inclined_shear_angle_deg", m.inclined_shear_angle);
+    add("area_balance", m.area_balance);
+    add("halfgraben_area_share", m.halfgraben_area_share);
+    add("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
+    add("rollover_tilt_deg", m.rollover_tilt);
+    add("predicted_tilt_deg", m.predicted_tilt);
     std::ofstream(folder / "frame.json") << frame.dump(1);
 }
 

@@ -6,8 +6,8 @@ Usage: figures.py KIND DATA_DIR FIGURES_DIR
 Every folder in DATA_DIR is a frame: frame.json and the .npy arrays written by
 the program (SI units, y up, original surface at y = 0, breakaway at the origin).
 KIND is
-  sections    of every frame: strata-, bonds-, behaviour-, strain-, sediment-
-              and overview-<extension>km.png
+  sections    of every frame: strata-, bonds-, behaviour-, strain-, sediment-,
+              kinematics- and overview-<extension>km.png
   experiment  all frames side by side: experiment-<extension>km.png
   animation   one picture per frame: animation-<extension>km.mp4, or .gif
               where there is no ffmpeg
@@ -68,6 +68,7 @@ BOND, BOND_SEDIMENT = "#3a3a3a", "#a87a10"
 # Types of rock behaviour [paper, Fig. 9b]: colour, label.
 BEHAVIOUR = (("#4b5560", "elastic"), ("#98a3ad", "plastic: minor faults"),
              ("#e8b48c", "weakened: major faults"), ("#f6f1df", "unconsolidated"))
+NORMALS_BLUE = "#1f5fb4"
 LEVEL_BLUE, TOP_GREEN = "#1f6fb4", "#2b8a3e"
 # Slip-rate classes of active faults: upper bound (mm/a), line width (pt), label.
 FAULT_CLASSES = ((0.5, 0.8, "slip < 0.5 mm/a"), (1.0, 1.5, "slip 0.5–1 mm/a"),
@@ -103,6 +104,8 @@ class Frame:
     profile: Optional[np.ndarray]
     depocentres: Optional[np.ndarray]
     faults: Optional[np.ndarray]
+    predicted_shear: Optional[np.ndarray] = None
+    predicted_normals: Optional[np.ndarray] = None
     view: tuple = ()                     # xmin, xmax, ymin, ymax (km)
     owner: Optional[np.ndarray] = None   # disc index of each image cell, -1 = none
     strain_top: Optional[float] = None   # end of the colour scale, where frames share it
@@ -221,7 +224,10 @@ def load_frame(directory):
         unbonded_share=load_array(directory, "discs_unbonded_share", optional=True),
         detachment=km(detachment), profile=profile,
         depocentres=km(load_array(directory, "depocentres", columns=3, optional=True)),
-        faults=faults)
+        faults=faults,
+        predicted_shear=km(load_array(directory, "predicted_shear", columns=2, optional=True)),
+        predicted_normals=km(load_array(directory, "predicted_normals", columns=2,
+                                        optional=True)))
     frame.view = view_of(frame)
     if count > RASTER_ABOVE:
         frame.owner = owner_map(frame)
@@ -465,8 +471,8 @@ def bonds_panel(ax, cax, frame):
 
 def behaviour_of(frame):
     """Index into BEHAVIOUR of every disc [paper, Fig. 5]."""
-    kind = np.zeros(len(frame.x), dtype=int)              # mainly elastic: all bonds intact
-    kind[frame.unbonded_share > 0.0] = 1                  # some are broken
+    kind = np.zeros(len(frame.x), dtype=int)              # mainly elastic: bonds intact
+    kind[frame.unbonded_share > 0.25] = 1                 # more than a stray crack
     loose = (frame.stratum > 0) & (frame.unbonded_share > 0.5)
     kind[loose] = 3
     if frame.weak is not None:
@@ -621,10 +627,55 @@ def draw_depocentres(ax, frame, most=10):
                                              "linewidth": 0, "pad": 0.6})
 
 
+def kinematics_panel(ax, cax, frame):
+    """The model's pre-rift top beside kinematic constructions, all at true scale."""
+    section_axes(ax, frame)
+    cax.set_axis_off()
+    handles = []
+    meta = frame.meta
+    if frame.profile is not None:
+        x, top, _ = frame.profile.T
+        ax.fill_between(x, top, 0.0, where=top < 0, color=SEDIMENT_PALE, linewidth=0, zorder=2)
+        ax.plot(x, top, color=INK, linewidth=1.8, zorder=6)
+        handles.append((Line2D([], [], color=INK, linewidth=1.8), "pre-rift top"))
+    if frame.predicted_normals is not None and len(frame.predicted_normals) > 1:
+        # Where normals part, nothing is predicted but a gap.
+        curve = frame.predicted_normals
+        step = np.hypot(*np.diff(curve, axis=0).T)
+        pieces = np.split(curve, np.flatnonzero(step > 0.5) + 1)
+        ax.add_collection(LineCollection([p for p in pieces if len(p) > 1], colors=NORMALS_BLUE,
+                                         linewidths=1.8, linestyles=(0, (6, 2)), zorder=7),
+                          autolim=False)
+        label = "normals stay normal"
+        if "predicted_tilt_deg" in meta and "rollover_tilt_deg" in meta:
+            label += (f" (tilt {meta['predicted_tilt_deg']:.1f}°, "
+                      f"model {meta['rollover_tilt_deg']:.1f}°)")
+        handles.append((Line2D([], [], color=NORMALS_BLUE, linewidth=1.8, dashes=(4, 1.5)),
+                        label))
+    if frame.predicted_shear is not None and len(frame.predicted_shear) > 1:
+        ax.plot(*frame.predicted_shear.T, color=WEAK, linewidth=1.5, dashes=(2, 1.5), zorder=7)
+        handles.append((Line2D([], [], color=WEAK, linewidth=1.5, dashes=(1.5, 1.2)),
+                        f"inclined shear, {meta.get('inclined_shear_angle_deg', 0):g}° "
+                        "(best fit)"))
+    text = []
+    if "area_balance" in meta:
+        text.append(f"basin area = {meta['area_balance']:.3f} × extension × thickness")
+    if "halfgraben_area_share" in meta:
+        split = f"halfgraben's share {meta['halfgraben_area_share']:.2f}"
+        if "predicted_halfgraben_area_share" in meta:
+            split += f" (normals: {meta['predicted_halfgraben_area_share']:.2f})"
+        text.append(split)
+    ax.text(0.985, 0.06, "\n".join(text), transform=ax.transAxes, ha="right", va="bottom",
+            fontsize=9.5, zorder=8)
+    describe(ax, frame, "Kinematics", handles)
+
+
 # -------------------------------------------------------------------- output
 
 PANELS = (("strata", strata_panel), ("bonds", bonds_panel), ("behaviour", behaviour_panel),
-          ("strain", strain_panel), ("sediment", sediment_panel))
+          ("strain", strain_panel), ("sediment", sediment_panel),
+          ("kinematics", kinematics_panel))
+ON_SHEET = ("strata", "bonds", "behaviour", "strain")
 
 
 def headline(frame):
@@ -688,7 +739,7 @@ def draw_figure(frame, panels, dpi=DPI):
 def draw_sheet(frames):
     """All frames side by side at one scale, a row per kind of section."""
     kinds = [(name, draw) for name, draw in PANELS
-             if name != "sediment" and
+             if name in ON_SHEET and
              (name not in ("bonds", "behaviour") or frames[0].bonded is not None)]
     strata = max(frame.meta["strata"] for frame in frames)
     top = max(strain_limit(frame.strain) for frame in frames)
@@ -829,7 +880,8 @@ def main(arguments):
             animate(frames, directory)
         else:
             for frame in frames:
-                for name, panels in [(p[0], [p]) for p in PANELS] + [("overview", list(PANELS))]:
+                for name, panels in [(p[0], [p]) for p in PANELS] + [
+                        ("overview", [p for p in PANELS if p[0] != "kinematics"])]:
                     save(draw_figure(frame, panels), directory,
                          f"{name}-{extension_text(frame)}km.png")
 

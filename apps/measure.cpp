@@ -1,5 +1,6 @@
 #include "apps/measure.hpp"
 
+#include "apps/kinematics.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/property_update.hpp"
 #include "dem/events/strain.hpp"
@@ -100,6 +101,41 @@ const Event* find_event(std::span<const std::unique_ptr<Event>> events, std::str
         if (event->name() == name)
             return event.get();
     return nullptr;
+}
+
+/// The basin beside what kinematic constructions predict.
+void measure_kinematics(const Scene& scene, const Chain& detachment, double extension,
+                        const Profile& profile, double column, Measures& m) {
+    const double right = profile.x.back();
+    m.dilation_area = extension * scene.hanging_wall->thickness - m.basin_area;
+    m.depth_to_detachment = m.basin_area / extension;
+    const InclinedShearFit shear =
+        fit_inclined_shear(detachment, extension, profile.x, profile.pre_rift_top);
+    m.inclined_shear_angle = shear.angle;
+    m.inclined_shear_misfit = shear.misfit;
+    const std::vector<Point> normals = normals_top(detachment, extension, right);
+    const Point cutoff = point_at(detachment, extension);
+    m.predicted_tilt = normals_tilt(detachment, extension);
+    m.predicted_cutoff = Point{cutoff.x, -cutoff.y};
+    if (const double share = normals_halfgraben_share(detachment, extension, right); share > 0.0)
+        m.predicted_halfgraben_area_share = share;
+    if (!normals.empty()) {
+        // Beyond the block that rotates, the hanging wall collapses.
+        const double last = cutoff.x + 0.5 * (detachment.front().end.x - cutoff.x);
+        m.normals_misfit = misfit(detachment, normals, profile.x, profile.pre_rift_top, last);
+    }
+
+    std::vector<double> depth;
+    for (double top : profile.pre_rift_top)
+        depth.push_back(-top);
+    depth = smooth(depth, static_cast<std::ptrdiff_t>(std::lround(0.5 * 1e3 / column)));
+    if (const auto high = find_intervening_high(profile.x, depth, 250.0)) {
+        m.intervening_high = Point{profile.x[*high], depth[*high]};
+        double left = 0.0;
+        for (std::size_t k = 0; k <= *high; ++k)
+            left -= profile.pre_rift_top[k] * column;
+        m.halfgraben_area_share = left / m.basin_area;
+    }
 }
 
 } // namespace
@@ -203,6 +239,46 @@ Profile measure_profile(const Scene& scene, const State& state, const RigidBase&
     return p;
 }
 
+std::optional<std::size_t> find_intervening_high(std::span<const double> x,
+                                                 std::span<const double> depth,
+                                                 double least_prominence) {
+    const std::vector<Depocentre> all = find_depocentres(x, depth, least_prominence);
+    if (all.size() < 2)
+        return std::nullopt;
+    const double first = std::ranges::min(all, {}, &Depocentre::x).x;
+    double second = first, most = 0.0;
+    for (const Depocentre& d : all)
+        if (d.x > first && d.prominence > most) {
+            second = d.x;
+            most = d.prominence;
+        }
+    std::optional<std::size_t> high;
+    for (std::size_t k = 0; k < x.size(); ++k)
+        if (x[k] > first && x[k] < second && (!high || depth[k] < depth[*high]))
+            high = k;
+    return high;
+}
+
+std::optional<double> bonded_share_of_old_sediment(const State& state, double level, double depth,
+                                                   double age) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const std::vector<bool> touches = touching(state);
+    const auto counts = [&](std::int32_t row) {
+        const auto i = static_cast<std::size_t>(row);
+        return d.stratum[i] > 0 && level - d.y[i] > depth &&
+               state.clock.extension - d.start_extension[i] > age;
+    };
+    std::int64_t all = 0, bonded = 0;
+    for (std::size_t k = 0; k < touches.size(); ++k)
+        if (touches[k] && counts(c.first[k]) && counts(c.second[k])) {
+            ++all;
+            bonded += c.bonded[k];
+        }
+    return all ? std::optional(static_cast<double>(bonded) / static_cast<double>(all))
+               : std::nullopt;
+}
+
 Measures measure(const Scene& scene, const State& state, const RigidBase& base,
                  std::span<const std::unique_ptr<Event>> events) {
     const ConstDiscColumns d = disc_columns(state);
@@ -219,6 +295,11 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
         m.cutoff = find_cutoff(state, detachment);
         m.rollover_tilt = head_block_tilt(scene, state, detachment);
     }
+    if (extension > 0.0)
+        measure_kinematics(scene, detachment, extension, profile, 2.0 * state.mean_radius, m);
+    if (scene.sedimentation && scene.bonds)
+        m.old_sediment_bonded_fraction = bonded_share_of_old_sediment(
+            state, scene.sedimentation->level, 1500.0, 2e5 * scene.extension.rate);
     if (scene.sedimentation)
         m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, 250.0);
 

@@ -19,10 +19,25 @@ template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
     visit("cutoff_x_m", m.cutoff ? std::optional(m.cutoff->x) : std::nullopt);
     visit("cutoff_z_m", m.cutoff ? std::optional(m.cutoff->y) : std::nullopt);
     visit("rollover_tilt_deg", m.rollover_tilt);
+    const auto visit_point = [&](const char* x, const char* z, const std::optional<Point>& p) {
+        visit(x, p ? std::optional(p->x) : std::nullopt);
+        visit(z, p ? std::optional(p->y) : std::nullopt);
+    };
+    visit_point("intervening_high_x_m", "intervening_high_z_m", m.intervening_high);
+    visit("halfgraben_area_share", m.halfgraben_area_share);
+    visit("dilation_area_m2", m.dilation_area);
+    visit("depth_to_detachment_m", m.depth_to_detachment);
+    visit("inclined_shear_angle_deg", m.inclined_shear_angle);
+    visit("inclined_shear_misfit_m", m.inclined_shear_misfit);
+    visit("normals_misfit_m", m.normals_misfit);
+    visit("predicted_tilt_deg", m.predicted_tilt);
+    visit_point("predicted_cutoff_x_m", "predicted_cutoff_z_m", m.predicted_cutoff);
+    visit("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
     visit("strain_top10", m.strain_top10);
     visit("strain_top10_cumulative", m.strain_top10_cumulative);
     visit("strain_gini", m.strain_gini);
     visit("basement_unbonded_fraction", m.basement_unbonded_fraction);
+    visit("old_sediment_bonded_fraction", m.old_sediment_bonded_fraction);
     visit("weak_fraction", m.weak_fraction);
     visit("volume_error_fraction", m.volume_error_fraction);
     visit("mass_error_fraction", std::optional(m.mass_error_fraction));
