@@ -27,14 +27,13 @@ struct Fault {
 
 /// What the faults of a state have in common.
 struct FaultReport {
-    std::vector<Fault> faults;                  ///< the longest first
-    std::optional<std::size_t> main_antithetic; ///< index: of those steeper than 30
-                                                ///< degrees, the one with most slip
-                                                ///< rate times length
-    std::optional<std::size_t> main_synthetic;  ///< the same
-    std::optional<double> antithetic_foot;      ///< x of the main antithetic fault's foot, less
-                                                ///< the extension since its birth, m
-    std::optional<double> width;                ///< median over faults by length, diameters
+    std::vector<Fault> faults; ///< the longest first
+    /// Index of the main fault: normal, steeper than 30 degrees, if possible reaching the lower
+    /// half of the hanging wall, and of those the one with most slip rate times length.
+    std::optional<std::size_t> main_antithetic, main_synthetic;
+    std::optional<double> antithetic_foot; ///< x of the main antithetic fault's foot, less
+                                           ///< the extension since its birth, m
+    std::optional<double> width;           ///< median over faults by length, diameters
     std::optional<double> sediment_weak_off_fault_fraction;
 };
 

@@ -267,14 +267,17 @@ FaultReport report_faults(const Scene& scene, const RigidBase& base, const State
         report.faults.push_back(std::move(f));
     }
 
+    // A fault that reaches the lower half is the whole one; one that does not may be its upper
+    // part.
+    const double half_depth = 0.5 * detachment.back().end.y;
     const auto strongest = [&](bool synthetic) {
         std::optional<std::size_t> best;
-        double most = 0.0;
+        std::pair<bool, double> most{false, 0.0};
         for (std::size_t k = 0; k < report.faults.size(); ++k) {
             const Fault& f = report.faults[k];
-            if (const double work = f.rate * f.trace.length();
-                f.synthetic == synthetic && f.normal && f.dip >= 30.0 && work > most) {
-                most = work;
+            const std::pair rank{f.trace.points.back().y < half_depth, f.rate * f.trace.length()};
+            if (f.synthetic == synthetic && f.normal && f.dip >= 30.0 && rank > most) {
+                most = rank;
                 best = k;
             }
         }

@@ -384,7 +384,8 @@ double contrast(const ShearField& field, const FaultTrace& trace,
     return around > 0.0 ? mean / around : 1e300;
 }
 
-/// Joins lines that go on in each other beyond a gap of up to 10 diameters.
+/// Joins lines that go on in each other beyond a gap of up to 10 diameters or a side step of up to
+/// five.
 void join(std::vector<std::vector<Point>>& lines, double diameter) {
     const auto end_direction = [&](const std::vector<Point>& line) {
         const std::size_t back = std::min<std::size_t>(line.size() - 1, 16);
@@ -402,15 +403,29 @@ void join(std::vector<std::vector<Point>>& lines, double diameter) {
                     std::vector<Point> backward(lines[b].rbegin(), lines[b].rend());
                     const Point out = end_direction(lines[a]);
                     const Point in = -1.0 * end_direction(backward);
-                    const double length = norm(gap);
-                    if (length > 10.0 * diameter || dot(out, in) < cosine || dot(gap, out) < 0.0 ||
-                        (length > 2.0 * diameter &&
-                         std::min(dot(gap, out), dot(gap, in)) < cosine * length))
+                    const double along = dot(gap, out), across = std::abs(cross(out, gap));
+                    const bool straight =
+                        along > 0.0 && across < std::max(2.0 * diameter, 0.58 * along);
+                    const bool stepped = along > -4.0 * diameter && across < 5.0 * diameter;
+                    if (norm(gap) > 10.0 * diameter || dot(out, in) < cosine ||
+                        !(straight || stepped))
                         continue;
+                    if (!straight) {
+                        // A side step: it is bridged over ten diameters, and what overlaps goes.
+                        const double spare = std::max(0.0, 10.0 * diameter - along);
+                        const auto points = static_cast<std::size_t>(spare / diameter);
+                        if (lines[a].size() < 2 * points + 8 || lines[b].size() < 2 * points + 8)
+                            continue;
+                        lines[a].resize(lines[a].size() - points);
+                        lines[b].erase(lines[b].begin(),
+                                       lines[b].begin() + static_cast<std::ptrdiff_t>(points));
+                    }
+                    const Point bridge = lines[b].front() - lines[a].back();
+                    const double length = norm(bridge);
                     const auto steps = static_cast<int>(length / (0.5 * diameter));
                     for (int k = 1; k <= steps; ++k)
                         lines[a].push_back(lines[b].front() -
-                                           (1.0 - static_cast<double>(k) / (steps + 1)) * gap);
+                                           (1.0 - static_cast<double>(k) / (steps + 1)) * bridge);
                     lines[a].insert(lines[a].end(), lines[b].begin(), lines[b].end());
                     lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(b));
                     joined = true;
@@ -418,18 +433,18 @@ void join(std::vector<std::vector<Point>>& lines, double diameter) {
     }
 }
 
-/// Pieces between points where the line turns by more than 38 degrees within seven diameters.
+/// Pieces between points where the line turns by more than 40 degrees within ten diameters.
 std::vector<std::vector<Point>> without_kinks(const std::vector<Point>& points) {
     std::vector<std::vector<Point>> pieces;
     std::size_t begin = 0;
     const auto turn = [&](std::size_t k) {
-        const std::size_t reach = std::min({std::size_t{7}, k, points.size() - 1 - k});
+        const std::size_t reach = std::min({std::size_t{10}, k, points.size() - 1 - k});
         if (reach < 3)
             return 1.0;
         return dot(unit(points[k] - points[k - reach]), unit(points[k + reach] - points[k]));
     };
     for (std::size_t k = 1; k + 1 < points.size(); ++k)
-        if (turn(k) < std::cos(38.0 * pi / 180.0) && turn(k) <= turn(k - 1) &&
+        if (turn(k) < std::cos(40.0 * pi / 180.0) && turn(k) <= turn(k - 1) &&
             turn(k) < turn(k + 1)) {
             pieces.emplace_back(points.begin() + static_cast<std::ptrdiff_t>(begin),
                                 points.begin() + static_cast<std::ptrdiff_t>(k) + 1);
