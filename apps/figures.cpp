@@ -1,12 +1,15 @@
 #include "apps/figures.hpp"
 
 #include "apps/effects.hpp"
+#include "apps/kinematics.hpp"
 #include "apps/measure.hpp"
 #include "apps/npy.hpp"
+#include "apps/snapshot.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/strain.hpp"
 #include "dem/power_cell.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -29,7 +32,8 @@ void put(const fs::path& folder, const char* name, const Range& values, std::siz
 
 /// Plain arrays that the drawing script reads; names and units are in its head.
 void export_frame(const Scene& scene, const State& state, const RigidBase& base,
-                  std::span<const std::unique_ptr<Event>> events, const fs::path& folder) {
+                  std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
+                  const fs::path& folder) {
     const ConstDiscColumns d = disc_columns(state);
     put<double>(folder, "discs_x", d.x);
     put<double>(folder, "discs_y", d.y);
@@ -55,14 +59,27 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
     if (scene.bonds) {
         const ConstContactColumns c = contact_columns(state);
         const std::vector<bool> touches = touching(state);
-        std::vector<double> broken;
-        for (std::size_t k = 0; k < touches.size(); ++k)
-            if (touches[k] && !c.bonded[k]) {
-                const auto i = static_cast<std::size_t>(c.first[k]);
-                const auto j = static_cast<std::size_t>(c.second[k]);
-                broken.insert(broken.end(), {d.x[i], d.y[i], d.x[j], d.y[j]});
+        std::vector<double> broken, bonded;
+        std::vector<double> all(d.x.size(), 0.0), unbonded(d.x.size(), 0.0);
+        for (std::size_t k = 0; k < touches.size(); ++k) {
+            const auto i = static_cast<std::size_t>(c.first[k]);
+            const auto j = static_cast<std::size_t>(c.second[k]);
+            if (touches[k] || c.bonded[k]) {
+                auto& lines = c.bonded[k] ? bonded : broken;
+                const bool in_sediment = d.stratum[i] > 0 && d.stratum[j] > 0;
+                lines.insert(lines.end(),
+                             {d.x[i], d.y[i], d.x[j], d.y[j], in_sediment ? 1.0 : 0.0});
+                for (std::size_t disc : {i, j}) {
+                    all[disc] += 1.0;
+                    unbonded[disc] += !c.bonded[k];
+                }
             }
-        put<double>(folder, "broken", broken, 4);
+        }
+        put<double>(folder, "broken", broken, 5);
+        put<double>(folder, "bonded", bonded, 5);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            unbonded[i] = all[i] > 0.0 ? unbonded[i] / all[i] : 1.0;
+        put<double>(folder, "discs_unbonded_share", unbonded);
     }
     const Chain& detachment = base.surfaces.front().chain;
     const double wall = scene.hanging_wall->length + state.clock.extension;
@@ -85,18 +102,31 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
     put<double>(folder, "profile", rows, 3);
 
     const Measures m = measure(scene, state, base, events);
+    if (m.inclined_shear_angle) {
+        const auto put_curve = [&](const char* name, const std::vector<Point>& curve) {
+            rows.clear();
+            for (Point p : curve)
+                rows.insert(rows.end(), {p.x, p.y});
+            put<double>(folder, name, rows, 2);
+        };
+        const double extension = state.clock.extension;
+        put_curve("predicted_shear",
+                  inclined_shear_top(detachment, extension, *m.inclined_shear_angle, wall));
+        put_curve("predicted_normals", normals_top(detachment, extension, wall));
+    }
     if (m.depocentres) {
         rows.clear();
         for (const Depocentre& c : *m.depocentres)
             rows.insert(rows.end(), {c.x, c.thickness, c.prominence});
         put<double>(folder, "depocentres", rows, 3);
     }
-    if (m.faults) {
-        rows.clear();
-        for (const Fault& f : *m.faults)
-            rows.insert(rows.end(), {f.top.x, f.top.y, f.bottom.x, f.bottom.y, f.rate});
-        put<double>(folder, "faults", rows, 5);
+    rows.clear();
+    for (std::size_t k = 0; k < faults.faults.size(); ++k) {
+        const Fault& f = faults.faults[k];
+        for (Point p : f.trace.points)
+            rows.insert(rows.end(), {static_cast<double>(k), p.x, p.y, f.rate});
     }
+    put<double>(folder, "faults", rows, 4);
 
     nlohmann::json frame = {
         {"scene", scene.name},
@@ -114,6 +144,16 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
         {"strain_window_m", strain_window},
         {"thickness_m", scene.hanging_wall->thickness},
     };
+    const auto add = [&](const char* name, const std::optional<double>& value) {
+        if (value)
+            frame[name] = *value;
+    };
+    add("inclined_shear_angle_deg", m.inclined_shear_angle);
+    add("area_balance", m.area_balance);
+    add("halfgraben_area_share", m.halfgraben_area_share);
+    add("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
+    add("rollover_tilt_deg", m.rollover_tilt);
+    add("predicted_tilt_deg", m.predicted_tilt);
     std::ofstream(folder / "frame.json") << frame.dump(1);
 }
 
@@ -138,29 +178,46 @@ int run_program(const std::vector<std::string>& words) {
 
 } // namespace
 
-std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
-                         std::span<const std::unique_ptr<Event>> events, const fs::path& folder) {
-    fs::path data;
-    std::string problem;
-    try {
-        fs::create_directories(folder);
-        std::string pattern = (folder / ".data-XXXXXX").string();
-        if (!mkdtemp(pattern.data()))
-            throw std::runtime_error("cannot make a folder in " + folder.string());
-        data = pattern;
-        export_frame(scene, state, base, events, data);
-        const int code = run_program({"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/figures.py",
-                                      data.string(), folder.string()});
-        if (code != 0)
-            problem = "the drawing script failed (exit code " + std::to_string(code) +
-                      "; it needs /usr/bin/python3 with matplotlib)";
-    } catch (const std::exception& error) {
-        problem = error.what();
-    }
+FigureFrames::FigureFrames(const fs::path& folder) : folder_(folder) {
+    fs::create_directories(folder);
+    std::string pattern = (folder / ".data-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+        throw StorageError("cannot make a folder in " + folder.string());
+    data_ = pattern;
+}
+
+FigureFrames::~FigureFrames() {
     std::error_code ignored;
-    if (!data.empty())
-        fs::remove_all(data, ignored);
-    return problem;
+    fs::remove_all(data_, ignored);
+}
+
+void FigureFrames::add(const Scene& scene, const State& state, const RigidBase& base,
+                       std::span<const std::unique_ptr<Event>> events, const FaultReport& faults) {
+    const fs::path frame = data_ / fmt::format("{:06d}", frames_++);
+    fs::create_directories(frame);
+    export_frame(scene, state, base, events, faults, frame);
+}
+
+void FigureFrames::draw(const std::string& kind) const {
+    const int code = run_program({"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/figures.py", kind,
+                                  data_.string(), folder_.string()});
+    if (code != 0)
+        throw StorageError(fmt::format("the drawing script failed (exit code {}; it needs "
+                                       "/usr/bin/python3 with matplotlib)",
+                                       code));
+}
+
+std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
+                         std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
+                         const fs::path& folder) {
+    try {
+        FigureFrames frames(folder);
+        frames.add(scene, state, base, events, faults);
+        frames.draw("sections");
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return {};
 }
 
 } // namespace listric

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/fault.hpp"
 #include "apps/scene.hpp"
 #include "dem/base.hpp"
 #include "dem/event.hpp"
@@ -9,13 +10,34 @@
 #include <memory>
 #include <span>
 #include <string>
-
 namespace listric {
 
 /// Draws the pictures of one state into `folder`. Returns an empty string, or why it could not:
 /// pictures are worth a warning, not the run.
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
-                         std::span<const std::unique_ptr<Event>> events,
+                         std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
                          const std::filesystem::path& folder);
+
+/// Pictures of several moments of a run: the arrays that the drawing script reads, in a folder that
+/// vanishes with this object.
+class FigureFrames {
+public:
+    /// @param folder  where the pictures go
+    explicit FigureFrames(const std::filesystem::path& folder);
+    ~FigureFrames();
+    FigureFrames(const FigureFrames&) = delete;
+    FigureFrames& operator=(const FigureFrames&) = delete;
+
+    void add(const Scene& scene, const State& state, const RigidBase& base,
+             std::span<const std::unique_ptr<Event>> events, const FaultReport& faults);
+
+    /// @param kind  "sections" of every frame, one "experiment" sheet or an "animation"
+    /// Throws StorageError if it cannot be drawn.
+    void draw(const std::string& kind) const;
+
+private:
+    std::filesystem::path folder_, data_;
+    int frames_ = 0;
+};
 
 } // namespace listric

@@ -1,18 +1,26 @@
 #!/usr/bin/python3
-"""Figures of one frame of a Listric run.
+"""Figures of a Listric run.
 
-Usage: figures.py DATA_DIR FIGURES_DIR
+Usage: figures.py KIND DATA_DIR FIGURES_DIR
 
-DATA_DIR holds frame.json and the .npy arrays written by the program (SI units,
-y up, original surface at y = 0, breakaway at the origin).  FIGURES_DIR gets
-strata-, bonds-, strain-, sediment- and overview-<extension>km.png.  Every file
-is written under a temporary name and then renamed.  On bad input: one line on
-stderr, exit status 1.
+Every folder in DATA_DIR is a frame: frame.json and the .npy arrays written by
+the program (SI units, y up, original surface at y = 0, breakaway at the origin).
+KIND is
+  sections    of every frame: strata-, bonds-, behaviour-, strain-, sediment-,
+              kinematics- and overview-<extension>km.png
+  experiment  all frames side by side: experiment-<extension>km.png
+  animation   one picture per frame: animation-<extension>km.mp4, or .gif
+              where there is no ffmpeg
+Every file is written under a temporary name and then renamed.  On bad input: one
+line on stderr, exit status 1.
 """
 import json
 import math
 import os
+import shutil
+import subprocess
 import sys
+import tempfile
 import textwrap
 from dataclasses import dataclass
 from typing import Optional
@@ -49,13 +57,22 @@ TITLE = 0.42
 XLABEL = 0.52
 GAP = 0.20                # between the panels of the overview, below tick marks
 FOOTER_LINE = 0.155
+SHEET_WIDTH, SHEET_GAP = 19.0, 0.30
+ANIMATION_DPI = 80
 
 LAYER_COLOURS = ("#cdbfa6", "#9c8b72")
 PRE_RIFT, SEDIMENT, WEAK = "#d6d6d6", "#fbeab4", "#d7301f"
 FOOTWALL, INK, FAINT = "#efeeeb", "#1a1a1a", "#6b6b6b"
+WEAK_PALE, SEDIMENT_PALE = "#e9a59a", "#fdf6dc"
+BOND, BOND_SEDIMENT = "#3a3a3a", "#a87a10"
+# Types of rock behaviour [paper, Fig. 9b]: colour, label.
+BEHAVIOUR = (("#4b5560", "elastic"), ("#98a3ad", "plastic: minor faults"),
+             ("#e8b48c", "weakened: major faults"), ("#f6f1df", "unconsolidated"))
+NORMALS_BLUE = "#1f5fb4"
 LEVEL_BLUE, TOP_GREEN = "#1f6fb4", "#2b8a3e"
 # Slip-rate classes of active faults: upper bound (mm/a), line width (pt), label.
-FAULT_CLASSES = ((0.5, 0.8, "< 0.5"), (1.0, 1.5, "0.5–1"), (math.inf, 2.4, "> 1"))
+FAULT_CLASSES = ((0.5, 0.8, "slip < 0.5 mm/a"), (1.0, 1.5, "slip 0.5–1 mm/a"),
+                 (math.inf, 2.4, "slip > 1 mm/a"))
 
 STYLE = {
     "font.family": "DejaVu Sans", "font.size": 10, "axes.linewidth": 0.8,
@@ -81,12 +98,18 @@ class Frame:
     strain: np.ndarray
     weak: Optional[np.ndarray]
     broken: Optional[np.ndarray]
+    bonded: Optional[np.ndarray]
+    unbonded_share: Optional[np.ndarray]
     detachment: np.ndarray
     profile: Optional[np.ndarray]
     depocentres: Optional[np.ndarray]
     faults: Optional[np.ndarray]
+    predicted_shear: Optional[np.ndarray] = None
+    predicted_normals: Optional[np.ndarray] = None
     view: tuple = ()                     # xmin, xmax, ymin, ymax (km)
     owner: Optional[np.ndarray] = None   # disc index of each image cell, -1 = none
+    strain_top: Optional[float] = None   # end of the colour scale, where frames share it
+    legends: Optional[dict] = None       # collects legend entries by panel, instead of drawing
 
     @property
     def extension(self):
@@ -182,9 +205,13 @@ def load_frame(directory):
     def km(array):
         return None if array is None else np.asarray(array, dtype=float) / 1000.0
 
-    faults = load_array(directory, "faults", columns=5, optional=True)
+    def contacts(name):   # ends in km; whether both discs are sediment
+        array = load_array(directory, name, columns=5, optional=True)
+        return None if array is None else array * np.array([1e-3] * 4 + [1.0])
+
+    faults = load_array(directory, "faults", columns=4, optional=True)
     if faults is not None:
-        faults = faults * np.array([1e-3, 1e-3, 1e-3, 1e-3, 1.0])
+        faults = faults * np.array([1.0, 1e-3, 1e-3, 1.0])
     profile = km(load_array(directory, "profile", columns=3, optional=True, finite=False))
     if profile is not None and len(profile) < 2:
         profile = None
@@ -193,10 +220,14 @@ def load_frame(directory):
         stratum=discs["stratum"].astype(int), start_depth=km(discs["start_depth"]),
         strain=np.asarray(discs["shear_strain"], dtype=float),
         weak=None if weak is None else weak.astype(bool),
-        broken=km(load_array(directory, "broken", columns=4, optional=True)),
+        broken=contacts("broken"), bonded=contacts("bonded"),
+        unbonded_share=load_array(directory, "discs_unbonded_share", optional=True),
         detachment=km(detachment), profile=profile,
         depocentres=km(load_array(directory, "depocentres", columns=3, optional=True)),
-        faults=faults)
+        faults=faults,
+        predicted_shear=km(load_array(directory, "predicted_shear", columns=2, optional=True)),
+        predicted_normals=km(load_array(directory, "predicted_normals", columns=2,
+                                        optional=True)))
     frame.view = view_of(frame)
     if count > RASTER_ABOVE:
         frame.owner = owner_map(frame)
@@ -246,38 +277,46 @@ def owner_map(frame):
     return owner
 
 
-def draw_discs(ax, frame, rgb, segments=None, segment_width=0.5):
-    """Discs at true size in colours rgb (n x 3), then black segments (km; pt wide)."""
+def draw_discs(ax, frame, rgb, segments=(), segment_width=0.5, alpha=None):
+    """Discs at true size in colours rgb (n x 3), then segments: (n x 4 km, colour) pairs."""
     if frame.owner is not None:
-        draw_raster(ax, frame, rgb, segments)
+        draw_raster(ax, frame, rgb, segments, alpha)
         return
+    shown = slice(None) if alpha is None else alpha > 0
     ax.add_collection(EllipseCollection(
-        2 * frame.radius, 2 * frame.radius, np.zeros(len(frame.x)), units="xy",
-        offsets=np.column_stack((frame.x, frame.y)), transOffset=ax.transData,
-        facecolors=rgb, edgecolors="none", linewidths=0, zorder=2), autolim=False)
-    if segments is not None and len(segments):
-        ax.add_collection(LineCollection(
-            segments.reshape(-1, 2, 2), colors="black", linewidths=segment_width,
-            capstyle="butt", zorder=3), autolim=False)
+        2 * frame.radius[shown], 2 * frame.radius[shown], np.zeros(len(frame.x))[shown],
+        units="xy", offsets=np.column_stack((frame.x, frame.y))[shown],
+        transOffset=ax.transData, facecolors=rgb[shown], edgecolors="none", linewidths=0,
+        zorder=2), autolim=False)
+    for lines, colour in segments:
+        if len(lines):
+            ax.add_collection(LineCollection(
+                lines.reshape(-1, 2, 2), colors=colour, linewidths=segment_width,
+                capstyle="butt", zorder=3), autolim=False)
 
 
-def draw_raster(ax, frame, rgb, segments):
+def draw_raster(ax, frame, rgb, segments, alpha):
     """The same as an image, for very many discs."""
     rows, columns = frame.owner.shape
     xmin, xmax, _, ymax = frame.view
     cell = (xmax - xmin) / columns
     table = np.full((len(rgb) + 1, 4), 255, dtype=np.uint8)   # last row: no disc
     table[:-1, :3] = np.round(np.asarray(rgb) * 255)
+    if alpha is not None:
+        table[:-1, 3] = np.round(alpha * 255)
     table[-1, 3] = 0
     image = table[frame.owner]
-    if segments is not None and len(segments):
-        longest = np.hypot(*(segments[:, 2:] - segments[:, :2]).T).max()
+    for lines, colour in segments:
+        if not len(lines):
+            continue
+        ink = np.round(np.append(to_rgb(colour), 1.0) * 255).astype(np.uint8)
+        longest = np.hypot(*(lines[:, 2:] - lines[:, :2]).T).max()
         for t in np.linspace(0, 1, min(200, int(longest / cell) + 2)):
-            points = (1 - t) * segments[:, :2] + t * segments[:, 2:]
+            points = (1 - t) * lines[:, :2] + t * lines[:, 2:]
             column = np.floor((points[:, 0] - xmin) / cell).astype(int)
             row = np.floor((ymax - points[:, 1]) / cell).astype(int)
             ok = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
-            image[row[ok], column[ok]] = (0, 0, 0, 255)
+            image[row[ok], column[ok]] = ink
     ax.imshow(image, extent=(xmin, xmin + columns * cell, ymax - rows * cell, ymax),
               aspect="auto", interpolation="antialiased", zorder=2)
 
@@ -327,8 +366,13 @@ def distance_axis(ax, frame):
     ax.xaxis.set_minor_locator(MultipleLocator(1 if step < 20 else 5))
 
 
-def describe(ax, text, handles=()):
+def describe(ax, frame, text, handles=()):
     """Description at the left and legend at the right, just above the axes."""
+    if frame.legends is not None:               # a sheet draws one legend for a row
+        row = frame.legends.setdefault(text, {})
+        for handle, label in handles:
+            row.setdefault(label, handle)
+        return
     ax.annotate(text, (0, 1), (0, 5), xycoords="axes fraction",
                 textcoords="offset points", fontsize=10.5, weight="semibold",
                 va="bottom", annotation_clip=False)
@@ -393,32 +437,63 @@ def strata_panel(ax, cax, frame):
          "target level of sediments")]
     if frame.faults is not None and len(frame.faults):
         handles += draw_faults(ax, frame.faults)
-    describe(ax, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
+    describe(ax, frame, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
 
 
 def bonds_panel(ax, cax, frame):
-    """Weakened discs in red, touching pairs without a bond as black segments."""
+    """Contact bonds as lines; where they are broken, the section stays white."""
     section_axes(ax, frame)
     cax.set_axis_off()
-    sediment = frame.stratum > 0
-    rgb = np.where(sediment[:, None], to_rgb(SEDIMENT), to_rgb(PRE_RIFT))
-    handles = [(swatch(PRE_RIFT), "pre-rift")]
-    if sediment.any():
-        handles.append((swatch(SEDIMENT), "sediment"))
-    if frame.weak is not None:
-        rgb[frame.weak] = to_rgb(WEAK)
-        handles.append((swatch(WEAK), f"weakened disc ({int(frame.weak.sum()):,})"))
-    if frame.broken is not None:
-        handles.append((Line2D([], [], color="black", linewidth=1.0),
-                        f"contact without bond ({len(frame.broken):,})"))
+    handles = []
+    rgb = np.tile(to_rgb(WEAK_PALE), (len(frame.x), 1))
+    if frame.bonded is None:
+        describe(ax, frame, "Contact-bond pattern (bonds off)")
+        return
     points = 2 * np.median(frame.radius) * PANEL_WIDTH * 72 / (frame.view[1] - frame.view[0])
-    draw_discs(ax, frame, rgb, frame.broken,
-               segment_width=float(np.clip(0.17 * points, 0.25, 0.9)))
-    if frame.broken is None:
-        text = "Weakened discs (bonds off)" if frame.weak is not None else "Discs (bonds off)"
-    else:
-        text = "Broken bonds" + (" and weakened discs" if frame.weak is not None else "")
-    describe(ax, text, handles)
+    young = frame.bonded[:, 4] > 0.5
+    sediment = frame.stratum > 0
+    alpha = sediment.astype(float)
+    rgb[sediment] = to_rgb(SEDIMENT_PALE)
+    if frame.weak is not None:
+        alpha[frame.weak] = 1.0
+        rgb[frame.weak] = to_rgb(WEAK_PALE)
+    draw_discs(ax, frame, rgb,
+               ((frame.bonded[~young, :4], BOND), (frame.bonded[young, :4], BOND_SEDIMENT)),
+               segment_width=float(np.clip(0.17 * points, 0.25, 0.9)), alpha=alpha)
+    handles.append((Line2D([], [], color=BOND, linewidth=1.2), "bond, pre-rift"))
+    if sediment.any():
+        handles.append((Line2D([], [], color=BOND_SEDIMENT, linewidth=1.2), "bond, sediment"))
+        handles.append((swatch(SEDIMENT_PALE), "sediment"))
+    if frame.weak is not None:
+        handles.append((swatch(WEAK_PALE), "weakened"))
+    describe(ax, frame, "Contact-bond pattern", handles)
+
+
+def behaviour_of(frame):
+    """Index into BEHAVIOUR of every disc [paper, Fig. 5]."""
+    kind = np.zeros(len(frame.x), dtype=int)              # mainly elastic: bonds intact
+    kind[frame.unbonded_share > 0.25] = 1                 # more than a stray crack
+    loose = (frame.stratum > 0) & (frame.unbonded_share > 0.5)
+    kind[loose] = 3
+    if frame.weak is not None:
+        kind[frame.weak] = 2
+    return kind
+
+
+def behaviour_panel(ax, cax, frame):
+    """Inferred rock behaviour in four types, and the active faults [paper, Fig. 9b]."""
+    section_axes(ax, frame)
+    cax.set_axis_off()
+    if frame.unbonded_share is None:
+        describe(ax, frame, "Rock behaviour (bonds off)")
+        return
+    kind = behaviour_of(frame)
+    draw_discs(ax, frame, np.array([to_rgb(colour) for colour, _ in BEHAVIOUR])[kind])
+    handles = [(swatch(colour), label) for k, (colour, label) in enumerate(BEHAVIOUR)
+               if (kind == k).any() or k < 2]
+    if frame.faults is not None and len(frame.faults):
+        handles += draw_faults(ax, frame.faults)
+    describe(ax, frame, "Rock behaviour", handles)
 
 
 def strain_colours():
@@ -444,7 +519,7 @@ def strain_limit(strain):
 def strain_panel(ax, cax, frame):
     """Shear strain (no unit) of the last window of extension."""
     section_axes(ax, frame)
-    limit = strain_limit(frame.strain)
+    limit = frame.strain_top or strain_limit(frame.strain)
     finite = np.isfinite(frame.strain)
     highest = frame.strain[finite].max() if finite.any() else 0.0
     cmap, norm = strain_colours(), Normalize(0.0, limit, clip=True)
@@ -466,23 +541,26 @@ def strain_panel(ax, cax, frame):
         ax.plot(frame.profile[:, 0], frame.profile[:, 1], color=TOP_GREEN,
                 linewidth=1.0, zorder=6)
         handles.append((Line2D([], [], color=TOP_GREEN, linewidth=1.0), "pre-rift top"))
+    if frame.faults is not None and len(frame.faults):
+        handles += draw_faults(ax, frame.faults)
     window = frame.meta["strain_window_m"]
-    describe(ax, f"Shear strain, last {window:g} m of extension", handles)
+    describe(ax, frame, f"Shear strain, last {window:g} m of extension", handles)
 
 
 def draw_faults(ax, faults):
     """Active faults, line width by slip rate (mm/a); returns legend entries."""
     handles, lower = [], -math.inf
+    lines = [faults[faults[:, 0] == number] for number in np.unique(faults[:, 0])]
     for upper, width, label in FAULT_CLASSES:
-        chosen = faults[(faults[:, 4] >= lower) & (faults[:, 4] < upper)]
+        chosen = [line[:, 1:3] for line in lines
+                  if lower <= line[0, 3] < upper]
         lower = upper
         if len(chosen):
             ax.add_collection(LineCollection(
-                chosen[:, :4].reshape(-1, 2, 2), colors=INK, linewidths=width,
+                chosen, colors=INK, linewidths=width, capstyle="round",
                 path_effects=[Stroke(linewidth=width + 1.2, foreground="white"), Normal()],
                 zorder=7), autolim=False)
-            handles.append((Line2D([], [], color=INK, linewidth=width),
-                            ("fault slip " if not handles else "") + label + " mm/a"))
+            handles.append((Line2D([], [], color=INK, linewidth=width), label))
     return handles
 
 
@@ -495,7 +573,7 @@ def sediment_panel(ax, cax, frame):
         ax.set_yticks([])
         ax.text(0.5, 0.5, "no thickness profile in this frame", color=FAINT,
                 ha="center", va="center", transform=ax.transAxes)
-        describe(ax, "Sediment thickness")
+        describe(ax, frame, "Sediment thickness")
         return
     x, top, thickness = frame.profile.T
     known = np.isfinite(thickness)
@@ -517,7 +595,7 @@ def sediment_panel(ax, cax, frame):
         draw_depocentres(ax, frame)
         handles.append((Line2D([], [], color=WEAK, marker="^", markersize=7,
                                linestyle="none"), "depocentre: thickness, prominence (km)"))
-    describe(ax, "Sediment thickness and pre-rift top", handles)
+    describe(ax, frame, "Sediment thickness and pre-rift top", handles)
 
 
 def draw_depocentres(ax, frame, most=10):
@@ -549,10 +627,55 @@ def draw_depocentres(ax, frame, most=10):
                                              "linewidth": 0, "pad": 0.6})
 
 
+def kinematics_panel(ax, cax, frame):
+    """The model's pre-rift top beside kinematic constructions, all at true scale."""
+    section_axes(ax, frame)
+    cax.set_axis_off()
+    handles = []
+    meta = frame.meta
+    if frame.profile is not None:
+        x, top, _ = frame.profile.T
+        ax.fill_between(x, top, 0.0, where=top < 0, color=SEDIMENT_PALE, linewidth=0, zorder=2)
+        ax.plot(x, top, color=INK, linewidth=1.8, zorder=6)
+        handles.append((Line2D([], [], color=INK, linewidth=1.8), "pre-rift top"))
+    if frame.predicted_normals is not None and len(frame.predicted_normals) > 1:
+        # Where normals part, nothing is predicted but a gap.
+        curve = frame.predicted_normals
+        step = np.hypot(*np.diff(curve, axis=0).T)
+        pieces = np.split(curve, np.flatnonzero(step > 0.5) + 1)
+        ax.add_collection(LineCollection([p for p in pieces if len(p) > 1], colors=NORMALS_BLUE,
+                                         linewidths=1.8, linestyles=(0, (6, 2)), zorder=7),
+                          autolim=False)
+        label = "normals stay normal"
+        if "predicted_tilt_deg" in meta and "rollover_tilt_deg" in meta:
+            label += (f" (tilt {meta['predicted_tilt_deg']:.1f}°, "
+                      f"model {meta['rollover_tilt_deg']:.1f}°)")
+        handles.append((Line2D([], [], color=NORMALS_BLUE, linewidth=1.8, dashes=(4, 1.5)),
+                        label))
+    if frame.predicted_shear is not None and len(frame.predicted_shear) > 1:
+        ax.plot(*frame.predicted_shear.T, color=WEAK, linewidth=1.5, dashes=(2, 1.5), zorder=7)
+        handles.append((Line2D([], [], color=WEAK, linewidth=1.5, dashes=(1.5, 1.2)),
+                        f"inclined shear, {meta.get('inclined_shear_angle_deg', 0):g}° "
+                        "(best fit)"))
+    text = []
+    if "area_balance" in meta:
+        text.append(f"basin area = {meta['area_balance']:.3f} × extension × thickness")
+    if "halfgraben_area_share" in meta:
+        split = f"halfgraben's share {meta['halfgraben_area_share']:.2f}"
+        if "predicted_halfgraben_area_share" in meta:
+            split += f" (normals: {meta['predicted_halfgraben_area_share']:.2f})"
+        text.append(split)
+    ax.text(0.985, 0.06, "\n".join(text), transform=ax.transAxes, ha="right", va="bottom",
+            fontsize=9.5, zorder=8)
+    describe(ax, frame, "Kinematics", handles)
+
+
 # -------------------------------------------------------------------- output
 
-PANELS = (("strata", strata_panel), ("bonds", bonds_panel),
-          ("strain", strain_panel), ("sediment", sediment_panel))
+PANELS = (("strata", strata_panel), ("bonds", bonds_panel), ("behaviour", behaviour_panel),
+          ("strain", strain_panel), ("sediment", sediment_panel),
+          ("kinematics", kinematics_panel))
+ON_SHEET = ("strata", "bonds", "behaviour", "strain")
 
 
 def headline(frame):
@@ -580,7 +703,7 @@ def footer(frame):
     return textwrap.wrap("  ·  ".join(parts), 190)[:3]
 
 
-def draw_figure(frame, panels):
+def draw_figure(frame, panels, dpi=DPI):
     """Figure with the given (name, function) panels stacked on one x axis."""
     width, section_height = panel_size(frame)
     heights = [PROFILE_HEIGHT if name == "sediment" else section_height
@@ -589,7 +712,7 @@ def draw_figure(frame, panels):
     bottom = XLABEL + FOOTER_LINE * len(lines) + 0.12
     total = TITLE + bottom + sum(heights) + ROW_ABOVE * len(panels) \
         + GAP * (len(panels) - 1)
-    figure = Figure(figsize=(WIDTH, total), dpi=DPI, facecolor="white")
+    figure = Figure(figsize=(WIDTH, total), dpi=dpi, facecolor="white")
     FigureCanvasAgg(figure)
     figure.text(LEFT / WIDTH, 1 - 0.13 / total, headline(frame), fontsize=14,
                 weight="bold", va="top")
@@ -613,6 +736,120 @@ def draw_figure(frame, panels):
     return figure
 
 
+def draw_sheet(frames):
+    """All frames side by side at one scale, a row per kind of section."""
+    kinds = [(name, draw) for name, draw in PANELS
+             if name in ON_SHEET and
+             (name not in ("bonds", "behaviour") or frames[0].bonded is not None)]
+    strata = max(frame.meta["strata"] for frame in frames)
+    top = max(strain_limit(frame.strain) for frame in frames)
+    legends = {}
+    for frame in frames:
+        frame.meta["strata"], frame.strain_top, frame.legends = strata, top, legends
+    widths = [frame.view[1] - frame.view[0] for frame in frames]
+    inch = (SHEET_WIDTH - LEFT - RIGHT - SHEET_GAP * (len(frames) - 1)) / sum(widths)
+    height = inch * max(frame.view[3] - frame.view[2] for frame in frames)
+    lines = footer(frames[-1])
+    bottom = XLABEL + FOOTER_LINE * len(lines) + 0.12
+    total = TITLE + 0.3 + bottom + len(kinds) * (height + ROW_ABOVE) + GAP * (len(kinds) - 1)
+    figure = Figure(figsize=(SHEET_WIDTH, total), dpi=DPI, facecolor="white")
+    FigureCanvasAgg(figure)
+    meta = frames[-1].meta
+    figure.text(LEFT / SHEET_WIDTH, 1 - 0.13 / total,
+                f"{meta['scene'].upper()}, " +
+                " and ".join(f"{extension_text(frame)}" for frame in frames) +
+                " km of extension", fontsize=14, weight="bold", va="top")
+    for index, line in enumerate(reversed(lines)):
+        figure.text(LEFT / SHEET_WIDTH, (0.09 + FOOTER_LINE * index) / total, line,
+                    fontsize=7.5, color=FAINT, va="bottom")
+    letter = ord("a")
+    y = total - TITLE - 0.3
+    for row, (name, draw) in enumerate(kinds):
+        y -= ROW_ABOVE + height
+        x = LEFT
+        legends.clear()
+        for column, (frame, span) in enumerate(zip(frames, widths)):
+            own = inch * (frame.view[3] - frame.view[2])
+            ax = figure.add_axes((x / SHEET_WIDTH, y / total, inch * span / SHEET_WIDTH,
+                                  own / total))
+            last = column + 1 == len(frames)
+            cax = figure.add_axes(((SHEET_WIDTH - RIGHT + 0.16) / SHEET_WIDTH, y / total,
+                                   0.17 / SHEET_WIDTH, own / total))
+            draw(ax, cax, frame)
+            cax.set_visible(last)
+            ax.text(0.974, 0.86, chr(letter), transform=ax.transAxes, fontsize=13,
+                    weight="bold", ha="right", va="top", zorder=9,
+                    bbox={"facecolor": "white", "linewidth": 0.6, "pad": 2.5})
+            letter += 1
+            if row == 0:
+                ax.annotate(f"{extension_text(frame)} km of extension", (0.5, 1), (0, 26),
+                            xycoords="axes fraction", textcoords="offset points", ha="center",
+                            fontsize=11.5, weight="semibold", annotation_clip=False)
+            if column > 0:
+                ax.set_ylabel("")
+                ax.tick_params(labelleft=False)
+            ax.tick_params(which="major", length=4)
+            ax.tick_params(which="minor", length=2)
+            if row + 1 < len(kinds):
+                ax.tick_params(labelbottom=False)
+            else:
+                ax.set_xlabel("Distance from the breakaway (km)")
+            x += inch * span + SHEET_GAP
+        for text, entries in legends.items():
+            figure.text(LEFT / SHEET_WIDTH, (y + height + 0.07) / total, text, fontsize=10.5,
+                        weight="semibold", va="bottom")
+            figure.legend(list(entries.values()), list(entries), ncol=len(entries),
+                          loc="lower right",
+                          bbox_to_anchor=((SHEET_WIDTH - RIGHT) / SHEET_WIDTH,
+                                          (y + height) / total),
+                          frameon=False, borderpad=0.2, borderaxespad=0.1, handlelength=1.6,
+                          handletextpad=0.5, columnspacing=1.4,
+                          handler_map={tuple: HandlerTuple(ndivide=None, pad=0)})
+        y -= GAP
+    return figure
+
+
+def animate(frames, directory):
+    """One picture per frame, all at the last one's scale; MP4 with ffmpeg, else GIF."""
+    strata = max(frame.meta["strata"] for frame in frames)
+    top = max(strain_limit(frame.strain) for frame in frames)
+    name = f"animation-{extension_text(frames[-1])}km"
+    with tempfile.TemporaryDirectory(dir=directory, prefix=".data-") as folder:
+        for index, frame in enumerate(frames):
+            frame.view = frames[-1].view
+            frame.meta["strata"], frame.strain_top = strata, top
+            if frame.owner is not None:
+                frame.owner = owner_map(frame)
+            figure = draw_figure(frame, [PANELS[0], PANELS[3]], ANIMATION_DPI)
+            figure.savefig(os.path.join(folder, f"{index:05d}.png"), dpi=ANIMATION_DPI)
+            frame.owner = None
+        if shutil.which("ffmpeg"):
+            path = os.path.join(folder, "animation.mp4")
+            subprocess.run(
+                ["ffmpeg", "-loglevel", "error", "-y", "-framerate", "4", "-i",
+                 os.path.join(folder, "%05d.png"), "-vf",
+                 "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", path], check=True)
+            os.replace(path, os.path.join(directory, name + ".mp4"))
+            return
+        try:
+            from PIL import Image
+        except ImportError:
+            raise InputError("an animation needs ffmpeg or Pillow (python3-pil)")
+        # One palette for all, so that a colour means the same in every frame; the last has them all.
+        with Image.open(os.path.join(folder, f"{len(frames) - 1:05d}.png")) as image:
+            palette = image.convert("RGB").quantize(256, method=Image.Quantize.MAXCOVERAGE)
+        images = []
+        for index in range(len(frames)):
+            with Image.open(os.path.join(folder, f"{index:05d}.png")) as image:
+                images.append(image.convert("RGB").quantize(palette=palette,
+                                                            dither=Image.Dither.NONE))
+        path = os.path.join(folder, "animation.gif")
+        durations = [250] * (len(images) - 1) + [2000]
+        images[0].save(path, save_all=True, append_images=images[1:], duration=durations,
+                       loop=0, optimize=False)
+        os.replace(path, os.path.join(directory, name + ".gif"))
+
+
 def save(figure, directory, name):
     """Write a PNG under a temporary name, then rename it."""
     path = os.path.join(directory, name)
@@ -626,15 +863,27 @@ def save(figure, directory, name):
 
 
 def main(arguments):
-    if len(arguments) != 2:
-        raise InputError("usage: figures.py DATA_DIR FIGURES_DIR")
-    data, directory = arguments
-    frame = load_frame(data)
+    if len(arguments) != 3 or arguments[0] not in ("sections", "experiment", "animation"):
+        raise InputError(
+            "usage: figures.py sections|experiment|animation DATA_DIR FIGURES_DIR")
+    kind, data, directory = arguments
+    if not os.path.isdir(data):
+        raise InputError(f"{data}: no such directory")
+    frames = [load_frame(os.path.join(data, name)) for name in sorted(os.listdir(data))]
+    if not frames:
+        raise InputError(f"{data}: holds no frames")
     os.makedirs(directory, exist_ok=True)
-    for name, panels in [(p[0], [p]) for p in PANELS] + [("overview", list(PANELS))]:
-        with matplotlib.rc_context(STYLE):
-            save(draw_figure(frame, panels), directory,
-                 f"{name}-{extension_text(frame)}km.png")
+    with matplotlib.rc_context(STYLE):
+        if kind == "experiment":
+            save(draw_sheet(frames), directory, f"experiment-{extension_text(frames[-1])}km.png")
+        elif kind == "animation":
+            animate(frames, directory)
+        else:
+            for frame in frames:
+                for name, panels in [(p[0], [p]) for p in PANELS] + [
+                        ("overview", [p for p in PANELS if p[0] != "kinematics"])]:
+                    save(draw_figure(frame, panels), directory,
+                         f"{name}-{extension_text(frame)}km.png")
 
 
 if __name__ == "__main__":

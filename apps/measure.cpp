@@ -1,5 +1,6 @@
 #include "apps/measure.hpp"
 
+#include "apps/kinematics.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/property_update.hpp"
 #include "dem/events/strain.hpp"
@@ -157,70 +158,39 @@ const Event* find_event(std::span<const std::unique_ptr<Event>> events, std::str
     return nullptr;
 }
 
-/// Links the segments of the last scan into faults: neighbours within two spacings whose planes
-/// differ by less than 25 degrees.
-std::vector<Fault> trace_faults(const Scene& scene, const State& state, const Table& segments) {
-    std::vector<Fault> faults;
-    if (segments.rows() == 0)
-        return faults;
-    const auto x = segments.get<double>("x_m"), y = segments.get<double>("y_m");
-    const auto angle = segments.get<double>("angle_rad"), slip = segments.get<double>("slip_m");
-    const auto found_at = segments.get<double>("found_at_m");
-    const double last = found_at.back();
-    const double reach = 2.0 * scene.fault_weakening->spacing_diameters * 2.0 * state.mean_radius;
-    const auto angle_between = [](double a, double b) {
-        const double difference = std::abs(a - b);
-        return std::min(difference, pi - difference);
-    };
-    std::vector<std::size_t> open;
-    for (std::size_t k = 0; k < x.size(); ++k)
-        if (found_at[k] == last)
-            open.push_back(k);
-    while (!open.empty()) {
-        std::vector<std::size_t> members{open.back()};
-        open.pop_back();
-        for (std::size_t m = 0; m < members.size(); ++m)
-            for (std::size_t o = open.size(); o-- > 0;) {
-                const std::size_t a = members[m], b = open[o];
-                const double dx = x[b] - x[a], dy = y[b] - y[a];
-                const double distance = std::hypot(dx, dy);
-                double along = std::atan2(dy, dx);
-                if (along < 0.0)
-                    along += pi;
-                if (distance < reach && angle_between(angle[a], angle[b]) < 25.0 * pi / 180.0 &&
-                    angle_between(angle[a], along) < 45.0 * pi / 180.0) {
-                    members.push_back(b);
-                    open.erase(open.begin() + static_cast<std::ptrdiff_t>(o));
-                }
-            }
-        if (members.size() < 3)
-            continue;
-        Fault f;
-        const auto [lowest, highest] =
-            std::ranges::minmax(members, {}, [&](std::size_t m) { return y[m]; });
-        f.top = {x[highest], y[highest]};
-        f.bottom = {x[lowest], y[lowest]};
-        f.dip = std::atan2(f.top.y - f.bottom.y, std::abs(f.top.x - f.bottom.x)) * 180.0 / pi;
-        double signed_slip = 0.0, sum = 0.0;
-        f.born_at = last;
-        for (std::size_t m : members) {
-            // The left side of direction t is the upper one. Normal: it moves down dip.
-            const bool rises_right = angle[m] < 0.5 * pi;
-            signed_slip += rises_right ? -slip[m] : slip[m];
-            sum += std::abs(slip[m]);
-            for (std::size_t k = 0; k < x.size(); ++k)
-                if (std::hypot(x[k] - x[m], y[k] - y[m]) < 0.5 * reach &&
-                    angle_between(angle[k], angle[m]) < 25.0 * pi / 180.0)
-                    f.born_at = std::min(f.born_at, found_at[k]);
-        }
-        f.normal = signed_slip > 0.0;
-        f.rate = sum / static_cast<double>(members.size()) / scene.fault_weakening->interval * 1e3;
-        faults.push_back(f);
+/// The basin beside what kinematic constructions predict.
+void measure_kinematics(const Scene& scene, const Chain& detachment, double extension,
+                        const Profile& profile, double column, Measures& m) {
+    const double right = profile.x.back();
+    m.dilation_area = extension * scene.hanging_wall->thickness - m.basin_area;
+    m.depth_to_detachment = m.basin_area / extension;
+    const InclinedShearFit shear =
+        fit_inclined_shear(detachment, extension, profile.x, profile.pre_rift_top);
+    m.inclined_shear_angle = shear.angle;
+    m.inclined_shear_misfit = shear.misfit;
+    const std::vector<Point> normals = normals_top(detachment, extension, right);
+    const Point cutoff = point_at(detachment, extension);
+    m.predicted_tilt = normals_tilt(detachment, extension);
+    m.predicted_cutoff = Point{cutoff.x, -cutoff.y};
+    if (const double share = normals_halfgraben_share(detachment, extension, right); share > 0.0)
+        m.predicted_halfgraben_area_share = share;
+    if (!normals.empty()) {
+        // Beyond the block that rotates, the hanging wall collapses.
+        const double last = cutoff.x + 0.5 * (detachment.front().end.x - cutoff.x);
+        m.normals_misfit = misfit(detachment, normals, profile.x, profile.pre_rift_top, last);
     }
-    std::ranges::sort(faults, std::ranges::greater{}, [](const Fault& f) {
-        return std::hypot(f.top.x - f.bottom.x, f.top.y - f.bottom.y);
-    });
-    return faults;
+
+    std::vector<double> depth;
+    for (double top : profile.pre_rift_top)
+        depth.push_back(-top);
+    depth = smooth(depth, static_cast<std::ptrdiff_t>(std::lround(0.5 * 1e3 / column)));
+    if (const auto high = find_intervening_high(profile.x, depth, 250.0)) {
+        m.intervening_high = Point{profile.x[*high], depth[*high]};
+        double left = 0.0;
+        for (std::size_t k = 0; k <= *high; ++k)
+            left -= profile.pre_rift_top[k] * column;
+        m.halfgraben_area_share = left / m.basin_area;
+    }
 }
 
 } // namespace
@@ -354,6 +324,46 @@ Profile measure_profile(const Scene& scene, const State& state, const RigidBase&
     return p;
 }
 
+std::optional<std::size_t> find_intervening_high(std::span<const double> x,
+                                                 std::span<const double> depth,
+                                                 double least_prominence) {
+    const std::vector<Depocentre> all = find_depocentres(x, depth, least_prominence);
+    if (all.size() < 2)
+        return std::nullopt;
+    const double first = std::ranges::min(all, {}, &Depocentre::x).x;
+    double second = first, most = 0.0;
+    for (const Depocentre& d : all)
+        if (d.x > first && d.prominence > most) {
+            second = d.x;
+            most = d.prominence;
+        }
+    std::optional<std::size_t> high;
+    for (std::size_t k = 0; k < x.size(); ++k)
+        if (x[k] > first && x[k] < second && (!high || depth[k] < depth[*high]))
+            high = k;
+    return high;
+}
+
+std::optional<double> bonded_share_of_old_sediment(const State& state, double level, double depth,
+                                                   double age) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const std::vector<bool> touches = touching(state);
+    const auto counts = [&](std::int32_t row) {
+        const auto i = static_cast<std::size_t>(row);
+        return d.stratum[i] > 0 && level - d.y[i] > depth &&
+               state.clock.extension - d.start_extension[i] > age;
+    };
+    std::int64_t all = 0, bonded = 0;
+    for (std::size_t k = 0; k < touches.size(); ++k)
+        if (touches[k] && counts(c.first[k]) && counts(c.second[k])) {
+            ++all;
+            bonded += c.bonded[k];
+        }
+    return all ? std::optional(static_cast<double>(bonded) / static_cast<double>(all))
+               : std::nullopt;
+}
+
 Measures measure(const Scene& scene, const State& state, const RigidBase& base,
                  std::span<const std::unique_ptr<Event>> events) {
     const ConstDiscColumns d = disc_columns(state);
@@ -371,6 +381,11 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
         m.rollover_tilt = head_block_tilt(scene, state, detachment);
         measure_ramp_flat_ramp(m, state, detachment);
     }
+    if (extension > 0.0)
+        measure_kinematics(scene, detachment, extension, profile, 2.0 * state.mean_radius, m);
+    if (scene.sedimentation && scene.bonds)
+        m.old_sediment_bonded_fraction = bonded_share_of_old_sediment(
+            state, scene.sedimentation->level, 1500.0, 2e5 * scene.extension.rate);
     if (scene.sedimentation)
         m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, 250.0);
 
@@ -422,12 +437,11 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
         if (all)
             m.basement_unbonded_fraction = static_cast<double>(unbonded) / static_cast<double>(all);
     }
-    if (const Event* weakening = find_event(events, "fault_weakening")) {
+    if (find_event(events, "fault_weakening")) {
         m.weak_fraction = static_cast<double>(std::ranges::count(d.material, weak)) /
                           static_cast<double>(d.x.size());
         m.volume_error_fraction = std::abs(weakened_volume_change(state, base)) /
                                   hanging_wall_area(*scene.hanging_wall, detachment);
-        m.faults = trace_faults(scene, state, weakening->memory);
     }
     const Ledger& ledger = state.ledger;
     const double mass = std::accumulate(d.mass.begin(), d.mass.end(), 0.0);

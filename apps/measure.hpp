@@ -24,15 +24,6 @@ struct Profile {
     std::vector<double> sediment_thickness; ///< m, smoothed over 1 km
 };
 
-/// A fault traced through the segments that the last scan found.
-struct Fault {
-    Point top, bottom;    ///< m
-    double dip = 0.0;     ///< degrees
-    bool normal = true;   ///< sense of slip; false: reverse
-    double rate = 0.0;    ///< mm/a
-    double born_at = 0.0; ///< extension at which its place was first active, m
-};
-
 /// The acceptance measures (docs/measures.md); those without meaning in a scene are absent.
 struct Measures {
     double basin_area = 0.0;             ///< m^2
@@ -50,7 +41,20 @@ struct Measures {
     double unbalanced_ratio_mean = 0.0, unbalanced_ratio_max = 0.0;
     double inertial_number = 0.0; ///< of the tenth of the area strained most
     std::optional<std::vector<Depocentre>> depocentres;
-    std::optional<std::vector<Fault>> faults;
+    /// Where the halfgraben ends and the collapse graben begins, with the share of the basin's area
+    /// on the halfgraben's side.
+    std::optional<Point> intervening_high; ///< x and depth, m
+    std::optional<double> halfgraben_area_share;
+    /// Beside the constructions of apps/kinematics.hpp.
+    std::optional<double> dilation_area;         ///< extension times thickness less basin area, m^2
+    std::optional<double> depth_to_detachment;   ///< basin area over extension, m
+    std::optional<double> inclined_shear_angle;  ///< best fit, degrees from the vertical
+    std::optional<double> inclined_shear_misfit; ///< m
+    std::optional<double> normals_misfit;        ///< of the head block, m
+    std::optional<double> predicted_tilt;        ///< degrees
+    std::optional<Point> predicted_cutoff;       ///< x and depth, m
+    std::optional<double> predicted_halfgraben_area_share;
+    std::optional<double> old_sediment_bonded_fraction;
 };
 
 /// Where a detachment that descends to a flat and then further has its parts, m along the chain.
@@ -65,6 +69,17 @@ struct RampFlatRamp {
 std::optional<RampFlatRamp> find_ramp_flat_ramp(const Chain& detachment);
 
 Profile measure_profile(const Scene& scene, const State& state, const RigidBase& base);
+
+/// Where the basin is shallowest between its first depocentre and the most prominent one beyond;
+/// none if there is no second. `depth` in equal columns, m.
+std::optional<std::size_t> find_intervening_high(std::span<const double> x,
+                                                 std::span<const double> depth,
+                                                 double least_prominence);
+
+/// Bonded share of the touching pairs of sediment discs that are both deeper than `depth` m below
+/// the level and older than `age` m of extension. None if there are no such pairs.
+std::optional<double> bonded_share_of_old_sediment(const State& state, double level, double depth,
+                                                   double age);
 
 Measures measure(const Scene& scene, const State& state, const RigidBase& base,
                  std::span<const std::unique_ptr<Event>> events);

@@ -79,7 +79,7 @@ int dispatch(int argc, char** argv) {
     std::optional<std::string> until;
     std::string output, folder;
     BenchRequest bench_request;
-    bool parameters = false, unbonded = false;
+    bool parameters = false, unbonded = false, animation = false;
 
     CLI::App* run_command = app.add_subcommand("run", "Run a scene");
     add_scene_options(*run_command, request);
@@ -102,6 +102,8 @@ int dispatch(int argc, char** argv) {
 
     CLI::App* figures_command = app.add_subcommand("figures", "Draw the figures of a run");
     figures_command->add_option("DIR", folder, "The run's output folder")->required();
+    figures_command->add_flag("--animation", animation,
+                              "An animation of all snapshots instead of the figures");
 
     CLI::App* bench_command = app.add_subcommand("bench", "Speed of the cycle on this machine");
     bench_command->add_option("--packing", bench_request.packing, "Packing file");
@@ -145,7 +147,7 @@ int dispatch(int argc, char** argv) {
         else
             std::cout << explain(load_scene(request));
     } else if (*figures_command) {
-        draw_run(folder);
+        animation ? animate_run(folder) : draw_run(folder);
     } else if (*bench_command) {
         bench_request.bonded = !unbonded;
         std::cout << bench(bench_request) << '\n';

@@ -1,6 +1,7 @@
 #include "apps/run.hpp"
 
 #include "apps/effects.hpp"
+#include "apps/fault_history.hpp"
 #include "apps/figures.hpp"
 #include "apps/measure.hpp"
 #include "apps/paraview.hpp"
@@ -18,6 +19,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <sys/file.h>
@@ -124,6 +126,10 @@ std::string time_left(double seconds) {
 
 fs::path snapshot_path(const fs::path& output, const State& state) {
     return output / "snapshots" / fmt::format("extension-{:08.2f}m.h5", state.clock.extension);
+}
+
+double snapshot_extension(const fs::path& path) {
+    return std::strtod(path.filename().c_str() + std::strlen("extension-"), nullptr);
 }
 
 /// Genesis is the same for every scene with the same hanging wall, so it is kept.
@@ -292,13 +298,30 @@ void save(Run& run) {
         write_paraview(run.options.output, run.state, run.base, run.scene.extension.rate);
 }
 
+FaultReport report_faults(Run& run) {
+    const Stopwatch watch(run.record, "measures");
+    const std::vector<fs::path> snapshots = list_snapshots(run.options.output);
+    return report_faults(run.scene, run.base, run.state, snapshots);
+}
+
 void draw(Run& run, Voice& voice) {
+    const FaultReport faults = report_faults(run);
     const Stopwatch watch(run.record, "figures");
     run.drawn_at = run.state.clock.extension;
-    const std::string problem =
-        draw_figures(run.scene, run.state, run.base, run.events, run.options.output / "figures");
+    const std::string problem = draw_figures(run.scene, run.state, run.base, run.events, faults,
+                                             run.options.output / "figures");
     if (!problem.empty())
         voice.say("warning: no figures: " + problem);
+}
+
+/// The moments of the experiment on one sheet.
+void draw_sheet(Run& run, Voice& voice) {
+    const Stopwatch watch(run.record, "figures");
+    try {
+        draw_experiment(run.options.output);
+    } catch (const std::exception& error) {
+        voice.say(std::string("warning: no sheet of figures: ") + error.what());
+    }
 }
 
 /// A word as a shell takes it.
@@ -423,6 +446,8 @@ void remove_run(const fs::path& output) {
     remove_files(output / "snapshots", ends(".h5"));
     remove_files(output / "paraview", ends(".vtp"));
     remove_files(output / "figures", ends("km.png"));
+    remove_files(output / "figures", ends("km.gif"));
+    remove_files(output / "figures", ends("km.mp4"));
     std::error_code error;
     for (const char* file :
          {"summary.json", "history.csv", "paraview.pvd", "log.txt", "scene.toml"})
@@ -530,9 +555,11 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
             draw(run, voice);
         if (run.kept != snapshot_path(output, run.state))
             save(run);
+        draw_sheet(run, voice);
         const Measures measures = measure(scene, run.state, run.base, run.events);
+        const FaultReport faults = report_faults(run);
         write_text(output / "summary.json",
-                   summary_json(scene, options.threads, run.state, run.record, measures,
+                   summary_json(scene, options.threads, run.state, run.record, measures, faults,
                                 run.wall_seconds(), run_hash(run.state, run.events)));
         voice.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}",
                               run.state.clock.extension / 1e3, time_left(run.wall_seconds()),
@@ -555,26 +582,77 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     }
 }
 
-void draw_run(const fs::path& output) {
-    const std::vector<fs::path> snapshots = list_snapshots(output);
-    if (snapshots.empty())
-        throw UsageError(output.string() + ": no snapshots to draw; is this a run's folder?");
-    SceneRequest request;
-    request.scene = (output / "scene.toml").string();
-    Scene scene = load_scene(request);
-    for (const fs::path& path : snapshots) {
+namespace {
+
+/// A run's folder and what is needed to draw it again.
+struct Drawing {
+    Scene scene;
+    RigidBase base;
+    std::vector<fs::path> snapshots;
+
+    explicit Drawing(const fs::path& output) : snapshots(list_snapshots(output)) {
+        if (snapshots.empty())
+            throw UsageError(output.string() + ": no snapshots to draw; is this a run's folder?");
+        SceneRequest request;
+        request.scene = (output / "scene.toml").string();
+        scene = load_scene(request);
+        base = make_base(scene);
+    }
+
+    /// @param history  earlier snapshots in which the faults' history is looked up
+    void add(FigureFrames& frames, const fs::path& path, std::span<const fs::path> history) const {
         Snapshot snapshot = read_snapshot(path);
-        if (path != snapshots.back() &&
-            !near_any(scene.output.figures, snapshot.state.clock.extension,
-                      0.5 * scene.output.interval))
-            continue;
         const auto events = make_events(scene);
         hand_over(snapshot, events);
-        const std::string problem =
-            draw_figures(scene, snapshot.state, make_base(scene), events, output / "figures");
-        if (!problem.empty())
-            throw StorageError(problem);
+        frames.add(scene, snapshot.state, base, events,
+                   report_faults(scene, base, snapshot.state, history));
     }
+
+    /// Snapshots at the scene's figure extensions, and the newest.
+    std::vector<fs::path> chosen() const {
+        std::vector<fs::path> paths;
+        for (const fs::path& path : snapshots)
+            if (path == snapshots.back() || near_any(scene.output.figures, snapshot_extension(path),
+                                                     0.5 * scene.output.interval))
+                paths.push_back(path);
+        return paths;
+    }
+};
+
+} // namespace
+
+void draw_run(const fs::path& output) {
+    const Drawing drawing(output);
+    const std::vector<fs::path> chosen = drawing.chosen();
+    FigureFrames frames(output / "figures");
+    for (const fs::path& path : chosen)
+        drawing.add(frames, path, drawing.snapshots);
+    frames.draw("sections");
+    if (chosen.size() > 1)
+        frames.draw("experiment");
+}
+
+void draw_experiment(const fs::path& output) {
+    const Drawing drawing(output);
+    const std::vector<fs::path> chosen = drawing.chosen();
+    if (chosen.size() < 2)
+        return;
+    FigureFrames frames(output / "figures");
+    for (const fs::path& path : chosen)
+        drawing.add(frames, path, drawing.snapshots);
+    frames.draw("experiment");
+}
+
+void animate_run(const fs::path& output) {
+    const Drawing drawing(output);
+    FigureFrames frames(output / "figures");
+    for (std::size_t k = 0; k < drawing.snapshots.size(); ++k) {
+        // The window before shows where the faults are; their history is not drawn.
+        const std::size_t before = std::min<std::size_t>(k, 1);
+        drawing.add(frames, drawing.snapshots[k],
+                    std::span(drawing.snapshots).subspan(k - before, before));
+    }
+    frames.draw("animation");
 }
 
 } // namespace listric

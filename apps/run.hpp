@@ -40,6 +40,12 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options);
 /// the newest one.
 void draw_run(const std::filesystem::path& output);
 
+/// Draws the same moments on one sheet, if there are at least two.
+void draw_experiment(const std::filesystem::path& output);
+
+/// Draws every snapshot of a run's folder as a frame of an animation: MP4 with ffmpeg, else GIF.
+void animate_run(const std::filesystem::path& output);
+
 /// Snapshots of a run, oldest first.
 std::vector<std::filesystem::path> list_snapshots(const std::filesystem::path& output);
 

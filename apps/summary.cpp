@@ -22,10 +22,25 @@ template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
     visit("breakaway_rotation_deg", m.breakaway_rotation);
     visit("toe_rotation_deg", m.toe_rotation);
     visit("lower_block_rotation_deg", m.lower_block_rotation);
+    const auto visit_point = [&](const char* x, const char* z, const std::optional<Point>& p) {
+        visit(x, p ? std::optional(p->x) : std::nullopt);
+        visit(z, p ? std::optional(p->y) : std::nullopt);
+    };
+    visit_point("intervening_high_x_m", "intervening_high_z_m", m.intervening_high);
+    visit("halfgraben_area_share", m.halfgraben_area_share);
+    visit("dilation_area_m2", m.dilation_area);
+    visit("depth_to_detachment_m", m.depth_to_detachment);
+    visit("inclined_shear_angle_deg", m.inclined_shear_angle);
+    visit("inclined_shear_misfit_m", m.inclined_shear_misfit);
+    visit("normals_misfit_m", m.normals_misfit);
+    visit("predicted_tilt_deg", m.predicted_tilt);
+    visit_point("predicted_cutoff_x_m", "predicted_cutoff_z_m", m.predicted_cutoff);
+    visit("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
     visit("strain_top10", m.strain_top10);
     visit("strain_top10_cumulative", m.strain_top10_cumulative);
     visit("strain_gini", m.strain_gini);
     visit("basement_unbonded_fraction", m.basement_unbonded_fraction);
+    visit("old_sediment_bonded_fraction", m.old_sediment_bonded_fraction);
     visit("weak_fraction", m.weak_fraction);
     visit("volume_error_fraction", m.volume_error_fraction);
     visit("deposited_fraction", m.deposited_fraction);
@@ -34,6 +49,49 @@ template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
     visit("unbalanced_ratio_mean", std::optional(m.unbalanced_ratio_mean));
     visit("unbalanced_ratio_max", std::optional(m.unbalanced_ratio_max));
     visit("inertial_number", std::optional(m.inertial_number));
+}
+
+/// The faults, and what they have in common.
+void add_faults(nlohmann::ordered_json& json, const FaultReport& report) {
+    const auto put = [&](const char* name, std::optional<double> value) {
+        if (value && std::isfinite(*value))
+            json[name] = *value;
+    };
+    put("fault_width_diameters", report.width);
+    put("antithetic_foot_x_m", report.antithetic_foot);
+    if (report.main_antithetic)
+        json["main_antithetic_fault"] = *report.main_antithetic;
+    if (report.main_synthetic)
+        json["main_synthetic_fault"] = *report.main_synthetic;
+    put("sediment_weak_off_fault_fraction", report.sediment_weak_off_fault_fraction);
+    auto& list = json["faults"] = nlohmann::ordered_json::array();
+    for (const Fault& f : report.faults) {
+        const Point top = f.trace.points.front(), bottom = f.trace.points.back();
+        auto throws = nlohmann::ordered_json::object();
+        for (const auto& [stratum, value] : f.throws)
+            throws[fmt::format("{}", stratum)] = value;
+        auto points = nlohmann::ordered_json::array();
+        for (Point p : f.trace.points)
+            points.push_back({std::round(p.x), std::round(-p.y)});
+        list.push_back({{"x_top_m", top.x},
+                        {"z_top_m", -top.y},
+                        {"x_bottom_m", bottom.x},
+                        {"z_bottom_m", -bottom.y},
+                        {"length_m", f.trace.length()},
+                        {"dip_deg", f.dip},
+                        {"sense", f.normal ? "normal" : "reverse"},
+                        {"attitude", f.synthetic ? "synthetic" : "antithetic"},
+                        {"rate_mm_per_a", f.rate},
+                        {"width_diameters", f.width},
+                        {"curvature_per_m", f.curvature},
+                        {"born_at_m", f.born_at},
+                        {"dip_at_birth_deg", f.dip_at_birth},
+                        {"footwall_turn_deg", f.footwall_turn},
+                        {"foot_x_m", f.foot.x},
+                        {"foot_z_m", -f.foot.y},
+                        {"throw_m", throws},
+                        {"points_m", points}});
+    }
 }
 
 } // namespace
@@ -53,7 +111,7 @@ std::vector<std::pair<std::string, double>> history_row(const State& state, cons
 std::string to_csv(const Table& table) {
     std::string text;
     for (const Column& column : table.columns())
-        text += (text.empty() ? "" : ",") + column.name;
+        text.append(text.empty() ? "" : ",").append(column.name);
     text += '\n';
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const char* separator = "";
@@ -69,8 +127,8 @@ std::string to_csv(const Table& table) {
 }
 
 std::string summary_json(const Scene& scene, int threads, const State& state,
-                         const RunRecord& record, const Measures& m, double wall_seconds,
-                         std::uint64_t state_hash) {
+                         const RunRecord& record, const Measures& m, const FaultReport& faults,
+                         double wall_seconds, std::uint64_t state_hash) {
     nlohmann::ordered_json json = {
         {"scene", scene.name},
         {"accuracy", scene.accuracy},
@@ -103,18 +161,7 @@ std::string summary_json(const Scene& scene, int threads, const State& state,
             list.push_back(
                 {{"x_m", d.x}, {"thickness_m", d.thickness}, {"prominence_m", d.prominence}});
     }
-    if (m.faults) {
-        auto& list = json["faults"] = nlohmann::ordered_json::array();
-        for (const Fault& f : *m.faults)
-            list.push_back({{"x_top_m", f.top.x},
-                            {"z_top_m", -f.top.y},
-                            {"x_bottom_m", f.bottom.x},
-                            {"z_bottom_m", -f.bottom.y},
-                            {"dip_deg", f.dip},
-                            {"sense", f.normal ? "normal" : "reverse"},
-                            {"rate_mm_per_a", f.rate},
-                            {"born_at_m", f.born_at}});
-    }
+    add_faults(json, faults);
     return json.dump(2) + "\n";
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/fault.hpp"
 #include "apps/measure.hpp"
 #include "apps/scene.hpp"
 #include "apps/snapshot.hpp"
@@ -21,8 +22,8 @@ std::string to_csv(const Table& table);
 
 /// summary.json: names and units are part of the program's contract (docs/measures.md).
 std::string summary_json(const Scene& scene, int threads, const State& state,
-                         const RunRecord& record, const Measures& measures, double wall_seconds,
-                         std::uint64_t state_hash);
+                         const RunRecord& record, const Measures& measures,
+                         const FaultReport& faults, double wall_seconds, std::uint64_t state_hash);
 
 /// Extension that a finished run reached, m. None if the file is not a finished run's summary.
 std::optional<double> summary_extension(const std::filesystem::path& summary);

@@ -236,5 +236,37 @@ TEST(Cutoff, OfTheConstantSlipOfLis2) {
     EXPECT_NEAR(m.rollover_tilt.value(), 19.0986, 1e-3);
 }
 
+TEST(InterveningHigh, BetweenTheFirstDepocentreAndTheMostProminentBeyond) {
+    const Drawn d(
+        {{0, 0.0}, {10, 900.0}, {20, 300.0}, {30, 700.0}, {40, 350.0}, {50, 1000.0}, {60, 0.0}});
+    const auto high = find_intervening_high(d.x, d.thickness, 250.0);
+    ASSERT_TRUE(high.has_value());
+    EXPECT_EQ(d.x[*high], 2000.0);
+    const Drawn one({{0, 0.0}, {10, 900.0}, {60, 0.0}});
+    EXPECT_FALSE(find_intervening_high(one.x, one.thickness, 250.0).has_value());
+}
+
+TEST(OldSediment, BondedShareOfDeepAndOldPairs) {
+    using namespace support;
+    constexpr double r = 100.0;
+    // Touching discs in a row 1,600 m below the level: basement, three old ones, two young ones.
+    State state = make_state(row(6, r));
+    const DiscColumns d = disc_columns(state);
+    state.clock.extension = 5000.0;
+    for (std::size_t i = 0; i < 6; ++i) {
+        d.y[i] = -1600.0;
+        d.radius[i] = 1.001 * r;
+        d.stratum[i] = i == 0 ? 0 : i < 4 ? 1 : 9;
+        d.start_extension[i] = i < 4 ? 500.0 : 4000.0;
+    }
+    find_contacts(state, {});
+    EXPECT_EQ(bonded_share_of_old_sediment(state, 0.0, 1500.0, 2000.0), 0.0);
+    bond(state, find_pair(state, 1, 2), 1.0f, 1.0f);
+    bond(state, find_pair(state, 4, 5), 1.0f, 1.0f); // too young
+    EXPECT_EQ(bonded_share_of_old_sediment(state, 0.0, 1500.0, 2000.0), 0.5);
+    EXPECT_EQ(bonded_share_of_old_sediment(state, 0.0, 1500.0, 500.0), 0.5); // 2 of 4
+    EXPECT_FALSE(bonded_share_of_old_sediment(state, -200.0, 1500.0, 2000.0).has_value());
+}
+
 } // namespace
 } // namespace listric

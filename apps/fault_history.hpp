@@ -1,0 +1,35 @@
+#pragma once
+
+#include "apps/fault.hpp"
+#include "apps/scene.hpp"
+#include "dem/base.hpp"
+#include "dem/state.hpp"
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace listric {
+
+/// The faults that are active in `now`, and how they came to be, from the run's earlier states.
+///
+/// Traces are ridges of the strain since the state before. A fault is then followed back in time
+/// with its footwall: the discs below each of its points say where that point was and how the block
+/// turned. It was active in a window if half of the points that existed slid in today's sense; it
+/// was born where the activity begins that has lasted two thirds of the time since.
+///
+/// @param older  earlier states, oldest first
+FaultReport report_faults(const Scene& scene, const RigidBase& base, const State& now,
+                          std::span<const DiscPlaces> older);
+
+/// The same with the earlier states read from snapshots (oldest first; those that are not older or
+/// cannot be read are passed over).
+FaultReport report_faults(const Scene& scene, const RigidBase& base, const State& now,
+                          std::span<const std::filesystem::path> snapshots);
+
+/// Share of the sediment's discs, by area, that are weak and further than `distance` m from every
+/// trace. None without sediment.
+std::optional<double> weak_off_faults(const State& state, std::span<const Fault> faults,
+                                      double distance);
+
+} // namespace listric
