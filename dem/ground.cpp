@@ -48,7 +48,7 @@ std::size_t Ground::column(double x) const {
 double Ground::clearance(Point p) const {
     double least = infinity;
     for (const Surface& s : base_->surfaces)
-        if (const auto foot = nearest(s.chain, {p.x - s.translation * extension_, p.y}))
+        if (const auto foot = nearest(s, extension_, p))
             least = std::min(least, foot->distance);
     return least;
 }
