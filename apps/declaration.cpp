@@ -72,17 +72,6 @@ std::vector<Parameter> parameters(ExtensionParameters& p) {
     };
 }
 
-std::vector<Parameter> parameters(Material& p) {
-    return {
-        {"normal_stiffness_pa", &p.normal_stiffness, "Pa", stiffness, "k_n",
-         "normal stiffness of one disc"},
-        {"shear_stiffness_pa", &p.shear_stiffness, "Pa", stiffness, "k_s",
-         "shear stiffness of one disc"},
-        {"friction", &p.friction, "", friction, "mu_d",
-         "of a disc; a contact has the smaller of its two discs'"},
-    };
-}
-
 std::vector<Parameter> parameters(CycleParameters& p) {
     return {
         {"damping", &p.damping, "", {.from = 0, .below = 1}, "",
@@ -113,19 +102,6 @@ std::vector<Parameter> parameters(GravityParameters& p) {
     };
 }
 
-std::vector<Parameter> parameters(BondStrength& p) {
-    return {
-        {"tensile_strength_pa", &p.tensile_mean, "Pa", strength, "F_c^n", "mean tensile strength"},
-        {"tensile_strength_sd_pa", &p.tensile_deviation, "Pa", strength, "",
-         "standard deviation of the tensile strength"},
-        {"shear_strength_pa", &p.shear_mean, "Pa", strength, "F_c^s", "mean shear strength"},
-        {"shear_strength_sd_pa", &p.shear_deviation, "Pa", strength, "",
-         "standard deviation of the shear strength"},
-        {"strength_is", one_of({"stress", "force"}, p.reading), "", {}, "",
-         "strengths are stresses on the mean disc section, or forces in N"},
-    };
-}
-
 std::vector<Parameter> parameters(FaultWeakeningParameters& p) {
     return {
         {"interval_a", &p.interval, "a", years, "Delta t_w", "time between scans for faults"},
@@ -145,9 +121,11 @@ std::vector<Parameter> parameters(FaultWeakeningParameters& p) {
          "fault angles tried at each sampling point"},
         {"youngest_sediment_a", &p.youngest_sediment, "a", {.from = 0, .to = 1e9}, "",
          "sediment younger than this is left alone"},
-        {"stiffness_divisor", &p.stiffness_divisor, "", {.from = 1, .to = 1e6}, "",
-         "stiffness of sound over weakened discs"},
-        {"friction", &p.friction, "", friction, "mu_d", "of weakened discs"},
+        {"normal_stiffness_pa", &p.material.normal_stiffness, "Pa", stiffness, "k_n",
+         "normal stiffness of one weakened disc"},
+        {"shear_stiffness_pa", &p.material.shear_stiffness, "Pa", stiffness, "k_s",
+         "shear stiffness of one weakened disc"},
+        {"friction", &p.material.friction, "", friction, "mu_d", "of weakened discs"},
         {"update_interval_a", &p.update_interval, "a", years, "", "time between property updates"},
         {"mean_stress_ratio", &p.mean_stress_ratio, "", {.above = 0, .to = 2}, "",
          "mean stress in a fault over lithostatic stress"},
@@ -175,7 +153,11 @@ std::vector<Parameter> parameters(SedimentationParameters& p) {
          "porosity of fresh sediment"},
         {"grain_density_kg_per_m3", &p.grain_density, "kg/m3", density, "",
          "density of sediment at zero porosity"},
-        {"friction", &p.friction, "", friction, "mu_d", "of sediment discs"},
+        {"normal_stiffness_pa", &p.material.normal_stiffness, "Pa", stiffness, "k_n",
+         "normal stiffness of one sediment disc"},
+        {"shear_stiffness_pa", &p.material.shear_stiffness, "Pa", stiffness, "k_s",
+         "shear stiffness of one sediment disc"},
+        {"friction", &p.material.friction, "", friction, "mu_d", "of sediment discs"},
     };
 }
 
@@ -246,6 +228,30 @@ std::vector<SceneTable> scene_tables(Scene& scene) {
         effect("bond_healing", "intelligent crack management (ICM)", scene.bond_healing),
         effect("sedimentation", "syn-rift sediment fills the basin", scene.sedimentation),
         effect("compaction", "sediment loses pore space with burial", scene.compaction),
+    };
+}
+
+std::vector<Parameter> parameters(Material& p) {
+    return {
+        {"normal_stiffness_pa", &p.normal_stiffness, "Pa", stiffness, "k_n",
+         "normal stiffness of one disc"},
+        {"shear_stiffness_pa", &p.shear_stiffness, "Pa", stiffness, "k_s",
+         "shear stiffness of one disc"},
+        {"friction", &p.friction, "", friction, "mu_d",
+         "of a disc; a contact has the smaller of its two discs'"},
+    };
+}
+
+std::vector<Parameter> parameters(BondStrength& p) {
+    return {
+        {"tensile_strength_pa", &p.tensile_mean, "Pa", strength, "F_c^n", "mean tensile strength"},
+        {"tensile_strength_sd_pa", &p.tensile_deviation, "Pa", strength, "",
+         "standard deviation of the tensile strength"},
+        {"shear_strength_pa", &p.shear_mean, "Pa", strength, "F_c^s", "mean shear strength"},
+        {"shear_strength_sd_pa", &p.shear_deviation, "Pa", strength, "",
+         "standard deviation of the shear strength"},
+        {"strength_is", one_of({"stress", "force"}, p.reading), "", {}, "",
+         "strengths are stresses on the mean disc section, or forces in N"},
     };
 }
 

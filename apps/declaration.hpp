@@ -72,6 +72,12 @@ std::vector<SceneTable> scene_tables(Scene& scene);
 /// The parameters of one arc or line of the detachment.
 std::vector<Parameter> parameters(DetachmentSegment& segment);
 
+/// Microproperties, [material]: of a scene's basement or of a material file.
+std::vector<Parameter> parameters(Material& material);
+
+/// Strengths of contact bonds, [bonds].
+std::vector<Parameter> parameters(BondStrength& bonds);
+
 /// "above 0, at most 10"; empty if every number is allowed.
 std::string text(const Range& range);
 

@@ -42,9 +42,9 @@ std::vector<std::unique_ptr<Event>> make_events(const Scene& s) {
 std::vector<Material> make_materials(const Scene& s) {
     std::vector<Material> materials(3, s.basement);
     if (s.sedimentation)
-        materials[sediment].friction = s.sedimentation->friction;
+        materials[sediment] = s.sedimentation->material;
     if (s.fault_weakening)
-        materials[weak] = weakened(s.basement, *s.fault_weakening);
+        materials[weak] = s.fault_weakening->material;
     return materials;
 }
 

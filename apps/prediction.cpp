@@ -63,14 +63,14 @@ double measure_rate(std::size_t discs, int threads, double seconds) {
 
 Prediction predict(const Scene& scene, double rate) {
     const HangingWallParameters& h = *scene.hanging_wall;
-    const Material& m = scene.basement;
     const double density = h.rock_density / (1.0 - 0.166);
     const double mean_mass = density * pi * h.mean_radius * h.mean_radius;
     const double smallest = 2.0 / (1.0 + h.radius_ratio);
     const double floor = scene.cycle.inertial_mass_floor > 0.0 ? scene.cycle.inertial_mass_floor
                                                                : smallest * smallest;
     Prediction p;
-    p.time_step = stable_time_step(floor * mean_mass, m, scene.cycle.time_step_safety);
+    p.time_step =
+        stable_time_step(floor * mean_mass, make_materials(scene), scene.cycle.time_step_safety);
     p.discs_at_start = estimated_discs(scene);
     p.discs_at_end = p.discs_at_start;
     // Sediment fills distance times thickness. With burial it shrinks, and small discs fill up to

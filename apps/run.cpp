@@ -143,6 +143,8 @@ fs::path cache_path(const Scene& scene) {
             key = (key ^ static_cast<unsigned char>(letter)) * 1099511628211u;
     };
     stir(to_toml(start));
+    // The time step is that of the stiffest material, also of those that discs become later.
+    stir(fmt::format("{}", stable_time_step(1.0, make_materials(scene), 1.0)));
     stir(source_hash);
     stir(compiler);
     stir(build_flags);

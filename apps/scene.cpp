@@ -1,25 +1,18 @@
 #include "apps/scene.hpp"
 
-#include "apps/declaration.hpp"
+#include "apps/document.hpp"
 #include "apps/effects.hpp"
+#include "apps/material_file.hpp"
 #include "dem/genesis.hpp"
-
-// Without its assertions the parser reports a stray bracket where a value should be; with them
-// toml++ 3.3 ends the program.
-#define TOML_ASSERT(condition) static_assert(true)
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
-#include <sstream>
 
 namespace listric {
 
@@ -27,192 +20,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// ---------------------------------------------------------------------------------------- errors
-
-/// A value of the document and the path of keys that leads to it.
-struct Entry {
-    const toml::node& node;
-    std::string path;
-};
-
-[[noreturn]] void fail(std::string message) {
-    std::ranges::replace(message, '\n', ' ');
-    throw SceneError(message);
-}
-
-/// "file:line", or the option of the call that the value comes from.
-std::string place(const toml::source_region& source) {
-    const std::string origin = source.path ? *source.path : "";
-    return origin.starts_with("--") ? origin : fmt::format("{}:{}", origin, source.begin.line);
-}
-
-[[noreturn]] void fail(const Entry& entry, std::string_view message) {
-    fail(fmt::format("{}: {}: {}", place(entry.node.source()), entry.path, message));
-}
-
-std::string quoted(const std::string& string) {
-    std::ostringstream stream;
-    stream << toml::toml_formatter(toml::value<std::string>(string),
-                                   toml::format_flags::allow_unicode_strings);
-    return stream.str();
-}
-
-/// A float of TOML: it has a point or an exponent.
-std::string toml_float(double x) {
-    std::string number = text(x);
-    return number.find_first_of(".en") == number.npos ? number + ".0" : number;
-}
-
-/// What a wrong value is: integer 3, string "abc", table.
-std::string type_and_value(const toml::node& node) {
-    if (const auto* number = node.as_floating_point())
-        return "number " + toml_float(number->get());
-    if (const auto* number = node.as_integer())
-        return fmt::format("integer {}", number->get());
-    if (const auto* string = node.as_string())
-        return "string " + quoted(string->get());
-    if (const auto* boolean = node.as_boolean())
-        return boolean->get() ? "boolean true" : "boolean false";
-    return node.is_table() ? "table" : node.is_array() ? "array" : "date or time";
-}
-
-[[noreturn]] void fail_type(const Entry& entry, std::string_view allowed) {
-    fail(entry, fmt::format("wrong type ({}), allowed: {}", type_and_value(entry.node), allowed));
-}
-
-/// "did you mean mean_radius_m?", or else all that is allowed.
-std::string advice(std::string_view name, const std::vector<std::string_view>& allowed) {
-    const auto meant = nearest(name, allowed);
-    return meant ? fmt::format("did you mean {}?", *meant)
-                 : fmt::format("allowed: {}", fmt::join(allowed, ", "));
-}
-
-std::vector<std::string_view> keys(const std::vector<Parameter>& parameters) {
-    std::vector<std::string_view> keys;
-    std::ranges::transform(parameters, std::back_inserter(keys), &Parameter::key);
-    return keys;
-}
-
-// --------------------------------------------------------------------------------------- reading
-
-/// The number behind `node`, if it is one in the parameter's range.
-double number(const Entry& entry, const Parameter& parameter) {
-    const auto* integer = entry.node.as_integer();
-    const auto* floating = entry.node.as_floating_point();
-    if (!integer && !floating)
-        fail_type(entry, type_of(parameter));
-    const double x = integer ? static_cast<double>(integer->get()) : floating->get();
-    if (!parameter.range.contains(x))
-        fail(entry, fmt::format("out of range ({}), allowed: {}", text(x), text(parameter.range)));
-    return x;
-}
-
-const toml::array& array(const Entry& entry, const Parameter& parameter) {
-    if (!entry.node.is_array())
-        fail_type(entry, type_of(parameter));
-    return *entry.node.as_array();
-}
-
-const std::string& string(const Entry& entry, const Parameter& parameter) {
-    if (!entry.node.is_string())
-        fail_type(entry, type_of(parameter));
-    return entry.node.as_string()->get();
-}
-
-/// Whether a parameter still has a default that it cannot keep.
-bool must_be_given(const Parameter& parameter) {
-    const auto* variable = std::get_if<double*>(&parameter.variable);
-    return variable && !parameter.range.contains(**variable * parameter.per_si);
-}
-
-DetachmentSegment read_segment(const Entry& entry);
-
-/// Reads an entry into a variable, one function for each type of variable.
-struct Reader {
-    const Entry& entry;
-    const Parameter& parameter;
-
-    void operator()(double* x) const { *x = number(entry, parameter) / parameter.per_si; }
-    void operator()(std::optional<double>* x) const {
-        *x = number(entry, parameter) / parameter.per_si;
-    }
-    void operator()(int* x) const { read_integer(x); }
-    void operator()(std::uint64_t* x) const { read_integer(x); }
-    void operator()(std::string* x) const { *x = string(entry, parameter); }
-
-    void operator()(const Choice& choice) const {
-        const std::string& name = string(entry, parameter);
-        if (std::ranges::find(choice.names, name) == choice.names.end())
-            fail(entry,
-                 fmt::format("unknown value ({}), {}", quoted(name), advice(name, choice.names)));
-        choice.set(name);
-    }
-
-    void operator()(std::vector<double>* x) const {
-        x->clear();
-        for (const toml::node& node : array(entry, parameter))
-            x->push_back(number({node, item_path(x->size())}, parameter) / parameter.per_si);
-    }
-
-    void operator()(std::vector<DetachmentSegment>* x) const {
-        x->clear();
-        for (const toml::node& node : array(entry, parameter))
-            x->push_back(read_segment({node, item_path(x->size())}));
-    }
-
-private:
-    template <class Integer> void read_integer(Integer* x) const {
-        if (!entry.node.is_integer())
-            fail_type(entry, type_of(parameter));
-        number(entry, parameter); // checks the range
-        *x = static_cast<Integer>(entry.node.as_integer()->get());
-    }
-
-    std::string item_path(std::size_t index) const {
-        return fmt::format("{}[{}]", entry.path, index);
-    }
-};
-
-void read(const Entry& entry, const Parameter& parameter) {
-    std::visit(Reader{entry, parameter}, parameter.variable);
-}
-
-void read_table(const Entry& entry, const std::vector<Parameter>& parameters) {
-    if (!entry.node.is_table())
-        fail_type(entry, "table");
-    for (const auto& [key, node] : *entry.node.as_table()) {
-        const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
-        const auto parameter = std::ranges::find(parameters, key.str(), &Parameter::key);
-        if (parameter == parameters.end())
-            fail(inner, fmt::format("unknown key, {}", advice(key.str(), keys(parameters))));
-        read(inner, *parameter);
-    }
-    for (const Parameter& parameter : parameters) {
-        if (must_be_given(parameter))
-            fail(entry, fmt::format("needs {} ({}; {})", parameter.key, parameter.doc,
-                                    text(parameter.range)));
-    }
-}
-
-DetachmentSegment read_segment(const Entry& entry) {
-    using Kind = DetachmentSegment::Kind;
-    const toml::table* table = entry.node.as_table();
-    if (!table || table->size() != 1)
-        fail(entry, "needs exactly one of arc and line, "
-                    "allowed: {arc = {radius_m = 15000.0}}, {line = {length_m = 5000.0}}");
-    const auto [key, node] = *table->begin();
-    const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
-    if (key != "arc" && key != "line")
-        fail(inner, fmt::format("unknown segment, {}", advice(key.str(), {"arc", "line"})));
-    DetachmentSegment segment;
-    segment.kind = key == "arc" ? Kind::arc : Kind::line;
-    read_table(inner, parameters(segment));
-    return segment;
-}
+constexpr Shelf scenes{"scene", "a scene has at least [hanging_wall] and [detachment]",
+                       "LISTRIC_SCENES", "apps/scenes"};
 
 [[noreturn]] void fail_unknown(const Entry& entry, const std::vector<Parameter>& top,
                                const std::vector<SceneTable>& all) {
     std::vector<std::string_view> allowed = keys(top);
+    allowed.push_back("materials");
     std::ranges::transform(all, std::back_inserter(allowed), &SceneTable::name);
     // A parameter that lacks its table is worth recognising; --set damping=0.5 is easily typed.
     std::vector<std::string> meant;
@@ -256,103 +70,70 @@ void drop_effects(const std::vector<std::string>& without, std::vector<SceneTabl
     }
 }
 
-// ----------------------------------------------------------------------- files and --set options
+// ------------------------------------------------------------------------------------- materials
 
-fs::path scenes_folder() {
-    const char* folder = std::getenv("LISTRIC_SCENES");
-    return folder && *folder ? fs::path(folder) : fs::path(LISTRIC_SOURCE_DIR) / "apps/scenes";
+/// Files of the materials of a scene, by name or path: table [materials].
+struct MaterialNames {
+    std::string basement = "mat18-b", weakened = "mat18-w", sediment = "sediment";
+};
+
+std::vector<Parameter> parameters(MaterialNames& names) {
+    return {
+        {"basement",
+         &names.basement,
+         "",
+         {},
+         "",
+         "material file with the defaults of [material] and [bonds]"},
+        {"weakened",
+         &names.weakened,
+         "",
+         {},
+         "",
+         "material file with the defaults of weakened discs in [fault_weakening]"},
+        {"sediment",
+         &names.sediment,
+         "",
+         {},
+         "",
+         "material file with the defaults of sediment discs in [sedimentation]"},
+    };
 }
 
-std::vector<std::string> scene_names() {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (fs::directory_iterator file(scenes_folder(), error), end; !error && file != end;
-         file.increment(error)) {
-        if (file->path().extension() == ".toml")
-            names.push_back(file->path().stem().string());
-    }
-    if (error)
-        fail(fmt::format("{}: scenes folder cannot be read: {}", scenes_folder().string(),
-                         error.message()));
-    std::ranges::sort(names);
-    return names;
-}
-
-fs::path find_scene(const std::string& scene) {
-    const bool is_path = scene.find('/') != scene.npos || scene.ends_with(".toml");
-    const fs::path path = is_path ? fs::path(scene) : scenes_folder() / (scene + ".toml");
-    std::error_code error;
-    if (fs::is_directory(path, error))
-        fail(fmt::format("{}: is a directory, needs a scene file", path.string()));
-    if (fs::exists(path, error))
-        return path;
-    const std::vector<std::string> shipped = scene_names();
-    const std::vector<std::string_view> names(shipped.begin(), shipped.end());
-    const auto meant = nearest(is_path ? path.stem().string() : scene, names);
-    fail(fmt::format("{}: {}{} (scenes: {})", scene.empty() ? "\"\"" : scene,
-                     error     ? error.message()
-                     : is_path ? "no such file"
-                               : "no such scene",
-                     meant ? fmt::format(", did you mean {}?", *meant) : "",
-                     fmt::join(names, ", ")));
-}
-
-/// `origin` is where messages say that the text comes from.
-toml::table parse(const std::string& text, const std::string& origin) {
-    try {
-        return toml::parse(text, origin);
-    } catch (const toml::parse_error& error) {
-        fail(fmt::format("{}:{}:{}: {}", origin, error.source().begin.line,
-                         error.source().begin.column, error.description()));
-    }
-}
-
-toml::table read_file(const fs::path& path) {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::string text;
-    std::getline(file, text, '\0'); // stops early where the file is not text
-    if (!file.is_open() || file.bad())
-        fail(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
-    if (!file.eof())
-        fail(fmt::format("{}:{}: is not a text file (it has a NUL byte); a scene is TOML in UTF-8",
-                         path.string(), 1 + std::ranges::count(text, '\n')));
-    toml::table document = parse(text, path.string());
-    if (document.empty())
-        fail(fmt::format("{}: is empty; a scene has at least [hanging_wall] and [detachment]",
-                         path.string()));
-    return document;
-}
-
-/// Moves the values over, tables into the tables of the same name. They keep their origin.
-void merge(toml::table& into, toml::table& from) {
-    for (auto&& [key, node] : from) {
-        toml::table* table = into[key].as_table();
-        if (table && node.is_table()) {
-            merge(*table, *node.as_table());
-        } else {
-            into.insert_or_assign(key, std::move(node));
-        }
-    }
-}
-
-/// `assignment` is "table.key=value"; a value that is not TOML is a string.
-void set(toml::table& document, const std::string& assignment, const std::string& origin) {
-    const auto equals = assignment.find('=');
-    const std::string key = assignment.substr(0, equals);
-    const std::string value = equals == key.npos ? "" : assignment.substr(equals + 1);
-    toml::table given;
-    try {
-        given = toml::parse(assignment, origin);
-    } catch (const toml::parse_error&) {
+/// Puts what the material files say where the scene file's tables will then be read. Returns
+/// whether the basement's has bonds.
+bool read_materials(Scene& scene, const toml::table& document, const fs::path& folder) {
+    MaterialNames names;
+    const std::vector<Parameter> declared = parameters(names);
+    const toml::node* table = document.get("materials");
+    if (table)
+        read_table({*table, "materials"}, declared);
+    const auto load = [&](const char* key, const std::string& name) {
+        const toml::node* node = table ? table->as_table()->get(key) : nullptr;
+        // A path is relative to where it is written: to the scene's file, or to where the call is.
+        const bool in_file = node && !node->source().path->starts_with("--");
+        fs::path file;
         try {
-            given = toml::parse(fmt::format("{}={}", key, quoted(value)), origin);
-        } catch (const toml::parse_error&) {
+            file = materials.find(is_path(name) && in_file ? (folder / name).string() : name);
+        } catch (const SceneError& error) {
+            if (node)
+                fail({*node, fmt::format("materials.{}", key)}, error.what());
+            throw;
         }
-    }
-    if (equals == key.npos || given.size() != 1)
-        fail(fmt::format("{}: needs the form table.key=value", origin));
-    merge(document, given);
+        return read_material(file);
+    };
+    const auto replace = [&](Material& old, const RockMaterial& rock) {
+        const bool bondable = old.bondable; // whether bonds heal is a matter of the effects
+        old = rock.material;
+        old.bondable = bondable;
+    };
+    const RockMaterial basement = load("basement", names.basement);
+    replace(scene.basement, basement);
+    if (basement.bonds)
+        *scene.bonds = *basement.bonds;
+    replace(scene.fault_weakening->material, load("weakened", names.weakened));
+    replace(scene.sedimentation->material, load("sediment", names.sediment));
+    return basement.bonds.has_value();
 }
 
 // ------------------------------------------------------------------------- checks between tables
@@ -442,91 +223,13 @@ void check(const Scene& scene, const toml::table& document) {
           scene.sedimentation.has_value());
 }
 
-// --------------------------------------------------------------------------------------- writing
-
-/// The shortest number in units of the key that reads back as the same SI value, if there is any:
-/// of two units, one may have fewer doubles around a value.
-double in_key_units(double si, double per_si) {
-    for (int digits = 1; per_si != 1.0 && digits <= 17; ++digits) {
-        const std::string rounded = fmt::format("{:.{}g}", si * per_si, digits);
-        const double x = std::strtod(rounded.c_str(), nullptr);
-        if (x / per_si == si)
-            return x;
-    }
-    return si * per_si;
-}
-
-/// Writes a variable, one function for each type; empty if there is nothing to write.
-struct Writer {
-    double per_si;
-
-    std::string operator()(const double* x) const { return toml_float(in_key_units(*x, per_si)); }
-    std::string operator()(const std::optional<double>* x) const {
-        return *x ? operator()(&**x) : "";
-    }
-    std::string operator()(const int* x) const { return fmt::format("{}", *x); }
-    std::string operator()(const std::uint64_t* x) const { return fmt::format("{}", *x); }
-    std::string operator()(const std::string* x) const { return quoted(*x); }
-    std::string operator()(const Choice& choice) const { return quoted(std::string(choice.get())); }
-    std::string operator()(const std::vector<double>* x) const {
-        std::vector<std::string> items;
-        for (const double& item : *x)
-            items.push_back(operator()(&item));
-        return fmt::format("[{}]", fmt::join(items, ", "));
-    }
-    std::string operator()(const std::vector<DetachmentSegment>* x) const;
-};
-
-std::string write(const Parameter& parameter) {
-    return std::visit(Writer{parameter.per_si}, parameter.variable);
-}
-
-std::string Writer::operator()(const std::vector<DetachmentSegment>* x) const {
-    std::string lines;
-    for (DetachmentSegment segment : *x) {
-        std::vector<std::string> pairs;
-        for (const Parameter& parameter : parameters(segment)) {
-            if (const std::string value = write(parameter); !value.empty())
-                pairs.push_back(fmt::format("{} = {}", parameter.key, value));
-        }
-        lines += fmt::format("    {{{} = {{{}}}}},\n",
-                             segment.kind == DetachmentSegment::Kind::arc ? "arc" : "line",
-                             fmt::join(pairs, ", "));
-    }
-    return lines.empty() ? "[]" : fmt::format("[\n{}]", lines);
-}
-
-/// Lines "key = value  # doc".
-std::string write(const std::vector<Parameter>& parameters) {
-    std::string lines;
-    for (const Parameter& parameter : parameters)
-        lines +=
-            fmt::format("{:<40}  # {}\n", fmt::format("{} = {}", parameter.key, write(parameter)),
-                        parameter.doc);
-    return lines;
-}
-
-/// A parameter of the reference: a line with the default, a line with the meaning.
-std::string explain(const Parameter& parameter) {
-    const std::string value = must_be_given(parameter) ? "(required)" : write(parameter);
-    std::vector<std::string> facts{type_of(parameter)};
-    if (!parameter.unit.empty())
-        facts.back() += fmt::format(" in {}", parameter.unit);
-    if (const std::string range = text(parameter.range); !range.empty())
-        facts.push_back(range);
-    if (!parameter.symbol.empty())
-        facts.push_back(fmt::format("symbol {}", parameter.symbol));
-    return fmt::format("    {} = {}\n        {}\n        {}\n", parameter.key,
-                       value.empty() ? "(none)" : value, parameter.doc, fmt::join(facts, "; "));
-}
-
 } // namespace
 
 // ------------------------------------------------------------------------------------- interface
 
 Scene load_scene(const SceneRequest& request) {
-    const fs::path path = find_scene(request.scene);
-    toml::table document = read_file(path);
+    const fs::path path = scenes.find(request.scene);
+    toml::table document = scenes.read(path);
     for (const std::string& assignment : request.set)
         set(document, assignment, "--set " + assignment);
     if (request.accuracy)
@@ -545,7 +248,8 @@ Scene load_scene(const SceneRequest& request) {
         if (const auto parameter = std::ranges::find(top, key.str(), &Parameter::key);
             parameter != top.end()) {
             read(entry, *parameter);
-        } else if (std::ranges::find(all, key.str(), &SceneTable::name) == all.end()) {
+        } else if (key != "materials" &&
+                   std::ranges::find(all, key.str(), &SceneTable::name) == all.end()) {
             fail_unknown(entry, top, all);
         }
     }
@@ -553,6 +257,7 @@ Scene load_scene(const SceneRequest& request) {
         *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
     scene.hanging_wall->mean_radius = level.mean_radius;
     scene.extension.speed = level.speed;
+    const bool can_be_bonded = read_materials(scene, document, path.parent_path());
     for (SceneTable& table : all) {
         if (const toml::node* node = document.get(table.name)) {
             read_table({*node, std::string(table.name)}, table.parameters);
@@ -565,6 +270,10 @@ Scene load_scene(const SceneRequest& request) {
             table.drop();
     }
     check(scene, document);
+    if (scene.bonds && !can_be_bonded)
+        fail(entry_at(document, "materials.basement"),
+             "has no [bonds], but the scene does; add [bonds] to the material's file or take it "
+             "out of the scene");
     return scene;
 }
 
@@ -583,6 +292,10 @@ std::string parameter_reference() {
     Scene scene;
     std::string lines = "At the top of the file\n";
     for (const Parameter& parameter : top_level(scene))
+        lines += explain(parameter);
+    lines += "\n[materials]: files of apps/materials by name, others by path\n";
+    MaterialNames names;
+    for (const Parameter& parameter : parameters(names))
         lines += explain(parameter);
     for (const SceneTable& table : scene_tables(scene)) {
         lines += fmt::format("\n[{}]{}: {}\n", table.name, table.is_effect ? " (effect)" : "",
@@ -612,18 +325,18 @@ std::size_t estimated_discs(const Scene& scene) {
 }
 
 std::vector<std::pair<std::string, std::string>> list_scenes() {
-    std::vector<std::pair<std::string, std::string>> scenes;
-    for (const std::string& name : scene_names()) {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const std::string& name : scenes.names()) {
         std::string description;
         try {
-            const toml::table document = read_file(scenes_folder() / (name + ".toml"));
+            const toml::table document = scenes.read(scenes.path() / (name + ".toml"));
             description = document["description"].value_or(std::string());
         } catch (const SceneError& error) {
             description = error.what(); // one bad file must not hide the others
         }
-        scenes.emplace_back(name, description);
+        list.emplace_back(name, description);
     }
-    return scenes;
+    return list;
 }
 
 } // namespace listric

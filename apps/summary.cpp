@@ -54,7 +54,8 @@ std::string to_csv(const Table& table) {
         const char* separator = "";
         for (const Column& column : table.columns()) {
             const double value = std::get<std::vector<double>>(column.values)[row];
-            text += separator + (std::isnan(value) ? std::string() : fmt::format("{}", value));
+            text += separator;
+            text += std::isnan(value) ? std::string() : fmt::format("{}", value);
             separator = ",";
         }
         text += '\n';

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace listric {
@@ -97,6 +98,13 @@ std::size_t disc_count(const HangingWallParameters& p, double area) {
         (pi * radius_range(p.mean_radius, p.radius_ratio).mean_square()));
 }
 
+double stable_time_step(double mass, std::span<const Material> materials, double safety) {
+    double step = std::numeric_limits<double>::infinity();
+    for (const Material& material : materials)
+        step = std::min(step, stable_time_step(mass, material, safety));
+    return step;
+}
+
 State make_hanging_wall(const GenesisRequest& request,
                         const std::function<void(std::string_view, double)>& report) {
     const HangingWallParameters& p = request.hanging_wall;
@@ -127,7 +135,7 @@ State make_hanging_wall(const GenesisRequest& request,
     state.clock.time_step =
         stable_time_step(request.inertial_mass_floor > 0.0 ? state.inertial_mass_floor
                                                            : density * pi * smallest * smallest,
-                         state.materials[basement], request.time_step_safety);
+                         state.materials, request.time_step_safety);
 
     add_discs(state, disc_count(p, area + lid * p.length));
     const std::vector<double> radius =

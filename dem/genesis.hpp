@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace listric {
@@ -26,6 +27,9 @@ double hanging_wall_area(const HangingWallParameters& p, const Chain& detachment
 
 /// Number of discs that fill an area, m^2, at the parameters' porosity.
 std::size_t disc_count(const HangingWallParameters& p, double area);
+
+/// Largest stable time step, s, of discs of any of the materials whose inertial mass is `mass`, kg.
+double stable_time_step(double mass, std::span<const Material> materials, double safety);
 
 /// What genesis needs besides the hanging wall itself.
 struct GenesisRequest {

@@ -118,11 +118,6 @@ std::vector<FaultSegment> thin_out(const std::vector<FaultSegment>& found, doubl
 
 } // namespace
 
-Material weakened(const Material& sound, const FaultWeakeningParameters& p) {
-    return {sound.normal_stiffness / p.stiffness_divisor,
-            sound.shear_stiffness / p.stiffness_divisor, p.friction, false};
-}
-
 FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, double extension_rate,
                                double gravity, double density)
     : Event("fault_weakening", {parameters.interval, extension_rate}), parameters_(parameters),

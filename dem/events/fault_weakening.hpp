@@ -19,11 +19,10 @@ struct FaultWeakeningParameters {
     double sound_share = 0.7;         ///< least share of sound discs in a band that is weakened
     int angles = 12;                  ///< fault angles tried per sampling point
     double youngest_sediment = 2.0e5; ///< sediment younger than this is left alone, a
-    double stiffness_divisor = 200.0; ///< stiffness of sound over weakened discs
-    double friction = 0.0;            ///< friction of weakened discs
-    double update_interval = 2.5e3;   ///< time between property updates, a
-    double mean_stress_ratio = 0.75;  ///< mean stress in a fault over lithostatic stress
-    double largest_change = 0.05;     ///< largest relative radius change per property update
+    Material material{8.5e8, 3.19e8, 0.0, false}; ///< of weakened discs: MAT18-W, never bonded
+    double update_interval = 2.5e3;               ///< time between property updates, a
+    double mean_stress_ratio = 0.75; ///< mean stress in a fault over lithostatic stress
+    double largest_change = 0.05;    ///< largest relative radius change per property update
 };
 
 /// Scans the hanging wall with a measure circle for planes whose two sides slid past each other,
@@ -43,8 +42,5 @@ private:
     FaultWeakeningParameters parameters_;
     double overburden_; ///< weight of rock, N/m^3
 };
-
-/// Weakened material: a soft, frictionless, unbonded version of the basement's.
-Material weakened(const Material& sound, const FaultWeakeningParameters& parameters);
 
 } // namespace listric

@@ -10,7 +10,7 @@ struct SedimentationParameters {
     double level = 0.0;            ///< target level above the original surface, m
     double surface_porosity = 0.5; ///< Phi_ini
     double grain_density = 2600.0; ///< density at zero porosity, kg/m^3
-    double friction = 0.05;        ///< mu_d of sediment discs
+    Material material = {};        ///< of sediment discs: bonded by healing only
 };
 
 /// Fills the space between surface and target level with unbonded discs of a new stratum.

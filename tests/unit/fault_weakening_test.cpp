@@ -199,13 +199,5 @@ TEST(FaultWeakening, YoungSedimentIsLeftAlone) {
         }
 }
 
-TEST(FaultWeakening, WeakMaterial) {
-    const Material m = weakened({1.7e11, 6.38e10, 0.05, true}, {});
-    EXPECT_DOUBLE_EQ(m.normal_stiffness, 8.5e8);
-    EXPECT_DOUBLE_EQ(m.shear_stiffness, 3.19e8);
-    EXPECT_EQ(m.friction, 0.0);
-    EXPECT_FALSE(m.bondable);
-}
-
 } // namespace
 } // namespace listric
