@@ -53,9 +53,8 @@ struct Surface {
     std::string name;
     Chain chain;
     double friction = 0.0;
-    double conveyor = 0.0; ///< its material runs along the chain with this speed
-    Point translation =
-        {}; ///< it moves with this velocity: it is at chain + translation * extension
+    double conveyor = 0.0;  ///< its material runs along the chain with this speed
+    Point translation = {}; ///< its velocity: it is at chain + translation * extension
 };
 
 /// Closest point of a surface at an extension, m; as for its chain.
