@@ -138,6 +138,16 @@ int run_program(const std::vector<std::string>& words) {
 
 } // namespace
 
+std::string run_drawing_script(const std::string& script,
+                               const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/" + script};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const int code = run_program(words);
+    return code == 0 ? ""
+                     : "the drawing script failed (exit code " + std::to_string(code) +
+                           "; it needs /usr/bin/python3 with matplotlib)";
+}
+
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
                          std::span<const std::unique_ptr<Event>> events, const fs::path& folder) {
     fs::path data;
@@ -149,11 +159,7 @@ std::string draw_figures(const Scene& scene, const State& state, const RigidBase
             throw std::runtime_error("cannot make a folder in " + folder.string());
         data = pattern;
         export_frame(scene, state, base, events, data);
-        const int code = run_program({"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/figures.py",
-                                      data.string(), folder.string()});
-        if (code != 0)
-            problem = "the drawing script failed (exit code " + std::to_string(code) +
-                      "; it needs /usr/bin/python3 with matplotlib)";
+        problem = run_drawing_script("figures.py", {data.string(), folder.string()});
     } catch (const std::exception& error) {
         problem = error.what();
     }

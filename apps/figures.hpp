@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace listric {
 
@@ -17,5 +18,9 @@ namespace listric {
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
                          std::span<const std::unique_ptr<Event>> events,
                          const std::filesystem::path& folder);
+
+/// Runs one of the program's Python scripts. Returns an empty string, or why it could not.
+std::string run_drawing_script(const std::string& script,
+                               const std::vector<std::string>& arguments);
 
 } // namespace listric
