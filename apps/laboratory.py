@@ -136,7 +136,7 @@ def biaxial(figure, directory, summary):
     left.set(xlabel="Axial strain (%)", ylabel="Axial stress (MPa)",
              title="Compression at confining stress")
     left.set_ylim(bottom=0)
-    left.legend(loc="upper right", title="confining")
+    left.legend(loc="upper left", title="confining")
     confining = np.array([p["confining_pa"] for p in summary["points"]])
     peak = np.array([p["peak_axial_pa"] for p in summary["points"]])
     sd = np.array([p["sd_pa"] for p in summary["points"]])
