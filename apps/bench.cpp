@@ -45,9 +45,9 @@ Packing make_packing(std::size_t discs, double width, double normal_stiffness,
     p.state.materials.assign(3, material);
     p.base.material = material;
     constexpr double high = 1e7;
-    p.base.surfaces = {{"left", {line({0.0, high}, {0.0, 0.0})}, friction, 0.0, 0.0},
-                       {"floor", {line({0.0, 0.0}, {width, 0.0})}, friction, 0.0, 0.0},
-                       {"right", {line({width, 0.0}, {width, high})}, friction, 0.0, 0.0}};
+    p.base.surfaces = {{"left", {line({0.0, high}, {0.0, 0.0})}, friction, 0.0, {}},
+                       {"floor", {line({0.0, 0.0}, {width, 0.0})}, friction, 0.0, {}},
+                       {"right", {line({width, 0.0}, {width, high})}, friction, 0.0, {}}};
     p.physics.gravity = gravity;
     add_discs(p.state, discs);
     return p;

@@ -75,9 +75,9 @@ RigidBase make_base(const Scene& s) {
     constexpr double high = 1e5; // m, higher than anything piles up
     RigidBase base;
     base.surfaces = {
-        {"detachment", detachment, s.detachment->friction, 1.0, 0.0},
-        {"backstop", {line({0.0, high}, {0.0, 0.0})}, 0.0, 0.0, 0.0},
-        {"right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, 1.0},
+        {"detachment", detachment, s.detachment->friction, 1.0, {}},
+        {"backstop", {line({0.0, high}, {0.0, 0.0})}, 0.0, 0.0, {}},
+        {"right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, {1.0, 0.0}},
     };
     base.material = s.basement;
     base.motion = {s.extension.speed, s.extension.ramp};

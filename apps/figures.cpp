@@ -178,6 +178,16 @@ int run_program(const std::vector<std::string>& words) {
 
 } // namespace
 
+std::string run_drawing_script(const std::string& script,
+                               const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/" + script};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const int code = run_program(words);
+    return code == 0 ? ""
+                     : "the drawing script failed (exit code " + std::to_string(code) +
+                           "; it needs /usr/bin/python3 with matplotlib)";
+}
+
 FigureFrames::FigureFrames(const fs::path& folder) : folder_(folder) {
     fs::create_directories(folder);
     std::string pattern = (folder / ".data-XXXXXX").string();
@@ -199,12 +209,10 @@ void FigureFrames::add(const Scene& scene, const State& state, const RigidBase& 
 }
 
 void FigureFrames::draw(const std::string& kind) const {
-    const int code = run_program({"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/figures.py", kind,
-                                  data_.string(), folder_.string()});
-    if (code != 0)
-        throw StorageError(fmt::format("the drawing script failed (exit code {}; it needs "
-                                       "/usr/bin/python3 with matplotlib)",
-                                       code));
+    const std::string problem =
+        run_drawing_script("figures.py", {kind, data_.string(), folder_.string()});
+    if (!problem.empty())
+        throw StorageError(problem);
 }
 
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,

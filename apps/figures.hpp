@@ -10,6 +10,8 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
+
 namespace listric {
 
 /// Draws the pictures of one state into `folder`. Returns an empty string, or why it could not:
@@ -39,5 +41,8 @@ private:
     std::filesystem::path folder_, data_;
     int frames_ = 0;
 };
+/// Runs one of the program's Python scripts. Returns an empty string, or why it could not.
+std::string run_drawing_script(const std::string& script,
+                               const std::vector<std::string>& arguments);
 
 } // namespace listric

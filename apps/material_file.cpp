@@ -21,8 +21,11 @@ void read_whole_table(const Entry& entry, const std::vector<Parameter>& paramete
 
 } // namespace
 
-RockMaterial read_material(const std::filesystem::path& file) {
-    const toml::table document = materials.read(file);
+RockMaterial read_material(const std::filesystem::path& file,
+                           const std::vector<std::string>& changes) {
+    toml::table document = materials.read(file);
+    for (const std::string& change : changes)
+        set(document, change, "--set " + change);
     RockMaterial rock;
     rock.name = file.stem().string();
     rock.material.bondable = false;
@@ -48,8 +51,9 @@ RockMaterial read_material(const std::filesystem::path& file) {
     return rock;
 }
 
-RockMaterial load_material(const std::string& name_or_path) {
-    return read_material(materials.find(name_or_path));
+RockMaterial load_material(const std::string& name_or_path,
+                           const std::vector<std::string>& changes) {
+    return read_material(materials.find(name_or_path), changes);
 }
 
 std::string to_toml(const RockMaterial& rock) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace listric {
 
@@ -22,11 +23,13 @@ struct RockMaterial {
 inline constexpr Shelf materials{"material", "a material has at least [material]",
                                  "LISTRIC_MATERIALS", "apps/materials"};
 
-/// Reads and checks a material. Throws SceneError.
-RockMaterial read_material(const std::filesystem::path& file);
+/// Reads and checks a material, with changes such as "material.friction=1". Throws SceneError.
+RockMaterial read_material(const std::filesystem::path& file,
+                           const std::vector<std::string>& changes = {});
 
 /// The material of a name in the materials folder, or of a path.
-RockMaterial load_material(const std::string& name_or_path);
+RockMaterial load_material(const std::string& name_or_path,
+                           const std::vector<std::string>& changes = {});
 
 /// The file that read_material reads back to the same material.
 std::string to_toml(const RockMaterial& rock);

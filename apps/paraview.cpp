@@ -191,7 +191,8 @@ std::string base_file(const State& state, const RigidBase& base) {
         for (std::int64_t k = 0; k <= steps; ++k) {
             Point p = point_at(surface.chain,
                                length * static_cast<double>(k) / static_cast<double>(steps));
-            p.x += surface.translation * state.clock.extension;
+            p.x += surface.translation.x * state.clock.extension;
+            p.y += surface.translation.y * state.clock.extension;
             if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y)
                 continue;
             connectivity.push_back(static_cast<std::int64_t>(connectivity.size()));

@@ -1,8 +1,10 @@
 #include "apps/program.hpp"
 
 #include "apps/bench.hpp"
+#include "apps/calibration.hpp"
 #include "apps/declaration.hpp"
 #include "apps/explain.hpp"
+#include "apps/laboratory.hpp"
 #include "apps/run.hpp"
 #include "apps/version.hpp"
 #include "dem/cycle.hpp"
@@ -52,6 +54,55 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--accuracy", request.accuracy, "draft, standard, fine or sandbox");
     command.add_option("--seed", request.seed, "Of the packing and everything random");
+}
+
+void add_laboratory_options(CLI::App& command, LaboratoryRequest& request) {
+    command.add_option("TEST", request.test, "uniaxial, biaxial or shear-box")->required();
+    command.add_option("MATERIAL", request.material, "Name of a material or a path")->required();
+    command.add_option("--set", request.set, "table.key=value of the material; repeatable")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("--discs", request.discs, "Discs per sample; the paper's has 239");
+    command.add_option("--seed", request.seed, "Of the first sample");
+    command.add_option("--seeds", request.seeds, "Number of samples");
+    command.add_option("--threads", request.threads, "Processor cores to use")
+        ->check(CLI::Range(1, 1024));
+    command.add_option("--output", request.output, "Folder of results (out/TEST-MATERIAL)");
+    command.add_option("--strength-is", request.reading, "Reading of bond strengths")
+        ->check(CLI::IsMember({"stress", "force"}));
+    command.add_option("--floaters", request.floaters, "Discs with fewer than three contacts")
+        ->check(CLI::IsMember({"grown", "left"}));
+    command
+        .add_option("--confining,--normal", request.stresses,
+                    "Stresses on the sides or on the shear zone, MPa")
+        ->delimiter(',')
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("--vice", request.vice,
+                       "Rock around the shear zone: a material, elastic or none");
+    command.add_option("--speed", request.speed, "Of the walls, over the default");
+    command.add_flag("--quiet", request.quiet, "No progress");
+}
+
+void add_calibration_options(CLI::App& command, CalibrationRequest& request) {
+    CalibrationTargets& t = request.targets;
+    command.add_option("--young", t.young, "Young's modulus in plane strain, Pa (5e10)");
+    command.add_option("--poisson", t.poisson, "Poisson's ratio in plane strain (0.25)");
+    CLI::Option* friction =
+        command.add_option("--friction", t.friction, "Slope of the strength envelope (0.6)");
+    CLI::Option* cohesion = command.add_option("--cohesion", t.cohesion, "Pa (1e7)");
+    command.add_flag("--byerlee", t.byerlee, "Byerlee's law instead of friction and cohesion")
+        ->excludes(friction)
+        ->excludes(cohesion);
+    command.add_option("--bulk-friction", t.bulk_friction,
+                       "Of the weakened rock in the shear box; default: no weakened rock");
+    command.add_option("--name", request.name, "Of the material files");
+    command.add_option("--discs", request.discs, "Discs per sample");
+    command.add_option("--seed", request.seed, "Of the first sample");
+    command.add_option("--seeds", request.seeds, "Samples for the fit, as many for validation");
+    command.add_option("--threads", request.threads, "Processor cores to use")
+        ->check(CLI::Range(1, 1024));
+    command.add_option("--output", request.output, "Folder of results (out/calibrate-NAME)");
+    command.add_flag("--resume", request.resume, "Go on with the measurements made so far");
 }
 
 int run(const SceneRequest& request, RunOptions options, const std::optional<std::string>& until,
@@ -116,6 +167,18 @@ int dispatch(int argc, char** argv) {
     bench_command->add_flag("--plain", bench_request.plain, "The scalar cycle");
     bench_command->add_flag("--unbonded", unbonded, "No contact bonds");
 
+    LaboratoryRequest laboratory_request;
+    laboratory_request.threads = options.threads;
+    CLI::App* laboratory_command =
+        app.add_subcommand("laboratory", "Measure the rock that microproperties make");
+    add_laboratory_options(*laboratory_command, laboratory_request);
+
+    CalibrationRequest calibration_request;
+    calibration_request.threads = options.threads;
+    CLI::App* calibrate_command =
+        app.add_subcommand("calibrate", "Find microproperties of a wanted rock");
+    add_calibration_options(*calibrate_command, calibration_request);
+
     if (argc > 1 && argv[1][0] != '-') {
         std::vector<std::string_view> calls;
         for (const CLI::App* command : app.get_subcommands({}))
@@ -148,6 +211,10 @@ int dispatch(int argc, char** argv) {
             std::cout << explain(load_scene(request));
     } else if (*figures_command) {
         animation ? animate_run(folder) : draw_run(folder);
+    } else if (*calibrate_command) {
+        run_calibration(calibration_request);
+    } else if (*laboratory_command) {
+        run_laboratory(laboratory_request);
     } else if (*bench_command) {
         bench_request.bonded = !unbonded;
         std::cout << bench(bench_request) << '\n';

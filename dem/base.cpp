@@ -115,10 +115,28 @@ std::optional<FootPoint> foot_point(const Chain& chain, Point p) {
     return FootPoint{found->foot, arc_length};
 }
 
+std::optional<Foot> nearest(const Surface& surface, double extension, Point p) {
+    return nearest(surface.chain, {p.x - surface.translation.x * extension,
+                                   p.y - surface.translation.y * extension});
+}
+
+Chain moved(Chain chain, Point by) {
+    for (Segment& s : chain) {
+        s.start = {s.start.x + by.x, s.start.y + by.y};
+        s.end = {s.end.x + by.x, s.end.y + by.y};
+    }
+    return chain;
+}
+
+void place(Surface& surface, const Chain& chain, Point translation, double extension) {
+    surface.chain = moved(chain, {-translation.x * extension, -translation.y * extension});
+    surface.translation = translation;
+}
+
 double greatest_translation(const RigidBase& base) {
     double greatest = 0.0;
     for (const Surface& surface : base.surfaces)
-        greatest = std::max(greatest, std::abs(surface.translation));
+        greatest = std::max(greatest, std::hypot(surface.translation.x, surface.translation.y));
     return greatest;
 }
 

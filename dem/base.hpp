@@ -10,6 +10,7 @@ namespace listric {
 
 struct Point {
     double x = 0.0, y = 0.0; ///< m
+    bool operator==(const Point&) const = default;
 };
 
 /// Straight or circular piece of a chain. The material lies to the left of its direction.
@@ -53,9 +54,19 @@ struct Surface {
     std::string name;
     Chain chain;
     double friction = 0.0;
-    double conveyor = 0.0;    ///< its material runs along the chain with this speed
-    double translation = 0.0; ///< it moves to the right with this speed
+    double conveyor = 0.0;  ///< its material runs along the chain with this speed
+    Point translation = {}; ///< its velocity: it is at chain + translation * extension
 };
+
+/// Closest point of a surface at an extension, m; as for its chain.
+std::optional<Foot> nearest(const Surface& surface, double extension, Point p);
+
+/// The chain moved by a vector, m.
+Chain moved(Chain chain, Point by);
+
+/// Puts a surface where `chain` is at an extension, m, and lets it move from there. Neighbour lists
+/// must learn of it: find_surface_contacts().
+void place(Surface& surface, const Chain& chain, Point translation, double extension);
 
 /// The prescribed motion of base and right wall: extension speed grows linearly from rest.
 struct Motion {
@@ -65,7 +76,8 @@ struct Motion {
     double speed_at(double time) const { return time < ramp ? speed * (time / ramp) : speed; }
 };
 
-/// What the discs rest on: detachment, backstop above the breakaway and right wall.
+/// What the discs rest on: detachment, backstop above the breakaway and right wall; or the walls of
+/// a box.
 struct RigidBase {
     std::vector<Surface> surfaces;
     Material material; ///< stiffness of the surfaces, in series with the disc's

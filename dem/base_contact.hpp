@@ -22,15 +22,15 @@ struct BaseContactForce {
 inline BaseContactForce base_contact_force(const Surface& surface, double extension, double speed,
                                            const BaseContactDisc& disc,
                                            ContactParameters parameters, double& shear_force) {
-    const auto foot = nearest(surface.chain, {disc.x - surface.translation * extension, disc.y});
+    const auto foot = nearest(surface, extension, {disc.x, disc.y});
     if (!foot || foot->distance >= disc.radius) {
         shear_force = 0.0;
         return {0.0, 0.0, 0.0};
     }
     const double nx = foot->normal.x, ny = foot->normal.y;
     // The conveyor runs along the chain, whose direction is (n_y, -n_x).
-    const double wall_vx = speed * (surface.translation + surface.conveyor * ny);
-    const double wall_vy = -speed * surface.conveyor * nx;
+    const double wall_vx = speed * (surface.translation.x + surface.conveyor * ny);
+    const double wall_vy = speed * (surface.translation.y - surface.conveyor * nx);
     const double slip_rate =
         (disc.vy - wall_vy) * nx - (disc.vx - wall_vx) * ny - disc.spin * foot->distance;
     parameters.friction = static_cast<float>(surface.friction);

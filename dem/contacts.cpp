@@ -115,10 +115,8 @@ bool find_base_contacts(State& state, const RigidBase& base, const Searched& sea
     for (const std::int32_t row : searched.rows)
         for (std::size_t s = 0; s < base.surfaces.size(); ++s) {
             const auto i = static_cast<std::size_t>(row);
-            const Surface& face = base.surfaces[s];
-            const auto foot =
-                nearest(face.chain, {d.searched_x[i] - face.translation * state.searched_extension,
-                                     d.searched_y[i]});
+            const auto foot = nearest(base.surfaces[s], state.searched_extension,
+                                      {d.searched_x[i], d.searched_y[i]});
             if (foot && foot->distance <= d.radius[i] + state.skin)
                 found.push_back({row, static_cast<std::int32_t>(s)});
         }
@@ -161,6 +159,11 @@ double greatest_displacement(const State& state, const RigidBase& base) {
     }
     // The first argument of std::max wins if it is no number.
     return std::max(std::sqrt(greatest), surface_travel(state, base));
+}
+
+void find_surface_contacts(State& state, const RigidBase& base) {
+    state.searched_extension = state.clock.extension;
+    find_base_contacts(state, base, all_discs(state));
 }
 
 bool update_contacts(State& state, const RigidBase& base) {

@@ -18,6 +18,10 @@ namespace listric {
 /// pairs are listed however far apart.
 void find_contacts(State& state, const RigidBase& base);
 
+/// Lists the pairs of discs and surfaces anew, the surfaces where they are now: after a change of
+/// their places or motion.
+void find_surface_contacts(State& state, const RigidBase& base);
+
 /// Greatest distance of a disc or surface from its searched place, m; NaN if a place is no number.
 double greatest_displacement(const State& state, const RigidBase& base);
 

@@ -15,8 +15,8 @@ std::vector<Surface> joined(const RigidBase& base) {
     for (const Surface& s : base.surfaces) {
         surfaces.push_back(s);
         for (const Surface& before : base.surfaces) {
-            const Point end = before.chain.back().end, start = s.chain.front().start;
-            if (end.x == start.x && end.y == start.y && before.translation == s.translation)
+            if (before.chain.back().end == s.chain.front().start &&
+                before.translation == s.translation)
                 surfaces.back().chain.insert(surfaces.back().chain.begin(), before.chain.begin(),
                                              before.chain.end());
         }
@@ -64,7 +64,7 @@ std::size_t Ground::column(double x) const {
 double Ground::clearance(Point p) const {
     double least = infinity;
     for (const Surface& s : surfaces_)
-        if (const auto foot = nearest(s.chain, {p.x - s.translation * extension_, p.y}))
+        if (const auto foot = nearest(s, extension_, p))
             least = std::min(least, foot->distance);
     return least;
 }

@@ -32,9 +32,7 @@ void for_each_base_contact(const State& state, const RigidBase& base, Visit&& vi
     for (std::size_t k = 0; k < c.disc.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.disc[k]);
         const auto s = static_cast<std::size_t>(c.surface[k]);
-        const Surface& surface = base.surfaces[s];
-        const auto foot =
-            nearest(surface.chain, {d.x[i] - surface.translation * state.clock.extension, d.y[i]});
+        const auto foot = nearest(base.surfaces[s], state.clock.extension, {d.x[i], d.y[i]});
         if (foot && foot->distance < d.radius[i])
             visit(k, i, s, foot->normal, d.radius[i] - foot->distance);
     }
@@ -83,6 +81,25 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
     if (balance.touching)
         balance.mean_contact = contact_sum / static_cast<double>(balance.touching);
     return balance;
+}
+
+std::vector<SurfaceLoad> surface_loads(const State& state, const RigidBase& base) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstBaseContactColumns b = base_contact_columns(state);
+    std::vector<SurfaceLoad> loads(base.surfaces.size());
+    for_each_base_contact(
+        state, base, [&](std::size_t k, std::size_t i, std::size_t s, Point n, double overlap) {
+            const double normal =
+                contact_parameters(base.material, state.materials[d.material[i]], 1.0)
+                    .normal_stiffness *
+                overlap;
+            const double shear = b.shear_force[k];
+            SurfaceLoad& load = loads[s];
+            load.force.x += normal * n.x - shear * n.y;
+            load.force.y += normal * n.y + shear * n.x;
+            ++load.contacts;
+        });
+    return loads;
 }
 
 std::vector<Stress> disc_stresses(const State& state, const RigidBase& base) {

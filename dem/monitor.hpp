@@ -23,6 +23,15 @@ struct ForceBalance {
 /// Forces as they stand, without advancing anything. `gravity` in m/s^2.
 ForceBalance force_balance(const State& state, const RigidBase& base, double gravity);
 
+/// What a surface does to the discs.
+struct SurfaceLoad {
+    Point force;      ///< on the discs, N
+    int contacts = 0; ///< discs that touch it
+};
+
+/// Load of every surface of the base.
+std::vector<SurfaceLoad> surface_loads(const State& state, const RigidBase& base);
+
 /// Mean stress tensor of a disc, Pa, compression negative.
 struct Stress {
     double xx = 0.0, yy = 0.0, xy = 0.0;

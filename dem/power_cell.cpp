@@ -63,8 +63,7 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
                    {{half, half}, true},
                    {{-half, half}, true}};
         for (const Surface& s : base.surfaces)
-            if (const auto foot =
-                    nearest(s.chain, {d.x[i] - s.translation * state.clock.extension, d.y[i]});
+            if (const auto foot = nearest(s, state.clock.extension, {d.x[i], d.y[i]});
                 foot && foot->distance < half)
                 clip(polygon, scratch, {-foot->normal.x, -foot->normal.y}, foot->distance);
         cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {

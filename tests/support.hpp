@@ -125,9 +125,9 @@ inline Chain listric_chain(double radius, double flat) {
 inline RigidBase listric_base(double radius, double length) {
     constexpr double high = 1e5;
     RigidBase base;
-    base.surfaces = {{"detachment", listric_chain(radius, 2.0 * length), 0.0, 1.0, 0.0},
+    base.surfaces = {{"detachment", listric_chain(radius, 2.0 * length), 0.0, 1.0, {}},
                      {"backstop", {line({0.0, high}, {0.0, 0.0})}, 0.0},
-                     {"right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, 1.0}};
+                     {"right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, {1.0, 0.0}}};
     return base;
 }
 

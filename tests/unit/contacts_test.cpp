@@ -185,7 +185,7 @@ TEST(Contacts, BaseContactsWithHistory) {
 
 TEST(Contacts, TranslatingSurfacesAreFoundWhereTheyAre) {
     RigidBase base = box(2000.0, 5000.0);
-    base.surfaces[2].translation = 1.0;
+    base.surfaces[2].translation = {1.0, 0.0};
     State state = make_state({{1950.0, 2000.0, 100.0}, {2950.0, 2000.0, 100.0}});
     state.clock.extension = 1000.0;
     find_contacts(state, base);

@@ -32,7 +32,7 @@ struct Fall {
         state = make_state(discs);
         bond_all(state, base, 2e9f);
         state.clock.time_step = 0.008;
-        base.surfaces[2].translation = 1.0;
+        base.surfaces[2].translation = {1.0, 0.0};
         base.surfaces[1].conveyor = 1.0;
         base.motion = {2.0, 4.0};
     }

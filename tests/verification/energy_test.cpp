@@ -81,13 +81,12 @@ public:
         for (std::size_t k = 0; k < w.disc.size(); ++k) {
             const auto i = static_cast<std::size_t>(w.disc[k]);
             const Surface& s = base_.surfaces[static_cast<std::size_t>(w.surface[k])];
-            const auto foot =
-                nearest(s.chain, {d.x[i] - s.translation * a.clock.extension, d.y[i]});
+            const auto foot = nearest(s, a.clock.extension, {d.x[i], d.y[i]});
             if (!foot)
                 continue;
             const double nx = foot->normal.x, ny = foot->normal.y;
-            const double wall_vx = speed * (s.translation + s.conveyor * ny);
-            const double wall_vy = -speed * s.conveyor * nx;
+            const double wall_vx = speed * (s.translation.x + s.conveyor * ny);
+            const double wall_vy = speed * (s.translation.y - s.conveyor * nx);
             const double slip_rate =
                 (d.vy[i] - wall_vy) * nx - (d.vx[i] - wall_vx) * ny - d.spin[i] * foot->distance;
             const double overlap = d.radius[i] - foot->distance;
@@ -142,7 +141,7 @@ Account fall(double damping, const Execution& execution) {
     constexpr double r = 1.0, seconds = 1.5;
     RigidBase base = box(30.0 * r, 1e3, 0.3);
     base.surfaces[1].conveyor = 1.0;
-    base.surfaces[2].translation = -1.0;
+    base.surfaces[2].translation = {-1.0, 0.0};
     base.motion = {0.5, 0.1};
     base.material = {1e9, 0.4e9, 0.3, true};
     std::vector<Disc> discs = hexagonal(8, 8, r);

@@ -35,7 +35,7 @@ struct Heap {
         bond_all(state, base, strength);
         state.clock.time_step = 0.006;
         base.surfaces[1].conveyor = 1.0;
-        base.surfaces[2].translation = 1.0;
+        base.surfaces[2].translation = {1.0, 0.0};
         base.motion = {1.5, 3.0};
     }
 };
