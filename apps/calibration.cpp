@@ -39,9 +39,9 @@ void check(const CalibrationTargets& t) {
     if (!(t.poisson > 0.0 && t.poisson < 0.5))
         refuse("--poisson", t.poisson, "above 0, below 0.5 (plane strain)");
     // nu_2D = nu / (1 - nu): a two-dimensional material reaches 0.5 when the rock has 1/3.
-    if (t.poisson >= 0.34)
+    if (t.poisson >= 1.0 / 3.0)
         refuse("--poisson", t.poisson,
-               "below 0.34: contacts whose shear stiffness vanishes give no more (0.5 in 2D)");
+               "below 1/3, which is 0.5 in 2D terms: contacts give less, however soft in shear");
     if (!t.byerlee && !(t.friction > 0.0 && t.friction <= steepest))
         refuse("--friction", t.friction,
                "above 0, at most 0.9: round discs roll, whatever their own friction");
@@ -58,15 +58,15 @@ public:
     History(fs::path path, bool resume) : path_(std::move(path)) {
         std::ifstream in(path_);
         if (resume && in) {
-            entries_ = Json::parse(in, nullptr, false);
+            entries_ = nlohmann::json::parse(in, nullptr, false);
             if (!entries_.is_array())
                 throw StorageError(path_.string() + ": not the history of a calibration");
         }
     }
 
-    std::vector<double> measure(const std::string& what, const Json& key,
+    std::vector<double> measure(const std::string& what, const nlohmann::json& key,
                                 const std::function<std::vector<double>()>& work) {
-        for (const Json& entry : entries_)
+        for (const nlohmann::json& entry : entries_)
             if (entry["what"] == what && entry["of"] == key)
                 return entry["result"].get<std::vector<double>>();
         const std::vector<double> result = work();
@@ -79,7 +79,7 @@ public:
 
 private:
     fs::path path_;
-    Json entries_ = Json::array();
+    nlohmann::json entries_ = nlohmann::json::array();
 };
 
 struct Calibration {
@@ -88,13 +88,13 @@ struct Calibration {
     History history;
     std::vector<std::string> misses = {}; ///< targets that were not reached, and why
 
-    Json key(const RockMaterial& rock, bool strengths) const {
-        Json k = {{"normal_stiffness_pa", rock.material.normal_stiffness},
-                  {"shear_stiffness_pa", rock.material.shear_stiffness},
-                  {"friction", rock.material.friction},
-                  {"discs", lab.sample.discs},
-                  {"seed", lab.seed},
-                  {"seeds", lab.seeds}};
+    nlohmann::json key(const RockMaterial& rock, bool strengths) const {
+        nlohmann::json k = {{"normal_stiffness_pa", rock.material.normal_stiffness},
+                            {"shear_stiffness_pa", rock.material.shear_stiffness},
+                            {"friction", rock.material.friction},
+                            {"discs", lab.sample.discs},
+                            {"seed", lab.seed},
+                            {"seeds", lab.seeds}};
         if (strengths && rock.bonds) {
             k["tensile_strength_pa"] = rock.bonds->tensile_mean;
             k["shear_strength_pa"] = rock.bonds->shear_mean;
@@ -146,7 +146,7 @@ struct Calibration {
 
     /// Bulk friction over strain 0.1 to 0.3 at the normal stresses, between elastic blocks.
     std::vector<double> bulk_friction(const RockMaterial& weak, const RockMaterial& vice) {
-        Json k = key(weak, false);
+        nlohmann::json k = key(weak, false);
         k["vice"] = key(vice, true);
         const auto r = history.measure("bulk friction", k, [&] {
             Laboratory box = lab;

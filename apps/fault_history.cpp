@@ -168,24 +168,31 @@ double active_share(const FormerTrace& former, const ShearField& field, const Ce
                : static_cast<double>(active) / static_cast<double>(former.points.size());
 }
 
-/// Where the straight line through the lower half meets the detachment, if that is within 15
-/// diameters of the lower end; else the lower end. The last points are left out of the line: where
-/// two faults meet, a trace bends into the other one.
+/// Where the fault, straight on, meets the detachment, if that is within 20 diameters of its lower
+/// end; else its lower end. A trace that falls by less than 30 degrees has left the fault for the
+/// zone of shear along the detachment, and does not count.
 Point foot_of(const FaultTrace& trace, const Chain& detachment, double diameter) {
-    const std::size_t size = trace.points.size();
-    const Point from = trace.points[size / 2];
-    const Point to = trace.points[size - 1 - std::min<std::size_t>(5, size / 6)];
+    constexpr std::size_t piece = 4; // points
+    std::size_t end = trace.points.size() - 1;
+    const auto is_flat = [&](std::size_t k) {
+        const Point a = trace.points[k - piece], b = trace.points[k];
+        return a.y - b.y < 0.5 * std::hypot(b.x - a.x, b.y - a.y);
+    };
+    while (end > piece && is_flat(end))
+        --end;
+    const Point from = trace.points[end / 2];
+    const Point to = trace.points[end];
     const double length = std::hypot(to.x - from.x, to.y - from.y);
     const Point step{0.25 * diameter * (to.x - from.x) / length,
                      0.25 * diameter * (to.y - from.y) / length};
     Point p = to;
-    for (int k = 0; k < 80; ++k) {
+    for (int k = 0; k < 4 * 20; ++k) {
         const auto foot = foot_point(detachment, p);
         if (!foot || foot->distance <= 0.0)
             return p;
         p = {p.x + step.x, p.y + step.y};
     }
-    return trace.points.back();
+    return to;
 }
 
 } // namespace
