@@ -111,6 +111,7 @@ private:
         double x, y; ///< m
     };
 
+    void divide_work(const State& state, int threads);
     std::size_t pack_blocks(const State& state, std::size_t row, Strip& strip);
     std::size_t pack_base_contacts(const State& state, std::size_t row, std::size_t slot,
                                    Strip& strip);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 namespace listric {
 
@@ -28,16 +29,33 @@ FastCycle::FastCycle(const State& state, const RigidBase& base, const CyclePhysi
             DiscConstants{acceleration_per_force, d.mass[i] * physics.gravity,
                           acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i])), 0.0};
     }
-    const std::size_t tiles = (disc_count_ + tile_discs - 1) / tile_discs;
-    const std::size_t strips = std::clamp<std::size_t>(static_cast<std::size_t>(threads), 1,
-                                                       std::max<std::size_t>(tiles, 1));
-    strips_.resize(strips);
-    for (std::size_t s = 0; s < strips; ++s) {
-        strips_[s].first_disc = s * tiles / strips * tile_discs;
-        strips_[s].end_disc = std::min((s + 1) * tiles / strips * tile_discs, disc_count_);
-    }
+    divide_work(state, threads);
     pack_searched_places(state);
     pack_contacts(state);
+}
+
+/// Gives each thread whole tiles of about equal work: a contact takes about as long as a disc, a
+/// base contact as five.
+void FastCycle::divide_work(const State& state, int threads) {
+    const ConstContactColumns c = contact_columns(state);
+    const ConstBaseContactColumns b = base_contact_columns(state);
+    const std::size_t tiles = (disc_count_ + tile_discs - 1) / tile_discs;
+    std::vector<std::size_t> work(tiles, tile_discs);
+    for (const std::int32_t first : c.first)
+        work[static_cast<std::size_t>(first) / tile_discs] += 1;
+    for (const std::int32_t disc : b.disc)
+        work[static_cast<std::size_t>(disc) / tile_discs] += 5;
+    const std::size_t all = std::accumulate(work.begin(), work.end(), std::size_t{0});
+
+    strips_.resize(std::clamp<std::size_t>(static_cast<std::size_t>(threads), 1,
+                                           std::max<std::size_t>(tiles, 1)));
+    std::size_t tile = 0, done = 0;
+    for (std::size_t s = 0; s < strips_.size(); ++s) {
+        strips_[s].first_disc = std::min(tile * tile_discs, disc_count_);
+        for (; tile < tiles && done + work[tile] / 2 < all * (s + 1) / strips_.size(); ++tile)
+            done += work[tile];
+        strips_[s].end_disc = std::min(tile * tile_discs, disc_count_);
+    }
 }
 
 void FastCycle::pack_searched_places(const State& state) {

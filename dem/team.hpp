@@ -10,9 +10,9 @@
 
 namespace listric {
 
-/// Meeting point of a fixed number of threads. A cycle lasts about 0.1 ms, so waiting spins for
-/// some microseconds; then it sleeps, or else two threads on a shared machine would keep each other
-/// from the core that they wait for.
+/// Meeting point of a fixed number of threads. A cycle lasts about 0.1 ms and being woken takes as
+/// long, so waiting spins for about that time; then it sleeps, or else two threads on a shared
+/// machine would keep each other from the core that they wait for.
 class Barrier {
 public:
     explicit Barrier(int threads) : threads_(threads) {}
@@ -27,7 +27,7 @@ public:
             round_.notify_all();
             return;
         }
-        for (int spins = 0; spins < 1000; ++spins) {
+        for (int spins = 0; spins < 8000; ++spins) {
             if (round_.load(std::memory_order_acquire) != round)
                 return;
             pause();
