@@ -56,7 +56,7 @@ struct FootwallRequest {
     double depth = 30e3; ///< of the base, m
     Side left_side = Side::roller, right_side = Side::roller;
 
-    std::vector<Layer> layers{Layer{}}; ///< by depth, the first from 0
+    std::vector<Layer> layers = std::vector<Layer>(1); ///< by depth, the first from 0
     /// Below this depth, m, rock keeps its bulk modulus and has its shear modulus divided by
     /// `relaxation`: a crust that is no longer rigid but still incompressible. 0: nowhere.
     double elastic_thickness = 0.0;
@@ -69,6 +69,7 @@ struct FootwallRequest {
     double surface_spring = 0.0, detachment_spring = 0.0, base_spring = 0.0;
 
     int degree = 2;                     ///< of the elements: 1 or 2
+    int refinements = 0;                ///< times that all cells are halved on top
     double cell_size = 1000.0;          ///< near the detachment, m
     std::vector<double> surface_breaks; ///< x where cells of a flat layer meet: edges of loads, m
     double fine_until = 60e3;           ///< cells grow beyond this x, m

@@ -252,6 +252,7 @@ Mesh make_mesh(const FootwallRequest& request, MPI_Comm processes) {
         read_blocks(mesh, request);
     else
         read_gmsh(mesh, request);
+    mesh.cells->refine_global(static_cast<unsigned>(std::max(0, request.refinements)));
     return mesh;
 }
 
