@@ -241,8 +241,8 @@ BlockMesh make_blocks(const FootwallRequest& request) {
     const unsigned halvings = 2;
     mesh.halvings = halvings;
     const double size = request.cell_size * (1u << halvings);
-    const double largest = 10.0 * size;
-    constexpr double growth = 1.6;
+    const double largest = 20.0 * size;
+    constexpr double growth = 2.0;
 
     // Corners along the chain and the strip's lower edge, by arc length: flat part, steep part, ...
     std::vector<double> outer_at{0.0}, inner_at{0.0};

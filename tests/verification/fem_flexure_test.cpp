@@ -38,6 +38,17 @@ fem::Field middle_under(const fem::FootwallRequest& request,
     return row(footwall->field(), -0.5 * request.depth, 1.0);
 }
 
+/// Its part with |x| below a bound.
+fem::Field within(const fem::Field& field, double bound) {
+    fem::Field part;
+    for (std::size_t k = 0; k < field.place.size(); ++k)
+        if (std::abs(field.place[k].x) < bound) {
+            part.place.push_back(field.place[k]);
+            part.displacement.push_back(field.displacement[k]);
+        }
+    return part;
+}
+
 double wave_error(fem::FootwallRequest request, double wavelength) {
     request.left = 0.0;
     request.right = wavelength;
@@ -72,7 +83,8 @@ TEST(Flexure, LongWavesAreThoseOfThePlate) {
     };
     EXPECT_NEAR(plate_error(400e3), 0.004, 0.002);
     EXPECT_NEAR(plate_error(100e3), 0.06, 0.02);
-    EXPECT_LT(plate_error(4000e3), 1e-4);
+    // What remains is the squeezing of the layer's upper half, restoring * Te / 2 E.
+    EXPECT_LT(plate_error(4000e3), 3e-3);
 }
 
 class Thickness : public testing::TestWithParam<double> {};
@@ -80,7 +92,7 @@ class Thickness : public testing::TestWithParam<double> {};
 TEST_P(Thickness, LineLoad) {
     const double te = GetParam();
     const fem::Plate thin = plate(te);
-    const double side = 7.0 * thin.alpha(); // mirror images add e^-14
+    const double side = 10.0 * thin.alpha(); // compared within 5: mirror images add e^-15
     fem::FootwallRequest request = layer(te, -side, side, te / 4.0);
     request.surface_breaks = {0.0};
     const auto footwall = fem::make_footwall(request);
@@ -89,7 +101,7 @@ TEST_P(Thickness, LineLoad) {
     fem::Load load;
     load.interface = footwall->nodal_forces({&force, 1});
     footwall->solve(load);
-    const fem::Field middle = row(footwall->field(), -0.5 * te, 1.0);
+    const fem::Field middle = within(row(footwall->field(), -0.5 * te, 1.0), 0.5 * side);
     std::vector<double> x;
     for (const Vector& p : middle.place)
         x.push_back(p.x);
@@ -149,7 +161,7 @@ TEST_P(Thickness, StripLoad) {
     const double te = GetParam();
     const fem::Plate thin = plate(te);
     constexpr double half_width = 20e3, pressure = 2600.0 * gravity * 2000.0;
-    const double side = half_width + 7.0 * thin.alpha();
+    const double side = half_width + 10.0 * thin.alpha(); // as above
     fem::FootwallRequest request = layer(te, -side, side, te / 4.0);
     request.surface_breaks = {-half_width, half_width};
     const fem::Field middle =
