@@ -117,7 +117,8 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
     std::ofstream(folder / "frame.json") << frame.dump(1);
 }
 
-/// Runs a program without a shell. Returns its exit code, or -1.
+} // namespace
+
 int run_program(const std::vector<std::string>& words) {
     std::vector<char*> arguments;
     for (const std::string& word : words)
@@ -135,8 +136,6 @@ int run_program(const std::vector<std::string>& words) {
         return -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
-
-} // namespace
 
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
                          std::span<const std::unique_ptr<Event>> events, const fs::path& folder) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace listric {
 
@@ -17,5 +18,8 @@ namespace listric {
 std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
                          std::span<const std::unique_ptr<Event>> events,
                          const std::filesystem::path& folder);
+
+/// Runs a program without a shell. Returns its exit code, or -1.
+int run_program(const std::vector<std::string>& words);
 
 } // namespace listric
