@@ -426,12 +426,14 @@ void check_resolution(const Scene& scene, const toml::table& document) {
 /// A scene without discs has no effects on discs.
 void check_flexure(const Scene& scene, const toml::table& document) {
     Scene copy = scene; // scene_tables() binds variables
-    for (const SceneTable& table : scene_tables(copy))
-        if (table.in_scene && table.name != "flexure" && table.name != "elastic_base" &&
-            table.name != "gravity" && document.contains(table.name))
+    for (const SceneTable& table : scene_tables(copy)) {
+        const bool allowed = !table.drop || table.name == "flexure" ||
+                             table.name == "elastic_base" || table.name == "gravity";
+        if (table.in_scene && !allowed)
             fail(entry_at(document, std::string(table.name)),
                  "needs discs, which a scene with [flexure] does not have; leave out one of the "
                  "two");
+    }
     const auto& base = scene.elastic_base;
     if (!base)
         fail(entry_at(document, "flexure"), "needs [elastic_base], the plate that bends; add it");

@@ -81,29 +81,35 @@ Known linear(Vector p) {
             0};
 }
 
-class Patch : public testing::TestWithParam<std::pair<const char*, int>> {};
+struct Shape {
+    const char* name;
+    std::vector<fem::Piece> detachment;
+    int degree;
+};
+
+class Patch : public testing::TestWithParam<int> {};
 
 TEST_P(Patch, UniformStrainIsExact) {
-    const auto [shape, degree] = GetParam();
+    const Shape shapes[] = {
+        {"listric", listric_detachment(), 1},
+        {"listric", listric_detachment(), 2},
+        {"ramp-flat-ramp", ramp_flat_ramp(), 2},
+        {"low angle", detachment(std::numbers::pi / 6, {{60e3, std::numbers::pi / 6}}), 2}};
+    const Shape& shape = shapes[GetParam()];
     fem::FootwallRequest request = small_footwall();
-    request.degree = degree;
+    request.degree = shape.degree;
     request.right_side = fem::Side::free;
-    if (shape == std::string("ramp-flat-ramp"))
-        request.detachment = ramp_flat_ramp();
-    if (shape == std::string("low angle"))
-        request.detachment = detachment(std::numbers::pi / 6, {{60e3, std::numbers::pi / 6}});
+    request.detachment = shape.detachment;
     const auto footwall = fem::make_footwall(request);
     footwall->solve(load_for(request, linear));
     const fem::FieldError error = footwall->error(exact(linear));
+    std::printf("%s, Q%d: %.1e, %.1e\n", shape.name, shape.degree, error.l2, error.h1);
     // Round-off times the condition of the stiffness (springs 1e-5 of the rock's).
     EXPECT_LT(error.l2, 1e-10);
     EXPECT_LT(error.h1, 1e-10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Footwall, Patch,
-                         testing::Values(std::pair("listric", 1), std::pair("listric", 2),
-                                         std::pair("ramp-flat-ramp", 2),
-                                         std::pair("low angle", 2)));
+INSTANTIATE_TEST_SUITE_P(Footwall, Patch, testing::Range(0, 4));
 
 class Order : public testing::TestWithParam<int> {};
 

@@ -119,8 +119,8 @@ TEST_P(Thickness, LineLoad) {
                 te / 1e3, thin.alpha() / 1e3, w0, thin.line(0.0, v),
                 100.0 * (thin.line(0.0, v) / w0 - 1.0), worst / w0, bulge,
                 0.0432 * thin.line(0, v));
-    EXPECT_LT(worst / w0, 1e-3); // the force's singularity is half a layer away
-    EXPECT_NEAR(bulge / exact_bulge, 1.0, 2e-3);
+    EXPECT_LT(worst / w0, 5e-4); // the force's singularity is two elements away
+    EXPECT_NEAR(bulge / exact_bulge, 1.0, 1e-3);
     // Shear, which the plate neglects, adds a few percent, more where alpha / Te is less.
     EXPECT_NEAR(thin.line(0.0, v) / w0, 1.0, 0.06);
     EXPECT_NEAR(footwall->reaction().y / v, 1.0, 1e-10); // equilibrium to round-off
@@ -178,7 +178,7 @@ TEST_P(Thickness, StripLoad) {
     std::printf("Te %g km, strip: w0 %.2f m, plate %.2f m (%.1f %%), layer and elements %.1e\n",
                 te / 1e3, w0, thin.strip(0.0, pressure, half_width),
                 100.0 * (thin.strip(0.0, pressure, half_width) / w0 - 1.0), worst / w0);
-    EXPECT_LT(worst / w0, 5e-4);
+    EXPECT_LT(worst / w0, 2e-4); // the pressure's jump is at a node
     EXPECT_NEAR(thin.strip(0.0, pressure, half_width) / w0, 1.0, 0.05);
 }
 
