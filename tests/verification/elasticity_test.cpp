@@ -15,8 +15,7 @@ Specimen lattice(const Material& material, std::size_t columns) {
     const std::size_t rows = 2 * columns + 7;
     Specimen s;
     s.state = make_state(hexagonal(columns, rows, radius), material);
-    s.state.clock.time_step = stable_time_step(density * pi * radius * radius, material,
-                                               0.5); // local damping adds up to 0.7 to a force
+    s.state.clock.time_step = stable_time_step(density * pi * radius * radius, material, 0.7, 0.65);
     const double top = radius * (2.0 + std::sqrt(3.0) * static_cast<double>(rows - 1));
     for (double& y : disc_columns(s.state).y)
         y += radius;
