@@ -267,7 +267,7 @@ BlockMesh make_blocks(const FootwallRequest& request) {
         }
     }
     const std::vector<double> far_left =
-        reversed(growing(breakaway.x - request.left, size, lowest, growth, largest));
+        reversed(growing(breakaway.x - request.left, size, 0.5 * lowest, growth, largest));
 
     const std::vector<double> across = even(thickness, size);
     const int detachment = number(Boundary::detachment), surface = number(Boundary::surface);

@@ -119,8 +119,8 @@ TEST_P(Thickness, LineLoad) {
                 te / 1e3, thin.alpha() / 1e3, w0, thin.line(0.0, v),
                 100.0 * (thin.line(0.0, v) / w0 - 1.0), worst / w0, bulge,
                 0.0432 * thin.line(0, v));
-    EXPECT_LT(worst / w0, 1e-4); // the force's singularity is four elements away
-    EXPECT_NEAR(bulge / exact_bulge, 1.0, 1e-3);
+    EXPECT_LT(worst / w0, 1e-4);                 // the force's singularity is four elements away
+    EXPECT_NEAR(bulge / exact_bulge, 1.0, 2e-3); // the same error, of a height of 0.04 w0
     // Shear, which the plate neglects, adds a few percent, more where alpha / Te is less.
     EXPECT_NEAR(thin.line(0.0, v) / w0, 1.0, 0.06);
     EXPECT_NEAR(footwall->reaction().y / v, 1.0, 1e-10); // equilibrium to round-off

@@ -13,7 +13,10 @@ namespace {
 
 std::vector<double> numbers_of(const std::string& call) {
     std::vector<double> numbers;
-    FILE* pipe = popen(call.c_str(), "r");
+    // What an MPI of this process has put into the environment would confuse another.
+    const std::string clean = "env -i PATH=\"$PATH\" HOME=\"$HOME\" "
+                              "LISTRIC_FEM_PLUGIN=\"$LISTRIC_FEM_PLUGIN\" ";
+    FILE* pipe = popen((clean + call).c_str(), "r");
     double number = 0.0;
     while (pipe && std::fscanf(pipe, "%lf", &number) == 1)
         numbers.push_back(number);
