@@ -171,6 +171,41 @@ std::vector<Parameter> parameters(CompactionParameters& p) {
     };
 }
 
+std::vector<Parameter> parameters(ElasticBaseParameters& p) {
+    return {
+        {"elastic_thickness_m", &p.elastic_thickness, "m", {.from = 100, .to = 2e5}, "",
+         "effective elastic thickness Te: rock below it does not carry bending"},
+        {"young_modulus_pa", &p.young_modulus, "Pa", {.from = 1e6, .to = 1e13}, "E",
+         "Young's modulus of the base"},
+        {"poisson_ratio", &p.poisson_ratio, "", {.from = 0, .below = 0.5}, "nu",
+         "Poisson's ratio of the base"},
+        {"crust_density_kg_per_m3", &p.crust_density, "kg/m3", density, "rho_c",
+         "of the base, above the mantle"},
+        {"mantle_density_kg_per_m3", &p.mantle_density, "kg/m3", density, "rho_m",
+         "of the mantle, on which the base floats"},
+        {"infill_density_kg_per_m3", &p.infill_density, "kg/m3", {.from = 0, .to = 20e3}, "",
+         "of what fills the deflection: 0 air, 1030 water, 2400 sediment"},
+        {"cells", &p.cells, "", {.from = 1, .to = 64}, "",
+         "elements through the elastic thickness"},
+        {"degree", &p.degree, "", {.from = 1, .to = 2}, "",
+         "of the elements: 2, or 1 to compare"},
+    };
+}
+
+std::vector<Parameter> parameters(FlexureParameters& p) {
+    return {
+        {"load", one_of({"line", "broken", "strip", "sinusoid"}, p.load), "", {}, "",
+         "line load on a continuous plate or on a broken one's end, strip load, sinusoidal load"},
+        {"line_load_n_per_m", &p.line_load, "N/m", {.above = 0, .to = 1e15}, "V",
+         "downward; the end of a broken plate carries half of it"},
+        {"pressure_pa", &p.pressure, "Pa", {.above = 0, .to = 1e10}, "",
+         "of the strip, downward; amplitude of the sinusoid"},
+        {"half_width_m", &p.half_width, "m", {.above = 0, .to = 1e6}, "", "of the strip"},
+        {"wavelength_m", &p.wavelength, "m", {.from = 100, .to = 1e7}, "lambda",
+         "of the sinusoid"},
+    };
+}
+
 template <class Part> SceneTable table(std::string_view name, std::string_view doc, Part& part) {
     return {name, doc, false, true, parameters(part), {}};
 }
@@ -236,6 +271,8 @@ std::vector<SceneTable> scene_tables(Scene& scene) {
         effect("bond_healing", "intelligent crack management (ICM)", scene.bond_healing),
         sedimentation,
         effect("compaction", "sediment loses pore space with burial", scene.compaction),
+        effect("elastic_base", "footwall and basement bend and float", scene.elastic_base),
+        table("flexure", "a load on the elastic base alone, without discs", scene.flexure),
     };
 }
 

@@ -98,6 +98,8 @@ std::vector<std::string> effect_names(const Scene& s) {
         names.push_back("sedimentation");
     if (s.compaction)
         names.push_back("compaction");
+    if (s.elastic_base)
+        names.push_back("elastic_base");
     return names;
 }
 

@@ -3,6 +3,7 @@
 #include "apps/declaration.hpp"
 #include "apps/effects.hpp"
 #include "apps/prediction.hpp"
+#include "fem/plate.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,30 @@ std::string duration(double seconds) {
 
 } // namespace
 
+namespace {
+
+/// A scene without discs is a matter of seconds.
+std::string explain_flexure(const Scene& scene) {
+    const ElasticBaseParameters& base = *scene.elastic_base;
+    const double gravity = scene.gravity.value_or(GravityParameters{}).acceleration;
+    const fem::Plate plate{base.young_modulus, base.poisson_ratio, base.elastic_thickness,
+                           (base.mantle_density - base.infill_density) * gravity};
+    return fmt::format(
+        "{}: {}\n\nan elastic base without discs\n"
+        "  elastic thickness {:g} km, rigidity {:.3g} N m, restoring {:.4g} Pa/m\n"
+        "  flexural parameter {:.1f} km; {} elements of degree {} through the thickness\n"
+        "  the load acts on the surface and nothing else does: deflections are relative to the\n"
+        "  state without it; infill of {:g} kg/m3 fills them\n"
+        "\na few seconds, with the plug-in for elastic bases (libdeal.ii-dev, petsc-dev)\n",
+        scene.name, scene.description, base.elastic_thickness / 1e3, plate.rigidity(),
+        plate.restoring, plate.alpha() / 1e3, base.cells, base.degree, base.infill_density);
+}
+
+} // namespace
+
 std::string explain(const Scene& scene) {
+    if (scene.flexure)
+        return explain_flexure(scene);
     const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     const double rate = measure_rate(estimated_discs(scene), threads, 0.7);
     const Prediction p = predict(scene, rate);

@@ -41,6 +41,7 @@ private:
     std::filesystem::path folder_, data_;
     int frames_ = 0;
 };
+
 /// Runs one of the program's Python scripts. Returns an empty string, or why it could not.
 std::string run_drawing_script(const std::string& script,
                                const std::vector<std::string>& arguments);

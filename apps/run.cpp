@@ -3,6 +3,7 @@
 #include "apps/effects.hpp"
 #include "apps/fault_history.hpp"
 #include "apps/figures.hpp"
+#include "apps/flexure.hpp"
 #include "apps/measure.hpp"
 #include "apps/paraview.hpp"
 #include "apps/prediction.hpp"
@@ -450,7 +451,8 @@ void remove_run(const fs::path& output) {
     remove_files(output / "figures", ends("km.mp4"));
     std::error_code error;
     for (const char* file :
-         {"summary.json", "history.csv", "paraview.pvd", "log.txt", "scene.toml"})
+         {"summary.json", "history.csv", "paraview.pvd", "log.txt", "scene.toml", "deflection.csv",
+          "footwall.pvd", "footwall.vtu", "figures/flexure.png"})
         fs::remove(output / file, error);
 }
 
@@ -493,17 +495,19 @@ bool check_output(const Scene& scene, const RunOptions& options) {
                          ": --resume continues it, --force replaces it, --output writes elsewhere");
     check_same_scene(scene, output / "scene.toml");
     const auto reached = summary_extension(summary);
+    if (scene.flexure)
+        return reached.has_value();
     const double target = std::min(scene.extension.distance, options.until.value_or(1e300));
     return reached && *reached >= target - 0.5;
 }
 
 /// Makes the output folder ready for this run.
-void prepare_output(const RunOptions& options) {
+void prepare_output(const Scene& scene, const RunOptions& options) {
     const fs::path& output = options.output;
     std::error_code error;
     if (options.force && holds_run(output))
         remove_run(output);
-    fs::create_directories(output / "snapshots", error);
+    fs::create_directories(scene.flexure ? output : output / "snapshots", error);
     if (error)
         throw StorageError(output.string() + ": cannot make the output folder: " + error.message());
     remove_remains(output);
@@ -533,12 +537,18 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     std::error_code error;
     fs::create_directories(output, error);
     const Lock lock(output);
-    prepare_output(options);
+    prepare_output(scene, options);
 
     Voice voice(output / "log.txt", options.quiet);
-    Run run(scene, options);
     voice.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
                           scene.accuracy, scene.seed, output.string()));
+    if (scene.flexure) {
+        write_text(output / "scene.toml", to_toml(scene));
+        bend_base(scene, options.threads, output,
+                  [&](const std::string& text) { voice.say(text); });
+        return RunOutcome::finished;
+    }
+    Run run(scene, options);
     try {
         if (!options.resume || !restore(run, voice)) {
             const std::string text = to_toml(scene);
@@ -622,6 +632,12 @@ struct Drawing {
 } // namespace
 
 void draw_run(const fs::path& output) {
+    std::error_code error;
+    if (fs::exists(output / "deflection.csv", error)) {
+        if (const std::string problem = draw_flexure(output); !problem.empty())
+            throw StorageError(problem);
+        return;
+    }
     const Drawing drawing(output);
     const std::vector<fs::path> chosen = drawing.chosen();
     FigureFrames frames(output / "figures");

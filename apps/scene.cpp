@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Shelf scenes{"scene", "a scene has at least [hanging_wall] and [detachment]",
+constexpr Shelf scenes{"scene",
+                       "a scene has at least [hanging_wall] and [detachment], "
+                       "or [flexure] and [elastic_base]",
                        "LISTRIC_SCENES", "apps/scenes"};
 
 [[noreturn]] void fail_unknown(const Entry& entry, const std::vector<Parameter>& top,
@@ -214,6 +216,47 @@ void check_resolution(const Scene& scene, const toml::table& document) {
         refuse("small", "least", 1.001 * radius_for(most), most);
 }
 
+/// A scene without discs has no effects on discs.
+void check_flexure(const Scene& scene, const toml::table& document) {
+    Scene copy = scene; // scene_tables() binds variables
+    for (const SceneTable& table : scene_tables(copy)) {
+        const bool allowed = !table.drop || table.name == "flexure" ||
+                             table.name == "elastic_base" || table.name == "gravity";
+        if (table.in_scene && !allowed)
+            fail(entry_at(document, std::string(table.name)),
+                 "needs discs, which a scene with [flexure] does not have; leave out one of the "
+                 "two");
+    }
+    if (document.contains("materials"))
+        fail(entry_at(document, "materials"),
+             "needs discs, which a scene with [flexure] does not have; leave out one of the two");
+    const auto& base = scene.elastic_base;
+    if (!base)
+        fail(entry_at(document, "flexure"), "needs [elastic_base], the plate that bends; add it");
+    if (!(base->mantle_density > base->infill_density))
+        fail(entry_at(document, "elastic_base.mantle_density_kg_per_m3"),
+             fmt::format("is {}, allowed: above infill_density_kg_per_m3 = {}",
+                         text(base->mantle_density), text(base->infill_density)));
+    if (!(base->mantle_density >= base->crust_density) ||
+        !(base->crust_density >= base->infill_density))
+        fail(entry_at(document, "elastic_base.crust_density_kg_per_m3"),
+             fmt::format("is {}, allowed: between those of infill ({}) and mantle ({}), for the "
+                         "base to float upright",
+                         text(base->crust_density), text(base->infill_density),
+                         text(base->mantle_density)));
+    // Waves shorter than the base is thick do not bend it, and cells would be flat.
+    const auto refuse_short = [&](const char* key, double length, double least) {
+        if (length < least)
+            fail(entry_at(document, std::string("flexure.") + key),
+                 fmt::format("too short ({}), allowed: at least {}, {}", text(length), text(least),
+                             "a tenth of the elastic thickness"));
+    };
+    if (scene.flexure->load == FlexureLoad::sinusoid)
+        refuse_short("wavelength_m", scene.flexure->wavelength, 0.1 * base->elastic_thickness);
+    if (scene.flexure->load == FlexureLoad::strip)
+        refuse_short("half_width_m", scene.flexure->half_width, 0.1 * base->elastic_thickness);
+}
+
 void check(const Scene& scene, const toml::table& document) {
     const auto needs = [&](const char* table, bool present, const char* needed, bool given) {
         if (present && !given)
@@ -222,11 +265,19 @@ void check(const Scene& scene, const toml::table& document) {
                              "[{0}]",
                              table, needed));
     };
+    if (scene.flexure) {
+        check_flexure(scene, document);
+        return;
+    }
     if (!scene.hanging_wall)
-        fail(entry_at(document, "hanging_wall"), "is missing, every scene needs [hanging_wall]");
+        fail(entry_at(document, "hanging_wall"),
+             "is missing, every scene needs [hanging_wall] or [flexure]");
     if (!scene.detachment)
         fail(entry_at(document, "hanging_wall"),
              "needs [detachment], the surface on which it slides; add [detachment]");
+    if (scene.elastic_base)
+        fail(entry_at(document, "elastic_base"),
+             "is not coupled to discs yet; leave it out, or use it with [flexure]");
     check_detachment(scene, document);
     check_resolution(scene, document);
     needs("bond_healing", scene.bond_healing.has_value(), "bonds", scene.bonds.has_value());

@@ -53,6 +53,29 @@ struct GravityParameters {
     double acceleration = 9.81; ///< m/s^2
 };
 
+/// Footwall and basement that bend and float.
+struct ElasticBaseParameters {
+    double elastic_thickness = 10e3; ///< effective elastic thickness Te, m
+    double young_modulus = 70e9;     ///< Pa
+    double poisson_ratio = 0.25;
+    double crust_density = 2700.0;  ///< kg/m^3
+    double mantle_density = 3300.0; ///< kg/m^3
+    double infill_density = 0.0;    ///< of what fills the deflection, kg/m^3
+    int cells = 8;                  ///< elements through the elastic thickness
+    int degree = 2;                 ///< of the elements
+};
+
+enum class FlexureLoad { line, broken, strip, sinusoid };
+
+/// A load on the elastic base alone: no discs. Loads are positive downward.
+struct FlexureParameters {
+    FlexureLoad load = FlexureLoad::line;
+    double line_load = 1e12;   ///< V, N/m; a broken plate has V/2 at its end
+    double pressure = 5e7;     ///< of the strip; amplitude of the sinusoid, Pa
+    double half_width = 10e3;  ///< of the strip, m
+    double wavelength = 200e3; ///< of the sinusoid, m
+};
+
 enum class SeriesFormat { paraview, none };
 
 struct OutputParameters {
@@ -81,6 +104,8 @@ struct Scene {
     std::optional<BondHealingParameters> bond_healing;
     std::optional<SedimentationParameters> sedimentation;
     std::optional<CompactionParameters> compaction;
+    std::optional<ElasticBaseParameters> elastic_base;
+    std::optional<FlexureParameters> flexure;
 
     /// Parameter of [sedimentation]; load_scene reads the file into its target and empties the
     /// name, so that what a run writes stands alone.

@@ -1,0 +1,131 @@
+#include "fem/footwall.hpp"
+
+#include "fem/blocks.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <fstream>
+#include <sstream>
+
+#ifndef LISTRIC_FEM_PLUGIN
+#define LISTRIC_FEM_PLUGIN ""
+#endif
+
+namespace listric::fem {
+
+namespace {
+
+std::string number(double x) {
+    std::ostringstream text;
+    text << x;
+    return text.str();
+}
+
+[[noreturn]] void refuse(const std::string& message) { throw FootwallError(message); }
+
+MakeFootwall load_plugin() {
+    const char* path = std::getenv("LISTRIC_FEM_PLUGIN");
+    const std::string file = path && *path ? path : LISTRIC_FEM_PLUGIN;
+    // Threads of the linear algebra would fight with those of the discs.
+    setenv("OPENBLAS_NUM_THREADS", "1", 0);
+    void* library = file.empty() ? nullptr : dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!library) {
+        const char* reason = file.empty() ? "it was not built" : dlerror();
+        refuse(std::string("the plug-in for elastic bases cannot be loaded (") + reason +
+               "); install libdeal.ii-dev petsc-dev libopenmpi-dev openmpi-bin gmsh "
+               "(Debian 12) and build again");
+    }
+    const auto entry = reinterpret_cast<MakeFootwall>(dlsym(library, entry_name));
+    if (!entry)
+        refuse(file + ": is no plug-in for elastic bases; build again");
+    return entry;
+}
+
+} // namespace
+
+void check(const FootwallRequest& r) {
+    if (!(r.right > r.left))
+        refuse("the right side must lie right of the left side");
+    if (!(r.depth > 0.0))
+        refuse("the base must have a depth above 0");
+    if (!(r.cell_size > 0.0) || (r.right - r.left) / r.cell_size > 1e5 ||
+        r.depth / r.cell_size > 1e5)
+        refuse("the cell size (" + number(r.cell_size) +
+               " m) must be above 0 and at least 1e-5 of the footwall's width and depth");
+    if (r.degree != 1 && r.degree != 2)
+        refuse("elements of degree " + std::to_string(r.degree) + ", allowed: 1 and 2");
+    if (r.layers.empty())
+        refuse("there are no layers, at least one is needed");
+    if (r.layers.front().top_depth != 0.0)
+        refuse("the first layer begins at a depth of " + number(r.layers.front().top_depth) +
+               " m, allowed: 0");
+    for (std::size_t k = 0; k < r.layers.size(); ++k) {
+        const Layer& layer = r.layers[k];
+        const std::string name = "layer " + std::to_string(k + 1);
+        if (!(layer.young_modulus > 0.0) || !std::isfinite(layer.young_modulus))
+            refuse(name + ": Young's modulus " + number(layer.young_modulus) +
+                   " Pa, allowed: above 0");
+        if (!(layer.poisson_ratio > -1.0 && layer.poisson_ratio < 0.5))
+            refuse(name + ": Poisson's ratio " + number(layer.poisson_ratio) +
+                   ", allowed: above -1, below 0.5");
+        if (!(layer.density > 0.0))
+            refuse(name + ": density " + number(layer.density) + " kg/m3, allowed: above 0");
+        if (k > 0 && !(layer.top_depth > r.layers[k - 1].top_depth))
+            refuse(name + " overlaps the one before: it begins at a depth of " +
+                   number(layer.top_depth) + " m, allowed: above " +
+                   number(r.layers[k - 1].top_depth));
+        if (layer.top_depth >= r.depth)
+            refuse(name + " begins at a depth of " + number(layer.top_depth) +
+                   " m, allowed: above the base at " + number(r.depth));
+    }
+    if (r.elastic_thickness < 0.0 || !(r.relaxation >= 1.0) || r.skin_thickness < 0.0)
+        refuse("elastic and skin thickness must be at least 0, the relaxation at least 1");
+    for (double spring : {r.surface_spring, r.detachment_spring, r.base_spring})
+        if (!(spring >= 0.0) || !std::isfinite(spring))
+            refuse("springs must be at least 0 Pa/m");
+    if (r.surface_spring + r.detachment_spring + r.base_spring == 0.0)
+        refuse("nothing holds the footwall: surface, detachment or base needs a spring");
+    if (r.left_side == Side::free && r.right_side == Side::free)
+        refuse("nothing holds the footwall sideways: one side needs rollers or springs");
+    if (!r.detachment.empty()) {
+        const Vector start = r.detachment.front().start;
+        if (!(start.x > r.left) || std::abs(start.y) > 1e-6 * r.cell_size)
+            refuse(
+                "the detachment leaves the mesh: it must begin at y = 0, right of the left side");
+        constexpr double slack = 1e-9, right_angle = 1.5707963267948966;
+        for (const Piece& piece : r.detachment)
+            for (double s : {0.0, piece.length}) {
+                const double direction = piece.direction + piece.curvature * s;
+                if (direction > slack || direction < -right_angle - slack)
+                    refuse("the detachment rises or overhangs; allowed are dips from 0 to 90 "
+                           "degrees");
+            }
+        extended_detachment(r); // checks its end
+    }
+}
+
+std::unique_ptr<Footwall> make_footwall(const FootwallRequest& request) {
+    check(request);
+    static const MakeFootwall entry = load_plugin();
+    std::string message;
+    std::unique_ptr<Footwall> footwall(entry(request, message));
+    if (!footwall)
+        refuse(message);
+    return footwall;
+}
+
+void write_series(const std::string& pvd, std::span<const std::pair<double, std::string>> moments) {
+    std::ofstream out(pvd);
+    out.precision(17);
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+           "byte_order=\"LittleEndian\">\n<Collection>\n";
+    for (const auto& [time, file] : moments)
+        out << "<DataSet timestep=\"" << time << "\" part=\"0\" name=\"footwall\" file=\"" << file
+            << "\"/>\n";
+    out << "</Collection>\n</VTKFile>\n";
+    if (!out.flush())
+        refuse("cannot write " + pvd);
+}
+
+} // namespace listric::fem

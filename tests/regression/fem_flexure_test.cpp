@@ -1,0 +1,139 @@
+// The scene flexure from the call to the files: names, numbers and what bad input leads to.
+
+#include "apps/run.hpp"
+#include "apps/snapshot.hpp"
+#include "fem/elastic_layer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace listric {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+class FlexureScene : public testing::Test {
+protected:
+    fs::path output_ = fs::temp_directory_path() / ("listric-flexure-" + std::to_string(getpid()));
+
+    FlexureScene() {
+        // Pictures take longer than these runs: most tests have a NumPy that ends the script.
+        fs::create_directories(output_ / "python");
+        std::ofstream(output_ / "python/numpy.py") << "import os\nos._exit(1)\n";
+        setenv("PYTHONPATH", (output_ / "python").c_str(), 1);
+    }
+    ~FlexureScene() override {
+        unsetenv("PYTHONPATH");
+        fs::remove_all(output_);
+    }
+
+    json run(const std::vector<std::string>& set, bool resume = false) {
+        SceneRequest request;
+        request.scene = "flexure";
+        request.set = set;
+        RunOptions options;
+        options.output = output_;
+        options.quiet = true;
+        options.resume = resume;
+        options.force = !resume;
+        EXPECT_EQ(run_scene(load_scene(request), options), RunOutcome::finished);
+        return json::parse(std::ifstream(output_ / "summary.json"));
+    }
+
+    static std::string refusal(const std::vector<std::string>& set) {
+        SceneRequest request;
+        request.scene = "flexure";
+        request.set = set;
+        try {
+            load_scene(request);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+struct Textbook { // FEM-independent: E 70 GPa, nu 0.25, 3300 kg/m3; V = 1e12 N/m
+    double te, alpha, w0, plate_error;
+};
+
+TEST_F(FlexureScene, LineLoadIsThatOfTheTextbook) {
+    // Flexural parameter and deflection of the thin plate (Turcotte & Schubert); last the plate's
+    // error against the exact layer: shear, which it neglects.
+    for (const Textbook& t : {Textbook{5e3, 17.6e3, 877, 0.03}, Textbook{10e3, 29.6e3, 522, 0.04},
+                              Textbook{20e3, 49.8e3, 310, 0.055}}) {
+        const json s =
+            run({"elastic_base.elastic_thickness_m=" + std::to_string(std::lround(t.te))});
+        EXPECT_NEAR(s["alpha_m"], t.alpha, 51.0); // the table's digits
+        EXPECT_NEAR(s["analytic_w0_m"], t.w0, 1.0);
+        EXPECT_LT(s["relative_error"], t.plate_error);
+        // Elements against the exact layer, everywhere within six flexural parameters.
+        EXPECT_LT(s["exact_relative_error"], 1e-4);
+        EXPECT_NEAR(s["bulge_m"].get<double>() / s["exact_bulge_m"].get<double>(), 1.0, 1e-3);
+        EXPECT_NEAR(s["bulge_x_m"].get<double>() / s["exact_bulge_x_m"].get<double>(), 1.0, 1e-3);
+        EXPECT_NEAR(s["analytic_bulge_m"].get<double>() / s["analytic_w0_m"].get<double>(), 0.0432,
+                    1e-4);
+        EXPECT_NEAR(s["analytic_bulge_x_m"].get<double>() / s["alpha_m"].get<double>(),
+                    std::numbers::pi, 1e-3);
+        EXPECT_LT(s["reaction_error"], 1e-10); // round-off
+    }
+}
+
+TEST_F(FlexureScene, LeavesFilesAndAFigure) {
+    unsetenv("PYTHONPATH");
+    run({});
+    for (const char* file : {"scene.toml", "log.txt", "deflection.csv", "footwall.pvd",
+                             "footwall.vtu", "figures/flexure.png"})
+        EXPECT_TRUE(fs::exists(output_ / file)) << file;
+}
+
+TEST_F(FlexureScene, BrokenPlate) {
+    const json s = run({"flexure.load=broken"});
+    EXPECT_NEAR(s["analytic_w0_m"], 1043.0, 1.0);
+    EXPECT_LT(s["relative_error"], 0.02); // shear near the loaded end
+    EXPECT_NEAR(s["analytic_bulge_m"].get<double>() / s["analytic_w0_m"].get<double>(), 0.0670,
+                1e-4);
+    EXPECT_NEAR(s["bulge_m"].get<double>() / s["analytic_bulge_m"].get<double>(), 1.0, 0.02);
+    EXPECT_FALSE(s.contains("exact_w0_m"));
+}
+
+TEST_F(FlexureScene, StripAndSinusoid) {
+    json s = run({"flexure.load=strip"});
+    EXPECT_LT(s["relative_error"], 0.03); // the plate's
+    EXPECT_LT(s["exact_relative_error"], 1e-4);
+    s = run({"flexure.load=sinusoid", "flexure.wavelength_m=100000", "elastic_base.cells=4"});
+    EXPECT_LT(s["exact_relative_error"], 1e-4); // discretisation, four elements
+    EXPECT_NEAR(s["relative_error"], 0.06, 0.02);
+    EXPECT_FALSE(s.contains("bulge_m"));
+}
+
+TEST_F(FlexureScene, IsTheSameTwiceAndResumesToItself) {
+    const json first = run({});
+    const auto written = fs::last_write_time(output_ / "summary.json");
+    run({}, true);
+    EXPECT_EQ(fs::last_write_time(output_ / "summary.json"), written);
+    EXPECT_EQ(run({})["state_hash"], first["state_hash"]);
+}
+
+TEST_F(FlexureScene, RefusesWhatMakesNoSense) {
+    EXPECT_THAT(refusal({"elastic_base.poisson_ratio=0.5"}), HasSubstr("below 0.5"));
+    EXPECT_THAT(refusal({"elastic_base.young_modulus_pa=-1.0"}), HasSubstr("at least 1e6"));
+    EXPECT_THAT(refusal({"elastic_base.mantle_density_kg_per_m3=2000"}),
+                HasSubstr("crust_density_kg_per_m3"));
+    EXPECT_THAT(refusal({"flexure.load=lin"}), HasSubstr("did you mean line?"));
+    EXPECT_THAT(refusal({"bonds={}"}), HasSubstr("needs discs"));
+    EXPECT_THAT(refusal({"flexure.load=strip", "flexure.half_width_m=10"}),
+                HasSubstr("flexure.half_width_m: too short"));
+}
+
+} // namespace
+} // namespace listric
