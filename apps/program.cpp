@@ -6,6 +6,7 @@
 #include "apps/explain.hpp"
 #include "apps/laboratory.hpp"
 #include "apps/run.hpp"
+#include "apps/study.hpp"
 #include "apps/version.hpp"
 #include "dem/cycle.hpp"
 
@@ -105,16 +106,40 @@ void add_calibration_options(CLI::App& command, CalibrationRequest& request) {
     command.add_flag("--resume", request.resume, "Go on with the measurements made so far");
 }
 
+void add_study_options(CLI::App& command, StudyRequest& request) {
+    std::string names;
+    for (const Study& study : studies())
+        names += fmt::format("\n{:<12} {}", study.name, study.doc);
+    command.add_option("NAME", request.name, "One of:" + names)->required();
+    command.add_option("--scene", request.scene, "Of studies made of runs (lis1)");
+    command.add_option("--set", request.set, "table.key=value, for every run; repeatable")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("--values", request.values, "Of the parameter that is varied")
+        ->delimiter(',')
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("--seed", request.seed, "Of the first run");
+    command.add_option("--seeds", request.seeds, "Runs for each value");
+    command.add_option("--threads", request.threads, "Processor cores to use")
+        ->check(CLI::Range(1, 1024));
+    command.add_option("--output", request.output, "Folder of results (out/study-NAME)");
+    command.add_flag("--quiet", request.quiet, "No progress");
+}
+
+void stop_on_signals() {
+    std::signal(SIGINT, [](int) { stop_requested = true; });
+    std::signal(SIGTERM, [](int) { stop_requested = true; });
+    std::signal(SIGHUP, [](int) { stop_requested = true; });
+    std::signal(SIGPIPE, SIG_IGN); // whoever read the progress may leave
+}
+
 int run(const SceneRequest& request, RunOptions options, const std::optional<std::string>& until,
         const std::string& output) {
     const Scene scene = load_scene(request);
     if (until)
         options.until = parse_length(*until);
     options.output = output.empty() ? "out/" + scene.name : output;
-    std::signal(SIGINT, [](int) { stop_requested = true; });
-    std::signal(SIGTERM, [](int) { stop_requested = true; });
-    std::signal(SIGHUP, [](int) { stop_requested = true; });
-    std::signal(SIGPIPE, SIG_IGN); // whoever read the progress may leave
+    stop_on_signals();
     return run_scene(scene, options) == RunOutcome::finished ? done : stopped;
 }
 
@@ -179,6 +204,12 @@ int dispatch(int argc, char** argv) {
         app.add_subcommand("calibrate", "Find microproperties of a wanted rock");
     add_calibration_options(*calibrate_command, calibration_request);
 
+    StudyRequest study_request;
+    study_request.threads = options.threads;
+    CLI::App* study_command =
+        app.add_subcommand("study", "Accuracy against time: a table and a figure");
+    add_study_options(*study_command, study_request);
+
     if (argc > 1 && argv[1][0] != '-') {
         std::vector<std::string_view> calls;
         for (const CLI::App* command : app.get_subcommands({}))
@@ -215,6 +246,9 @@ int dispatch(int argc, char** argv) {
         run_calibration(calibration_request);
     } else if (*laboratory_command) {
         run_laboratory(laboratory_request);
+    } else if (*study_command) {
+        stop_on_signals();
+        run_study(study_request);
     } else if (*bench_command) {
         bench_request.bonded = !unbonded;
         std::cout << bench(bench_request) << '\n';

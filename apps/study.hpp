@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace listric {
+
+/// A call of `listric study`: what accuracy costs in time.
+struct StudyRequest {
+    std::string name = {};             ///< see studies()
+    std::string scene = {};            ///< of studies made of runs; empty: the study's own
+    std::vector<std::string> set = {}; ///< "table.key=value", for every run
+    std::vector<double> values = {};   ///< of the swept parameter; empty: the study's own
+    std::int64_t seed = 1;             ///< of the first run
+    int seeds = 3;
+    int threads = 1;
+    std::filesystem::path output = {}; ///< empty: out/study-NAME
+    bool quiet = false;
+};
+
+/// Error and cost of one way to compute one quantity.
+struct StudyPoint {
+    std::string method;      ///< "panel: curve", or "curve"; without commas
+    std::string parameter;   ///< "name=value" of what is varied along the curve
+    std::string quantity;    ///< whose error
+    double error = 0.0;      ///< dimensionless; infinite: it failed
+    double wall = 0.0;       ///< s
+    double disc_steps = 0.0; ///< 0 without discs
+};
+
+struct StudyResult {
+    std::string title;
+    std::vector<StudyPoint> points;
+    /// By quantity: spread between seeds, below which refinement buys nothing.
+    std::map<std::string, double> floors;
+};
+
+struct Study {
+    std::string_view name, doc;
+    StudyResult (*make)(const StudyRequest& request);
+};
+
+std::span<const Study> studies();
+
+/// Makes a study; leaves study.csv, study.json and study.png in the output folder, and prints a
+/// table. Runs that are there already are not made again. Throws UsageError, SceneError,
+/// StorageError.
+void run_study(StudyRequest request);
+
+// Studies made of runs.
+StudyResult study_resolution(const StudyRequest& request);
+StudyResult study_speed(const StudyRequest& request);
+
+// Studies of the cycle.
+StudyResult study_time_step(const StudyRequest& request);
+StudyResult study_precision(const StudyRequest& request);
+
+// Studies of the elastic base.
+StudyResult study_footwall(const StudyRequest& request);
+
+/// A run of a scene with changes, by one seed.
+struct StudyRun {
+    std::string parameter;        ///< "name=value"; names the run's folder
+    std::vector<std::string> set; ///< changes of the scene
+    std::optional<std::string> accuracy = {};
+};
+
+/// What errors are measured in.
+struct StudyQuantity {
+    std::string name;
+    double scale = 0.0;    ///< of the error, in the quantity's unit; 0: relative to the reference
+    bool is_error = false; ///< an error itself: no reference is needed
+};
+
+/// Makes runs for every seed and measures them against the mean of the `reference` runs over their
+/// seeds: an error is the root mean square over seeds. Adds points of `method` and, from the
+/// reference, floors.
+void sweep_runs(const StudyRequest& request, const std::string& method,
+                const std::vector<StudyRun>& runs, std::size_t reference,
+                const std::vector<StudyQuantity>& quantities, StudyResult& result);
+
+/// Seconds of a steady clock.
+double study_clock();
+
+} // namespace listric

@@ -1,0 +1,130 @@
+#!/usr/bin/python3
+"""Work-precision figure of a study.
+
+Usage: study.py DIR
+
+DIR holds study.csv and study.json as `listric study` wrote them; it gets study.png: error against
+wall time (left) and against disc-steps or unknowns (right), a row per panel, a curve per method and
+quantity.  A cross at the upper edge is a failure, a dashed line the spread between seeds.  The file
+is written under a temporary name and then renamed.  On bad input: one line on stderr, exit status 1.
+"""
+import csv
+import json
+import math
+import os
+import sys
+
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+except ImportError as failure:
+    sys.stderr.write(f"study.py: cannot import {failure.name or failure}\n")
+    sys.exit(1)
+
+COLOURS = ("#1f6fb4", "#d7301f", "#238b45", "#6a51a3", "#d95f0e", "#525252", "#c51b8a", "#0f8b8d",
+           "#8c6d31")
+MARKERS = "os^Dv<>Ph"
+ZERO = 1e-16  # an error of nothing, on a logarithmic axis
+
+
+def load(folder):
+    with open(os.path.join(folder, "study.json"), encoding="utf-8") as file:
+        facts = json.load(file)
+    with open(os.path.join(folder, "study.csv"), encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    if not rows:
+        raise ValueError("study.csv has no points")
+    panels = {}
+    for row in rows:
+        panel, _, curve = row["method"].rpartition(": ")
+        error = float(row["error"])
+        work = float(row["disc_steps"])
+        name, _, value = row["parameter"].partition("=")
+        point = {"error": max(error, ZERO), "wall": float(row["wall_s"]),
+                 "work": work or float(value), "label": value, "parameter": name,
+                 "failed": not math.isfinite(error), "in_discs": work > 0.0}
+        panels.setdefault(panel, {}).setdefault((curve, row["quantity"]), []).append(point)
+    return facts, panels
+
+
+def curve_name(curve, quantity, curves):
+    methods = {c for c, _ in curves}
+    quantities = {q for _, q in curves}
+    words = ([curve] if len(methods) > 1 or len(quantities) == 1 else []) + \
+            ([quantity] if len(quantities) > 1 else [])
+    return ", ".join(words) or quantity
+
+
+def draw_panel(pair, panel, curves, floors):
+    top = max((p["error"] for points in curves.values() for p in points if not p["failed"]),
+              default=1.0)
+    for k, ((curve, quantity), points) in enumerate(curves.items()):
+        colour = COLOURS[k % len(COLOURS)]
+        good = [p for p in points if not p["failed"]]
+        for axes, key in zip(pair, ("wall", "work")):
+            axes.plot([p[key] for p in good], [p["error"] for p in good], color=colour, lw=1.3,
+                      marker=MARKERS[k % len(MARKERS)], ms=5, label=curve_name(curve, quantity, curves))
+            axes.plot([p[key] for p in points if p["failed"]],
+                      [2.0 * top for p in points if p["failed"]], "x", color=colour, ms=9, mew=2)
+            if quantity in floors and floors[quantity] > 0.0:
+                axes.axhline(floors[quantity], color=colour, lw=0.8, ls=(0, (4, 4)))
+        if k == 0:  # what the parameter was, beside one curve
+            for p in good:
+                pair[1].annotate(p["label"], (p["work"], p["error"]), xytext=(4, 4),
+                                 textcoords="offset points", fontsize=7.5, color="#6b6b6b")
+    first = next(iter(curves.values()))[0]
+    pair[0].set_xlabel("wall time, s")
+    pair[1].set_xlabel("disc-steps" if first["in_discs"] else "unknowns")
+    pair[0].set_ylabel("relative error")
+    pair[0].set_title(panel or f"varied: {first['parameter']}", fontsize=10, loc="left")
+    if panel:
+        pair[1].set_title(f"varied: {first['parameter']}", fontsize=9, loc="left", color="#6b6b6b")
+    for axes in pair:
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.grid(True, which="major", lw=0.4, color="#d0d0d0")
+        for side in ("top", "right"):
+            axes.spines[side].set_visible(False)
+    pair[1].legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
+
+
+def draw(facts, panels):
+    figure = Figure(figsize=(13, 0.9 + 4.2 * len(panels)), dpi=120)
+    FigureCanvasAgg(figure)
+    grid = figure.subplots(len(panels), 2, squeeze=False, sharey="row")
+    for pair, (panel, curves) in zip(grid, panels.items()):
+        draw_panel(pair, panel, curves, facts["floors"])
+    figure.suptitle(facts["title"], x=0.01, ha="left", fontsize=12.5, weight="bold")
+    notes = [f"Listric {facts['version']} · {facts['processor']} · {facts['compiler']} · threads "
+             f"{facts['threads']}"]
+    if any(p["in_discs"] for curves in panels.values() for points in curves.values() for p in points) \
+            and facts["floors"]:
+        notes.append(f"mean over {facts['seeds']} seeds; dashed: spread of the finest runs between seeds")
+    notes.append("cross: failed")
+    figure.text(0.01, 0.004, " · ".join(notes), fontsize=8, color="#6b6b6b", ha="left", va="bottom")
+    figure.tight_layout(rect=(0, 0.02, 1, 0.99))
+    return figure
+
+
+def main(arguments):
+    if len(arguments) != 1:
+        raise ValueError("usage: study.py DIR")
+    figure = draw(*load(arguments[0]))
+    temporary = os.path.join(arguments[0], f".study-{os.getpid()}.tmp")
+    try:
+        figure.savefig(temporary, format="png")
+        os.replace(temporary, os.path.join(arguments[0], "study.png"))
+    finally:
+        if os.path.exists(temporary):
+            os.remove(temporary)
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except Exception as failure:  # one line, no traceback
+        text = " ".join(f"{type(failure).__name__}: {failure}".split())
+        sys.stderr.write(f"study.py: {text}\n")
+        sys.exit(1)

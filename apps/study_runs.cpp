@@ -1,0 +1,221 @@
+// Studies that are made of whole runs.
+
+#include "apps/study.hpp"
+
+#include "apps/run.hpp"
+#include "apps/scene.hpp"
+#include "dem/cycle.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+namespace listric {
+
+namespace {
+
+using Json = nlohmann::json;
+using Values = std::vector<double>; ///< one number, or the coordinates of a place
+
+constexpr double graben_from = 12e3; ///< x beyond which a depocentre is the collapse graben's, m
+
+/// A quantity of a finished run; nothing where it has no meaning.
+std::optional<Values> value_of(const Json& summary, const std::string& quantity) {
+    if (quantity == "cutoff")
+        return Values{summary.at("cutoff_x_m"), summary.at("cutoff_z_m")};
+    if (quantity == "depocentre") {
+        const Json* best = nullptr;
+        for (const Json& place : summary.at("depocentres"))
+            if (place.at("x_m") > graben_from &&
+                (!best || place.at("prominence_m") > best->at("prominence_m")))
+                best = &place;
+        if (!best)
+            return std::nullopt;
+        return Values{best->at("x_m"), best->at("thickness_m")};
+    }
+    const auto found = summary.find(quantity);
+    if (found == summary.end())
+        return std::nullopt;
+    return Values{found->get<double>()};
+}
+
+/// Runs a scene, or finds it run.
+std::optional<Json> run_once(const StudyRequest& request, const StudyRun& run, std::int64_t seed) {
+    SceneRequest scene_request;
+    scene_request.scene = request.scene;
+    scene_request.set = run.set;
+    scene_request.set.insert(scene_request.set.end(), request.set.begin(), request.set.end());
+    scene_request.seed = seed;
+    scene_request.accuracy = run.accuracy;
+    const Scene scene = load_scene(scene_request);
+    RunOptions options;
+    options.output = request.output / "runs" / fmt::format("{}-seed={}", run.parameter, seed);
+    options.threads = request.threads;
+    options.resume = true;
+    options.quiet = request.quiet;
+    try {
+        if (run_scene(scene, options) == RunOutcome::interrupted)
+            throw UsageError("interrupted; the same call goes on from here");
+    } catch (const NumericalFailure& failure) {
+        std::fputs(fmt::format("listric: {}: {}\n", run.parameter, failure.what()).c_str(), stderr);
+        return std::nullopt;
+    }
+    std::ifstream in(options.output / "summary.json");
+    return Json::parse(in);
+}
+
+double distance(const Values& a, const Values& b) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return std::sqrt(sum);
+}
+
+Values mean(const std::vector<Values>& of) {
+    Values sum(of[0].size(), 0.0);
+    for (const Values& v : of)
+        for (std::size_t k = 0; k < v.size(); ++k)
+            sum[k] += v[k] / static_cast<double>(of.size());
+    return sum;
+}
+
+std::vector<Values> values_of(const std::vector<std::optional<Json>>& seeds,
+                              const std::string& quantity) {
+    std::vector<Values> values;
+    for (const auto& summary : seeds)
+        if (const auto value = summary ? value_of(*summary, quantity) : std::nullopt)
+            values.push_back(*value);
+    return values;
+}
+
+/// What a run took, without its figures: mean over seeds.
+void add_costs(const std::vector<std::optional<Json>>& seeds, StudyPoint& point) {
+    double counted = 0.0;
+    for (const auto& summary : seeds)
+        if (summary) {
+            const double wall = summary->at("wall_s");
+            point.wall += wall - summary->at("time_by_part_s").value("figures", 0.0);
+            point.disc_steps += wall * summary->at("disc_steps_per_s").get<double>();
+            counted += 1.0;
+        }
+    point.wall /= std::max(1.0, counted);
+    point.disc_steps /= std::max(1.0, counted);
+}
+
+double root_mean_square(const std::vector<Values>& values, const Values& reference, double scale) {
+    double sum = 0.0;
+    for (const Values& v : values)
+        sum += std::pow(distance(v, reference) / scale, 2);
+    return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+} // namespace
+
+void sweep_runs(const StudyRequest& request, const std::string& method,
+                const std::vector<StudyRun>& runs, std::size_t reference,
+                const std::vector<StudyQuantity>& quantities, StudyResult& result) {
+    std::vector<std::vector<std::optional<Json>>> summaries;
+    for (const StudyRun& run : runs) {
+        summaries.emplace_back();
+        for (int k = 0; k < request.seeds; ++k)
+            summaries.back().push_back(run_once(request, run, request.seed + k));
+    }
+    for (const StudyQuantity& quantity : quantities) {
+        const std::vector<Values> best = values_of(summaries[reference], quantity.name);
+        if (best.empty())
+            continue;
+        const Values wanted = quantity.is_error ? Values(best[0].size(), 0.0) : mean(best);
+        const double scale = quantity.is_error      ? 1.0
+                             : quantity.scale > 0.0 ? quantity.scale
+                                                    : distance(wanted, Values(wanted.size(), 0.0));
+        if (best.size() > 1 && !quantity.is_error)
+            result.floors[quantity.name] = root_mean_square(best, wanted, scale);
+        for (std::size_t r = 0; r < runs.size(); ++r) {
+            if (r == reference && !quantity.is_error)
+                continue;
+            const std::vector<Values> values = values_of(summaries[r], quantity.name);
+            StudyPoint point{method,        runs[r].parameter,
+                             quantity.name, std::numeric_limits<double>::infinity(),
+                             0.0,           0.0};
+            if (!values.empty())
+                point.error = root_mean_square(values, wanted, scale);
+            add_costs(summaries[r], point);
+            result.points.push_back(point);
+        }
+    }
+}
+
+namespace {
+
+/// Geometry, and what faults are judged by. Lengths over the thickness of the hanging wall.
+std::vector<StudyQuantity> basin_quantities(const Scene& scene) {
+    const double thickness = scene.hanging_wall->thickness;
+    return {{"rollover_tilt_deg", 0.0},
+            {"cutoff", thickness},
+            {"area_balance", 0.0},
+            {"depocentre", thickness},
+            {"antithetic_foot_x_m", thickness},
+            {"strain_top10", 0.0},
+            {"basement_unbonded_fraction", 1.0},
+            {"unbalanced_ratio_mean", 0.0, true},
+            {"inertial_number", 0.0, true}};
+}
+
+StudyRequest with_scene(StudyRequest request, const char* scene) {
+    if (request.scene.empty())
+        request.scene = scene;
+    return request;
+}
+
+Scene load(const StudyRequest& request) {
+    SceneRequest wanted;
+    wanted.scene = request.scene;
+    wanted.set = request.set;
+    return load_scene(wanted);
+}
+
+} // namespace
+
+StudyResult study_resolution(const StudyRequest& asked) {
+    const StudyRequest request = with_scene(asked, "lis1");
+    const Scene scene = load(request);
+    // 3,000, 4,200, 8,300, 16,700, 33,000 and 75,000 discs of lis1.
+    Values radii =
+        request.values.empty() ? Values{220.0, 186.2, 132.0, 93.1, 66.0, 44.0} : request.values;
+    std::ranges::sort(radii, std::greater{});
+    std::vector<StudyRun> runs;
+    for (double radius : radii)
+        runs.push_back({fmt::format("mean_radius_m={:g}", radius),
+                        {fmt::format("hanging_wall.mean_radius_m={}", radius),
+                         "extension.speed_m_per_s=1.0"}});
+    StudyResult result;
+    result.title =
+        fmt::format("Resolution: {} against mean radius {:g} m", request.scene, radii.back());
+    sweep_runs(request, request.scene, runs, runs.size() - 1, basin_quantities(scene), result);
+    return result;
+}
+
+StudyResult study_speed(const StudyRequest& asked) {
+    const StudyRequest request = with_scene(asked, "lis1");
+    const Scene scene = load(request);
+    Values speeds = request.values.empty() ? Values{8.0, 4.0, 2.0, 1.0, 0.5, 0.25} : request.values;
+    std::ranges::sort(speeds, std::greater{});
+    std::vector<StudyRun> runs;
+    for (double speed : speeds)
+        runs.push_back({fmt::format("speed_m_per_s={:g}", speed),
+                        {fmt::format("extension.speed_m_per_s={}", speed)},
+                        "draft"});
+    StudyResult result;
+    result.title =
+        fmt::format("Boundary speed: {} at draft against {:g} m/s", request.scene, speeds.back());
+    sweep_runs(request, request.scene, runs, runs.size() - 1, basin_quantities(scene), result);
+    return result;
+}
+
+} // namespace listric
