@@ -1,0 +1,151 @@
+// Studies of accuracy against time, on a scene small enough for a test.
+
+#include "apps/run.hpp"
+#include "apps/study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace listric {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A folder that lives as long as its test.
+class Folder {
+public:
+    Folder() {
+        std::string pattern = (fs::temp_directory_path() / "listric-study-XXXXXX").string();
+        path = mkdtemp(pattern.data());
+    }
+    ~Folder() { fs::remove_all(path); }
+    fs::path path;
+};
+
+StudyRequest small(const std::string& name, const Folder& folder) {
+    const fs::path scene = folder.path / "small.toml";
+    std::ofstream(scene) << R"([hanging_wall]
+length_m = 4000.0
+thickness_m = 1500.0
+mean_radius_m = 90.0
+[detachment]
+segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
+[extension]
+distance_m = 100.0
+speed_m_per_s = 4.0
+ramp_s = 2.0
+[output]
+figures_at_m = []
+series = "none"
+[gravity]
+[bonds]
+)";
+    StudyRequest request;
+    request.name = name;
+    request.scene = scene.string();
+    request.seeds = 2;
+    request.quiet = true;
+    request.output = folder.path / "study";
+    return request;
+}
+
+std::vector<StudyPoint> points(const fs::path& output) {
+    std::ifstream in(output / "study.csv");
+    std::string line;
+    std::getline(in, line);
+    EXPECT_EQ(line, "method,parameter,quantity,error,wall_s,disc_steps");
+    std::vector<StudyPoint> all;
+    while (std::getline(in, line)) {
+        std::istringstream cells(line);
+        StudyPoint p;
+        std::string error, wall, steps;
+        std::getline(cells, p.method, ',');
+        std::getline(cells, p.parameter, ',');
+        std::getline(cells, p.quantity, ',');
+        std::getline(cells, error, ',');
+        std::getline(cells, wall, ',');
+        std::getline(cells, steps, ',');
+        p.error = std::stod(error);
+        p.wall = std::stod(wall);
+        p.disc_steps = std::stod(steps);
+        all.push_back(p);
+    }
+    return all;
+}
+
+double error_of(const std::vector<StudyPoint>& all, const std::string& method,
+                const std::string& parameter) {
+    for (const StudyPoint& p : all)
+        if (p.method == method && p.parameter == parameter)
+            return p.error;
+    ADD_FAILURE() << method << ' ' << parameter << " is missing";
+    return 0.0;
+}
+
+TEST(Study, OfRunsMeasuresAgainstTheFinest) {
+    const Folder folder;
+    StudyRequest request = small("resolution", folder);
+    request.values = {90.0, 150.0};
+    run_study(request);
+    const auto all = points(request.output);
+    ASSERT_FALSE(all.empty());
+    for (const StudyPoint& p : all) {
+        if (p.quantity == "unbalanced_ratio_mean" || p.quantity == "inertial_number")
+            continue; // errors by themselves, of the finest, too
+        EXPECT_EQ(p.parameter, "mean_radius_m=150") << p.quantity;
+        EXPECT_GT(p.disc_steps, 0.0);
+    }
+    EXPECT_GT(error_of(all, request.scene, "mean_radius_m=150"), 0.0);
+    EXPECT_TRUE(fs::exists(request.output / "study.png"));
+    std::ifstream in(request.output / "study.json");
+    EXPECT_GT(nlohmann::json::parse(in).at("floors").at("area_balance"), 0.0);
+
+    // What is there is not made again.
+    const fs::path run = request.output / "runs" / "mean_radius_m=150-seed=2" / "summary.json";
+    const auto made = fs::last_write_time(run);
+    run_study(request);
+    EXPECT_EQ(fs::last_write_time(run), made);
+}
+
+TEST(Study, OfTheTimeStepShowsOrderAndLimit) {
+    const Folder folder;
+    StudyRequest request = small("time-step", folder);
+    request.seeds = 1;
+    request.set = {"extension.distance_m=5.0", "hanging_wall.mean_radius_m=150.0"};
+    run_study(request);
+    const auto all = points(request.output);
+    const std::string wave = "wave in a chain: time step";
+    // Leapfrog is of second order in the time step; 5 % for the next order.
+    EXPECT_NEAR(error_of(all, wave, "safety=0.25") / error_of(all, wave, "safety=0.125"), 4.0, 0.2);
+    EXPECT_TRUE(std::isinf(error_of(all, wave, "safety=1.01")));
+    // A step below the limit does not matter to what rests; heavier discs do.
+    const std::string scaling = "bonded lattice: density scaling";
+    EXPECT_GT(error_of(all, scaling, "mass=256"), 2.0 * error_of(all, scaling, "mass=1"));
+}
+
+TEST(Study, RefusesWhatItDoesNotKnow) {
+    const Folder folder;
+    StudyRequest request = small("resolutoin", folder);
+    try {
+        run_study(request);
+        FAIL();
+    } catch (const UsageError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("did you mean resolution?"));
+    }
+    request = small("speed", folder);
+    request.values = {-1.0};
+    EXPECT_THROW(run_study(request), UsageError);
+    request = small("speed", folder);
+    request.seeds = 0;
+    EXPECT_THROW(run_study(request), UsageError);
+}
+
+} // namespace
+} // namespace listric
