@@ -166,7 +166,10 @@ private:
     void measure_mesh();
     void find_interface();
     void assemble();
-    void make_solver();
+    void make_solver(bool keep_interface);
+    Mat solver_factors() const;
+    std::vector<double> inverse_of_schur_complement();
+    std::vector<double> unit_solutions();
     void require_solution() const {
         if (displacement_.size() == 0)
             throw FootwallError("the footwall has no solution yet: solve first");
@@ -195,11 +198,13 @@ private:
     Vector total_load_;
     int iterations_ = 0;
     bool refined_ = false;
+    bool keeps_interface_ = false; ///< the factors end at the interface's Schur complement
 };
 
 void ElasticFootwall::set_up() {
     if (solver_)
         must(KSPDestroy(&solver_), "cannot drop the old factors");
+    keeps_interface_ = false;
     displacement_.clear();
     mapping_.initialize(dealii::MappingQ<2>(static_cast<unsigned>(request_.degree)), *mesh_.cells);
     unknowns_.distribute_dofs(element_);
@@ -404,9 +409,18 @@ void ElasticFootwall::assemble() {
     must(MatSetOption(matrix, MAT_SPD, PETSC_TRUE), "positive definiteness");
 }
 
-void ElasticFootwall::make_solver() {
+Mat ElasticFootwall::solver_factors() const {
+    PC preconditioner = nullptr;
+    Mat factors = nullptr;
+    must(KSPGetPC(solver_, &preconditioner), "no preconditioner");
+    must(PCFactorGetMatrix(preconditioner, &factors), "no factors");
+    return factors;
+}
+
+void ElasticFootwall::make_solver(bool keep_interface) {
     if (solver_)
-        return;
+        must(KSPDestroy(&solver_), "cannot drop the old factors");
+    keeps_interface_ = keep_interface;
     const Mat matrix = stiffness_;
     PC preconditioner = nullptr;
     must(KSPCreate(processes, &solver_), "no solver");
@@ -416,6 +430,19 @@ void ElasticFootwall::make_solver() {
         must(KSPSetType(solver_, KSPPREONLY), "type");
         must(PCSetType(preconditioner, PCCHOLESKY), "Cholesky");
         must(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS), "MUMPS");
+        if (keep_interface) {
+            std::vector<PetscInt> kept;
+            for (const auto& node : node_unknowns_)
+                for (const Index unknown : node)
+                    kept.push_back(static_cast<PetscInt>(unknown));
+            IS interface = nullptr;
+            must(ISCreateGeneral(processes, static_cast<PetscInt>(kept.size()), kept.data(),
+                                 PETSC_COPY_VALUES, &interface),
+                 "interface");
+            must(PCFactorSetUpMatSolverType(preconditioner), "MUMPS");
+            must(MatFactorSetSchurIS(solver_factors(), interface), "interface");
+            must(ISDestroy(&interface), "interface");
+        }
     } else {
         must(KSPSetType(solver_, KSPCG), "conjugate gradients");
         must(KSPSetTolerances(solver_, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 1000), "tolerance");
@@ -514,11 +541,35 @@ std::vector<double> ElasticFootwall::compliance() {
         throw FootwallError("the compliance needs factors of the stiffness: solver mumps");
     if (refined_)
         throw FootwallError("a footwall that was refined for one load has no compliance");
-    make_solver();
-    PC preconditioner = nullptr;
-    Mat factors = nullptr;
-    must(KSPGetPC(solver_, &preconditioner), "no preconditioner");
-    must(PCFactorGetMatrix(preconditioner, &factors), "no factors");
+    // PETSc has MUMPS's Schur complement on one process only.
+    return dealii::Utilities::MPI::n_mpi_processes(processes) == 1 ? inverse_of_schur_complement()
+                                                                   : unit_solutions();
+}
+
+/// The stiffness with everything but the interface eliminated, inverted. Later solutions go through
+/// the same factors.
+std::vector<double> ElasticFootwall::inverse_of_schur_complement() {
+    if (!keeps_interface_)
+        make_solver(true);
+    const std::size_t n = 2 * nodes_.size();
+    Mat factors = solver_factors(), inverse = nullptr;
+    must(MatFactorInvertSchurComplement(factors), "condensation");
+    must(MatFactorGetSchurComplement(factors, &inverse, nullptr), "condensation");
+    std::vector<double> result(n * n);
+    const PetscScalar* values = nullptr;
+    must(MatDenseGetArrayRead(inverse, &values), "condensation");
+    std::copy_n(values, n * n, result.begin());
+    must(MatDenseRestoreArrayRead(inverse, &values), "condensation");
+    must(MatFactorRestoreSchurComplement(factors, &inverse, MAT_FACTOR_SCHUR_INVERTED),
+         "condensation");
+    return result;
+}
+
+/// The interface's rows of the solutions for unit forces on it.
+std::vector<double> ElasticFootwall::unit_solutions() {
+    if (!solver_)
+        make_solver(false);
+    const Mat factors = solver_factors();
     const std::size_t n = 2 * nodes_.size();
     std::vector<double> result(n * n, 0.0);
     const auto unknown = [&](std::size_t i) { return node_unknowns_[i / 2][i % 2]; };
@@ -553,14 +604,14 @@ std::vector<double> ElasticFootwall::compliance() {
         must(MatDestroy(&forces), "condensation");
         must(MatDestroy(&displacements), "condensation");
     }
-    if (dealii::Utilities::MPI::n_mpi_processes(processes) > 1)
-        MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPI_DOUBLE,
-                      MPI_SUM, processes);
+    MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPI_DOUBLE, MPI_SUM,
+                  processes);
     return result;
 }
 
 void ElasticFootwall::solve(const Load& load) {
-    make_solver();
+    if (!solver_)
+        make_solver(false);
     GlobalVector forces(owned_, processes), solution(owned_, processes);
     const dealii::QGauss<2> points(static_cast<unsigned>(request_.degree) + 2);
     const dealii::QGauss<1> face_points(static_cast<unsigned>(request_.degree) + 3);
