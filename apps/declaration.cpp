@@ -27,6 +27,12 @@ Choice one_of(std::vector<std::string_view> names, std::string& value) {
             [&value](std::string_view name) { value = name; }};
 }
 
+/// The first name means true.
+Choice one_of(std::vector<std::string_view> names, bool& value) {
+    return {names, [names, &value] { return names[value ? 0 : 1]; },
+            [names, &value](std::string_view name) { value = name == names[0]; }};
+}
+
 /// `names` in the order of the enumeration.
 template <class Enum> Choice one_of(std::vector<std::string_view> names, Enum& value) {
     return {names, [names, &value] { return names[static_cast<std::size_t>(value)]; },
@@ -186,9 +192,31 @@ std::vector<Parameter> parameters(ElasticBaseParameters& p) {
         {"infill_density_kg_per_m3", &p.infill_density, "kg/m3", {.from = 0, .to = 20e3}, "",
          "of what fills the deflection: 0 air, 1030 water, 2400 sediment"},
         {"cells", &p.cells, "", {.from = 1, .to = 64}, "",
-         "elements through the elastic thickness"},
+         "elements through the elastic thickness, in a scene without discs"},
         {"degree", &p.degree, "", {.from = 1, .to = 2}, "",
          "of the elements: 2, or 1 to compare"},
+        {"left_m", &p.left, "m", {.from = -1e7, .below = 0}, "", "x of the footwall's far side"},
+        {"right_m", &p.right, "m", {.above = 0, .to = 1e7}, "",
+         "x of the far side of what lies below the hanging wall"},
+        {"depth_m", &p.depth, "m", length, "", "to the mantle, on which the base floats"},
+        {"relaxation", &p.relaxation, "", {.from = 1, .to = 1e6}, "",
+         "shear modulus over that of rock below the elastic thickness; bulk moduli are the same"},
+        {"skin_thickness_m", &p.skin_thickness, "m", {.from = 0, .to = 1e5}, "",
+         "rock along the detachment that keeps its shear modulus below the elastic thickness"},
+        {"cell_size_m", &p.cell_size, "m", {.above = 0, .to = 1e5}, "",
+         "elements at the detachment"},
+        {"scheme", one_of({"modal", "lumped", "strong", "staggered"}, p.scheme), "", {}, "",
+         "how base and discs advance together"},
+        {"update_interval_cycles", &p.update_interval, "", {.from = 1, .to = 1e6}, "",
+         "cycles between updates of the base"},
+        {"modes", &p.modes, "", {.from = 0, .to = 1e5}, "",
+         "softest modes of the base that move; 0: all"},
+        {"mass_factor", &p.mass_factor, "", {.from = 0.6, .to = 1e6, .reason = "below, contacts and base are unstable"}, "",
+         "modal mass over (stiffness + contact stiffness) times the squared update interval"},
+        {"damping", one_of({"relative", "absolute"}, p.relative_damping), "", {}, "",
+         "of discs: against their mean motion, or as PFC does, which holds sinking rock up"},
+        {"damping_averaging_time_s", &p.averaging_time, "s", {.above = 0, .to = 1e9}, "",
+         "model time over which the mean motion of a disc is taken"},
     };
 }
 

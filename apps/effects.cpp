@@ -79,6 +79,11 @@ RigidBase make_base(const Scene& s) {
         {"backstop", {line({0.0, high}, {0.0, 0.0})}, 0.0, 0.0, {}},
         {"right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, {1.0, 0.0}},
     };
+    if (s.elastic_base) {
+        base.surfaces[0].follows = Follows::nodes;
+        base.surfaces[0].degree = s.elastic_base->degree;
+        base.surfaces[1].follows = Follows::breakaway;
+    }
     base.material = s.basement;
     base.motion = {s.extension.speed, s.extension.ramp};
     return base;

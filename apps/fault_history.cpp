@@ -3,6 +3,7 @@
 #include "apps/effects.hpp"
 #include "apps/fault_throw.hpp"
 #include "apps/snapshot.hpp"
+#include "dem/base_place.hpp"
 #include "dem/cells.hpp"
 #include "dem/units.hpp"
 
@@ -219,7 +220,7 @@ FaultReport report_faults(const Scene& scene, const RigidBase& base, const State
     FaultReport report;
     if (older.empty())
         return report;
-    const Chain& detachment = base.surfaces.front().chain;
+    const Chain detachment = standing_base(base, now).surfaces.front().chain;
     const double diameter = 2.0 * now.mean_radius;
     const ShearField field = shear_field(older.back(), DiscPlaces(now), least_age(scene));
     const FaultTraceOptions options;

@@ -5,6 +5,7 @@
 #include "apps/measure.hpp"
 #include "apps/npy.hpp"
 #include "apps/snapshot.hpp"
+#include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/strain.hpp"
 #include "dem/power_cell.hpp"
@@ -82,13 +83,14 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
         put<double>(folder, "discs_unbonded_share", unbonded);
     }
     const Chain& detachment = base.surfaces.front().chain;
+    const Chain standing = standing_base(base, state).surfaces.front().chain;
     const double wall = scene.hanging_wall->length + state.clock.extension;
     std::vector<double> line;
     double length = 0.0;
-    for (const Segment& s : detachment)
+    for (const Segment& s : standing)
         length += s.length;
     for (int k = 0; k <= 2000; ++k) {
-        const Point p = point_at(detachment, length * k / 2000);
+        const Point p = point_at(standing, length * k / 2000);
         if (p.x <= wall)
             line.insert(line.end(), {p.x, p.y});
     }

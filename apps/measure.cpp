@@ -1,6 +1,7 @@
 #include "apps/measure.hpp"
 
 #include "apps/kinematics.hpp"
+#include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/property_update.hpp"
 #include "dem/events/strain.hpp"
@@ -295,7 +296,7 @@ std::optional<RampFlatRamp> find_ramp_flat_ramp(const Chain& detachment) {
 
 Profile measure_profile(const Scene& scene, const State& state, const RigidBase& base) {
     const ConstDiscColumns d = disc_columns(state);
-    const Chain& detachment = base.surfaces.front().chain;
+    const Chain detachment = standing_base(base, state).surfaces.front().chain;
     const double width = 2.0 * state.mean_radius;
     const auto columns =
         static_cast<std::size_t>((scene.hanging_wall->length + state.clock.extension) / width);
@@ -377,7 +378,7 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
         m.basin_area -= top * 2.0 * state.mean_radius;
     if (extension > 0.0) {
         m.area_balance = m.basin_area / (extension * scene.hanging_wall->thickness);
-        m.cutoff = find_cutoff(state, detachment);
+        m.cutoff = find_cutoff(state, standing_base(base, state).surfaces.front().chain);
         m.rollover_tilt = head_block_tilt(scene, state, detachment);
         measure_ramp_flat_ramp(m, state, detachment);
     }

@@ -1,6 +1,7 @@
 #include "apps/paraview.hpp"
 
 #include "apps/snapshot.hpp"
+#include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
 #include "dem/law.hpp"
 #include "dem/monitor.hpp"
@@ -170,7 +171,8 @@ std::string contacts_file(const State& state) {
 }
 
 /// A polyline per surface, as far as the discs reach: the surfaces themselves are endless.
-std::string base_file(const State& state, const RigidBase& base) {
+std::string base_file(const State& state, const RigidBase& given) {
+    const RigidBase base = standing_base(given, state);
     const ConstDiscColumns d = disc_columns(state);
     const Point breakaway = base.surfaces.front().chain.front().start;
     Point low = breakaway, high = breakaway;

@@ -4,6 +4,7 @@
 #include "apps/fault_history.hpp"
 #include "apps/figures.hpp"
 #include "apps/flexure.hpp"
+#include "apps/footwall_coupling.hpp"
 #include "apps/measure.hpp"
 #include "apps/paraview.hpp"
 #include "apps/prediction.hpp"
@@ -48,6 +49,7 @@ struct Run {
     RigidBase base;
     CyclePhysics physics;
     std::vector<std::unique_ptr<Event>> events;
+    std::unique_ptr<FootwallCoupling> footwall; ///< none: the base is rigid
     State state;
     RunRecord record;
     SteadyClock::time_point started = SteadyClock::now();
@@ -58,7 +60,10 @@ struct Run {
     explicit Run(const Scene& s, const RunOptions& o)
         : scene(s), options(o),
           base(make_base(s)), physics{s.cycle.damping, s.gravity ? s.gravity->acceleration : 0.0},
-          events(make_events(s)) {}
+          events(make_events(s)) {
+        if (s.elastic_base && s.elastic_base->relative_damping)
+            physics.averaging_time = s.elastic_base->averaging_time;
+    }
 
     double wall_seconds() const { return seconds_before + seconds_since(started); }
     double target() const {
@@ -144,6 +149,7 @@ fs::path cache_path(const Scene& scene) {
     start.bond_healing.reset();
     start.sedimentation.reset();
     start.compaction.reset();
+    start.elastic_base.reset();
     std::uint64_t key = 1469598103934665603u; // FNV-1a
     const auto stir = [&](std::string_view text) {
         for (char letter : text)
@@ -183,7 +189,7 @@ State make_state(Run& run, Voice& voice) {
                                  run.base,
                                  make_materials(s),
                                  s.bonds,
-                                 run.physics,
+                                 {s.cycle.damping, run.physics.gravity},
                                  s.cycle.time_step_safety,
                                  s.cycle.inertial_mass_floor,
                                  s.cycle.skin,
@@ -203,8 +209,41 @@ State make_state(Run& run, Voice& voice) {
     return state;
 }
 
+/// Condenses the footwall of a scene that has one.
+void make_footwall(Run& run, Voice& voice) {
+    if (!run.scene.elastic_base)
+        return;
+    const Stopwatch watch(run.record, "base");
+    run.footwall = std::make_unique<FootwallCoupling>(run.scene);
+    for (const std::string& line : run.footwall->description())
+        voice.say(line);
+}
+
+Execution execution(const Run& run) {
+    return {run.options.threads, run.options.plain ? Cycle::plain : Cycle::best};
+}
+
+/// Puts the hanging wall on the elastic base and settles it there.
+void settle_on_base(Run& run, Voice& voice) {
+    const Stopwatch watch(run.record, "base");
+    ElasticBase& base = run.footwall->base();
+    base.attach(run.state);
+    find_contacts(run.state, run.base);
+    base.settle(run.state, run.base, run.physics, execution(run),
+                [&](std::string_view stage, double share) {
+                    if (stop_requested)
+                        throw Interrupted{};
+                    voice.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
+                });
+    if (run.physics.averaging_time > 0.0)
+        add_mean_velocities(run.state);
+}
+
 void begin(Run& run, Voice& voice) {
+    make_footwall(run, voice);
     run.state = make_state(run, voice);
+    if (run.footwall)
+        settle_on_base(run, voice);
     for (auto& event : run.events)
         event->begin(run.state);
     find_contacts(run.state, run.base);
@@ -234,6 +273,7 @@ bool restore(Run& run, Voice& voice) {
             for (const auto& [part, seconds] : run.record.seconds_by_part)
                 run.seconds_before += seconds;
             run.kept = *path;
+            make_footwall(run, voice);
             voice.say(fmt::format("resuming at {:.2f} m of extension from {}",
                                   run.state.clock.extension, path->string()));
             return true;
@@ -274,13 +314,20 @@ void cycle_toward(Run& run, double extension) {
     const auto discs = static_cast<double>(run.state.discs.rows());
     const auto batch = static_cast<std::int64_t>(
         std::clamp(std::floor(wanted), 1.0, std::max(1.0, std::floor(2e7 / discs))));
-    advance(run.state, run.base, run.physics, batch,
-            {run.options.threads, run.options.plain ? Cycle::plain : Cycle::best});
+    ElasticBase* const base = run.footwall ? &run.footwall->base() : nullptr;
+    const double before = base ? base->seconds : 0.0;
+    advance(run.state, run.base, run.physics, batch, execution(run), base);
+    if (base) {
+        run.record.seconds_by_part["base"] += base->seconds - before;
+        run.record.seconds_by_part["cycle"] -= base->seconds - before;
+    }
     run.record.disc_steps += discs * static_cast<double>(batch);
 }
 
 void append_history(Run& run) {
-    const auto row = history_row(run.state, measure(run.scene, run.state, run.base, run.events));
+    auto row = history_row(run.state, measure(run.scene, run.state, run.base, run.events));
+    if (run.footwall)
+        std::ranges::move(run.footwall->end_window(run.state, run.base), std::back_inserter(row));
     Table& history = run.record.history;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [name, value] : row)
@@ -297,6 +344,14 @@ void save(Run& run) {
     write_snapshot(run.kept, run.state, run.events, run.record);
     if (run.scene.output.series == SeriesFormat::paraview)
         write_paraview(run.options.output, run.state, run.base, run.scene.extension.rate);
+}
+
+/// The field below the discs: at the figures' moments, for a file of it is larger than the discs'.
+void save_field(Run& run) {
+    if (!run.footwall || run.scene.output.series != SeriesFormat::paraview)
+        return;
+    const Stopwatch watch(run.record, "output");
+    run.footwall->write(run.options.output, run.state);
 }
 
 FaultReport report_faults(Run& run) {
@@ -379,8 +434,10 @@ void march(Run& run, Voice& voice) {
             const Stopwatch watch(run.record, "measures");
             append_history(run);
         }
-        if (near_any(run.scene.output.figures, state.clock.extension, 0.5 * window))
+        if (near_any(run.scene.output.figures, state.clock.extension, 0.5 * window)) {
             draw(run, voice);
+            save_field(run);
+        }
         save(run);
     }
 }
@@ -446,6 +503,7 @@ void remove_run(const fs::path& output) {
     };
     remove_files(output / "snapshots", ends(".h5"));
     remove_files(output / "paraview", ends(".vtp"));
+    remove_files(output / "paraview", ends(".vtu"));
     remove_files(output / "figures", ends("km.png"));
     remove_files(output / "figures", ends("km.gif"));
     remove_files(output / "figures", ends("km.mp4"));

@@ -2,6 +2,7 @@
 
 #include "apps/document.hpp"
 #include "apps/effects.hpp"
+#include "apps/footwall_request.hpp"
 #include "apps/material_file.hpp"
 #include "apps/target_csv.hpp"
 #include "dem/genesis.hpp"
@@ -257,6 +258,29 @@ void check_flexure(const Scene& scene, const toml::table& document) {
         refuse_short("half_width_m", scene.flexure->half_width, 0.1 * base->elastic_thickness);
 }
 
+/// What the footwall itself refuses, before a run prepares anything.
+void check_elastic_base(const Scene& scene, const toml::table& document) {
+    const ElasticBaseParameters& base = *scene.elastic_base;
+    if (!(base.mantle_density >= base.crust_density) ||
+        !(base.crust_density >= base.infill_density))
+        fail(entry_at(document, "elastic_base.crust_density_kg_per_m3"),
+             fmt::format("is {}, allowed: between those of infill ({}) and mantle ({}), for the "
+                         "base to float upright",
+                         text(base.crust_density), text(base.infill_density),
+                         text(base.mantle_density)));
+    const double reach =
+        scene.hanging_wall->length + 1.5 * scene.extension.distance + scene.hanging_wall->thickness;
+    if (!(base.right > reach))
+        fail(entry_at(document, "elastic_base.right_m"),
+             fmt::format("is {}, allowed: above {}, beyond the right wall's last position",
+                         text(base.right), text(reach)));
+    try {
+        fem::check(make_footwall_request(scene));
+    } catch (const fem::FootwallError& error) {
+        fail(entry_at(document, "elastic_base"), error.what());
+    }
+}
+
 void check(const Scene& scene, const toml::table& document) {
     const auto needs = [&](const char* table, bool present, const char* needed, bool given) {
         if (present && !given)
@@ -275,11 +299,11 @@ void check(const Scene& scene, const toml::table& document) {
     if (!scene.detachment)
         fail(entry_at(document, "hanging_wall"),
              "needs [detachment], the surface on which it slides; add [detachment]");
-    if (scene.elastic_base)
-        fail(entry_at(document, "elastic_base"),
-             "is not coupled to discs yet; leave it out, or use it with [flexure]");
     check_detachment(scene, document);
     check_resolution(scene, document);
+    needs("elastic_base", scene.elastic_base.has_value(), "gravity", scene.gravity.has_value());
+    if (scene.elastic_base)
+        check_elastic_base(scene, document);
     needs("bond_healing", scene.bond_healing.has_value(), "bonds", scene.bonds.has_value());
     needs("compaction", scene.compaction.has_value(), "sedimentation",
           scene.sedimentation.has_value());

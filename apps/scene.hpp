@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/elastic_base.hpp"
 #include "dem/events/bond_healing.hpp"
 #include "dem/events/compaction.hpp"
 #include "dem/events/fault_weakening.hpp"
@@ -61,8 +62,21 @@ struct ElasticBaseParameters {
     double crust_density = 2700.0;  ///< kg/m^3
     double mantle_density = 3300.0; ///< kg/m^3
     double infill_density = 0.0;    ///< of what fills the deflection, kg/m^3
-    int cells = 8;                  ///< elements through the elastic thickness
+    int cells = 8;                  ///< elements through the elastic thickness, without discs
     int degree = 2;                 ///< of the elements
+
+    // Under discs.
+    double left = -300e3, right = 350e3; ///< x of the far sides, m
+    double depth = 30e3;                 ///< of the base's lower boundary, m
+    double relaxation = 100.0;           ///< shear modulus over that below the elastic thickness
+    double skin_thickness = 3e3;         ///< rock along the detachment that is not relaxed, m
+    double cell_size = 1000.0;           ///< elements at the detachment, m
+    CouplingScheme scheme = CouplingScheme::modal;
+    int update_interval = 5;       ///< cycles
+    int modes = 0;                 ///< 0: all
+    double mass_factor = 0.6;      ///< of the modes
+    bool relative_damping = true;  ///< of the discs, against their mean motion
+    double averaging_time = 150.0; ///< of that mean, model s
 };
 
 enum class FlexureLoad { line, broken, strip, sinusoid };

@@ -230,6 +230,12 @@ std::vector<std::byte> file_image(const State& state,
     write_table(create_group(file, "discs"), state.discs);
     write_table(create_group(file, "contacts"), state.contacts);
     write_table(create_group(file, "base_contacts"), state.base_contacts);
+    if (state.base_nodes.rows() > 0) {
+        write_table(create_group(file, "base_nodes"), state.base_nodes);
+        const Handle base_memory = create_group(file, "base_memory");
+        for (const auto& [name, table] : state.base_memory)
+            write_table(create_group(base_memory, name), table);
+    }
     const Handle materials = create_group(file, "materials");
     for (std::size_t k = 0; k < state.materials.size(); ++k) {
         const Material& m = state.materials[k];
@@ -330,6 +336,13 @@ Snapshot read_snapshot(const fs::path& path) {
         state.discs = read_table(file, "discs");
         state.contacts = read_table(file, "contacts");
         state.base_contacts = read_table(file, "base_contacts");
+        if (H5Lexists(file, "base_nodes", H5P_DEFAULT) > 0) {
+            state.base_nodes = read_table(file, "base_nodes");
+            const Handle base_memory(H5Gopen2(file, "base_memory", H5P_DEFAULT), H5Gclose,
+                                     "base_memory");
+            for (const std::string& name : names_in(base_memory))
+                state.base_memory[name] = read_table(base_memory, name);
+        }
         const Handle materials(H5Gopen2(file, "materials", H5P_DEFAULT), H5Gclose, "materials");
         for (std::size_t k = 0; k < names_in(materials).size(); ++k) {
             const Handle group(H5Gopen2(materials, std::to_string(k).c_str(), H5P_DEFAULT),

@@ -1,6 +1,7 @@
 #include "apps/summary.hpp"
 
 #include "apps/effects.hpp"
+#include "apps/footwall_coupling.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -147,6 +148,9 @@ std::string summary_json(const Scene& scene, int threads, const State& state,
         if (value && std::isfinite(*value))
             json[name] = *value;
     });
+    for (const auto& [name, value] : footwall_summary(record.history))
+        if (std::isfinite(value))
+            json[name] = value;
     json["effects"] = effect_names(scene);
     double named = 0.0;
     auto& parts = json["time_by_part_s"] = nlohmann::ordered_json::object();

@@ -49,16 +49,25 @@ std::optional<FootPoint> foot_point(const Chain& chain, Point p);
 
 Point point_at(const Chain& chain, double arc_length);
 
-/// A rigid surface and how it moves. Velocities are in units of the extension speed.
+/// What a surface takes part in where the base deforms (State::base_nodes).
+enum class Follows {
+    nothing,  ///< it is rigid
+    nodes,    ///< it is the line through the nodes instead of its chain
+    breakaway ///< its chain is displaced as the first node is
+};
+
+/// A surface and how it moves. Velocities are in units of the extension speed.
 struct Surface {
     std::string name;
     Chain chain;
     double friction = 0.0;
     double conveyor = 0.0;  ///< its material runs along the chain with this speed
     Point translation = {}; ///< its velocity: it is at chain + translation * extension
+    Follows follows = Follows::nothing;
+    int degree = 2; ///< of the faces between nodes
 };
 
-/// Closest point of a surface at an extension, m; as for its chain.
+/// Closest point of a surface at an extension, m, where nothing deforms; as for its chain.
 std::optional<Foot> nearest(const Surface& surface, double extension, Point p);
 
 /// The chain moved by a vector, m.

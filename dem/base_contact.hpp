@@ -1,8 +1,10 @@
 #pragma once
 
 #include "dem/base.hpp"
+#include "dem/base_place.hpp"
 #include "dem/law.hpp"
 
+#include <array>
 #include <optional>
 
 namespace listric {
@@ -17,8 +19,32 @@ struct BaseContactForce {
     double x, y, moment;
 };
 
-/// Force of one surface on one disc; both cycles use it. `speed` (m/s) and `extension` (m) are the
-/// base's, `parameters` the stiffness of surface and disc in series. Updates the shear force.
+/// Force on a disc whose closest point of a surface is known and moves with `wall_velocity`, m/s.
+/// Updates the shear force.
+inline BaseContactForce surface_force(const Foot& foot, Point wall_velocity, double friction,
+                                      const BaseContactDisc& disc, ContactParameters parameters,
+                                      double& shear_force) {
+    const double nx = foot.normal.x, ny = foot.normal.y;
+    const double slip_rate = (disc.vy - wall_velocity.y) * nx - (disc.vx - wall_velocity.x) * ny -
+                             disc.spin * foot.distance;
+    parameters.friction = static_cast<float>(friction);
+    std::uint8_t bonded = 0;
+    const double normal = contact_force(disc.radius - foot.distance, slip_rate, parameters, 0.0f,
+                                        0.0f, shear_force, bonded);
+    return {normal * nx - shear_force * ny, normal * ny + shear_force * nx,
+            -(foot.distance * shear_force)};
+}
+
+/// Velocity of a surface where it has a normal, m/s. The conveyor runs along the chain, whose
+/// direction is (n_y, -n_x).
+inline Point surface_velocity(const Surface& surface, double speed, Point normal) {
+    return {speed * (surface.translation.x + surface.conveyor * normal.y),
+            speed * (surface.translation.y - surface.conveyor * normal.x)};
+}
+
+/// Force of one rigid surface on one disc; both cycles use it. `speed` (m/s) and `extension` (m)
+/// are the base's, `parameters` the stiffness of surface and disc in series. Updates the shear
+/// force.
 inline BaseContactForce base_contact_force(const Surface& surface, double extension, double speed,
                                            const BaseContactDisc& disc,
                                            ContactParameters parameters, double& shear_force) {
@@ -27,18 +53,63 @@ inline BaseContactForce base_contact_force(const Surface& surface, double extens
         shear_force = 0.0;
         return {0.0, 0.0, 0.0};
     }
-    const double nx = foot->normal.x, ny = foot->normal.y;
-    // The conveyor runs along the chain, whose direction is (n_y, -n_x).
-    const double wall_vx = speed * (surface.translation.x + surface.conveyor * ny);
-    const double wall_vy = speed * (surface.translation.y - surface.conveyor * nx);
-    const double slip_rate =
-        (disc.vy - wall_vy) * nx - (disc.vx - wall_vx) * ny - disc.spin * foot->distance;
-    parameters.friction = static_cast<float>(surface.friction);
-    std::uint8_t bonded = 0;
-    const double normal = contact_force(disc.radius - foot->distance, slip_rate, parameters, 0.0f,
-                                        0.0f, shear_force, bonded);
-    return {normal * nx - shear_force * ny, normal * ny + shear_force * nx,
-            -(foot->distance * shear_force)};
+    return surface_force(*foot, surface_velocity(surface, speed, foot->normal), surface.friction,
+                         disc, parameters, shear_force);
+}
+
+/// Force of a surface that deforms, and to which nodes it goes back.
+struct NodeContactForce {
+    BaseContactForce force = {0.0, 0.0, 0.0};
+    std::size_t node = 0;              ///< first of the face
+    std::array<double, 3> weight = {}; ///< of its nodes; all 0: the force goes to none
+};
+
+/// The same for a surface that deforms. `place` is the contact's place on it, found anew from
+/// there. What presses on the backstop goes to no node: it stands for nothing that bends.
+inline NodeContactForce node_contact_force(const Surface& surface, const BaseNodeColumns& nodes,
+                                           double extension, double speed,
+                                           const BaseContactDisc& disc,
+                                           ContactParameters parameters, double& shear_force,
+                                           double& place) {
+    const BasePlace base{extension, nodes.x, nodes.y, nodes.ux, nodes.uy};
+    NodeContactForce result;
+    std::optional<Foot> foot;
+    Point velocity;
+    if (surface.follows == Follows::breakaway) {
+        foot = nearest(surface, base, {disc.x, disc.y});
+        velocity = {nodes.vx[0], nodes.vy[0]};
+    } else if (const auto point = base.trace(surface).nearest({disc.x, disc.y}, place)) {
+        foot = point->foot;
+        place = point->place;
+        if (foot->distance < disc.radius) {
+            result.node = point->node;
+            result.weight = point->weight;
+            for (std::size_t k = 0; k <= static_cast<std::size_t>(surface.degree); ++k) {
+                velocity.x += result.weight[k] * nodes.vx[result.node + k];
+                velocity.y += result.weight[k] * nodes.vy[result.node + k];
+            }
+        }
+    } else {
+        place = -1.0;
+    }
+    if (!foot || foot->distance >= disc.radius) {
+        shear_force = 0.0;
+        return result;
+    }
+    const Point runs = surface_velocity(surface, speed, foot->normal);
+    result.force = surface_force(*foot, {velocity.x + runs.x, velocity.y + runs.y},
+                                 surface.friction, disc, parameters, shear_force);
+    return result;
+}
+
+/// Adds what a disc does to the wall to the loads of the nodes.
+inline void add_load(const BaseNodeColumns& nodes, const NodeContactForce& f, int degree) {
+    if (f.weight[0] == 0.0 && f.weight[1] == 0.0 && f.weight[2] == 0.0)
+        return;
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) {
+        nodes.load_x[f.node + k] -= f.weight[k] * f.force.x;
+        nodes.load_y[f.node + k] -= f.weight[k] * f.force.y;
+    }
 }
 
 } // namespace listric

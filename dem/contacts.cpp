@@ -1,5 +1,6 @@
 #include "dem/contacts.hpp"
 
+#include "dem/base_place.hpp"
 #include "dem/cells.hpp"
 
 #include <algorithm>
@@ -111,13 +112,20 @@ bool find_disc_contacts(State& state, const Searched& searched) {
 
 bool find_base_contacts(State& state, const RigidBase& base, const Searched& searched) {
     const ConstDiscColumns d = disc_columns(std::as_const(state));
+    const BasePlace place = searched_base_place(state);
+    // The rigid chain is found faster than the deformed wall, and rules out most discs.
+    const double displacement = 1.1 * greatest_node_displacement(place);
     std::vector<Pair> found;
     for (const std::int32_t row : searched.rows)
         for (std::size_t s = 0; s < base.surfaces.size(); ++s) {
             const auto i = static_cast<std::size_t>(row);
-            const auto foot = nearest(base.surfaces[s], state.searched_extension,
-                                      {d.searched_x[i], d.searched_y[i]});
-            if (foot && foot->distance <= d.radius[i] + state.skin)
+            const Point p{d.searched_x[i], d.searched_y[i]};
+            const double reach = d.radius[i] + state.skin;
+            auto foot = nearest(base.surfaces[s], state.searched_extension, p);
+            if (place.deforms(base.surfaces[s]) &&
+                !(foot && foot->distance > reach + state.skin + displacement))
+                foot = nearest(base.surfaces[s], place, p);
+            if (foot && foot->distance <= reach)
                 found.push_back({row, static_cast<std::int32_t>(s)});
         }
     const ConstBaseContactColumns c = base_contact_columns(std::as_const(state));
@@ -131,18 +139,27 @@ template <class Columns> double displacement_square(const Columns& d, std::size_
     return dx * dx + dy * dy;
 }
 
-/// How far a surface is from its searched place, m.
-double surface_travel(const State& state, const RigidBase& base) {
-    return greatest_translation(base) * std::abs(state.clock.extension - state.searched_extension);
+/// From now on all surfaces were found where they are.
+void mark_surfaces(State& state) {
+    state.searched_extension = state.clock.extension;
+    const BaseNodeColumns n = base_node_columns(state);
+    std::ranges::copy(n.ux, n.searched_ux.begin());
+    std::ranges::copy(n.uy, n.searched_uy.begin());
 }
 
 } // namespace
+
+double surface_travel(const State& state, const RigidBase& base, double extension) {
+    const double translation =
+        greatest_translation(base) * std::abs(extension - state.searched_extension);
+    return std::max(translation, greatest_node_travel(state));
+}
 
 void find_contacts(State& state, const RigidBase& base) {
     const DiscColumns d = disc_columns(state);
     std::ranges::copy(d.x, d.searched_x.begin());
     std::ranges::copy(d.y, d.searched_y.begin());
-    state.searched_extension = state.clock.extension;
+    mark_surfaces(state);
     state.displacement_bound = 0.0;
     const Searched searched = all_discs(state);
     find_disc_contacts(state, searched);
@@ -158,11 +175,11 @@ double greatest_displacement(const State& state, const RigidBase& base) {
             greatest = square;
     }
     // The first argument of std::max wins if it is no number.
-    return std::max(std::sqrt(greatest), surface_travel(state, base));
+    return std::max(std::sqrt(greatest), surface_travel(state, base, state.clock.extension));
 }
 
 void find_surface_contacts(State& state, const RigidBase& base) {
-    state.searched_extension = state.clock.extension;
+    mark_surfaces(state);
     find_base_contacts(state, base, all_discs(state));
 }
 
@@ -178,8 +195,8 @@ bool update_contacts(State& state, const RigidBase& base) {
             d.searched_y[i] = d.y[i];
         }
     bool changed = find_disc_contacts(state, searched);
-    if (surface_travel(state, base) > stays) {
-        state.searched_extension = state.clock.extension;
+    if (surface_travel(state, base, state.clock.extension) > stays) {
+        mark_surfaces(state);
         searched = all_discs(state);
     }
     changed |= find_base_contacts(state, base, searched);

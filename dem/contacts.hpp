@@ -25,6 +25,9 @@ void find_surface_contacts(State& state, const RigidBase& base);
 /// Greatest distance of a disc or surface from its searched place, m; NaN if a place is no number.
 double greatest_displacement(const State& state, const RigidBase& base);
 
+/// How far a surface is from where the last search of all surfaces found it, m, at an extension.
+double surface_travel(const State& state, const RigidBase& base, double extension);
+
 /// Whether the greatest displacement is to be measured before a cycle: when discs may be beyond
 /// half a skin, and every 1000 cycles, since NaN hides from the bound.
 inline bool is_check_due(double displacement_bound, double skin, std::int64_t cycle) {

@@ -1,6 +1,7 @@
 #include "dem/cycle.hpp"
 
 #include "dem/base_contact.hpp"
+#include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
 #include "dem/fast_cycle.hpp"
 #include "dem/law.hpp"
@@ -26,13 +27,26 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force) {
     std::ranges::fill(force, Force{0.0, 0.0, 0.0});
     const Clock& clock = state.clock;
     const double speed = base.motion.speed_at(clock.time());
+    const BaseNodeColumns nodes = base_node_columns(state);
+    const bool deforms = !nodes.x.empty();
+    const auto places = deforms ? state.base_contacts.get<double>("place") : std::span<double>();
     for (std::size_t k = 0; k < c.disc.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.disc[k]);
-        const BaseContactForce f = base_contact_force(
-            base.surfaces[static_cast<std::size_t>(c.surface[k])], clock.extension, speed,
-            {d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]},
-            contact_parameters(base.material, state.materials[d.material[i]], clock.time_step),
-            c.shear_force[k]);
+        const Surface& surface = base.surfaces[static_cast<std::size_t>(c.surface[k])];
+        const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
+        const ContactParameters parameters =
+            contact_parameters(base.material, state.materials[d.material[i]], clock.time_step);
+        BaseContactForce f;
+        if (deforms && surface.follows != Follows::nothing) {
+            const NodeContactForce on_nodes =
+                node_contact_force(surface, nodes, clock.extension, speed, disc, parameters,
+                                   c.shear_force[k], places[k]);
+            add_load(nodes, on_nodes, surface.degree);
+            f = on_nodes.force;
+        } else {
+            f = base_contact_force(surface, clock.extension, speed, disc, parameters,
+                                   c.shear_force[k]);
+        }
         force[i].x += f.x;
         force[i].y += f.y;
         force[i].moment += f.moment;
@@ -74,7 +88,7 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
     }
 }
 
-/// The force less local damping; a disc at rest is not damped.
+/// The force less local damping; what is at rest is not damped.
 double damped(double force, double velocity, double damping) {
     return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
 }
@@ -83,18 +97,28 @@ double damped(double force, double velocity, double damping) {
 double move_discs(State& state, const CyclePhysics& physics, std::span<const Force> force) {
     const DiscColumns d = disc_columns(state);
     const double dt = state.clock.time_step;
+    const bool relative = physics.averaging_time > 0.0;
+    const auto mean_vx = relative ? state.discs.get<double>("mean_vx") : std::span<double>();
+    const auto mean_vy = relative ? state.discs.get<double>("mean_vy") : std::span<double>();
+    const double share = relative ? dt / physics.averaging_time : 0.0;
     double fastest = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
         const double acceleration_per_force = dt / inertia;
         const double spin_up = acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i]));
         const double fy = force[i].y - d.mass[i] * physics.gravity;
-        d.vx[i] += damped(force[i].x, d.vx[i], physics.damping) * acceleration_per_force;
-        d.vy[i] += damped(fy, d.vy[i], physics.damping) * acceleration_per_force;
+        const double departs_x = relative ? d.vx[i] - mean_vx[i] : d.vx[i];
+        const double departs_y = relative ? d.vy[i] - mean_vy[i] : d.vy[i];
+        d.vx[i] += damped(force[i].x, departs_x, physics.damping) * acceleration_per_force;
+        d.vy[i] += damped(fy, departs_y, physics.damping) * acceleration_per_force;
         d.spin[i] += damped(force[i].moment, d.spin[i], physics.damping) * spin_up;
         d.x[i] += d.vx[i] * dt;
         d.y[i] += d.vy[i] * dt;
         d.rotation[i] += d.spin[i] * dt;
+        if (relative) {
+            mean_vx[i] += (d.vx[i] - mean_vx[i]) * share;
+            mean_vy[i] += (d.vy[i] - mean_vy[i]) * share;
+        }
         fastest = std::max({fastest, std::abs(d.vx[i]), std::abs(d.vy[i])});
     }
     return fastest;
@@ -115,22 +139,31 @@ void refuse_runaways(const State& state) {
                                    " m/s, cycle " + std::to_string(state.clock.cycle) + ")");
 }
 
+/// Lets the nodes of a base that deforms answer and move. Returns the largest component of a
+/// velocity, m/s.
+double move_base(State& state, const Clock& clock, BaseResponse* response) {
+    if (response && (clock.cycle + 1) % response->interval == 0)
+        response->respond(state, clock);
+    return move_nodes(base_node_columns(state), clock.time_step);
+}
+
 /// One plain cycle. It is written to be read.
 void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
-                   const PairParameters& pairs, std::span<Force> force) {
+                   const PairParameters& pairs, std::span<Force> force, BaseResponse* response) {
     Clock& clock = state.clock;
     const double speed = base.motion.speed_at(clock.time());
     base_forces(state, base, force);
     contact_forces(state, pairs, force);
     const double fastest =
-        std::max(move_discs(state, physics, force), greatest_translation(base) * speed);
+        std::max({move_discs(state, physics, force), greatest_translation(base) * speed,
+                  move_base(state, clock, response)});
     state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
     clock.extension += speed * clock.time_step;
     ++clock.cycle;
 }
 
 void advance_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
-                     std::int64_t cycles) {
+                     std::int64_t cycles, BaseResponse* response) {
     std::vector<Force> force(state.discs.rows());
     const PairParameters pairs(state.materials, state.clock.time_step);
     for (; cycles > 0; --cycles) {
@@ -140,15 +173,15 @@ void advance_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
             if (is_update_due(state.displacement_bound, state.skin))
                 update_contacts(state, base);
         }
-        cycle_plainly(state, base, physics, pairs, force);
+        cycle_plainly(state, base, physics, pairs, force, response);
     }
 }
 
 void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
-                  std::int64_t cycles, int threads) {
+                  std::int64_t cycles, int threads, BaseResponse* response) {
     FastCycle fast(state, base, physics, threads);
     while (cycles > 0) {
-        cycles -= fast.run(state, cycles);
+        cycles -= fast.run(state, cycles, response);
         if (cycles == 0)
             break;
         fast.unpack(state);
@@ -162,14 +195,19 @@ void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physi
 
 } // namespace
 
+void add_mean_velocities(State& state) {
+    for (const char* name : {"mean_vx", "mean_vy"})
+        state.discs.add<double>(name, "m/s", 0.0);
+}
+
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
-             const Execution& execution) {
+             const Execution& execution, BaseResponse* response) {
     const bool plain =
         execution.cycle == Cycle::plain || (execution.cycle == Cycle::best && !has_wide_registers);
     if (plain)
-        advance_plainly(state, base, physics, cycles);
+        advance_plainly(state, base, physics, cycles, response);
     else
-        advance_fast(state, base, physics, cycles, execution.threads);
+        advance_fast(state, base, physics, cycles, execution.threads, response);
 }
 
 double stable_time_step(double mass, const Material& m, double damping, double safety) {

@@ -104,18 +104,46 @@ void FastCycle::compute_base(Strip& strip, double extension, double speed) {
     }
 }
 
+void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, double extension,
+                              double speed) {
+    for (NodeContact& node_contact : strip.node_contacts) {
+        BaseContact& contact = node_contact.contact;
+        const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
+        node_contact.force = node_contact_force(
+            *contact.surface, nodes, extension, speed,
+            {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
+            contact.parameters, contact.shear_force, node_contact.place);
+        const BaseContactForce& f = node_contact.force.force;
+        slots_[contact.slot] = Slot{f.x, f.y, 0.0, f.moment};
+    }
+}
+
+/// As in the plain cycle: loads by row, which is the order of strips and of their contacts.
+double FastCycle::move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
+                            BaseResponse* response) {
+    for (const Strip& strip : strips_)
+        for (const NodeContact& c : strip.node_contacts)
+            add_load(nodes, c.force, c.contact.surface->degree);
+    if (response && (clock.cycle + 1) % response->interval == 0)
+        response->respond(state, clock);
+    return move_nodes(nodes, clock.time_step);
+}
+
 template <bool bonded, bool frictional> void FastCycle::compute_boundary(Strip& strip) {
     for (Block& block : strip.boundary.blocks)
         compute<bonded, frictional>(block);
 }
 
-template <bool bonded, bool frictional> double FastCycle::sweep(Strip& strip) {
+template <bool bonded, bool frictional, bool relative> double FastCycle::sweep(Strip& strip) {
     const Double4 no_force = {};
     const Double4 damping = no_force + physics_.damping;
     const Double4 time_step = no_force + time_step_;
     const Mask4 sign = {std::numeric_limits<std::int64_t>::min(),
                         std::numeric_limits<std::int64_t>::min(),
                         std::numeric_limits<std::int64_t>::min(), 0};
+    // Of the mean velocity; spin is damped as it is, its mean stays 0.
+    const double share = relative ? time_step_ / physics_.averaging_time : 0.0;
+    const Double4 shares = {share, share, 0.0, 0.0};
     Double4 fastest = no_force;
     const Slot* const slots = slots_.data();
     const std::uint32_t* list = strip.gathers.data();
@@ -129,6 +157,8 @@ template <bool bonded, bool frictional> double FastCycle::sweep(Strip& strip) {
             const std::size_t first = group * group_discs;
             prefetch(ahead(discs_, first + strip.look_ahead), group_discs * sizeof(Disc));
             prefetch(ahead(constants_, first + 64), group_discs * sizeof(DiscConstants));
+            if constexpr (relative)
+                prefetch(ahead(mean_velocities_, first + 64), group_discs * sizeof(Double4));
             prefetch(
                 ahead(strip.gathers, static_cast<std::size_t>(list - strip.gathers.data()) + 512),
                 128);
@@ -151,11 +181,18 @@ template <bool bonded, bool frictional> double FastCycle::sweep(Strip& strip) {
                 const Double4 weight = __builtin_shufflevector(c, no_force, 4, 1, 4, 4);
                 const Double4 f = force[m] - weight;
                 const Double4 v = disc.velocity;
+                Double4 departs = v;
+                if constexpr (relative)
+                    departs = v - mean_velocities_[group * group_discs + m];
                 const Double4 drag =
                     reinterpret_cast<Double4>(reinterpret_cast<Mask4>(damping * magnitude(f)) |
-                                              (reinterpret_cast<Mask4>(v) & sign));
-                const Double4 damped = v == no_force ? f : f - drag;
+                                              (reinterpret_cast<Mask4>(departs) & sign));
+                const Double4 damped = departs == no_force ? f : f - drag;
                 disc.velocity = v + damped * gain;
+                if constexpr (relative) {
+                    Double4& mean = mean_velocities_[group * group_discs + m];
+                    mean += (disc.velocity - mean) * shares;
+                }
                 disc.place += disc.velocity * time_step;
                 const Double4 speed = magnitude(disc.velocity);
                 fastest = fastest < speed ? speed : fastest;
@@ -165,14 +202,19 @@ template <bool bonded, bool frictional> double FastCycle::sweep(Strip& strip) {
     return std::max(fastest[0], fastest[1]);
 }
 
+template <bool bonded, bool frictional> auto FastCycle::choose_sweep() const {
+    return mean_velocities_.empty() ? &FastCycle::sweep<bonded, frictional, false>
+                                    : &FastCycle::sweep<bonded, frictional, true>;
+}
+
 FastCycle::Kernels FastCycle::choose_kernels() const {
     if (bonded_ && frictional_)
-        return {&FastCycle::compute_boundary<true, true>, &FastCycle::sweep<true, true>};
+        return {&FastCycle::compute_boundary<true, true>, choose_sweep<true, true>()};
     if (bonded_)
-        return {&FastCycle::compute_boundary<true, false>, &FastCycle::sweep<true, false>};
+        return {&FastCycle::compute_boundary<true, false>, choose_sweep<true, false>()};
     if (frictional_)
-        return {&FastCycle::compute_boundary<false, true>, &FastCycle::sweep<false, true>};
-    return {&FastCycle::compute_boundary<false, false>, &FastCycle::sweep<false, false>};
+        return {&FastCycle::compute_boundary<false, true>, choose_sweep<false, true>()};
+    return {&FastCycle::compute_boundary<false, false>, choose_sweep<false, false>()};
 }
 
 /// Square of the greatest distance of the strip's discs from their searched places, m^2.
@@ -188,11 +230,12 @@ double FastCycle::furthest(const Strip& strip) const {
     return greatest;
 }
 
-std::int64_t FastCycle::run(State& state, std::int64_t cycles) {
+std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* response) {
     const Kernels kernels = choose_kernels();
     const Clock start = state.clock;
     const double start_bound = state.displacement_bound;
     const double surface_translation = greatest_translation(base_);
+    const BaseNodeColumns nodes = base_node_columns(state);
     Barrier barrier(static_cast<int>(strips_.size()));
     run_team(static_cast<int>(strips_.size()), [&](int thread) {
         // Each thread keeps clock and bound for itself; all come to the same decisions.
@@ -207,20 +250,23 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles) {
                 for (const Strip& s : strips_)
                     if (s.furthest > bound || std::isnan(s.furthest))
                         bound = s.furthest;
-                bound = std::max(std::sqrt(bound),
-                                 surface_translation *
-                                     std::abs(clock.extension - state.searched_extension));
+                bound = std::max(std::sqrt(bound), surface_travel(state, base_, clock.extension));
                 if (is_update_due(bound, state.skin))
                     break;
             }
             const double speed = base_.motion.speed_at(clock.time());
             compute_base(strip, clock.extension, speed);
+            if (deforms_)
+                compute_nodes(strip, nodes, clock.extension, speed);
             (this->*kernels.compute_boundary)(strip);
             barrier.wait();
             const auto parity = static_cast<std::size_t>(clock.cycle % 2);
+            // No disc looks at the nodes between the two barriers.
+            if (deforms_ && thread == 0)
+                fastest_node_[parity] = move_base(state, nodes, clock, response);
             strip.fastest[parity] = (this->*kernels.sweep)(strip);
             barrier.wait();
-            double fastest = surface_translation * speed;
+            double fastest = std::max(surface_translation * speed, fastest_node_[parity]);
             for (const Strip& s : strips_)
                 fastest = std::max(fastest, s.fastest[parity]);
             bound += std::numbers::sqrt2 * fastest * clock.time_step;

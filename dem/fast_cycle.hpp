@@ -2,6 +2,7 @@
 
 #include "dem/aligned_vector.hpp"
 #include "dem/base.hpp"
+#include "dem/base_contact.hpp"
 #include "dem/cycle.hpp"
 #include "dem/law.hpp"
 #include "dem/simd.hpp"
@@ -40,8 +41,8 @@ public:
     FastCycle(const State& state, const RigidBase& base, const CyclePhysics& physics, int threads);
 
     /// Runs until `cycles` cycles are done or the lists must be updated. Updates clock and bound of
-    /// the state, nothing else. Returns the number of cycles done.
-    std::int64_t run(State& state, std::int64_t cycles);
+    /// the state and the nodes of its base, nothing else. Returns the number of cycles done.
+    std::int64_t run(State& state, std::int64_t cycles, BaseResponse* response = nullptr);
 
     /// Packs new contact lists, of the same discs.
     void pack_contacts(const State& state);
@@ -79,6 +80,14 @@ private:
         std::uint32_t slot;
     };
 
+    /// With a surface that deforms.
+    struct NodeContact {
+        BaseContact contact;
+        std::size_t row; ///< of the table
+        double place;
+        NodeContactForce force; ///< of this cycle
+    };
+
     /// Contacts, eight at a time.
     struct Blocks {
         AlignedVector<Block> blocks;
@@ -94,10 +103,11 @@ private:
     /// The contiguous discs of one thread.
     struct Strip {
         std::size_t first_disc = 0, end_disc = 0;
-        Blocks inner;    ///< contacts of its discs, by tiles
-        Blocks boundary; ///< those with a second disc in a later strip
-        std::vector<BaseContact> base_contacts;
-        std::size_t first_base_row = 0;
+        Blocks inner;                           ///< contacts of its discs, by tiles
+        Blocks boundary;                        ///< those with a second disc in a later strip
+        std::vector<BaseContact> base_contacts; ///< with rigid surfaces
+        std::vector<std::size_t> base_rows;     ///< of the table
+        std::vector<NodeContact> node_contacts;
         std::vector<Tile> tiles;
         std::size_t look_ahead = 0; ///< discs between the one that moves and those fetched
         AlignedVector<std::uint32_t> gathers; ///< see pack_gathers
@@ -122,13 +132,18 @@ private:
     /// contacts are packed: bonds never form within a cycle.
     template <bool bonded, bool frictional> void compute(Block& block);
     template <bool bonded, bool frictional> void compute_boundary(Strip& strip);
-    template <bool bonded, bool frictional> double sweep(Strip& strip);
+    /// Discs are compiled with damping relative to rest or to their mean motion.
+    template <bool bonded, bool frictional, bool relative> double sweep(Strip& strip);
+    template <bool bonded, bool frictional> auto choose_sweep() const;
     struct Kernels {
         void (FastCycle::*compute_boundary)(Strip&);
         double (FastCycle::*sweep)(Strip&);
     };
     Kernels choose_kernels() const;
     void compute_base(Strip& strip, double extension, double speed);
+    void compute_nodes(Strip& strip, const BaseNodeColumns& nodes, double extension, double speed);
+    double move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
+                     BaseResponse* response);
     double furthest(const Strip& strip) const;
 
     static constexpr std::size_t tile_discs = 128; ///< a tile's records and slots fit the cache
@@ -141,10 +156,13 @@ private:
     std::size_t disc_count_;
     AlignedVector<Disc> discs_;
     AlignedVector<DiscConstants> constants_;
+    AlignedVector<Double4> mean_velocities_; ///< empty: damping is relative to rest
     std::vector<Place> searched_places_;
     AlignedVector<Slot> slots_;
     std::vector<Strip> strips_;
     bool bonded_ = false, frictional_ = false; ///< whether any contact is
+    bool deforms_ = false;                     ///< whether the base has nodes
+    double fastest_node_[2] = {0.0, 0.0};      ///< as Strip::fastest
 
     std::vector<std::uint32_t> slot_of_, base_slot_of_; ///< by row of the contact tables
 };

@@ -29,6 +29,14 @@ FastCycle::FastCycle(const State& state, const RigidBase& base, const CyclePhysi
             DiscConstants{acceleration_per_force, d.mass[i] * physics.gravity,
                           acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i])), 0.0};
     }
+    if (physics.averaging_time > 0.0) {
+        const auto mean_vx = state.discs.get<double>("mean_vx");
+        const auto mean_vy = state.discs.get<double>("mean_vy");
+        mean_velocities_.assign(padded, Double4{});
+        for (std::size_t i = 0; i < disc_count_; ++i)
+            mean_velocities_[i] = Double4{mean_vx[i], mean_vy[i], 0.0, 0.0};
+    }
+    deforms_ = state.base_nodes.rows() > 0;
     divide_work(state, threads);
     pack_searched_places(state);
     pack_contacts(state);
@@ -75,7 +83,7 @@ void FastCycle::pack_contacts(const State& state) {
         row = pack_blocks(state, row, strip);
         slot = assign_slots(slot, strip);
         base_row = pack_base_contacts(state, base_row, slot, strip);
-        slot += strip.base_contacts.size();
+        slot += strip.base_contacts.size() + strip.node_contacts.size();
     }
     slots_.assign(slot, Slot{0.0, 0.0, 0.0, 0.0});
     pack_gathers(state);
@@ -170,17 +178,27 @@ std::size_t FastCycle::pack_base_contacts(const State& state, std::size_t row, s
                                           Strip& strip) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);
+    const auto places =
+        deforms_ ? state.base_contacts.get<double>("place") : std::span<const double>();
     strip.base_contacts.clear();
-    strip.first_base_row = row;
+    strip.base_rows.clear();
+    strip.node_contacts.clear();
     for (; row < b.disc.size() && static_cast<std::size_t>(b.disc[row]) < strip.end_disc;
          ++row, ++slot) {
         base_slot_of_[row] = static_cast<std::uint32_t>(slot);
-        strip.base_contacts.push_back(
-            {b.disc[row], &base_.surfaces[static_cast<std::size_t>(b.surface[row])],
-             contact_parameters(base_.material,
-                                state.materials[d.material[static_cast<std::size_t>(b.disc[row])]],
-                                time_step_),
-             b.shear_force[row], static_cast<std::uint32_t>(slot)});
+        const Surface& surface = base_.surfaces[static_cast<std::size_t>(b.surface[row])];
+        const BaseContact contact{
+            b.disc[row], &surface,
+            contact_parameters(base_.material,
+                               state.materials[d.material[static_cast<std::size_t>(b.disc[row])]],
+                               time_step_),
+            b.shear_force[row], static_cast<std::uint32_t>(slot)};
+        if (deforms_ && surface.follows != Follows::nothing) {
+            strip.node_contacts.push_back({contact, row, places[row], {}});
+        } else {
+            strip.base_contacts.push_back(contact);
+            strip.base_rows.push_back(row);
+        }
     }
     return row;
 }
@@ -246,8 +264,17 @@ void FastCycle::unpack(State& state) const {
         d.vy[i] = disc.velocity[1];
         d.spin[i] = disc.velocity[2];
     }
+    if (!mean_velocities_.empty()) {
+        const auto mean_vx = state.discs.get<double>("mean_vx");
+        const auto mean_vy = state.discs.get<double>("mean_vy");
+        for (std::size_t i = 0; i < disc_count_; ++i) {
+            mean_vx[i] = mean_velocities_[i][0];
+            mean_vy[i] = mean_velocities_[i][1];
+        }
+    }
     const ContactColumns c = contact_columns(state);
     const BaseContactColumns b = base_contact_columns(state);
+    const auto places = deforms_ ? state.base_contacts.get<double>("place") : std::span<double>();
     const auto restore = [&](const Blocks& from) {
         for (std::size_t lane = 0; lane < from.rows.size(); ++lane)
             if (from.rows[lane] >= 0) {
@@ -261,7 +288,11 @@ void FastCycle::unpack(State& state) const {
         restore(strip.inner);
         restore(strip.boundary);
         for (std::size_t k = 0; k < strip.base_contacts.size(); ++k)
-            b.shear_force[strip.first_base_row + k] = strip.base_contacts[k].shear_force;
+            b.shear_force[strip.base_rows[k]] = strip.base_contacts[k].shear_force;
+        for (const NodeContact& node_contact : strip.node_contacts) {
+            b.shear_force[node_contact.row] = node_contact.contact.shear_force;
+            places[node_contact.row] = node_contact.place;
+        }
     }
 }
 

@@ -27,7 +27,7 @@ std::vector<Surface> joined(const RigidBase& base) {
 } // namespace
 
 Ground::Ground(const State& state, const RigidBase& base, double largest_radius)
-    : surfaces_(joined(base)), extension_(state.clock.extension) {
+    : surfaces_(joined(base)), place_(base_place(state)) {
     const ConstDiscColumns d = disc_columns(state);
     const auto [low_x, high_x] = std::ranges::minmax(d.x);
     const double largest = std::max(largest_radius, *std::ranges::max_element(d.radius));
@@ -64,7 +64,7 @@ std::size_t Ground::column(double x) const {
 double Ground::clearance(Point p) const {
     double least = infinity;
     for (const Surface& s : surfaces_)
-        if (const auto foot = nearest(s, extension_, p))
+        if (const auto foot = nearest(s, place_, p))
             least = std::min(least, foot->distance);
     return least;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/base.hpp"
+#include "dem/base_place.hpp"
 #include "dem/state.hpp"
 
 #include <optional>
@@ -39,7 +39,8 @@ private:
     /// Of the base. Where one ends at the start of another, as the backstop does at the breakaway,
     /// they are joined: then what lies beyond their corner is outside.
     std::vector<Surface> surfaces_;
-    double extension_, left_, width_, bottom_;
+    BasePlace place_;
+    double left_, width_, bottom_;
     std::vector<std::vector<Obstacle>> columns_;
 };
 

@@ -1,5 +1,6 @@
 #include "dem/monitor.hpp"
 
+#include "dem/base_place.hpp"
 #include "dem/law.hpp"
 #include "dem/units.hpp"
 
@@ -29,10 +30,11 @@ template <class Visit>
 void for_each_base_contact(const State& state, const RigidBase& base, Visit&& visit) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstBaseContactColumns c = base_contact_columns(state);
+    const BasePlace place = base_place(state);
     for (std::size_t k = 0; k < c.disc.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.disc[k]);
         const auto s = static_cast<std::size_t>(c.surface[k]);
-        const auto foot = nearest(base.surfaces[s], state.clock.extension, {d.x[i], d.y[i]});
+        const auto foot = nearest(base.surfaces[s], place, {d.x[i], d.y[i]});
         if (foot && foot->distance < d.radius[i])
             visit(k, i, s, foot->normal, d.radius[i] - foot->distance);
     }

@@ -1,5 +1,6 @@
 #include "dem/power_cell.hpp"
 
+#include "dem/base_place.hpp"
 #include "dem/cells.hpp"
 
 #include <algorithm>
@@ -55,6 +56,7 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
     const Cells cells(d.x, d.y, reach);
     std::vector<PowerCell> result(rows.size());
     std::vector<Corner> polygon, scratch;
+    const BasePlace place = base_place(state);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const auto i = static_cast<std::size_t>(rows[k]);
         const double half = 0.5 * reach;
@@ -63,7 +65,7 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
                    {{half, half}, true},
                    {{-half, half}, true}};
         for (const Surface& s : base.surfaces)
-            if (const auto foot = nearest(s, state.clock.extension, {d.x[i], d.y[i]});
+            if (const auto foot = nearest(s, place, {d.x[i], d.y[i]});
                 foot && foot->distance < half)
                 clip(polygon, scratch, {-foot->normal.x, -foot->normal.y}, foot->distance);
         cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {

@@ -70,6 +70,14 @@ template <class Columns, class AnyTable> Columns base_contacts_of(AnyTable& t) {
             t.template get<double>("shear_force")};
 }
 
+template <class Columns, class AnyTable> Columns base_nodes_of(AnyTable& t) {
+    if (t.rows() == 0)
+        return {};
+    const auto get = [&](const char* name) { return t.template get<double>(name); };
+    return {get("x"),  get("y"),      get("ux"),     get("uy"),          get("vx"),
+            get("vy"), get("load_x"), get("load_y"), get("searched_ux"), get("searched_uy")};
+}
+
 } // namespace
 
 DiscColumns disc_columns(State& s) { return discs_of<DiscColumns>(s.discs); }
@@ -83,6 +91,28 @@ BaseContactColumns base_contact_columns(State& s) {
 }
 ConstBaseContactColumns base_contact_columns(const State& s) {
     return base_contacts_of<ConstBaseContactColumns>(s.base_contacts);
+}
+
+BaseNodeColumns base_node_columns(State& s) { return base_nodes_of<BaseNodeColumns>(s.base_nodes); }
+ConstBaseNodeColumns base_node_columns(const State& s) {
+    return base_nodes_of<ConstBaseNodeColumns>(s.base_nodes);
+}
+
+void add_base_nodes(State& state, std::span<const double> x, std::span<const double> y) {
+    Table& nodes = state.base_nodes;
+    nodes = {};
+    nodes.resize(x.size());
+    for (const char* name : {"x", "y", "ux", "uy"})
+        nodes.add<double>(name, "m", 0.0);
+    for (const char* name : {"vx", "vy"})
+        nodes.add<double>(name, "m/s", 0.0);
+    for (const char* name : {"load_x", "load_y"})
+        nodes.add<double>(name, "N", 0.0);
+    for (const char* name : {"searched_ux", "searched_uy"})
+        nodes.add<double>(name, "m", 0.0);
+    std::ranges::copy(x, nodes.get<double>("x").begin());
+    std::ranges::copy(y, nodes.get<double>("y").begin());
+    state.base_contacts.add<double>("place", "1", -1.0);
 }
 
 std::size_t add_discs(State& state, std::size_t count) {
@@ -190,6 +220,10 @@ std::uint64_t hash(const State& state) {
     mix(h, state.discs);
     mix(h, state.contacts);
     mix(h, state.base_contacts);
+    if (state.base_nodes.rows() > 0)
+        mix(h, state.base_nodes);
+    for (const auto& [name, table] : state.base_memory)
+        mix(h, table);
     for (const Material& m : state.materials) {
         mix(h, m.normal_stiffness);
         mix(h, m.shear_stiffness);

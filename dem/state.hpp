@@ -4,7 +4,9 @@
 #include "dem/material.hpp"
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -28,10 +30,12 @@ struct Ledger {
 
 /// All that the next cycle depends on: copy it, hash it, save it.
 struct State {
-    Table discs;                     ///< see DiscColumns
-    Table contacts;                  ///< see ContactColumns
-    Table base_contacts;             ///< see BaseContactColumns
-    std::vector<Material> materials; ///< by MaterialIndex
+    Table discs;         ///< see DiscColumns
+    Table contacts;      ///< see ContactColumns
+    Table base_contacts; ///< see BaseContactColumns
+    Table base_nodes;    ///< see BaseNodeColumns; empty where the base is rigid
+    std::map<std::string, Table> base_memory; ///< of what answers to the nodes' loads, by name
+    std::vector<Material> materials;          ///< by MaterialIndex
     Clock clock;
     Ledger ledger;
     std::uint64_t seed = 1;
@@ -78,12 +82,27 @@ template <bool writable> struct BasicBaseContactColumns {
     Values<double> shear_force;         ///< N, on the disc along (-n_y, n_x)
 };
 
+/// Columns of every node of a base that deforms, from the breakaway down. Contacts of such a base
+/// have a column `place` on top, TracePoint::place; discs that are damped relative to their mean
+/// motion have `mean_vx` and `mean_vy`.
+template <bool writable> struct BasicBaseNodeColumns {
+    template <class T> using Values = std::span<std::conditional_t<writable, T, const T>>;
+
+    Values<double> x, y;                     ///< without load, m
+    Values<double> ux, uy;                   ///< displacement, m
+    Values<double> vx, vy;                   ///< m/s
+    Values<double> load_x, load_y;           ///< of the discs, summed over cycles, N
+    Values<double> searched_ux, searched_uy; ///< at the last search of all surfaces, m
+};
+
 using DiscColumns = BasicDiscColumns<true>;
 using ContactColumns = BasicContactColumns<true>;
 using BaseContactColumns = BasicBaseContactColumns<true>;
 using ConstDiscColumns = BasicDiscColumns<false>;
 using ConstContactColumns = BasicContactColumns<false>;
 using ConstBaseContactColumns = BasicBaseContactColumns<false>;
+using BaseNodeColumns = BasicBaseNodeColumns<true>;
+using ConstBaseNodeColumns = BasicBaseNodeColumns<false>;
 
 /// A state without discs but with all core columns.
 State empty_state();
@@ -94,6 +113,11 @@ BaseContactColumns base_contact_columns(State& state);
 ConstDiscColumns disc_columns(const State& state);
 ConstContactColumns contact_columns(const State& state);
 ConstBaseContactColumns base_contact_columns(const State& state);
+BaseNodeColumns base_node_columns(State& state); ///< spans are empty where there are no nodes
+ConstBaseNodeColumns base_node_columns(const State& state);
+
+/// Gives a state the nodes of a base that deforms, at rest and without displacement.
+void add_base_nodes(State& state, std::span<const double> x, std::span<const double> y);
 
 /// Adds `count` discs with fresh ids, everything else at its initial value. Returns the first row.
 std::size_t add_discs(State& state, std::size_t count);

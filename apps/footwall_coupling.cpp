@@ -1,0 +1,146 @@
+#include "apps/footwall_coupling.hpp"
+
+#include "apps/footwall_request.hpp"
+#include "apps/run.hpp"
+#include "apps/snapshot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace listric {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The strain at which linear elasticity ends: rock that carries bending breaks beyond 2 %; what is
+// relaxed flows, and only its bulk is still meant.
+constexpr double relaxed_strain_allowed = 0.10;
+
+std::string moment_name(double extension) { return fmt::format("footwall-{:08.2f}m", extension); }
+
+} // namespace
+
+FootwallCoupling::FootwallCoupling(const Scene& scene) : scene_(scene) {
+    try {
+        footwall_ = fem::make_footwall(make_footwall_request(scene));
+        Interface interface = condense(*footwall_, scene.elastic_base->degree);
+        const std::size_t last = interface.x.size() - 1;
+        const double spacing = std::hypot(interface.x[last] - interface.x[last - 1],
+                                          interface.y[last] - interface.y[last - 1]);
+        base_ = std::make_unique<ElasticBase>(std::move(interface),
+                                              make_coupling_parameters(scene, spacing));
+    } catch (const fem::FootwallError& error) {
+        throw UsageError(fmt::format("elastic_base: {}", error.what()));
+    }
+}
+
+std::vector<std::string> FootwallCoupling::description() const {
+    const fem::MeshFacts mesh = footwall_->mesh();
+    return {fmt::format("elastic base: {} elements, {} unknowns, condensed to {} nodes of the "
+                        "detachment",
+                        mesh.cells, mesh.unknowns, base_->interface().x.size())};
+}
+
+void FootwallCoupling::recover(const State& state) {
+    fem::Load load;
+    load.interface = base_->holding_forces(state);
+    load.interface.resize(2 * footwall_->interface().size(), 0.0);
+    footwall_->solve(load);
+}
+
+std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& state,
+                                                                         const RigidBase& rigid) {
+    const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
+    const WindowBalance window = base_->window(state);
+    const InterfaceBalance balance = interface_balance(state, rigid);
+    recover(state);
+    const fem::Guard guard = footwall_->guard();
+    double deflection = 0.0;
+    for (const double u : nodes.uy)
+        deflection = std::max(deflection, std::abs(u));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const bool loaded = std::abs(window.weight_change) > 0.0;
+    std::vector<std::pair<std::string, double>> row = {
+        {"footwall_uplift_m", nodes.uy[0]},
+        {"breakaway_shift_m", nodes.ux[0]},
+        {"base_deflection_max_m", deflection},
+        {"interface_force_error", balance.force_error},
+        {"interface_moment_error", balance.moment_error},
+        {"interface_work_error", balance.work_error},
+        {"base_reaction_error", window.cycles > 0.0 ? window.reaction_error : nan},
+        {"net_wall_load_n_per_m", window.cycles > 0.0 ? window.net_load : nan},
+        {"weight_change_n_per_m", window.cycles > 0.0 ? window.weight_change : nan},
+        {"net_wall_load_error", loaded ? window.net_load / window.weight_change - 1.0 : nan},
+        {"strong_rock_strain_max", guard.strong_gradient},
+        {"relaxed_rock_strain_max", guard.relaxed_gradient},
+    };
+    base_->begin_window(state);
+    if (!(guard.relaxed_gradient <= relaxed_strain_allowed) ||
+        !std::isfinite(guard.strong_gradient))
+        throw NumericalFailure(fmt::format(
+            "the footwall's relaxed rock is strained by {:.0f} % at {:.0f} m of extension, more "
+            "than the {:.0f} % that linear elasticity can mean; a greater "
+            "elastic_base.elastic_thickness_m or skin_thickness_m, or a smaller relaxation, "
+            "stiffens it",
+            100.0 * guard.relaxed_gradient, state.clock.extension, 100.0 * relaxed_strain_allowed));
+    return row;
+}
+
+void FootwallCoupling::write(const fs::path& output, const State& state) const {
+    const fs::path folder = output / "paraview";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    const std::string name = moment_name(state.clock.extension);
+    footwall_->write(folder.string(), name);
+    std::vector<std::pair<double, std::string>> moments;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string file = entry.path().filename().string();
+        if (file.starts_with("footwall-") && file.ends_with("m.vtu"))
+            moments.emplace_back(std::strtod(file.c_str() + 9, nullptr) / scene_.extension.rate /
+                                     1e6,
+                                 "paraview/" + file);
+    }
+    std::ranges::sort(moments);
+    try {
+        fem::write_series((output / "footwall.pvd").string(), moments);
+    } catch (const fem::FootwallError& failure) {
+        throw StorageError(failure.what());
+    }
+}
+
+std::vector<std::pair<std::string, double>> footwall_summary(const Table& history) {
+    if (!history.has("footwall_uplift_m"))
+        return {};
+    const auto column = [&](const char* name) { return history.get<double>(name); };
+    const auto largest = [&](const char* name) {
+        double most = 0.0;
+        for (const double value : column(name))
+            if (std::abs(value) > most)
+                most = std::abs(value);
+        return most;
+    };
+    double sum = 0.0, windows = 0.0;
+    for (const double error : column("base_reaction_error"))
+        if (!std::isnan(error)) {
+            sum += error;
+            ++windows;
+        }
+    std::vector<std::pair<std::string, double>> measures;
+    for (const char* name : {"footwall_uplift_m", "breakaway_shift_m", "base_deflection_max_m"})
+        measures.emplace_back(name, column(name).back());
+    for (const char* name :
+         {"interface_force_error", "interface_moment_error", "interface_work_error"})
+        measures.emplace_back(name, largest(name));
+    measures.emplace_back("base_reaction_error", windows > 0.0 ? sum / windows : 0.0);
+    for (const char* name : {"net_wall_load_n_per_m", "net_wall_load_error"})
+        measures.emplace_back(name, column(name).back());
+    for (const char* name : {"strong_rock_strain_max", "relaxed_rock_strain_max"})
+        measures.emplace_back(name, largest(name));
+    return measures;
+}
+
+} // namespace listric

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "apps/scene.hpp"
+#include "coupling/elastic_base.hpp"
+#include "dem/base.hpp"
+#include "dem/state.hpp"
+#include "fem/footwall.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace listric {
+
+/// The elastic footwall of a run: made from the scene when the run starts or resumes. All that it
+/// remembers is in the state.
+class FootwallCoupling {
+public:
+    /// Loads the plug-in. Throws UsageError where no footwall can be made, StorageError.
+    explicit FootwallCoupling(const Scene& scene);
+
+    ElasticBase& base() { return *base_; }
+
+    /// What is said in the log about it, a line each.
+    std::vector<std::string> description() const;
+
+    /// The measures of the window that ends, as columns of history.csv, and begins the next window.
+    /// Recovers the field of the whole footwall for the strains. Throws NumericalFailure if relaxed
+    /// rock is strained beyond what linear elasticity can mean.
+    std::vector<std::pair<std::string, double>> end_window(State& state, const RigidBase& rigid);
+
+    /// Writes the field below the discs, as it was recovered last, for ParaView: a file per moment
+    /// in `output`/paraview and footwall.pvd.
+    void write(const std::filesystem::path& output, const State& state) const;
+
+private:
+    void recover(const State& state);
+
+    const Scene& scene_;
+    std::unique_ptr<fem::Footwall> footwall_;
+    std::unique_ptr<ElasticBase> base_;
+};
+
+/// The footwall's measures over a run for summary.json, from its history.
+std::vector<std::pair<std::string, double>> footwall_summary(const Table& history);
+
+} // namespace listric

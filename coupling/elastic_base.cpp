@@ -1,0 +1,229 @@
+#include "coupling/elastic_base.hpp"
+
+#include "dem/law.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+namespace listric {
+
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// The force less local damping, as of the discs.
+double damped(double force, double velocity, double damping) {
+    return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
+}
+
+double norm(std::span<const double> v) {
+    return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
+}
+
+/// Weight of discs per metre of length right of `from`, Pa. A disc across the line counts by the
+/// part of its width.
+double weight_per_length(const State& state, double from, double to, double gravity) {
+    const ConstDiscColumns d = disc_columns(state);
+    double mass = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        mass +=
+            d.mass[i] * std::clamp((d.x[i] + d.radius[i] - from) / (2.0 * d.radius[i]), 0.0, 1.0);
+    return gravity * mass / (to - from);
+}
+
+double mass(const Ledger& ledger) { return ledger.initial + ledger.deposited - ledger.removed; }
+
+Table one_row(std::initializer_list<std::pair<const char*, const char*>> columns) {
+    Table table;
+    table.resize(1);
+    for (const auto& [name, unit] : columns)
+        table.add<double>(name, unit, 0.0);
+    return table;
+}
+
+} // namespace
+
+double node_stiffness(const Material& base, std::span<const Material> discs, double node_spacing,
+                      double mean_radius) {
+    double stiffness = 0.0;
+    for (const Material& disc : discs)
+        stiffness = std::max(
+            stiffness, static_cast<double>(contact_parameters(base, disc, 1.0).normal_stiffness));
+    return 3.0 * stiffness * std::max(1.0, node_spacing / (2.0 * mean_radius));
+}
+
+ElasticBase::ElasticBase(Interface interface, const CouplingParameters& parameters)
+    : interface_(std::move(interface)), parameters_(parameters),
+      modes_(find_modes(interface_.compliance, interface_.unknowns(),
+                        static_cast<std::size_t>(parameters.modes))),
+      load_(interface_.unknowns()), modal_load_(modes_.count()), modal_velocity_(modes_.count()),
+      velocity_(interface_.unknowns()) {
+    interval = parameters.interval;
+}
+
+void ElasticBase::attach(State& state) const {
+    add_base_nodes(state, interface_.x, interface_.y);
+    for (const char* name : {"reference_load_x", "reference_load_y"})
+        state.base_nodes.add<double>(name, "N", 0.0);
+    state.base_memory["reference"] = one_row({{"virtual_pressure", "Pa"}});
+    begin_window(state);
+    Table& modes = state.base_memory["modes"];
+    modes.resize(modes_.count());
+    modes.add<double>("displacement", "m", 0.0);
+    modes.add<double>("velocity", "m/s", 0.0);
+}
+
+void ElasticBase::settle(State& state, const RigidBase& base, const CyclePhysics& physics,
+                         const Execution& execution,
+                         const std::function<void(std::string_view, double)>& report,
+                         double drift) const {
+    constexpr int window = 2000, most = 100;
+    constexpr double change_allowed = 2e-5;
+    RigidBase held = base;
+    held.motion = {};
+    CyclePhysics still = physics;
+    still.averaging_time = 0.0; // toward rest
+    const Clock clock = state.clock;
+    const BaseNodeColumns nodes = base_node_columns(state);
+    std::vector<double> before(interface_.unknowns()), mean(before.size()), change(before.size());
+    double relative = 0.0, moves = 0.0;
+    for (int n = 0; n < most; ++n) {
+        std::ranges::fill(nodes.load_x, 0.0);
+        std::ranges::fill(nodes.load_y, 0.0);
+        advance(state, held, still, window, execution);
+        for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+            mean[2 * k] = nodes.load_x[k] / window;
+            mean[2 * k + 1] = nodes.load_y[k] / window;
+        }
+        std::ranges::transform(mean, before, change.begin(), std::minus());
+        relative = norm(change) / norm(mean);
+        moves = 0.0;
+        for (const double u : displacement(change))
+            moves = std::max(moves, std::abs(u));
+        if (n > 0 && relative < change_allowed && moves < drift)
+            break;
+        if (n + 1 == most)
+            throw NumericalFailure(
+                "the hanging wall does not come to rest: its load on the base still changes by " +
+                std::to_string(relative) +
+                " (allowed: 2e-5) in 2,000 cycles, which would move the "
+                "base by " +
+                std::to_string(moves) + " m (allowed: " + std::to_string(drift) +
+                ") without any extension; elastic_base.elastic_thickness_m may be too small, or "
+                "material.friction such that the packing creeps");
+        before = mean;
+        report("settling on the base", static_cast<double>(n) / most);
+    }
+    const auto reference_x = state.base_nodes.get<double>("reference_load_x");
+    const auto reference_y = state.base_nodes.get<double>("reference_load_y");
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        reference_x[k] = mean[2 * k];
+        reference_y[k] = mean[2 * k + 1];
+        nodes.load_x[k] = nodes.load_y[k] = 0.0;
+    }
+    // The detachment is as deep as it gets over the last part of the hanging wall.
+    double flat = parameters_.wall_x;
+    for (std::size_t k = interface_.x.size();
+         k-- > 0 && interface_.y[k] < interface_.y.back() + 1.0;)
+        flat = std::min(flat, interface_.x[k]);
+    if (flat < parameters_.wall_x)
+        state.base_memory["reference"].get<double>("virtual_pressure")[0] =
+            weight_per_length(state, flat, parameters_.wall_x, parameters_.gravity);
+    state.clock = clock;
+}
+
+std::vector<double> ElasticBase::displacement(std::span<const double> forces) const {
+    std::vector<double> u(forces.size());
+    add_rows(interface_.compliance, forces, u); // symmetric
+    return u;
+}
+
+std::vector<double> ElasticBase::holding_forces(const State& state) const {
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    std::vector<double> u(interface_.unknowns()), modal(modes_.count()), forces(u.size());
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        u[2 * k] = nodes.ux[k];
+        u[2 * k + 1] = nodes.uy[k];
+    }
+    add_rows(modes_.by_unknown, u, modal);
+    for (std::size_t k = 0; k < modal.size(); ++k)
+        modal[k] /= modes_.compliance[k];
+    add_rows(modes_.by_mode, modal, forces);
+    return forces;
+}
+
+void ElasticBase::respond(State& state, const Clock& clock) {
+    const auto start = SteadyClock::now();
+    const BaseNodeColumns nodes = base_node_columns(state);
+    const auto reference_x = state.base_nodes.get<double>("reference_load_x");
+    const auto reference_y = state.base_nodes.get<double>("reference_load_y");
+    const double pressure = state.base_memory["reference"].get<double>("virtual_pressure")[0];
+    const double cycles = interval;
+    double reaction = 0.0;
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        reaction -= nodes.load_y[k] / cycles;
+        load_[2 * k] = nodes.load_x[k] / cycles - reference_x[k];
+        load_[2 * k + 1] = nodes.load_y[k] / cycles - reference_y[k];
+        nodes.load_x[k] = nodes.load_y[k] = 0.0;
+    }
+    // The rock right of the wall, which has left room to the discs.
+    const std::vector<double> left =
+        pressure_forces(interface_, parameters_.wall_x, parameters_.wall_x + clock.extension);
+    for (std::size_t k = 0; k < left.size(); ++k)
+        load_[2 * k + 1] += pressure * left[k];
+
+    Table& sums = state.base_memory["window"];
+    const double weight = parameters_.gravity * mass(state.ledger);
+    double net = 0.0;
+    for (std::size_t k = 1; k < load_.size(); k += 2)
+        net += load_[k];
+    const double change = pressure * clock.extension +
+                          parameters_.gravity * (state.ledger.removed - state.ledger.deposited);
+    sums.get<double>("cycles")[0] += cycles;
+    sums.get<double>("reaction_error")[0] += cycles * (reaction / weight - 1.0);
+    sums.get<double>("net_load")[0] += cycles * net;
+    sums.get<double>("weight_change")[0] += cycles * change;
+
+    move_modes(state, cycles * clock.time_step);
+    seconds += std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
+/// Newton's law for every mode, with the mass that makes its step `step` stable whatever its
+/// stiffness and that of the contacts on it.
+void ElasticBase::move_modes(State& state, double step) {
+    Table& memory = state.base_memory["modes"];
+    const auto displacement = memory.get<double>("displacement");
+    const auto velocity = memory.get<double>("velocity");
+    add_rows(modes_.by_unknown, load_, modal_load_);
+    for (std::size_t k = 0; k < displacement.size(); ++k) {
+        const double stiffness = 1.0 / modes_.compliance[k];
+        const double mass =
+            parameters_.mass_factor * (stiffness + parameters_.contact_stiffness) * step * step;
+        const double force = modal_load_[k] - stiffness * displacement[k];
+        velocity[k] += damped(force, velocity[k], parameters_.damping) / mass * step;
+        displacement[k] += velocity[k] * step;
+    }
+    add_rows(modes_.by_mode, velocity, velocity_);
+    const BaseNodeColumns nodes = base_node_columns(state);
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        nodes.vx[k] = velocity_[2 * k];
+        nodes.vy[k] = velocity_[2 * k + 1];
+    }
+}
+
+WindowBalance ElasticBase::window(const State& state) const {
+    const Table& sums = state.base_memory.at("window");
+    const auto sum = [&](const char* name) { return sums.get<double>(name)[0]; };
+    const double cycles = std::max(1.0, sum("cycles"));
+    return {sum("reaction_error") / cycles, sum("net_load") / cycles, sum("weight_change") / cycles,
+            sum("cycles")};
+}
+
+void ElasticBase::begin_window(State& state) const {
+    state.base_memory["window"] = one_row(
+        {{"cycles", "1"}, {"reaction_error", "1"}, {"net_load", "N"}, {"weight_change", "N"}});
+}
+
+} // namespace listric

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "coupling/interface.hpp"
+#include "coupling/modes.hpp"
+#include "dem/cycle.hpp"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// How base and discs advance together.
+enum class CouplingScheme {
+    modal,    ///< the base's modes have a mass and move with the discs
+    lumped,   ///< its nodes have
+    strong,   ///< base and discs are iterated to agreement, window by window
+    staggered ///< the base jumps to where the last window's loads want it
+};
+
+struct CouplingParameters {
+    CouplingScheme scheme = CouplingScheme::modal;
+    int interval = 5;         ///< cycles between updates of the base
+    int modes = 0;            ///< softest modes that move; 0: all
+    double mass_factor = 0.6; ///< modal mass over (stiffness + contact stiffness) (interval dt)^2
+    double damping = 0.7;     ///< local, of every mode
+    double contact_stiffness = 0.0; ///< of the discs on a node, N/m: see node_stiffness()
+    double gravity = 9.81;          ///< m/s^2
+    double wall_x = 0.0; ///< of the right wall before extension, m; beyond, the load is virtual
+};
+
+/// Stiffness of the discs that rest on one node, N/m: three contacts' (two springs in series each)
+/// times the discs that a node spans.
+double node_stiffness(const Material& base, std::span<const Material> discs, double node_spacing,
+                      double mean_radius);
+
+/// Means of a window of extension, for the force balance.
+struct WindowBalance {
+    double reaction_error = 0.0; ///< mean of base reaction over the discs' weight, less 1
+    double net_load = 0.0;       ///< upward, of the base, relative to the start, N/m
+    double weight_change = 0.0;  ///< removed minus added weight, N/m
+    double cycles = 0.0;
+};
+
+/// An elastic footwall under the discs, condensed to the detachment and loaded by the changes of
+/// the discs' forces since the settled initial state. Its memory are the state's nodes and
+/// `base_memory`, so that it can be made anew for a resumed state.
+class ElasticBase final : public BaseResponse {
+public:
+    ElasticBase(Interface interface, const CouplingParameters& parameters);
+
+    const Interface& interface() const { return interface_; }
+    const Modes& modes() const { return modes_; }
+
+    /// Gives a state the nodes, at rest.
+    void attach(State& state) const;
+
+    /// Settles the discs while the nodes are held and makes the mean forces of the last 2,000
+    /// cycles the reference load. Settled is where these change by less than 2e-5 from one 2,000
+    /// to the next, and would move the base by less than `drift` m. Throws NumericalFailure if that
+    /// is not reached. The clock starts at 0 afterwards.
+    void settle(State& state, const RigidBase& base, const CyclePhysics& physics,
+                const Execution& execution,
+                const std::function<void(std::string_view, double)>& report,
+                double drift = 0.3) const;
+
+    void respond(State& state, const Clock& clock) override;
+
+    /// Static displacement of the interface under forces on its unknowns.
+    std::vector<double> displacement(std::span<const double> forces) const;
+
+    /// Forces on the interface that hold its present displacement.
+    std::vector<double> holding_forces(const State& state) const;
+
+    WindowBalance window(const State& state) const;
+    void begin_window(State& state) const;
+
+    double seconds = 0.0; ///< wall time spent responding
+
+private:
+    void move_modes(State& state, double step);
+
+    Interface interface_;
+    CouplingParameters parameters_;
+    Modes modes_;
+    std::vector<double> load_, modal_load_, modal_velocity_, velocity_; // scratch
+};
+
+} // namespace listric

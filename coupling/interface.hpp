@@ -1,0 +1,39 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/state.hpp"
+#include "fem/footwall.hpp"
+
+#include <span>
+#include <vector>
+
+namespace listric {
+
+/// The detachment as the footwall's elements see it, condensed: what the discs rest on. Unknowns
+/// are x and y of the first node, x and y of the second, ...
+struct Interface {
+    std::vector<double> x, y; ///< nodes from the breakaway down, m
+    int degree = 2;           ///< of the faces; face k has nodes degree * k to degree * (k + 1)
+    std::vector<double> compliance; ///< by rows, m per N/m
+
+    std::size_t unknowns() const { return 2 * x.size(); }
+};
+
+/// Condenses a footwall. Throws fem::FootwallError.
+Interface condense(fem::Footwall& footwall, int degree);
+
+/// Equivalent forces on the nodes of an upward pressure of 1 Pa on the wall between two
+/// x, m, on its horizontal projection and its reference place; y components, N.
+std::vector<double> pressure_forces(const Interface& interface, double from, double to);
+
+/// What the transfer between discs and nodes loses: nothing but round-off.
+struct InterfaceBalance {
+    double force_error = 0.0;  ///< |forces on nodes + forces on discs| over the sum of magnitudes
+    double moment_error = 0.0; ///< the same of moments about the breakaway, in the deformed wall
+    double work_error = 0.0;   ///< and of power, with the nodes' velocities
+};
+
+/// Measures the contacts as they stand.
+InterfaceBalance interface_balance(const State& state, const RigidBase& base);
+
+} // namespace listric

@@ -1,0 +1,81 @@
+#include "dem/base_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+namespace {
+
+template <class Distance> double greatest(std::size_t count, Distance&& distance) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < count; ++k)
+        if (const double d = distance(k); d > most || std::isnan(d))
+            most = d;
+    return most;
+}
+
+} // namespace
+
+BasePlace base_place(const State& state) {
+    const ConstBaseNodeColumns n = base_node_columns(state);
+    return {state.clock.extension, n.x, n.y, n.ux, n.uy};
+}
+
+BasePlace searched_base_place(const State& state) {
+    const ConstBaseNodeColumns n = base_node_columns(state);
+    return {state.searched_extension, n.x, n.y, n.searched_ux, n.searched_uy};
+}
+
+std::optional<Foot> nearest(const Surface& surface, const BasePlace& place, Point p) {
+    if (!place.deforms(surface))
+        return nearest(surface, place.extension, p);
+    if (surface.follows == Follows::breakaway)
+        return nearest(surface, place.extension, {p.x - place.ux[0], p.y - place.uy[0]});
+    const auto point = place.trace(surface).nearest(p);
+    return point ? std::optional(point->foot) : std::nullopt;
+}
+
+RigidBase standing_base(const RigidBase& base, const State& state) {
+    RigidBase standing = base;
+    const BasePlace place = base_place(state);
+    for (Surface& surface : standing.surfaces) {
+        if (!place.deforms(surface))
+            continue;
+        if (surface.follows == Follows::breakaway) {
+            surface.chain = moved(surface.chain, {place.ux[0], place.uy[0]});
+        } else {
+            const Trace trace = place.trace(surface);
+            surface.chain.clear();
+            for (std::size_t k = 0; k < 2 * trace.faces(); ++k)
+                surface.chain.push_back(line(trace.at(0.5 * static_cast<double>(k)),
+                                             trace.at(0.5 * static_cast<double>(k + 1))));
+        }
+        surface.follows = Follows::nothing;
+    }
+    return standing;
+}
+
+double greatest_node_displacement(const BasePlace& place) {
+    return greatest(place.x.size(),
+                    [&](std::size_t k) { return std::hypot(place.ux[k], place.uy[k]); });
+}
+
+double greatest_node_travel(const State& state) {
+    const ConstBaseNodeColumns n = base_node_columns(state);
+    return greatest(n.x.size(), [&](std::size_t k) {
+        return std::hypot(n.ux[k] - n.searched_ux[k], n.uy[k] - n.searched_uy[k]);
+    });
+}
+
+double move_nodes(const BaseNodeColumns& n, double time_step) {
+    double fastest = 0.0;
+    for (std::size_t k = 0; k < n.x.size(); ++k) {
+        n.ux[k] += n.vx[k] * time_step;
+        n.uy[k] += n.vy[k] * time_step;
+        fastest = std::max({fastest, std::abs(n.vx[k]), std::abs(n.vy[k])});
+    }
+    return fastest;
+}
+
+} // namespace listric
