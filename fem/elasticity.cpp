@@ -117,6 +117,7 @@ public:
     std::vector<double> nodal_forces(std::span<const PointForce> forces) const override;
     std::vector<double> compliance() override;
     void solve(const Load& load) override;
+    Responses responses(std::span<const Load> loads) override;
     std::vector<double> interface_displacement() const override;
     Field field() const override;
     FieldError error(const ExactField& exact) const override;
@@ -166,7 +167,13 @@ private:
     void measure_mesh();
     void find_interface();
     void assemble();
-    void make_solver();
+    void make_solver(bool keep_interface);
+    Mat solver_factors() const;
+    std::pair<GlobalVector, Vector> forces_of(const Load& load) const;
+    GlobalVector displacement_under(const GlobalVector& forces);
+    std::vector<double> at_interface(const GlobalVector& displacement) const;
+    std::vector<double> inverse_of_schur_complement();
+    std::vector<double> unit_solutions();
     void require_solution() const {
         if (displacement_.size() == 0)
             throw FootwallError("the footwall has no solution yet: solve first");
@@ -195,11 +202,13 @@ private:
     Vector total_load_;
     int iterations_ = 0;
     bool refined_ = false;
+    bool keeps_interface_ = false; ///< the factors end at the interface's Schur complement
 };
 
 void ElasticFootwall::set_up() {
     if (solver_)
         must(KSPDestroy(&solver_), "cannot drop the old factors");
+    keeps_interface_ = false;
     displacement_.clear();
     mapping_.initialize(dealii::MappingQ<2>(static_cast<unsigned>(request_.degree)), *mesh_.cells);
     unknowns_.distribute_dofs(element_);
@@ -404,9 +413,18 @@ void ElasticFootwall::assemble() {
     must(MatSetOption(matrix, MAT_SPD, PETSC_TRUE), "positive definiteness");
 }
 
-void ElasticFootwall::make_solver() {
+Mat ElasticFootwall::solver_factors() const {
+    PC preconditioner = nullptr;
+    Mat factors = nullptr;
+    must(KSPGetPC(solver_, &preconditioner), "no preconditioner");
+    must(PCFactorGetMatrix(preconditioner, &factors), "no factors");
+    return factors;
+}
+
+void ElasticFootwall::make_solver(bool keep_interface) {
     if (solver_)
-        return;
+        must(KSPDestroy(&solver_), "cannot drop the old factors");
+    keeps_interface_ = keep_interface;
     const Mat matrix = stiffness_;
     PC preconditioner = nullptr;
     must(KSPCreate(processes, &solver_), "no solver");
@@ -416,6 +434,19 @@ void ElasticFootwall::make_solver() {
         must(KSPSetType(solver_, KSPPREONLY), "type");
         must(PCSetType(preconditioner, PCCHOLESKY), "Cholesky");
         must(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS), "MUMPS");
+        if (keep_interface) {
+            std::vector<PetscInt> kept;
+            for (const auto& node : node_unknowns_)
+                for (const Index unknown : node)
+                    kept.push_back(static_cast<PetscInt>(unknown));
+            IS interface = nullptr;
+            must(ISCreateGeneral(processes, static_cast<PetscInt>(kept.size()), kept.data(),
+                                 PETSC_COPY_VALUES, &interface),
+                 "interface");
+            must(PCFactorSetUpMatSolverType(preconditioner), "MUMPS");
+            must(MatFactorSetSchurIS(solver_factors(), interface), "interface");
+            must(ISDestroy(&interface), "interface");
+        }
     } else {
         must(KSPSetType(solver_, KSPCG), "conjugate gradients");
         must(KSPSetTolerances(solver_, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 1000), "tolerance");
@@ -514,11 +545,35 @@ std::vector<double> ElasticFootwall::compliance() {
         throw FootwallError("the compliance needs factors of the stiffness: solver mumps");
     if (refined_)
         throw FootwallError("a footwall that was refined for one load has no compliance");
-    make_solver();
-    PC preconditioner = nullptr;
-    Mat factors = nullptr;
-    must(KSPGetPC(solver_, &preconditioner), "no preconditioner");
-    must(PCFactorGetMatrix(preconditioner, &factors), "no factors");
+    // PETSc has MUMPS's Schur complement on one process only.
+    return dealii::Utilities::MPI::n_mpi_processes(processes) == 1 ? inverse_of_schur_complement()
+                                                                   : unit_solutions();
+}
+
+/// The stiffness with everything but the interface eliminated, inverted. Later solutions go through
+/// the same factors.
+std::vector<double> ElasticFootwall::inverse_of_schur_complement() {
+    if (!keeps_interface_)
+        make_solver(true);
+    const std::size_t n = 2 * nodes_.size();
+    Mat factors = solver_factors(), inverse = nullptr;
+    must(MatFactorInvertSchurComplement(factors), "condensation");
+    must(MatFactorGetSchurComplement(factors, &inverse, nullptr), "condensation");
+    std::vector<double> result(n * n);
+    const PetscScalar* values = nullptr;
+    must(MatDenseGetArrayRead(inverse, &values), "condensation");
+    std::copy_n(values, n * n, result.begin());
+    must(MatDenseRestoreArrayRead(inverse, &values), "condensation");
+    must(MatFactorRestoreSchurComplement(factors, &inverse, MAT_FACTOR_SCHUR_INVERTED),
+         "condensation");
+    return result;
+}
+
+/// The interface's rows of the solutions for unit forces on it.
+std::vector<double> ElasticFootwall::unit_solutions() {
+    if (!solver_)
+        make_solver(false);
+    const Mat factors = solver_factors();
     const std::size_t n = 2 * nodes_.size();
     std::vector<double> result(n * n, 0.0);
     const auto unknown = [&](std::size_t i) { return node_unknowns_[i / 2][i % 2]; };
@@ -553,17 +608,18 @@ std::vector<double> ElasticFootwall::compliance() {
         must(MatDestroy(&forces), "condensation");
         must(MatDestroy(&displacements), "condensation");
     }
-    if (dealii::Utilities::MPI::n_mpi_processes(processes) > 1)
-        MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPI_DOUBLE,
-                      MPI_SUM, processes);
+    MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPI_DOUBLE, MPI_SUM,
+                  processes);
     return result;
 }
 
-void ElasticFootwall::solve(const Load& load) {
-    make_solver();
-    GlobalVector forces(owned_, processes), solution(owned_, processes);
+/// The load's forces on all unknowns, and their sum.
+std::pair<GlobalVector, Vector> ElasticFootwall::forces_of(const Load& load) const {
+    GlobalVector forces(owned_, processes);
     const dealii::QGauss<2> points(static_cast<unsigned>(request_.degree) + 2);
-    const dealii::QGauss<1> face_points(static_cast<unsigned>(request_.degree) + 3);
+    // Points enough for loads that end or bend inside an element.
+    const dealii::QIterated<1> face_points(
+        dealii::QGauss<1>(static_cast<unsigned>(request_.degree) + 3), 4);
     dealii::FEValues<2> values(mapping_, element_, points, volume_flags);
     dealii::FEFaceValues<2> face_values(mapping_, element_, face_points, face_flags);
     const unsigned n = element_.n_dofs_per_cell();
@@ -573,7 +629,9 @@ void ElasticFootwall::solve(const Load& load) {
     if (load.body || load.traction)
         for_each_own_cell([&](const auto& cell) {
             local = 0.0;
+            bool is_loaded = false;
             if (load.body) {
+                is_loaded = true;
                 values.reinit(cell);
                 for (unsigned q = 0; q < points.size(); ++q) {
                     const Vector f = load.body(plain(values.quadrature_point(q)));
@@ -588,6 +646,7 @@ void ElasticFootwall::solve(const Load& load) {
             for (const unsigned f : cell->face_indices()) {
                 if (!load.traction || !cell->face(f)->at_boundary())
                     continue;
+                is_loaded = true;
                 face_values.reinit(cell, f);
                 for (unsigned q = 0; q < face_points.size(); ++q) {
                     const auto normal = face_values.normal_vector(q);
@@ -602,11 +661,13 @@ void ElasticFootwall::solve(const Load& load) {
                                     (element_.system_to_component_index(i).first == 0 ? t.x : t.y);
                 }
             }
+            if (!is_loaded)
+                return;
             cell->get_dof_indices(indices);
             constraints_.distribute_local_to_global(local, indices, forces);
         });
-    total_load_ = {dealii::Utilities::MPI::sum(total[0], processes),
-                   dealii::Utilities::MPI::sum(total[1], processes)};
+    Vector sum{dealii::Utilities::MPI::sum(total[0], processes),
+               dealii::Utilities::MPI::sum(total[1], processes)};
     if (!load.interface.empty()) {
         if (load.interface.size() != 2 * nodes_.size())
             throw FootwallError("the load has " + std::to_string(load.interface.size()) +
@@ -616,10 +677,17 @@ void ElasticFootwall::solve(const Load& load) {
             const Index unknown = node_unknowns_[i / 2][i % 2];
             if (owned_.is_element(unknown))
                 forces(unknown) += load.interface[i];
-            (i % 2 ? total_load_.y : total_load_.x) += load.interface[i];
+            (i % 2 ? sum.y : sum.x) += load.interface[i];
         }
     }
     forces.compress(dealii::VectorOperation::add);
+    return {std::move(forces), sum};
+}
+
+GlobalVector ElasticFootwall::displacement_under(const GlobalVector& forces) {
+    if (!solver_)
+        make_solver(false);
+    GlobalVector solution(owned_, processes);
     const Vec right = forces, left = solution;
     must(KSPSolve(solver_, right, left), "no solution");
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
@@ -631,22 +699,51 @@ void ElasticFootwall::solve(const Load& load) {
                             " iterations; the solver mumps always does");
     iterations_ = static_cast<int>(iterations);
     constraints_.distribute(solution);
+    return solution;
+}
+
+void ElasticFootwall::solve(const Load& load) {
+    const auto [forces, sum] = forces_of(load);
+    total_load_ = sum;
+    const GlobalVector solution = displacement_under(forces);
     displacement_.reinit(owned_, relevant_, processes);
     displacement_ = solution;
 }
 
-std::vector<double> ElasticFootwall::interface_displacement() const {
-    require_solution();
+Responses ElasticFootwall::responses(std::span<const Load> loads) {
+    Responses result;
+    std::vector<GlobalVector> forces;
+    for (const Load& load : loads) {
+        auto [force, sum] = forces_of(load);
+        forces.push_back(std::move(force));
+        result.sums.push_back(sum);
+    }
+    for (const GlobalVector& force : forces) {
+        const GlobalVector solution = displacement_under(force);
+        const std::vector<double> interface = at_interface(solution);
+        result.interface.insert(result.interface.end(), interface.begin(), interface.end());
+        for (const GlobalVector& other : forces)
+            result.work.push_back(other * solution);
+    }
+    return result;
+}
+
+std::vector<double> ElasticFootwall::at_interface(const GlobalVector& displacement) const {
     std::vector<double> result(2 * nodes_.size(), 0.0);
     for (std::size_t i = 0; i < result.size(); ++i) {
         const Index unknown = node_unknowns_[i / 2][i % 2];
         if (owned_.is_element(unknown))
-            result[i] = displacement_(unknown);
+            result[i] = displacement(unknown);
     }
     if (dealii::Utilities::MPI::n_mpi_processes(processes) > 1)
         MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPI_DOUBLE,
                       MPI_SUM, processes);
     return result;
+}
+
+std::vector<double> ElasticFootwall::interface_displacement() const {
+    require_solution();
+    return at_interface(displacement_);
 }
 
 Field ElasticFootwall::field() const {

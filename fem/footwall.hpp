@@ -101,6 +101,15 @@ struct Load {
     std::vector<double> interface; ///< forces on the nodes: x, y of the first, ...; N per m
 };
 
+/// What m loads, each alone, do to the footwall.
+struct Responses {
+    std::vector<double> interface; ///< displacement of the interface's n nodes: m rows of 2 n, m
+    /// Of every other load on a load's displacement: m by m, symmetric (Betti), J/m. The work of a
+    /// unit pressure over its width is the mean displacement of the boundary there.
+    std::vector<double> work;
+    std::vector<Vector> sums; ///< of the loads, N/m
+};
+
 struct MeshFacts {
     std::size_t cells = 0, unknowns = 0;
     double area = 0.0;           ///< m^2
@@ -156,6 +165,10 @@ public:
 
     /// Solves for the full field, which the calls below then describe.
     virtual void solve(const Load& load) = 0;
+
+    /// Solves for loads that are to be superposed. Forces on the interface displace a load's
+    /// boundary by the transpose: work = row of `interface` times forces. Leaves the last solution.
+    virtual Responses responses(std::span<const Load> loads) = 0;
     virtual int iterations() const = 0; ///< of the last solve; 1 for factors
     virtual std::vector<double> interface_displacement() const = 0;
     virtual Field field() const = 0;

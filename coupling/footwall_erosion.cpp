@@ -1,0 +1,122 @@
+#include "coupling/footwall_erosion.hpp"
+
+#include "coupling/footwall_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+std::vector<double> SurfaceResponse::uplift_by(std::span<const double> forces) const {
+    std::vector<double> result;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        double work = 0.0;
+        for (std::size_t i = 0; i < forces.size(); ++i)
+            work += interface[k * forces.size() + i] * forces[i];
+        result.push_back(-work / width[k]);
+    }
+    return result;
+}
+
+std::vector<double> surface_knots(double width, double left) {
+    constexpr double closest = 2e3, growth = 0.25;
+    const double end = std::min(width, -left);
+    std::vector<double> knots{0.0};
+    while (knots.back() < end - closest)
+        knots.push_back(std::min(end, knots.back() + std::max(closest, growth * knots.back())));
+    std::ranges::reverse(knots);
+    for (double& x : knots)
+        x = -x;
+    return knots;
+}
+
+std::vector<fem::Load> surface_loads(const std::vector<double>& knots) {
+    std::vector<fem::Load> loads;
+    for (std::size_t k = 0; k < knots.size(); ++k) {
+        const double at = knots[k], before = k > 0 ? knots[k - 1] : at,
+                     after = k + 1 < knots.size() ? knots[k + 1] : at;
+        loads.emplace_back();
+        loads.back().traction = [=](fem::Vector p, fem::Vector, fem::Boundary boundary) {
+            if (boundary != fem::Boundary::surface || p.x < before || p.x > after)
+                return fem::Vector{};
+            return fem::Vector{0.0, p.x < at   ? -(p.x - before) / (at - before)
+                                    : p.x > at ? -(after - p.x) / (after - at)
+                                               : -1.0};
+        };
+    }
+    return loads;
+}
+
+std::vector<double> cover_pressure(const FootwallErosionParameters& p, double gravity,
+                                   const FootwallCover& cover) {
+    std::vector<double> pressure;
+    for (std::size_t k = 0; k < cover.eroded.size(); ++k)
+        pressure.push_back(
+            gravity * (p.sediment_density * cover.deposited[k] - p.rock_density * cover.eroded[k]));
+    return pressure;
+}
+
+int adapt_footwall(const SurfaceResponse& response, const FootwallErosionParameters& parameters,
+                   double gravity, std::span<const double> uplift, std::span<const double> target,
+                   const FootwallCover& cover) {
+    // Rebound is at most the density of rock over that of mantle of what was eroded.
+    constexpr double close = 0.01; // m
+    constexpr int most = 200;
+    const std::size_t n = response.x.size();
+    for (int round = 1; round <= most; ++round) {
+        const std::vector<double> pressure = cover_pressure(parameters, gravity, cover);
+        double change = 0.0;
+        for (std::size_t k = 0; k < n; ++k) {
+            double height = uplift[k] + cover.deposited[k] - cover.eroded[k];
+            for (std::size_t j = 0; j < n; ++j)
+                height += pressure[j] * response.uplift[j * n + k];
+            const double excess = height - target[k];
+            change = std::max(change, std::abs(excess));
+            if (excess > 0.0) {
+                const double sediment = std::min(excess, cover.deposited[k]);
+                cover.deposited[k] -= sediment;
+                cover.eroded[k] += excess - sediment;
+            } else {
+                cover.deposited[k] -= excess;
+            }
+        }
+        if (change < close)
+            return round;
+    }
+    return most;
+}
+
+FootwallErosion::FootwallErosion(SurfaceResponse response, std::vector<double> forces,
+                                 Uplift uplift, const FootwallErosionParameters& parameters,
+                                 double gravity, double extension_rate)
+    : Event("footwall_erosion", {parameters.interval, extension_rate}),
+      response_(std::move(response)), forces_(std::move(forces)), uplift_(std::move(uplift)),
+      parameters_(parameters), target_(parameters.level, parameters.target), gravity_(gravity) {
+    memory.resize(response_.x.size());
+    std::ranges::copy(response_.x, memory.add<double>("x", "m", 0.0).begin());
+    memory.add<double>("eroded", "m", 0.0);
+    memory.add<double>("deposited", "m", 0.0);
+}
+
+void FootwallErosion::begin(State& state) {
+    footwall_load(state, name(), forces_.size() / response_.x.size());
+}
+
+bool FootwallErosion::apply(State& state, const RigidBase&) {
+    const FootwallCover cover{memory.get<double>("eroded"), memory.get<double>("deposited")};
+    const TargetLine line = target_.at(state.clock.extension / schedule().extension_rate);
+    std::vector<double> heights;
+    for (double x : response_.x)
+        heights.push_back(line.height(x));
+    adapt_footwall(response_, parameters_, gravity_, uplift_(state), heights, cover);
+    const std::vector<double> pressure = cover_pressure(parameters_, gravity_, cover);
+    const std::size_t unknowns = forces_.size() / response_.x.size();
+    const std::span<double> load = footwall_load(state, name(), unknowns);
+    std::ranges::fill(load, 0.0);
+    for (std::size_t k = 0; k < pressure.size(); ++k)
+        for (std::size_t i = 0; i < unknowns; ++i)
+            load[i] += pressure[k] * forces_[k * unknowns + i];
+    return false;
+}
+
+} // namespace listric

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "dem/event.hpp"
+#include "dem/target_line.hpp"
+#include "fem/footwall.hpp"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace listric {
+
+/// Erosion and deposition on the footwall, left of the breakaway, to a target line.
+struct FootwallErosionParameters {
+    double interval = 5.0e4;              ///< between adaptations, a
+    double level = 0.0;                   ///< of the target, above the original surface, m
+    std::vector<TargetStage> target = {}; ///< the target line; empty: the level
+    double width = 100e3;                 ///< of the footwall that is worked on, m
+    double sediment_density = 2300.0;     ///< of what is laid down, kg/m^3
+    double rock_density = 2700.0;         ///< of what is eroded first, kg/m^3
+};
+
+/// How the footwall's surface answers, at knots from the left to the breakaway. A pressure is
+/// linear between knots, a height at a knot is the mean weighted with that pressure, so that one is
+/// the other's transpose.
+struct SurfaceResponse {
+    std::vector<double> x;         ///< of m knots, m
+    std::vector<double> width;     ///< that a knot stands for, m
+    std::vector<double> interface; ///< displacement for 1 Pa downward: m rows of 2 n, m/Pa
+    std::vector<double> uplift;    ///< at the column's knot for 1 Pa at the row's: m by m, m/Pa
+
+    /// Uplift of the knots by forces on the interface's unknowns, N. (Betti)
+    std::vector<double> uplift_by(std::span<const double> forces) const;
+};
+
+/// Knots every 2 km at the breakaway and by a quarter of the distance further away, over `width` m
+/// and not beyond the footwall's left side.
+std::vector<double> surface_knots(double width, double left);
+
+/// A pressure of 1 Pa downward at each knot.
+std::vector<fem::Load> surface_loads(const std::vector<double>& knots);
+
+/// Rock that is gone and sediment that has come, by knot, m.
+struct FootwallCover {
+    std::span<double> eroded, deposited;
+};
+
+/// Brings the surface to the target line, with the rebound that this causes: sediment goes before
+/// rock, and hollows are filled. Returns how often rebound was followed up.
+/// @param uplift  of the knots by everything but the cover, m
+/// @param target  heights of the line at the knots, m
+int adapt_footwall(const SurfaceResponse& response, const FootwallErosionParameters& parameters,
+                   double gravity, std::span<const double> uplift, std::span<const double> target,
+                   const FootwallCover& cover);
+
+/// Pressure of the cover on the knots relative to the start, downward, Pa.
+std::vector<double> cover_pressure(const FootwallErosionParameters& parameters, double gravity,
+                                   const FootwallCover& cover);
+
+/// Adapts the footwall's surface and puts the change of weight on it. Its memory has a row per
+/// knot: x, eroded, deposited.
+class FootwallErosion : public Event {
+public:
+    /// Uplift of the knots by everything but the cover, m.
+    using Uplift = std::function<std::vector<double>(const State& state)>;
+
+    /// @param forces  equivalent to the response's interface displacements, by rows, N/Pa
+    FootwallErosion(SurfaceResponse response, std::vector<double> forces, Uplift uplift,
+                    const FootwallErosionParameters& parameters, double gravity,
+                    double extension_rate);
+
+    void begin(State& state) override;
+    bool apply(State& state, const RigidBase& base) override;
+
+    const SurfaceResponse& response() const { return response_; }
+
+private:
+    SurfaceResponse response_;
+    std::vector<double> forces_;
+    Uplift uplift_;
+    FootwallErosionParameters parameters_;
+    Target target_;
+    double gravity_;
+};
+
+} // namespace listric

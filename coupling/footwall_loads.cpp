@@ -1,0 +1,80 @@
+#include "coupling/footwall_loads.hpp"
+
+namespace listric {
+
+namespace {
+
+constexpr const char* table = "footwall_loads";
+
+/// So many that the load's change with extension, h e / (b + e), is straight between them to 1e-3.
+constexpr std::size_t crust_steps = 10;
+
+} // namespace
+
+std::span<double> footwall_load(State& state, std::string_view effect, std::size_t unknowns) {
+    Table& loads = state.base_memory[table];
+    loads.resize(unknowns);
+    return loads.add<double>(effect, "N", 0.0);
+}
+
+void add_footwall_loads(const State& state, std::span<double> forces) {
+    const auto loads = state.base_memory.find(table);
+    if (loads == state.base_memory.end())
+        return;
+    for (const Column& column : loads->second.columns()) {
+        const auto& values = std::get<std::vector<double>>(column.values);
+        for (std::size_t k = 0; k < forces.size(); ++k)
+            forces[k] += values[k];
+    }
+}
+
+FootwallResponses solve_footwall_loads(fem::Footwall& footwall,
+                                       const FootwallErosionParameters* erosion, double left,
+                                       const LowerCrustThinningParameters* thinning,
+                                       double contrast, double distance) {
+    FootwallResponses result;
+    std::vector<fem::Load> loads;
+    if (erosion) {
+        result.surface.x = surface_knots(erosion->width, left);
+        loads = surface_loads(result.surface.x);
+    }
+    const std::size_t knots = loads.size();
+    if (thinning) {
+        result.crust.distance = distance;
+        result.crust.steps = crust_steps;
+        for (fem::Load& load : lower_crust_loads(*thinning, contrast, distance, crust_steps))
+            loads.push_back(std::move(load));
+    }
+    if (loads.empty())
+        return result;
+
+    const fem::Responses solved = footwall.responses(loads);
+    const std::size_t unknowns = 2 * footwall.interface().size();
+    SurfaceResponse& surface = result.surface;
+    surface.interface.assign(solved.interface.begin(),
+                             solved.interface.begin() +
+                                 static_cast<std::ptrdiff_t>(knots * unknowns));
+    for (std::size_t k = 0; k < knots; ++k)
+        surface.width.push_back(-solved.sums[k].y);
+    // A pressure's work over its width is the mean of the boundary's sinking there.
+    const auto uplift = [&](std::size_t load, std::size_t knot) {
+        return -solved.work[load * loads.size() + knot] / surface.width[knot];
+    };
+    for (std::size_t k = 0; k < knots; ++k)
+        for (std::size_t j = 0; j < knots; ++j)
+            surface.uplift.push_back(uplift(k, j));
+    for (std::size_t row = knots; row < loads.size(); ++row) {
+        const double sum = thinning ? contrast * thinning->thickness * distance *
+                                          static_cast<double>(row - knots) /
+                                          static_cast<double>(crust_steps)
+                                    : 0.0;
+        const double found = -solved.sums[row].y, ratio = found > 0.0 ? sum / found : 0.0;
+        for (std::size_t i = 0; i < unknowns; ++i)
+            result.crust.interface.push_back(ratio * solved.interface[row * unknowns + i]);
+        for (std::size_t j = 0; j < knots; ++j)
+            result.crust.uplift.push_back(ratio * uplift(row, j));
+    }
+    return result;
+}
+
+} // namespace listric

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "coupling/footwall_erosion.hpp"
+#include "coupling/lower_crust_thinning.hpp"
+#include "dem/state.hpp"
+#include "fem/footwall.hpp"
+
+#include <span>
+#include <string_view>
+
+namespace listric {
+
+// Loads on the footwall that no disc brings: what thins below it, what is eroded from it. Each is
+// kept as the forces on the interface's nodes that displace the interface as the load itself does,
+// C f = u, so that they are superposed with the discs'. State::base_memory["footwall_loads"] has a
+// column per effect, in N per m of strike: x and y of the first node, of the second, ...
+
+/// Where an effect keeps its forces; adds the column if it is not there.
+std::span<double> footwall_load(State& state, std::string_view effect, std::size_t unknowns);
+
+/// Adds the forces of all effects.
+void add_footwall_loads(const State& state, std::span<double> forces);
+
+/// The unit solutions that the effects superpose, solved for together.
+struct FootwallResponses {
+    SurfaceResponse surface;  ///< without knots where the surface is left alone
+    LowerCrustResponse crust; ///< without rows where the lower crust is
+};
+
+/// Solves for the loads of the effects that are there. Rows of the lower crust are scaled to the
+/// load's exact sum, which quadrature misses where it ends inside an element.
+/// @param contrast  of mantle and crust, times gravity, Pa/m
+/// @param left      side of the footwall, m
+/// Throws fem::FootwallError.
+FootwallResponses solve_footwall_loads(fem::Footwall& footwall,
+                                       const FootwallErosionParameters* erosion, double left,
+                                       const LowerCrustThinningParameters* thinning,
+                                       double contrast, double distance);
+
+} // namespace listric

@@ -1,0 +1,217 @@
+// Loads on the footwall that no disc brings, against columns of rock on springs.
+
+#include "coupling/footwall_loads.hpp"
+#include "dem/random.hpp"
+#include "tests/verification/footwalls.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+constexpr double crust = 2700.0, mantle = 3300.0; // kg/m^3
+constexpr double contrast = (mantle - crust) * gravity;
+
+/// A flat crust that floats; rollers on its sides, so that under even loads it is one column.
+fem::FootwallRequest floating_crust() {
+    fem::FootwallRequest request = layer(30e3, -100e3, 0.0, 5e3);
+    request.surface_spring = crust * gravity;
+    request.base_spring = contrast;
+    return request;
+}
+
+/// Stiffness of the column against shortening, Pa/m: lambda + 2 mu over its height.
+double column_stiffness(const fem::FootwallRequest& request) {
+    const fem::Layer& rock = request.layers.front();
+    const double e = rock.young_modulus, nu = rock.poisson_ratio;
+    return e * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)) / request.depth;
+}
+
+constexpr double round_off = 1e-9; // relative: condition of the stiffness
+
+TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
+    const fem::FootwallRequest request = floating_crust();
+    const auto footwall = fem::make_footwall(request);
+    const LowerCrustThinningParameters thinning{20e3, 2000e3, 0.0};
+    constexpr double distance = 10e3;
+    const FootwallResponses found =
+        solve_footwall_loads(*footwall, nullptr, request.left, &thinning, contrast, distance);
+    const std::size_t unknowns = 2 * footwall->interface().size();
+    ASSERT_EQ(found.crust.interface.size(), (found.crust.steps + 1) * unknowns);
+    // Thinner by h e / (b + e); of the load no more than the model's width is there, so that the
+    // sum by which rows are scaled is undone here.
+    const double thinner = 20e3 * distance / 2010e3;
+    EXPECT_DOUBLE_EQ(lower_crust_thinning(thinning, distance), thinner);
+    const double outside = 2010e3 / (request.right - request.left);
+    // Springs at both ends of an elastic column that is pulled at its base.
+    const double top = request.surface_spring, base = request.base_spring;
+    const double subsidence =
+        contrast * thinner / (top + base + top * base / column_stiffness(request));
+    for (std::size_t i = 0; i < unknowns; i += 2) {
+        const std::size_t last = found.crust.steps * unknowns + i;
+        EXPECT_NEAR(found.crust.interface[last], 0.0, round_off * subsidence * outside);
+        EXPECT_NEAR(found.crust.interface[last + 1] / outside, -subsidence, round_off * subsidence);
+    }
+    // Airy's, but for what the column gives: 0.2 %.
+    EXPECT_NEAR(subsidence / (thinner * (mantle - crust) / mantle), 1.0, 3e-3);
+}
+
+TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
+    fem::FootwallRequest request = floating_crust();
+    request.left = -200e3;
+    request.right = 200e3;
+    const auto footwall = fem::make_footwall(request);
+    const LowerCrustThinningParameters thinning{20e3, 100e3, 15e3};
+    const FootwallResponses found =
+        solve_footwall_loads(*footwall, nullptr, request.left, &thinning, contrast, 10e3);
+    // The interface of a flat layer is its surface: what the springs there hold and those at the
+    // base, with the layer rigid enough to move as one over 400 km, is the load. Held by the
+    // exact mean: integrate the surface's displacement; the base differs by the layer's own
+    // shortening, 1 %.
+    const auto& nodes = footwall->interface();
+    double sum = 0.0;
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+        const std::size_t at = found.crust.steps * 2 * nodes.size() + 2 * k + 1;
+        sum += 0.5 * (found.crust.interface[at] + found.crust.interface[at + 2]) *
+               (nodes[k + 1].place.x - nodes[k].place.x);
+    }
+    EXPECT_NEAR(-sum * mantle * gravity / (contrast * 20e3 * 10e3), 1.0, 0.01);
+    // In between rows are straight to 1e-3.
+    const std::vector<fem::Load> half = {lower_crust_load(thinning, contrast, 5.5e3)};
+    const fem::Responses exact = footwall->responses(half);
+    const std::vector<double> between =
+        LowerCrustResponse::at(found.crust.interface, found.crust.steps, 0.55);
+    double largest = 0.0;
+    for (double u : exact.interface)
+        largest = std::max(largest, std::abs(u));
+    for (std::size_t i = 0; i < between.size(); ++i)
+        EXPECT_NEAR(between[i], exact.interface[i], 5e-3 * largest);
+}
+
+class Erosion : public testing::Test {
+protected:
+    fem::FootwallRequest request_ = floating_crust();
+    std::unique_ptr<fem::Footwall> footwall_ = fem::make_footwall(request_);
+    FootwallErosionParameters erosion_ = {};
+    SurfaceResponse response_ =
+        solve_footwall_loads(*footwall_, &erosion_, request_.left, nullptr, 0.0, 0.0).surface;
+    std::vector<double> eroded_ = std::vector<double>(response_.x.size(), 0.0);
+    std::vector<double> deposited_ = eroded_, target_ = eroded_;
+    FootwallCover cover_{eroded_, deposited_};
+
+    /// Uplift of the column for a pressure taken off its top, m/Pa.
+    double column_uplift() const {
+        const double base = request_.base_spring;
+        return 1.0 / (request_.surface_spring + base / (1.0 + base / column_stiffness(request_)));
+    }
+};
+
+TEST_F(Erosion, EvenErosionReboundsByAirysAmount) {
+    ASSERT_EQ(response_.x.front(), request_.left);
+    ASSERT_EQ(response_.x.back(), 0.0);
+    const std::vector<double> uplift(response_.x.size(), 100.0);
+    adapt_footwall(response_, erosion_, gravity, uplift, target_, cover_);
+    // What is eroded rebounds by its share c of its weight: E = 100 + c E.
+    const double share = crust * gravity * column_uplift();
+    // Within the 0.01 m at which rebound is no longer followed up, over 1 - share.
+    for (std::size_t k = 0; k < eroded_.size(); ++k) {
+        EXPECT_NEAR(eroded_[k], 100.0 / (1.0 - share), 0.01 / (1.0 - share));
+        EXPECT_EQ(deposited_[k], 0.0);
+    }
+    EXPECT_NEAR(share, crust / mantle, 3e-3); // Airy's, but for what the column gives
+    // Forces of the interface for the same: its displacement is the rebound.
+    const std::vector<double> pressure = cover_pressure(erosion_, gravity, cover_);
+    const std::size_t unknowns = 2 * footwall_->interface().size();
+    for (std::size_t i = 1; i < unknowns; i += 2) {
+        double u = 0.0;
+        for (std::size_t k = 0; k < pressure.size(); ++k)
+            u += pressure[k] * response_.interface[k * unknowns + i];
+        EXPECT_NEAR(u, share * eroded_.front(), 0.1);
+    }
+}
+
+TEST_F(Erosion, FillsHollowsAndTakesSedimentFirst) {
+    std::vector<double> uplift(response_.x.size(), -100.0);
+    adapt_footwall(response_, erosion_, gravity, uplift, target_, cover_);
+    const double share = 2300.0 * gravity * column_uplift();
+    for (std::size_t k = 0; k < eroded_.size(); ++k) {
+        EXPECT_EQ(eroded_[k], 0.0);
+        EXPECT_NEAR(deposited_[k], 100.0 / (1.0 - share), 0.01 / (1.0 - share));
+    }
+    std::ranges::fill(uplift, 0.0);
+    adapt_footwall(response_, erosion_, gravity, uplift, target_, cover_);
+    for (std::size_t k = 0; k < eroded_.size(); ++k) {
+        EXPECT_NEAR(deposited_[k], 0.0, 0.01 / (1.0 - share));
+        EXPECT_NEAR(eroded_[k], 0.0, 0.01 / (1.0 - share));
+    }
+}
+
+TEST_F(Erosion, BringsAnUnevenSurfaceToTheTarget) {
+    std::vector<double> uplift;
+    for (double x : response_.x) // a flank, its foreland and a target that slopes
+        uplift.push_back(500.0 * std::exp(x / 20e3) * std::cos(x / 20e3) - 20.0);
+    for (std::size_t k = 0; k < target_.size(); ++k)
+        target_[k] = -1e-3 * response_.x[k];
+    EXPECT_LT(adapt_footwall(response_, erosion_, gravity, uplift, target_, cover_), 100);
+    const std::vector<double> pressure = cover_pressure(erosion_, gravity, cover_);
+    const std::size_t n = response_.x.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        double height = uplift[k] + deposited_[k] - eroded_[k];
+        for (std::size_t j = 0; j < n; ++j)
+            height += pressure[j] * response_.uplift[j * n + k];
+        EXPECT_NEAR(height, target_[k], 0.01);
+        EXPECT_TRUE(eroded_[k] >= 0.0 && deposited_[k] >= 0.0);
+    }
+}
+
+TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
+    fem::FootwallRequest request;
+    request.detachment = listric_detachment();
+    request.surface_spring = request.detachment_spring = crust * gravity;
+    request.base_spring = contrast;
+    request.cell_size = 2000.0;
+    request.interface_end = 60e3;
+    const auto footwall = fem::make_footwall(request);
+    const FootwallErosionParameters erosion;
+    const LowerCrustThinningParameters thinning;
+    const FootwallResponses found =
+        solve_footwall_loads(*footwall, &erosion, request.left, &thinning, contrast, 10e3);
+    const SurfaceResponse& surface = found.surface;
+    const std::size_t n = surface.x.size();
+    for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t j = 0; j < n; ++j) // round-off
+            EXPECT_NEAR(surface.uplift[k * n + j] * surface.width[j],
+                        surface.uplift[j * n + k] * surface.width[k],
+                        1e-9 * std::abs(surface.uplift[k * n + k]) * surface.width[k]);
+    // A knot's uplift is the surface's there, but for the mean over its width.
+    const fem::PointForce force{{5e3, -11e3}, {2e11, 8e11}};
+    fem::Load load;
+    load.interface = footwall->nodal_forces({&force, 1});
+    const auto compare = [&](const std::vector<double>& knots) {
+        const fem::Field top = row(footwall->field(), 0.0, 1.0);
+        double largest = 0.0;
+        for (const auto& u : top.displacement)
+            largest = std::max(largest, std::abs(u.y));
+        for (std::size_t k = 1; k + 1 < n; ++k) {
+            std::size_t i = 0;
+            while (top.place[i + 1].x < surface.x[k])
+                ++i;
+            const double share =
+                (surface.x[k] - top.place[i].x) / (top.place[i + 1].x - top.place[i].x);
+            const double u =
+                (1.0 - share) * top.displacement[i].y + share * top.displacement[i + 1].y;
+            EXPECT_NEAR(knots[k], u, 0.03 * largest) << surface.x[k];
+        }
+    };
+    footwall->solve(load);
+    compare(surface.uplift_by(load.interface));
+    footwall->solve(lower_crust_load(thinning, contrast, 10e3));
+    compare(LowerCrustResponse::at(found.crust.uplift, found.crust.steps, 1.0));
+}
+
+} // namespace
+} // namespace listric
