@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Shelf scenes{"scene",
-                       "a scene has at least [hanging_wall] and [detachment], "
+                       "a scene has at least [hanging_wall] and [detachment] or [stretching], "
                        "or [flexure] and [elastic_base]",
                        "LISTRIC_SCENES", "apps/scenes"};
 
@@ -272,13 +272,17 @@ void check(const Scene& scene, const toml::table& document) {
     if (!scene.hanging_wall)
         fail(entry_at(document, "hanging_wall"),
              "is missing, every scene needs [hanging_wall] or [flexure]");
-    if (!scene.detachment)
+    if (scene.detachment && scene.stretching)
+        fail(entry_at(document, "stretching"),
+             "stands in place of [detachment]; leave out one of the two");
+    if (!scene.detachment && !scene.stretching)
         fail(entry_at(document, "hanging_wall"),
-             "needs [detachment], the surface on which it slides; add [detachment]");
+             "needs [detachment], the surface on which it slides, or [stretching]; add one");
     if (scene.elastic_base)
         fail(entry_at(document, "elastic_base"),
              "is not coupled to discs yet; leave it out, or use it with [flexure]");
-    check_detachment(scene, document);
+    if (scene.detachment)
+        check_detachment(scene, document);
     check_resolution(scene, document);
     needs("bond_healing", scene.bond_healing.has_value(), "bonds", scene.bonds.has_value());
     needs("compaction", scene.compaction.has_value(), "sedimentation",
@@ -388,7 +392,9 @@ std::string parameter_reference() {
 }
 
 double hanging_wall_area(const Scene& scene) {
-    return scene.hanging_wall && scene.detachment && !scene.detachment->segments.empty()
+    const bool has_base =
+        scene.stretching || (scene.detachment && !scene.detachment->segments.empty());
+    return scene.hanging_wall && has_base
                ? hanging_wall_area(*scene.hanging_wall, make_base(scene).surfaces.front().chain)
                : 0.0;
 }

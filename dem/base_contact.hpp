@@ -29,7 +29,9 @@ inline BaseContactForce base_contact_force(const Surface& surface, double extens
     }
     const double nx = foot->normal.x, ny = foot->normal.y;
     // The conveyor runs along the chain, whose direction is (n_y, -n_x).
-    const double wall_vx = speed * (surface.translation.x + surface.conveyor * ny);
+    double wall_vx = speed * (surface.translation.x + surface.conveyor * ny);
+    if (surface.stretched_length > 0.0)
+        wall_vx += speed * disc.x / (surface.stretched_length + extension);
     const double wall_vy = speed * (surface.translation.y - surface.conveyor * nx);
     const double slip_rate =
         (disc.vy - wall_vy) * nx - (disc.vx - wall_vx) * ny - disc.spin * foot->distance;

@@ -79,8 +79,10 @@ double damped(double force, double velocity, double damping) {
     return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
 }
 
-/// Newton's law for every disc. Returns the largest component of a velocity, m/s.
-double move_discs(State& state, const CyclePhysics& physics, std::span<const Force> force) {
+/// Newton's law for every disc; `stretch_rate` is the base's du_x/dx, 1/s. Returns the largest
+/// component of a velocity, m/s.
+double move_discs(State& state, const CyclePhysics& physics, double stretch_rate,
+                  std::span<const Force> force) {
     const DiscColumns d = disc_columns(state);
     const double dt = state.clock.time_step;
     double fastest = 0.0;
@@ -89,7 +91,8 @@ double move_discs(State& state, const CyclePhysics& physics, std::span<const For
         const double acceleration_per_force = dt / inertia;
         const double spin_up = acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i]));
         const double fy = force[i].y - d.mass[i] * physics.gravity;
-        d.vx[i] += damped(force[i].x, d.vx[i], physics.damping) * acceleration_per_force;
+        d.vx[i] += damped(force[i].x, d.vx[i] - stretch_rate * d.x[i], physics.damping) *
+                   acceleration_per_force;
         d.vy[i] += damped(fy, d.vy[i], physics.damping) * acceleration_per_force;
         d.spin[i] += damped(force[i].moment, d.spin[i], physics.damping) * spin_up;
         d.x[i] += d.vx[i] * dt;
@@ -122,8 +125,9 @@ void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& phys
     const double speed = base.motion.speed_at(clock.time());
     base_forces(state, base, force);
     contact_forces(state, pairs, force);
-    const double fastest =
-        std::max(move_discs(state, physics, force), greatest_translation(base) * speed);
+    const double stretch_rate = stretching(base, clock.extension) * speed;
+    const double fastest = std::max(move_discs(state, physics, stretch_rate, force),
+                                    greatest_translation(base) * speed);
     state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
     clock.extension += speed * clock.time_step;
     ++clock.cycle;

@@ -109,9 +109,10 @@ template <bool bonded, bool frictional> void FastCycle::compute_boundary(Strip& 
         compute<bonded, frictional>(block);
 }
 
-template <bool bonded, bool frictional> double FastCycle::sweep(Strip& strip) {
+template <bool bonded, bool frictional> double FastCycle::sweep(Strip& strip, double stretch_rate) {
     const Double4 no_force = {};
     const Double4 damping = no_force + physics_.damping;
+    const Double4 stretching = {stretch_rate, 0.0, 0.0, 0.0};
     const Double4 time_step = no_force + time_step_;
     const Mask4 sign = {std::numeric_limits<std::int64_t>::min(),
                         std::numeric_limits<std::int64_t>::min(),
@@ -150,12 +151,12 @@ template <bool bonded, bool frictional> double FastCycle::sweep(Strip& strip) {
                 const Double4 gain = __builtin_shufflevector(c, no_force, 0, 0, 2, 3);
                 const Double4 weight = __builtin_shufflevector(c, no_force, 4, 1, 4, 4);
                 const Double4 f = force[m] - weight;
-                const Double4 v = disc.velocity;
+                const Double4 v = disc.velocity - stretching * disc.place;
                 const Double4 drag =
                     reinterpret_cast<Double4>(reinterpret_cast<Mask4>(damping * magnitude(f)) |
                                               (reinterpret_cast<Mask4>(v) & sign));
                 const Double4 damped = v == no_force ? f : f - drag;
-                disc.velocity = v + damped * gain;
+                disc.velocity += damped * gain;
                 disc.place += disc.velocity * time_step;
                 const Double4 speed = magnitude(disc.velocity);
                 fastest = fastest < speed ? speed : fastest;
@@ -218,7 +219,8 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles) {
             (this->*kernels.compute_boundary)(strip);
             barrier.wait();
             const auto parity = static_cast<std::size_t>(clock.cycle % 2);
-            strip.fastest[parity] = (this->*kernels.sweep)(strip);
+            const double stretch_rate = stretching(base_, clock.extension) * speed;
+            strip.fastest[parity] = (this->*kernels.sweep)(strip, stretch_rate);
             barrier.wait();
             double fastest = surface_translation * speed;
             for (const Strip& s : strips_)

@@ -122,10 +122,10 @@ private:
     /// contacts are packed: bonds never form within a cycle.
     template <bool bonded, bool frictional> void compute(Block& block);
     template <bool bonded, bool frictional> void compute_boundary(Strip& strip);
-    template <bool bonded, bool frictional> double sweep(Strip& strip);
+    template <bool bonded, bool frictional> double sweep(Strip& strip, double stretch_rate);
     struct Kernels {
         void (FastCycle::*compute_boundary)(Strip&);
-        double (FastCycle::*sweep)(Strip&);
+        double (FastCycle::*sweep)(Strip&, double stretch_rate);
     };
     Kernels choose_kernels() const;
     void compute_base(Strip& strip, double extension, double speed);
