@@ -67,6 +67,12 @@ std::vector<Parameter> parameters(DetachmentParameters& p) {
     };
 }
 
+std::vector<Parameter> parameters(StretchingParameters& p) {
+    return {
+        {"friction", &p.friction, "", friction, "", "between discs and the stretching base"},
+    };
+}
+
 std::vector<Parameter> parameters(ExtensionParameters& p) {
     return {
         {"distance_m", &p.distance, "m", {.from = 0, .to = 1e6}, "", "total extension"},
@@ -288,6 +294,8 @@ std::vector<SceneTable> scene_tables(Scene& scene) {
         table("hanging_wall", "the block that slides and breaks, before extension",
               scene.hanging_wall),
         table("detachment", "the surface on which it slides", scene.detachment),
+        table("stretching", "in place of a detachment: a flat base that stretches uniformly",
+              scene.stretching),
         table("extension", "motion of base and right wall", scene.extension),
         table("material", "microproperties of the hanging wall's discs", scene.basement),
         table("cycle", "how the equations of motion are solved", scene.cycle),

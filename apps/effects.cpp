@@ -50,7 +50,24 @@ std::vector<Material> make_materials(const Scene& s) {
 }
 
 RigidBase make_base(const Scene& s) {
+    constexpr double high = 1e5; // m, higher than anything piles up
     const double degree = pi / 180.0;
+    RigidBase base;
+    base.material = s.basement;
+    base.motion = {s.extension.speed, s.extension.ramp};
+    const double length = s.hanging_wall->length;
+    // The flat must reach beyond the right wall's last position.
+    const double far = length + 1.5 * s.extension.distance + s.hanging_wall->thickness;
+    const Surface right_wall{
+        "right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, {1.0, 0.0}};
+    if (s.stretching) {
+        const double floor = -s.hanging_wall->thickness;
+        base.surfaces = {
+            {"base", {line({0.0, floor}, {far, floor})}, s.stretching->friction, 0.0, {}, length},
+            {"left wall", {line({0.0, high}, {0.0, -high})}},
+            right_wall};
+        return base;
+    }
     Chain detachment;
     Point start{0.0, 0.0};
     double dip = s.detachment->start_dip;
@@ -66,26 +83,18 @@ RigidBase make_base(const Scene& s) {
         }
         start = detachment.back().end;
     }
-    // The flat must reach beyond the right wall's last position.
-    const double length = s.hanging_wall->length;
-    const double far = length + 1.5 * s.extension.distance + s.hanging_wall->thickness;
     if (start.x < far)
         detachment.push_back(line(start, {far, start.y}));
-
-    constexpr double high = 1e5; // m, higher than anything piles up
-    RigidBase base;
     base.surfaces = {
         {"detachment", detachment, s.detachment->friction, 1.0, {}},
-        {"backstop", {line({0.0, high}, {0.0, 0.0})}, 0.0, 0.0, {}},
-        {"right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, {1.0, 0.0}},
+        {"backstop", {line({0.0, high}, {0.0, 0.0})}},
+        right_wall,
     };
     if (s.elastic_base) {
         base.surfaces[0].follows = Follows::nodes;
         base.surfaces[0].degree = s.elastic_base->degree;
         base.surfaces[1].follows = Follows::breakaway;
     }
-    base.material = s.basement;
-    base.motion = {s.extension.speed, s.extension.ramp};
     return base;
 }
 

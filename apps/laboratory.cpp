@@ -1,6 +1,7 @@
 #include "apps/laboratory.hpp"
 
 #include "apps/figures.hpp"
+#include "apps/pure_shear.hpp"
 #include "apps/run.hpp"
 #include "apps/snapshot.hpp"
 #include "dem/contacts.hpp"
@@ -32,7 +33,7 @@ constexpr double mega = 1e6, giga = 1e9;
 constexpr double axial_strain_rate = 2e-5; // per s
 constexpr double shear_speed = 0.25;       // m/s
 
-const std::vector<std::string_view> tests = {"uniaxial", "biaxial", "shear-box"};
+const std::vector<std::string_view> tests = {"uniaxial", "biaxial", "shear-box", "pure-shear"};
 
 /// Share of the work that is done, for people, on stderr.
 class Progress {
@@ -278,6 +279,158 @@ void shear_samples(Results& r, const std::vector<double>& normal) {
     write_text(r.output / "profiles.csv", rows(profiles));
 }
 
+/// The rates at which slabs are stretched: one varies, the other has the scene's value.
+std::vector<CriticalRates> sweep(const LaboratoryRequest& request, const CriticalRates& standard) {
+    const auto wished = [](const std::vector<double>& given, std::vector<double> otherwise,
+                           std::string_view option) {
+        for (double rate : given)
+            if (!(rate > 0.0 && rate <= 1e-3))
+                throw UsageError(fmt::format("--{} {}: allowed: above 0, at most 1e-3 per second",
+                                             option, rate));
+        return given.empty() ? otherwise : given;
+    };
+    std::vector<CriticalRates> points{standard};
+    const auto add = [&](const CriticalRates& rates) {
+        if (std::ranges::find(points, rates) == points.end())
+            points.push_back(rates);
+    };
+    for (double rate :
+         wished(request.weakening_rates, {1e-14, 3e-14, 1e-13, 3e-13, 1e-12}, "weakening-rates"))
+        add({rate, standard.healing});
+    for (double rate :
+         wished(request.healing_rates, {1e-17, 1e-16, 1e-15, 1e-14, 1e-13}, "healing-rates"))
+        add({standard.weakening, rate});
+    return points;
+}
+
+/// The slab of a call, with its rock (already in the output folder).
+Scene slab_scene(const LaboratoryRequest& request, const fs::path& output, const RockMaterial& rock,
+                 std::uint64_t seed) {
+    const std::string weakened = request.weakened.value_or(
+        rock.name.ends_with("-calibrated") ? "mat18-w-calibrated" : "mat18-w");
+    SceneRequest scene;
+    scene.scene = "pure-shear";
+    scene.set = {"materials.basement=" + quoted((output / "material.toml").string()),
+                 "materials.weakened=" + quoted(weakened), "output.series=\"none\""};
+    scene.accuracy = request.accuracy;
+    scene.seed = static_cast<std::int64_t>(seed);
+    return load_scene(scene);
+}
+
+/// One row of the sweep: mean and spread over the seeds of one pair of rates.
+struct SweepPoint {
+    CriticalRates rates;
+    std::vector<SlabFault> faults;
+    std::vector<double> dips, count, top10, cumulative, weak, healed, segments;
+    int conjugate = 0;
+};
+
+void stretch_slabs(Results& r, const std::vector<double>& confining) {
+    const Scene standard = slab_scene(r.request, r.output, r.rock, r.lab.seed);
+    const CriticalRates rates{standard.fault_weakening->strain_rate,
+                              standard.bond_healing->strain_rate};
+    const std::vector<CriticalRates> points = sweep(r.request, rates);
+    const auto samples = r.lab.make_samples(r.rock.material);
+    const auto curves = r.lab.biaxial(r.rock, samples, confining);
+    std::vector<double> frictions;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        std::vector<double> peaks;
+        for (const auto& by_seed : curves)
+            peaks.push_back(peak_stress(by_seed[k]));
+        frictions.push_back(fit_envelope(confining, peaks).friction);
+    }
+    const Spread friction = spread(frictions);
+    const double predicted = anderson_dip(friction.mean);
+    std::cout << fmt::format("biaxial test: friction {:.3f} +- {:.3f}, so faults should dip at "
+                             "{:.1f} degrees\n",
+                             friction.mean, friction.deviation, predicted);
+
+    const auto seeds = static_cast<std::size_t>(r.lab.seeds);
+    std::vector<std::string> csv{"weakening_rate_per_s,healing_rate_per_s,seed,faults,mean_dip_deg,"
+                                 "strain_top10,strain_top10_cumulative,weak_fraction,healed_share,"
+                                 "unbalanced_ratio"};
+    std::vector<std::string> list{"weakening_rate_per_s,healing_rate_per_s,seed,dip_at_birth_deg,"
+                                  "length_m,falls_right"};
+    std::vector<SweepPoint> rows_of_table;
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        SweepPoint point;
+        point.rates = points[n];
+        for (std::size_t k = 0; k < seeds; ++k) {
+            r.lab.report("slabs", n * seeds + k, points.size() * seeds);
+            Scene scene = slab_scene(r.request, r.output, r.rock, r.lab.seed + k);
+            scene.fault_weakening->strain_rate = points[n].weakening;
+            scene.bond_healing->strain_rate = points[n].healing;
+            const StretchedSlab slab = stretch_slab(
+                scene,
+                r.output / fmt::format("slab-weakening-{:g}-healing-{:g}-seed-{}",
+                                       points[n].weakening, points[n].healing, r.lab.seed + k),
+                r.lab.threads, n == 0 && k == 0);
+            const auto dip = mean_dip(slab.faults);
+            if (dip)
+                point.dips.push_back(*dip);
+            point.count.push_back(static_cast<double>(slab.faults.size()));
+            point.top10.push_back(slab.strain_top10);
+            point.cumulative.push_back(slab.strain_top10_cumulative);
+            point.weak.push_back(slab.weak_fraction);
+            point.healed.push_back(slab.healed_share);
+            point.conjugate += slab.conjugate();
+            point.faults.insert(point.faults.end(), slab.faults.begin(), slab.faults.end());
+            point.segments.insert(point.segments.end(), slab.segment_dips.begin(),
+                                  slab.segment_dips.end());
+            csv.push_back(fmt::format("{},{},{},{},{},{},{},{},{},{}", points[n].weakening,
+                                      points[n].healing, r.lab.seed + k, slab.faults.size(),
+                                      dip.value_or(std::nan("")), slab.strain_top10,
+                                      slab.strain_top10_cumulative, slab.weak_fraction,
+                                      slab.healed_share, slab.unbalanced_ratio));
+            for (const SlabFault& f : slab.faults)
+                list.push_back(fmt::format("{},{},{},{},{},{}", points[n].weakening,
+                                           points[n].healing, r.lab.seed + k, f.dip_at_birth,
+                                           f.length, f.falls_right ? 1 : 0));
+        }
+        rows_of_table.push_back(std::move(point));
+    }
+
+    std::cout << fmt::format(
+        "{:>13} {:>11} {:>6} {:>9} {:>9} {:>5} {:>7} {:>5} {:>7} {:>7} {:>5}\n", "weakening (/s)",
+        "healing", "faults", "conjugate", "dip (deg)", "sd", "top 10%", "sd", "weak", "healed",
+        "sd");
+    Json table = Json::array();
+    for (const SweepPoint& p : rows_of_table) {
+        const Spread top10 = spread(p.top10), healed = spread(p.healed);
+        const auto dip = mean_dip(p.faults);
+        const double dip_sd = p.dips.empty() ? 0.0 : spread(p.dips).deviation;
+        std::cout << fmt::format(
+            "{:>13.0e} {:>11.0e} {:>6.1f} {:>6} / {} {:>9} {:>5.1f} {:>7.2f} {:>5.2f} {:>7.3f} "
+            "{:>7.2f} {:>5.2f}\n",
+            p.rates.weakening, p.rates.healing, spread(p.count).mean, p.conjugate, seeds,
+            dip ? fmt::format("{:.1f}", *dip) : "-", dip_sd, top10.mean, top10.deviation,
+            spread(p.weak).mean, healed.mean, healed.deviation);
+        Json row = {{"weakening_rate_per_s", p.rates.weakening},
+                    {"healing_rate_per_s", p.rates.healing},
+                    {"faults", to_json(spread(p.count))},
+                    {"conjugate_seeds", p.conjugate},
+                    {"strain_top10", to_json(top10)},
+                    {"strain_top10_cumulative", to_json(spread(p.cumulative))},
+                    {"weak_fraction", to_json(spread(p.weak))},
+                    {"healed_share", to_json(healed)}};
+        if (dip)
+            row["dip_at_birth_deg"] = {{"mean", *dip}, {"sd", dip_sd}};
+        if (!p.segments.empty())
+            row["segment_dip_deg"] = to_json(spread(p.segments));
+        table.push_back(std::move(row));
+    }
+    r.summary["accuracy"] = r.request.accuracy;
+    r.summary["friction"] = friction.mean;
+    r.summary["friction_sd"] = friction.deviation;
+    r.summary["predicted_dip_deg"] = predicted;
+    r.summary["standard_weakening_rate_per_s"] = rates.weakening;
+    r.summary["standard_healing_rate_per_s"] = rates.healing;
+    r.summary["mean_radius_m"] = standard.hanging_wall->mean_radius;
+    r.summary["points"] = table;
+    write_text(r.output / "slabs.csv", rows(csv));
+    write_text(r.output / "faults.csv", rows(list));
+}
+
 std::vector<double> stresses(const LaboratoryRequest& request, std::vector<double> standard,
                              std::string_view option) {
     std::vector<double> result;
@@ -422,17 +575,26 @@ void run_laboratory(const LaboratoryRequest& request) {
         changes.push_back("bonds.strength_is=" + *request.reading);
     const RockMaterial rock = load_material(request.material, changes);
     const bool in_box = request.test == "shear-box";
-    if (request.test == "biaxial" && !rock.bonds)
-        throw UsageError(fmt::format("{}: a biaxial test needs a rock with [bonds]; the shear box "
+    const bool in_slab = request.test == "pure-shear";
+    if ((request.test == "biaxial" || in_slab) && !rock.bonds)
+        throw UsageError(fmt::format("{}: this test needs a rock with [bonds]; the shear box "
                                      "takes materials without (listric laboratory shear-box {})",
                                      rock.name, request.material));
+    if (!in_slab && (request.weakened || !request.weakening_rates.empty() ||
+                     !request.healing_rates.empty() || request.accuracy != "draft"))
+        throw UsageError("--weakened, --weakening-rates, --healing-rates, --accuracy: only the "
+                         "pure-shear test has them");
     if (!in_box && request.vice)
         throw UsageError("--vice: only the shear box has one");
     const std::vector<double> levels =
         in_box ? stresses(request, {10.0, 50.0, 100.0, 200.0}, "normal")
-               : stresses(request, {10.0, 25.0, 50.0, 100.0, 200.0}, "confining");
+        : in_slab // stresses on the sides of a slab of 10 km that yields
+            ? stresses(request, {10.0, 25.0, 50.0, 100.0}, "confining")
+            : stresses(request, {10.0, 25.0, 50.0, 100.0, 200.0}, "confining");
     if (in_box)
         make_filling(request, rock); // complains before any work
+    if (in_slab)
+        sweep(request, {});
 
     const auto discs = static_cast<std::size_t>(request.discs);
     Laboratory lab;
@@ -463,6 +625,8 @@ void run_laboratory(const LaboratoryRequest& request) {
         test_uniaxially(results);
     else if (request.test == "biaxial")
         test_biaxially(results, levels);
+    else if (in_slab)
+        stretch_slabs(results, levels);
     else
         shear_samples(results, levels);
     summary["wall_s"] =

@@ -4,7 +4,8 @@
 Usage: laboratory.py DIR
 
 DIR holds summary.json and the CSV files that `listric laboratory` wrote (SI
-units); it gets uniaxial.png, biaxial.png or shear-box.png.  The file is written
+units); it gets uniaxial.png, biaxial.png, shear-box.png
+or pure-shear.png.  The file is written
 under a temporary name and then renamed.  On bad input: one line on stderr, exit
 status 1.
 """
@@ -54,7 +55,7 @@ def load_summary(directory):
     return summary
 
 
-def load_table(directory, name):
+def load_table(directory, name, may_be_empty=False):
     """A CSV file as a dict of arrays by column."""
     path = os.path.join(directory, name)
     try:
@@ -65,6 +66,8 @@ def load_table(directory, name):
         raise InputError(f"{path}: {failure.strerror or failure}")
     except (ValueError, IndexError) as failure:
         raise InputError(f"{path}: not a table of numbers ({failure})")
+    if len(rows) == 1 and may_be_empty:
+        return {key: np.empty(0) for key in rows[0]}
     if len(rows) < 2 or len(columns) != len(rows[0]):
         raise InputError(f"{path}: an empty table")
     return dict(zip(rows[0], columns))
@@ -199,7 +202,48 @@ def shear_box(figure, directory, summary):
     right.set_ylim(bottom=0)
 
 
-PANELS = {"uniaxial": uniaxial, "biaxial": biaxial, "shear-box": shear_box}
+def pure_shear(figure, directory, summary):
+    left, middle, right = figure.subplots(1, 3, width_ratios=(1.2, 1, 1))
+    standard = {key: summary[f"standard_{key}_rate_per_s"] for key in ("weakening", "healing")}
+    faults = load_table(directory, "faults.csv", may_be_empty=True)
+    chosen = np.full(len(faults["seed"]), True)
+    for key, rate in standard.items():
+        chosen &= faults[f"{key}_rate_per_s"] == rate
+    predicted = summary["predicted_dip_deg"]
+    left.axvspan(predicted - 6, predicted + 6, color="#f0f0f0", zorder=0, linewidth=0)
+    left.axvline(predicted, color=TARGET, dashes=(5, 3), linewidth=1.2,
+                 label=f"45° + φ/2 = {predicted:.0f}°, ± 6°")
+    falls_right = faults["falls_right"] > 0
+    bins = np.arange(30, 91, 5)
+    left.hist([faults["dip_at_birth_deg"][chosen & side] for side in (falls_right, ~falls_right)],
+              bins, weights=[faults["length_m"][chosen & side] / 1e3
+                             for side in (falls_right, ~falls_right)],
+              stacked=True, color=(COLOURS[4], COLOURS[1]), label=("to the right", "to the left"))
+    left.set(xlabel="Dip at birth (°)", ylabel="Length of faults (km)",
+             title=f"Faults at {standard['weakening']:g} and {standard['healing']:g} per second")
+    left.legend(loc="upper left")
+    curves = (("strain_top10", "strain in the most strained tenth", COLOURS[4], "o-"),
+              ("healed_share", "healed share of new contacts", "#41ab5d", "s-"),
+              ("weak_fraction", "weakened discs", "#fd8d3c", "^-"))
+    for ax, key, other, name in ((middle, "weakening", "healing", "fault weakening"),
+                                 (right, "healing", "weakening", "bond healing")):
+        points = sorted((p for p in summary["points"]
+                         if p[f"{other}_rate_per_s"] == standard[other]),
+                        key=lambda p: p[f"{key}_rate_per_s"])
+        ax.axvline(standard[key], color=TARGET, dashes=(5, 3), linewidth=1.2, label="paper")
+        for measure, label, hue, style in curves:
+            ax.errorbar([p[f"{key}_rate_per_s"] for p in points],
+                        [p[measure]["mean"] for p in points],
+                        [p[measure]["sd"] for p in points], fmt=style, color=hue, markersize=4,
+                        linewidth=1.1, capsize=3, label=label)
+        ax.set(xscale="log", xlabel="Critical strain rate (1/s)", ylabel="Share",
+               title=f"Critical strain rate of {name}")
+        ax.set_ylim(0, 1)
+    middle.legend(loc="upper right")
+
+
+PANELS = {"uniaxial": uniaxial, "biaxial": biaxial, "shear-box": shear_box,
+          "pure-shear": pure_shear}
 
 
 def main(arguments):
@@ -219,7 +263,9 @@ def main(arguments):
         figure.supxlabel(
             "  ·  ".join([f"{summary['discs']} discs, mean radius "
                           f"{summary['mean_radius_m']:.3g} m", f"{summary['seeds']} samples",
-                          f"floaters {summary['floaters']}"] + summary.get("set", [])),
+                          f"floaters {summary['floaters']}"]
+                         + ([f"slab: {summary['accuracy']}"] if "accuracy" in summary else [])
+                         + summary.get("set", [])),
             fontsize=7.5, color=FAINT, x=0.01, ha="left")
         PANELS[summary["test"]](figure, directory, summary)
         path = os.path.join(directory, summary["test"] + ".png")

@@ -376,14 +376,14 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
     const Profile profile = measure_profile(scene, state, base);
     for (double top : profile.pre_rift_top)
         m.basin_area -= top * 2.0 * state.mean_radius;
-    if (extension > 0.0) {
+    if (extension > 0.0)
         m.area_balance = m.basin_area / (extension * scene.hanging_wall->thickness);
+    if (extension > 0.0 && scene.detachment) {
         m.cutoff = find_cutoff(state, standing_base(base, state).surfaces.front().chain);
         m.rollover_tilt = head_block_tilt(scene, state, detachment);
         measure_ramp_flat_ramp(m, state, detachment);
-    }
-    if (extension > 0.0)
         measure_kinematics(scene, detachment, extension, profile, 2.0 * state.mean_radius, m);
+    }
     if (scene.sedimentation && scene.bonds)
         m.old_sediment_bonded_fraction = bonded_share_of_old_sediment(
             state, scene.sedimentation->level, 1500.0, 2e5 * scene.extension.rate);

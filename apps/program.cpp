@@ -58,7 +58,8 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
 }
 
 void add_laboratory_options(CLI::App& command, LaboratoryRequest& request) {
-    command.add_option("TEST", request.test, "uniaxial, biaxial or shear-box")->required();
+    command.add_option("TEST", request.test, "uniaxial, biaxial, shear-box or pure-shear")
+        ->required();
     command.add_option("MATERIAL", request.material, "Name of a material or a path")->required();
     command.add_option("--set", request.set, "table.key=value of the material; repeatable")
         ->allow_extra_args(false)
@@ -80,6 +81,19 @@ void add_laboratory_options(CLI::App& command, LaboratoryRequest& request) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--vice", request.vice,
                        "Rock around the shear zone: a material, elastic or none");
+    command.add_option("--weakened", request.weakened,
+                       "Pure shear: material of faults (mat18-w, or its calibrated variant)");
+    command
+        .add_option("--accuracy", request.accuracy, "Pure shear: draft, standard, fine, sandbox")
+        ->check(CLI::IsMember({"draft", "standard", "fine", "sandbox"}));
+    for (const auto& [option, rates, what] :
+         {std::tuple("--weakening-rates", &request.weakening_rates, "fault weakening (AFD)"),
+          std::tuple("--healing-rates", &request.healing_rates, "bond healing (ICM)")})
+        command
+            .add_option(option, *rates,
+                        fmt::format("Pure shear: critical strain rates of {}, per second", what))
+            ->delimiter(',')
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--speed", request.speed, "Of the walls, over the default");
     command.add_flag("--quiet", request.quiet, "No progress");
 }

@@ -361,6 +361,8 @@ FaultReport report_faults(Run& run) {
 }
 
 void draw(Run& run, Voice& voice) {
+    if (!run.options.figures)
+        return;
     const FaultReport faults = report_faults(run);
     const Stopwatch watch(run.record, "figures");
     run.drawn_at = run.state.clock.extension;
@@ -372,6 +374,8 @@ void draw(Run& run, Voice& voice) {
 
 /// The moments of the experiment on one sheet.
 void draw_sheet(Run& run, Voice& voice) {
+    if (!run.options.figures)
+        return;
     const Stopwatch watch(run.record, "figures");
     try {
         draw_experiment(run.options.output);

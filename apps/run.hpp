@@ -18,6 +18,7 @@ struct RunOptions {
     bool resume = false;
     bool force = false;
     bool quiet = false;
+    bool figures = true; ///< drawn at the scene's extensions and at the end
 };
 
 /// A call that cannot be carried out; what() says why and what to do.

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Shelf scenes{"scene",
-                       "a scene has at least [hanging_wall] and [detachment], "
+                       "a scene has at least [hanging_wall] and [detachment] or [stretching], "
                        "or [flexure] and [elastic_base]",
                        "LISTRIC_SCENES", "apps/scenes"};
 
@@ -296,10 +296,16 @@ void check(const Scene& scene, const toml::table& document) {
     if (!scene.hanging_wall)
         fail(entry_at(document, "hanging_wall"),
              "is missing, every scene needs [hanging_wall] or [flexure]");
-    if (!scene.detachment)
+    if (scene.detachment && scene.stretching)
+        fail(entry_at(document, "stretching"),
+             "stands in place of [detachment]; leave out one of the two");
+    if (!scene.detachment && !scene.stretching)
         fail(entry_at(document, "hanging_wall"),
-             "needs [detachment], the surface on which it slides; add [detachment]");
-    check_detachment(scene, document);
+             "needs [detachment], the surface on which it slides, or [stretching]; add one");
+    if (scene.detachment)
+        check_detachment(scene, document);
+    needs("elastic_base", scene.elastic_base.has_value(), "detachment",
+          scene.detachment.has_value());
     check_resolution(scene, document);
     needs("elastic_base", scene.elastic_base.has_value(), "gravity", scene.gravity.has_value());
     if (scene.elastic_base)
@@ -412,7 +418,9 @@ std::string parameter_reference() {
 }
 
 double hanging_wall_area(const Scene& scene) {
-    return scene.hanging_wall && scene.detachment && !scene.detachment->segments.empty()
+    const bool has_base =
+        scene.stretching || (scene.detachment && !scene.detachment->segments.empty());
+    return scene.hanging_wall && has_base
                ? hanging_wall_area(*scene.hanging_wall, make_base(scene).surfaces.front().chain)
                : 0.0;
 }

@@ -34,6 +34,11 @@ struct DetachmentParameters {
     std::vector<DetachmentSegment> segments;
 };
 
+/// A flat base that stretches uniformly between the walls, in place of a detachment: pure shear.
+struct StretchingParameters {
+    double friction = 0.3; ///< between discs and the base
+};
+
 /// Motion of base and right wall.
 struct ExtensionParameters {
     double distance = 10e3; ///< total extension, m
@@ -107,6 +112,7 @@ struct Scene {
 
     std::optional<HangingWallParameters> hanging_wall;
     std::optional<DetachmentParameters> detachment;
+    std::optional<StretchingParameters> stretching;
     ExtensionParameters extension;
     Material basement; ///< table [material]
     CycleParameters cycle;
@@ -150,7 +156,7 @@ std::string to_toml(const Scene& scene);
 /// Reference of every parameter: table, key, type, default, unit, range, symbol, doc.
 std::string parameter_reference();
 
-/// Area between the detachment and the original surface, up to the moving wall, m^2.
+/// Area between the base and the original surface, up to the moving wall, m^2.
 double hanging_wall_area(const Scene& scene);
 
 /// Number of discs that fill the hanging wall, from its area, porosity and disc sizes.

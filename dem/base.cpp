@@ -133,6 +133,13 @@ void place(Surface& surface, const Chain& chain, Point translation, double exten
     surface.translation = translation;
 }
 
+double stretching(const RigidBase& base, double extension) {
+    for (const Surface& surface : base.surfaces)
+        if (surface.stretched_length > 0.0)
+            return 1.0 / (surface.stretched_length + extension);
+    return 0.0;
+}
+
 double greatest_translation(const RigidBase& base) {
     double greatest = 0.0;
     for (const Surface& surface : base.surfaces)

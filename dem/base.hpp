@@ -63,6 +63,9 @@ struct Surface {
     double friction = 0.0;
     double conveyor = 0.0;  ///< its material runs along the chain with this speed
     Point translation = {}; ///< its velocity: it is at chain + translation * extension
+    /// If above 0, m, its material stretches: it moves along x with a speed in proportion to x, the
+    /// extension speed at stretched_length + extension.
+    double stretched_length = 0.0;
     Follows follows = Follows::nothing;
     int degree = 2; ///< of the faces between nodes
 };
@@ -92,6 +95,9 @@ struct RigidBase {
     Material material; ///< stiffness of the surfaces, in series with the disc's
     Motion motion;
 };
+
+/// Velocity gradient du_x/dx of a stretching base, in units of the extension speed, 1/m; 0: none.
+double stretching(const RigidBase& base, double extension);
 
 /// Greatest translation of a surface, in units of the extension speed.
 double greatest_translation(const RigidBase& base);

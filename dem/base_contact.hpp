@@ -35,11 +35,14 @@ inline BaseContactForce surface_force(const Foot& foot, Point wall_velocity, dou
             -(foot.distance * shear_force)};
 }
 
-/// Velocity of a surface where it has a normal, m/s. The conveyor runs along the chain, whose
-/// direction is (n_y, -n_x).
-inline Point surface_velocity(const Surface& surface, double speed, Point normal) {
-    return {speed * (surface.translation.x + surface.conveyor * normal.y),
-            speed * (surface.translation.y - surface.conveyor * normal.x)};
+/// Velocity of a surface where it has a normal, below a disc at x, m/s. The conveyor runs along the
+/// chain, whose direction is (n_y, -n_x).
+inline Point surface_velocity(const Surface& surface, double extension, double speed, double x,
+                              Point normal) {
+    double along = surface.translation.x + surface.conveyor * normal.y;
+    if (surface.stretched_length > 0.0)
+        along += x / (surface.stretched_length + extension);
+    return {speed * along, speed * (surface.translation.y - surface.conveyor * normal.x)};
 }
 
 /// Force of one rigid surface on one disc; both cycles use it. `speed` (m/s) and `extension` (m)
@@ -53,8 +56,8 @@ inline BaseContactForce base_contact_force(const Surface& surface, double extens
         shear_force = 0.0;
         return {0.0, 0.0, 0.0};
     }
-    return surface_force(*foot, surface_velocity(surface, speed, foot->normal), surface.friction,
-                         disc, parameters, shear_force);
+    return surface_force(*foot, surface_velocity(surface, extension, speed, disc.x, foot->normal),
+                         surface.friction, disc, parameters, shear_force);
 }
 
 /// Force of a surface that deforms, and to which nodes it goes back.
@@ -96,7 +99,7 @@ inline NodeContactForce node_contact_force(const Surface& surface, const BaseNod
         shear_force = 0.0;
         return result;
     }
-    const Point runs = surface_velocity(surface, speed, foot->normal);
+    const Point runs = surface_velocity(surface, extension, speed, disc.x, foot->normal);
     result.force = surface_force(*foot, {velocity.x + runs.x, velocity.y + runs.y},
                                  surface.friction, disc, parameters, shear_force);
     return result;

@@ -93,8 +93,10 @@ double damped(double force, double velocity, double damping) {
     return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
 }
 
-/// Newton's law for every disc. Returns the largest component of a velocity, m/s.
-double move_discs(State& state, const CyclePhysics& physics, std::span<const Force> force) {
+/// Newton's law for every disc; `stretch_rate` is the base's du_x/dx, 1/s. Returns the largest
+/// component of a velocity, m/s.
+double move_discs(State& state, const CyclePhysics& physics, double stretch_rate,
+                  std::span<const Force> force) {
     const DiscColumns d = disc_columns(state);
     const double dt = state.clock.time_step;
     const bool relative = physics.averaging_time > 0.0;
@@ -107,7 +109,8 @@ double move_discs(State& state, const CyclePhysics& physics, std::span<const For
         const double acceleration_per_force = dt / inertia;
         const double spin_up = acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i]));
         const double fy = force[i].y - d.mass[i] * physics.gravity;
-        const double departs_x = relative ? d.vx[i] - mean_vx[i] : d.vx[i];
+        const double departs_x =
+            d.vx[i] - (relative ? mean_vx[i] : stretch_rate > 0.0 ? stretch_rate * d.x[i] : 0.0);
         const double departs_y = relative ? d.vy[i] - mean_vy[i] : d.vy[i];
         d.vx[i] += damped(force[i].x, departs_x, physics.damping) * acceleration_per_force;
         d.vy[i] += damped(fy, departs_y, physics.damping) * acceleration_per_force;
@@ -154,9 +157,10 @@ void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& phys
     const double speed = base.motion.speed_at(clock.time());
     base_forces(state, base, force);
     contact_forces(state, pairs, force);
-    const double fastest =
-        std::max({move_discs(state, physics, force), greatest_translation(base) * speed,
-                  move_base(state, clock, response)});
+    const double stretch_rate = stretching(base, clock.extension) * speed;
+    const double fastest = std::max({move_discs(state, physics, stretch_rate, force),
+                                     greatest_translation(base) * speed,
+                                     move_base(state, clock, response)});
     state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
     clock.extension += speed * clock.time_step;
     ++clock.cycle;

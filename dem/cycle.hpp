@@ -10,7 +10,9 @@ namespace listric {
 
 /// Physics of the cycle beyond the contact law.
 struct CyclePhysics {
-    double damping = 0.7; ///< local non-viscous damping: F_d = -damping |F| sign(v) per component
+    /// Local non-viscous damping: F_d = -damping |F| sign(v) per component. Where the base
+    /// stretches, v is relative to it: else all that moves with it would be dragged back.
+    double damping = 0.7;
     double gravity = 0.0; ///< m/s^2, downward
     /// Time over which a disc's velocity is averaged (exponentially), s, to damp what departs from
     /// that mean; 0: to damp velocity itself. What sinks steadily is else held up by damping as if

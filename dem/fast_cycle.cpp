@@ -134,9 +134,11 @@ template <bool bonded, bool frictional> void FastCycle::compute_boundary(Strip& 
         compute<bonded, frictional>(block);
 }
 
-template <bool bonded, bool frictional, bool relative> double FastCycle::sweep(Strip& strip) {
+template <bool bonded, bool frictional, DampedAgainst motion>
+double FastCycle::sweep(Strip& strip, double stretch_rate) {
     const Double4 no_force = {};
     const Double4 damping = no_force + physics_.damping;
+    const Double4 stretching = {stretch_rate, 0.0, 0.0, 0.0};
     const Double4 time_step = no_force + time_step_;
     const Mask4 sign = {std::numeric_limits<std::int64_t>::min(),
                         std::numeric_limits<std::int64_t>::min(),
@@ -182,14 +184,16 @@ template <bool bonded, bool frictional, bool relative> double FastCycle::sweep(S
                 const Double4 f = force[m] - weight;
                 const Double4 v = disc.velocity;
                 Double4 departs = v;
-                if constexpr (relative)
+                if constexpr (motion == DampedAgainst::mean_motion)
                     departs = v - mean_velocities_[group * group_discs + m];
+                if constexpr (motion == DampedAgainst::stretching)
+                    departs = v - stretching * disc.place;
                 const Double4 drag =
                     reinterpret_cast<Double4>(reinterpret_cast<Mask4>(damping * magnitude(f)) |
                                               (reinterpret_cast<Mask4>(departs) & sign));
                 const Double4 damped = departs == no_force ? f : f - drag;
                 disc.velocity = v + damped * gain;
-                if constexpr (relative) {
+                if constexpr (motion == DampedAgainst::mean_motion) {
                     Double4& mean = mean_velocities_[group * group_discs + m];
                     mean += (disc.velocity - mean) * shares;
                 }
@@ -203,8 +207,11 @@ template <bool bonded, bool frictional, bool relative> double FastCycle::sweep(S
 }
 
 template <bool bonded, bool frictional> auto FastCycle::choose_sweep() const {
-    return mean_velocities_.empty() ? &FastCycle::sweep<bonded, frictional, false>
-                                    : &FastCycle::sweep<bonded, frictional, true>;
+    if (!mean_velocities_.empty())
+        return &FastCycle::sweep<bonded, frictional, DampedAgainst::mean_motion>;
+    if (stretching(base_, 0.0) > 0.0)
+        return &FastCycle::sweep<bonded, frictional, DampedAgainst::stretching>;
+    return &FastCycle::sweep<bonded, frictional, DampedAgainst::rest>;
 }
 
 FastCycle::Kernels FastCycle::choose_kernels() const {
@@ -264,7 +271,8 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
             // No disc looks at the nodes between the two barriers.
             if (deforms_ && thread == 0)
                 fastest_node_[parity] = move_base(state, nodes, clock, response);
-            strip.fastest[parity] = (this->*kernels.sweep)(strip);
+            const double stretch_rate = stretching(base_, clock.extension) * speed;
+            strip.fastest[parity] = (this->*kernels.sweep)(strip, stretch_rate);
             barrier.wait();
             double fastest = std::max(surface_translation * speed, fastest_node_[parity]);
             for (const Strip& s : strips_)

@@ -35,6 +35,9 @@ namespace listric {
 //   large pages for that, see aligned_vector.hpp: another 1.1 times.
 // - Scenes without bonds or friction run cycles compiled without them.
 
+/// What the velocity of a disc is damped against.
+enum class DampedAgainst { rest, mean_motion, stretching };
+
 class FastCycle {
 public:
     /// Packs a state. `threads` >= 1. Base and physics must outlive this.
@@ -132,12 +135,13 @@ private:
     /// contacts are packed: bonds never form within a cycle.
     template <bool bonded, bool frictional> void compute(Block& block);
     template <bool bonded, bool frictional> void compute_boundary(Strip& strip);
-    /// Discs are compiled with damping relative to rest or to their mean motion.
-    template <bool bonded, bool frictional, bool relative> double sweep(Strip& strip);
+    /// Discs are compiled with damping against each of the motions.
+    template <bool bonded, bool frictional, DampedAgainst motion>
+    double sweep(Strip& strip, double stretch_rate);
     template <bool bonded, bool frictional> auto choose_sweep() const;
     struct Kernels {
         void (FastCycle::*compute_boundary)(Strip&);
-        double (FastCycle::*sweep)(Strip&);
+        double (FastCycle::*sweep)(Strip&, double stretch_rate);
     };
     Kernels choose_kernels() const;
     void compute_base(Strip& strip, double extension, double speed);

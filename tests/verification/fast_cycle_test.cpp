@@ -68,6 +68,19 @@ TEST(FastCycle, HasTheBitsOfThePlainOne) {
         }
 }
 
+TEST(FastCycle, OnAStretchingBase) {
+    Heap heap(20, 3e9f);
+    heap.base.surfaces[1].conveyor = 0.0;
+    heap.base.surfaces[1].stretched_length = 62.0 * 93.1;
+    State plain = heap.state, fast = heap.state, unstretched = heap.state;
+    advance(plain, heap.base, physics, 1500, {1, Cycle::plain});
+    advance(fast, heap.base, physics, 1500, {2, Cycle::fast});
+    EXPECT_EQ(hash(fast), hash(plain));
+    heap.base.surfaces[1].stretched_length = 0.0;
+    advance(unstretched, heap.base, physics, 1500, {1, Cycle::plain});
+    EXPECT_NE(hash(unstretched), hash(plain));
+}
+
 TEST(FastCycle, WithoutBondsAndWithoutFriction) {
     for (float strength : {-1.0f, 3e9f})
         for (double friction : {0.0, 0.3}) {
