@@ -6,6 +6,7 @@
 #include "apps/explain.hpp"
 #include "apps/laboratory.hpp"
 #include "apps/run.hpp"
+#include "apps/validation.hpp"
 #include "apps/version.hpp"
 #include "dem/cycle.hpp"
 
@@ -105,16 +106,35 @@ void add_calibration_options(CLI::App& command, CalibrationRequest& request) {
     command.add_flag("--resume", request.resume, "Go on with the measurements made so far");
 }
 
+void add_validation_options(CLI::App& command, ValidationRequest& request) {
+    command.add_option("--accuracy", request.accuracy, "Of the runs: draft, standard, ...");
+    command.add_option("--seeds", request.seeds, "Runs per experiment")->check(CLI::Range(1, 1000));
+    command.add_option("--runs", request.runs, "Folder of the runs (out/validation-ACCURACY)");
+    command.add_option("--output", request.output,
+                       "Document (docs/validation.md; not at standard: beside the runs)");
+    command.add_option("--only", request.only, "One experiment");
+    command.add_option("--plan", request.plan, "Runs and expectations (apps/validation.toml)");
+    command.add_option("--threads", request.threads, "Processor cores to use")
+        ->check(CLI::Range(1, 1024));
+    command.add_flag("--remeasure", request.remeasure, "Measure all runs anew");
+    command.add_flag("--without-runs", request.without_runs, "Take the runs that are there");
+}
+
+/// Signals end a run at its next opportunity.
+void stop_on_signals() {
+    std::signal(SIGINT, [](int) { stop_requested = true; });
+    std::signal(SIGTERM, [](int) { stop_requested = true; });
+    std::signal(SIGHUP, [](int) { stop_requested = true; });
+    std::signal(SIGPIPE, SIG_IGN); // whoever read the progress may leave
+}
+
 int run(const SceneRequest& request, RunOptions options, const std::optional<std::string>& until,
         const std::string& output) {
     const Scene scene = load_scene(request);
     if (until)
         options.until = parse_length(*until);
     options.output = output.empty() ? "out/" + scene.name : output;
-    std::signal(SIGINT, [](int) { stop_requested = true; });
-    std::signal(SIGTERM, [](int) { stop_requested = true; });
-    std::signal(SIGHUP, [](int) { stop_requested = true; });
-    std::signal(SIGPIPE, SIG_IGN); // whoever read the progress may leave
+    stop_on_signals();
     return run_scene(scene, options) == RunOutcome::finished ? done : stopped;
 }
 
@@ -179,6 +199,12 @@ int dispatch(int argc, char** argv) {
         app.add_subcommand("calibrate", "Find microproperties of a wanted rock");
     add_calibration_options(*calibrate_command, calibration_request);
 
+    ValidationRequest validation_request;
+    validation_request.threads = options.threads;
+    CLI::App* validate_command = app.add_subcommand(
+        "validate", "Run the paper's experiments and write what is met and what is missed");
+    add_validation_options(*validate_command, validation_request);
+
     if (argc > 1 && argv[1][0] != '-') {
         std::vector<std::string_view> calls;
         for (const CLI::App* command : app.get_subcommands({}))
@@ -211,6 +237,10 @@ int dispatch(int argc, char** argv) {
             std::cout << explain(load_scene(request));
     } else if (*figures_command) {
         animation ? animate_run(folder) : draw_run(folder);
+    } else if (*validate_command) {
+        stop_on_signals();
+        if (!run_validation(validation_request))
+            return stopped;
     } else if (*calibrate_command) {
         run_calibration(calibration_request);
     } else if (*laboratory_command) {
