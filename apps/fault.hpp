@@ -18,11 +18,13 @@ struct Fault {
     double width = 0.0;           ///< median along the trace, mean disc diameters
     double curvature = 0.0;       ///< 1/m, > 0: convex upward
     double born_at = 0.0;         ///< extension since which its place has been active, m
-    double dip_at_birth = 0.0;    ///< degrees
+    double dip_at_birth = 0.0;    ///< of the line traced in the first window since, degrees
+    double traced_since = 0.0;    ///< end of that window, m of extension
     double footwall_turn = 0.0;   ///< rotation of the footwall block since birth, degrees, > 0
                                   ///< counter-clockwise: toward the detachment
     Point foot;                   ///< lower end, extended to the detachment if that is close, m
     std::map<int, double> throws; ///< m by stratum, 0: pre-rift top; > 0: normal
+    std::optional<double> pre_rift_throw; ///< of the layers below it, median, m
 };
 
 /// What the faults of a state have in common.

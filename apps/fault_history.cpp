@@ -2,6 +2,7 @@
 
 #include "apps/effects.hpp"
 #include "apps/fault_throw.hpp"
+#include "apps/rigid_motion.hpp"
 #include "apps/snapshot.hpp"
 #include "dem/base_place.hpp"
 #include "dem/cells.hpp"
@@ -34,41 +35,6 @@ struct Companions {
     Point place;                  ///< of the trace's point, m
     std::vector<std::int64_t> id; ///< of discs in its footwall
     std::vector<Point> at;        ///< where they are now, m
-};
-
-/// Least-squares rigid motion of points.
-class RigidMotion {
-public:
-    void add(Point from, Point to) { pairs_.emplace_back(from, to); }
-    std::size_t size() const { return pairs_.size(); }
-
-    void fit() {
-        const auto n = static_cast<double>(pairs_.size());
-        for (const auto& [a, b] : pairs_) {
-            from_ = {from_.x + a.x / n, from_.y + a.y / n};
-            to_ = {to_.x + b.x / n, to_.y + b.y / n};
-        }
-        double sine = 0.0, cosine = 0.0;
-        for (const auto& [a, b] : pairs_) {
-            const double ax = a.x - from_.x, ay = a.y - from_.y;
-            const double bx = b.x - to_.x, by = b.y - to_.y;
-            sine += ax * by - ay * bx;
-            cosine += ax * bx + ay * by;
-        }
-        angle_ = std::atan2(sine, cosine);
-    }
-
-    double angle() const { return angle_; } ///< rad, counter-clockwise
-    Point move(Point p) const {
-        const double x = p.x - from_.x, y = p.y - from_.y;
-        return {to_.x + std::cos(angle_) * x - std::sin(angle_) * y,
-                to_.y + std::sin(angle_) * x + std::cos(angle_) * y};
-    }
-
-private:
-    std::vector<std::pair<Point, Point>> pairs_;
-    Point from_, to_;
-    double angle_ = 0.0;
 };
 
 /// Where a trace was, and how far its footwall has turned since.
@@ -169,6 +135,29 @@ double active_share(const FormerTrace& former, const ShearField& field, const Ce
                : static_cast<double>(active) / static_cast<double>(former.points.size());
 }
 
+/// The traced line of a window that a former trace lies on: the one within four diameters of most
+/// of its points, at least a third of them and half of the line's own. None if there is no such
+/// line.
+const FaultTrace* traced_on(const FormerTrace& former, const std::vector<FaultTrace>& traces,
+                            double slip, double diameter) {
+    const FaultTrace* best = nullptr;
+    std::size_t most = 0;
+    const auto near = [&](const std::vector<Point>& points, const std::vector<Point>& line) {
+        return static_cast<std::size_t>(std::ranges::count_if(points, [&](Point p) {
+            return std::abs(place_on(line, p).distance) < 4.0 * diameter;
+        }));
+    };
+    for (const FaultTrace& t : traces) {
+        const std::size_t on = near(former.points, t.points);
+        if (median(t.slip) * slip > 0.0 && on > most && 3 * on >= former.points.size() &&
+            2 * near(t.points, former.points) >= t.points.size()) {
+            best = &t;
+            most = on;
+        }
+    }
+    return best;
+}
+
 /// Where the fault, straight on, meets the detachment, if that is within 20 diameters of its lower
 /// end; else its lower end. A trace that falls by less than 30 degrees has left the fault for the
 /// zone of shear along the detachment, and does not count.
@@ -234,6 +223,8 @@ FaultReport report_faults(const Scene& scene, const RigidBase& base, const State
         cells.emplace_back(windows.back().x, windows.back().y, 1.5 * diameter);
     }
 
+    std::vector<std::optional<std::vector<FaultTrace>>> traced(windows.size());
+
     const ConstDiscColumns d = disc_columns(now);
     const Cells cells_now(d.x, d.y, 3.0 * diameter);
     const bool detachment_falls_right = detachment.back().end.x > detachment.front().start.x;
@@ -251,11 +242,14 @@ FaultReport report_faults(const Scene& scene, const RigidBase& base, const State
         f.curvature = curvature_of(trace.points);
         f.foot = foot_of(trace, detachment, diameter);
         f.throws = fault_throws(now, trace.points);
+        f.pre_rift_throw = pre_rift_throw(now, trace.points);
 
         // Back in time with the footwall.
         const std::vector<Companions> footwall = footwall_of(trace, now, cells_now);
         f.born_at = now.clock.extension;
-        f.dip_at_birth = f.dip;
+        f.footwall_turn = 0.0;
+        std::vector<std::pair<std::size_t, FormerTrace>> lived; // windows since birth, newest first
+        std::size_t since_birth = 0;
         double active = 1.0, all = 1.0;
         for (std::size_t k = windows.size(); k-- > 0;) {
             const FormerTrace former = move_back(footwall, older[k + 1]);
@@ -266,10 +260,23 @@ FaultReport report_faults(const Scene& scene, const RigidBase& base, const State
                 active_share(former, windows[k], cells[k], slip < 0.0 ? -1.0 : 1.0, least) >= 0.5;
             active += slid;
             all += 1.0;
+            lived.emplace_back(k, former);
             if (slid && 3.0 * active >= 2.0 * all) {
                 f.born_at = older[k + 1].extension;
-                f.dip_at_birth = dip_of(former.points);
                 f.footwall_turn = former.turn * 180.0 / pi;
+                since_birth = lived.size();
+            }
+        }
+        f.dip_at_birth = f.dip;
+        f.traced_since = now.clock.extension;
+        for (std::size_t n = since_birth; n-- > 0;) {
+            const auto& [k, former] = lived[n];
+            if (!traced[k])
+                traced[k] = trace_faults(windows[k], detachment, options);
+            if (const FaultTrace* t = traced_on(former, *traced[k], slip, diameter)) {
+                f.dip_at_birth = dip_of(t->points);
+                f.traced_since = older[k + 1].extension;
+                break;
             }
         }
         report.faults.push_back(std::move(f));

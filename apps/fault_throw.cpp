@@ -1,5 +1,8 @@
 #include "apps/fault_throw.hpp"
 
+#include "apps/rigid_motion.hpp"
+#include "dem/cells.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -88,6 +91,57 @@ std::map<int, double> fault_throws(const State& state, const std::vector<Point>&
         throws[stratum] = falls_right ? -step : step;
     }
     return throws;
+}
+
+std::optional<double> pre_rift_throw(const State& state, const std::vector<Point>& trace) {
+    const ConstDiscColumns d = disc_columns(state);
+    const double diameter = 2.0 * state.mean_radius;
+    const double reach = 3.0 * diameter, offset = 6.0 * diameter;
+    const Cells cells(d.x, d.y, reach);
+    const bool falls_right = trace.back().x > trace.front().x;
+    /// Height of the trace, and of the layer beside it at the start, from top to bottom.
+    struct Layer {
+        double now, start;
+    };
+    std::vector<Layer> sides[2]; // footwall, hanging wall
+    for (std::size_t k = 0; k < trace.size(); ++k) {
+        const Point a = trace[k > 3 ? k - 3 : 0], b = trace[std::min(k + 3, trace.size() - 1)];
+        const double length = std::hypot(b.x - a.x, b.y - a.y);
+        // On the right of the downward direction lies the footwall of a fault that falls right.
+        const double sign = falls_right ? 1.0 : -1.0;
+        const Point n{sign * (b.y - a.y) / length, -sign * (b.x - a.x) / length};
+        for (int side : {0, 1}) {
+            const double away = side == 0 ? offset : -offset;
+            const Point centre{trace[k].x + away * n.x, trace[k].y + away * n.y};
+            RigidMotion back;
+            cells.for_each_near(centre.x, centre.y, [&](std::int32_t row) {
+                const auto i = static_cast<std::size_t>(row);
+                if (d.stratum[i] == 0 && std::hypot(d.x[i] - centre.x, d.y[i] - centre.y) < reach)
+                    back.add({d.x[i], d.y[i]}, {d.start_x[i], d.start_y[i]});
+            });
+            if (back.size() < 8)
+                continue;
+            back.fit();
+            // Above the pre-rift top there is no layer that the side's motion could bring back.
+            if (const double start = back.move(trace[k]).y; start <= 0.0)
+                sides[side].push_back({trace[k].y, start});
+        }
+    }
+    std::vector<double> throws;
+    for (const Layer& layer : sides[1])
+        for (std::size_t k = 0; k + 1 < sides[0].size(); ++k) {
+            const Layer &up = sides[0][k], &down = sides[0][k + 1];
+            if (up.start >= layer.start && down.start < layer.start) {
+                const double share = (up.start - layer.start) / (up.start - down.start);
+                throws.push_back(up.now + share * (down.now - up.now) - layer.now);
+                break;
+            }
+        }
+    if (throws.size() < 4)
+        return std::nullopt;
+    const auto middle = throws.begin() + static_cast<std::ptrdiff_t>(throws.size() / 2);
+    std::ranges::nth_element(throws, middle);
+    return *middle;
 }
 
 } // namespace listric

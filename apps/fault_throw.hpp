@@ -4,6 +4,7 @@
 #include "dem/state.hpp"
 
 #include <map>
+#include <optional>
 
 namespace listric {
 
@@ -15,5 +16,11 @@ namespace listric {
 /// trace is extended upward by up to 15 diameters along its upper end, since young sediment slips
 /// too little to be traced.
 std::map<int, double> fault_throws(const State& state, const std::vector<Point>& trace);
+
+/// Throw of the pre-rift layers, m: median over the layers that the trace cuts on both sides. Where
+/// a layer meets the trace follows from the rigid motion since the start of the discs 3 to 9
+/// diameters beside it. Unlike the throw of the pre-rift top it is there however far the two sides
+/// have parted. Positive: normal. None if no layer is on both sides.
+std::optional<double> pre_rift_throw(const State& state, const std::vector<Point>& trace);
 
 } // namespace listric

@@ -33,7 +33,8 @@ public:
     void add(const Scene& scene, const State& state, const RigidBase& base,
              std::span<const std::unique_ptr<Event>> events, const FaultReport& faults);
 
-    /// @param kind  "sections" of every frame, one "experiment" sheet or an "animation"
+    /// @param kind  "sections" of every frame, one "experiment" sheet, an "animation" or
+    ///              a "gallery", gallery.png
     /// Throws StorageError if it cannot be drawn.
     void draw(const std::string& kind) const;
 

@@ -11,6 +11,7 @@ KIND is
   experiment  all frames side by side: experiment-<extension>km.png
   animation   one picture per frame: animation-<extension>km.mp4, or .gif
               where there is no ffmpeg
+  gallery     frames of different runs below each other, small: gallery.png
 Every file is written under a temporary name and then renamed.  On bad input: one
 line on stderr, exit status 1.
 """
@@ -59,6 +60,7 @@ GAP = 0.20                # between the panels of the overview, below tick marks
 FOOTER_LINE = 0.155
 SHEET_WIDTH, SHEET_GAP = 19.0, 0.30
 ANIMATION_DPI = 80
+GALLERY_DPI = 75
 
 LAYER_COLOURS = ("#cdbfa6", "#9c8b72")
 PRE_RIFT, SEDIMENT, WEAK = "#d6d6d6", "#fbeab4", "#d7301f"
@@ -809,6 +811,54 @@ def draw_sheet(frames):
     return figure
 
 
+def draw_gallery(frames):
+    """A row per frame, strata beside strain, all at one scale."""
+    strata = max(frame.meta["strata"] for frame in frames)
+    for frame in frames:
+        frame.meta["strata"], frame.strain_top, frame.legends = strata, 0.5, {}
+    span = max(frame.view[1] - frame.view[0] for frame in frames)
+    inch = 0.5 * (SHEET_WIDTH - LEFT - 2 * RIGHT - SHEET_GAP) / span
+    heights = [inch * (frame.view[3] - frame.view[2]) for frame in frames]
+    total = 0.35 + XLABEL + sum(heights) + 0.36 * len(frames)
+    figure = Figure(figsize=(SHEET_WIDTH, total), dpi=GALLERY_DPI, facecolor="white")
+    FigureCanvasAgg(figure)
+    y = total - 0.1
+    for row, (frame, height) in enumerate(zip(frames, heights)):
+        y -= height + 0.36
+        width = inch * (frame.view[1] - frame.view[0])
+        for column, draw in enumerate((strata_panel, strain_panel)):
+            x = LEFT + column * (inch * span + RIGHT + SHEET_GAP)
+            ax = figure.add_axes((x / SHEET_WIDTH, y / total, width / SHEET_WIDTH, height / total))
+            cax = figure.add_axes(((x + width + 0.12) / SHEET_WIDTH, y / total,
+                                   0.15 / SHEET_WIDTH, height / total))
+            draw(ax, cax, frame)
+            if row:
+                cax.set_visible(False)
+            if column:
+                ax.set_ylabel("")
+            else:
+                ax.annotate(str(frame.meta.get("title", "")), (0, 1), (0, 5), fontsize=13,
+                            xycoords="axes fraction", textcoords="offset points",
+                            weight="semibold", annotation_clip=False)
+            if row + 1 == len(frames):
+                ax.set_xlabel("Distance from the breakaway (km)")
+    return figure
+
+
+def save_small(figure, directory, name):
+    """A PNG with a palette of 256 colours where Pillow is there: a third of the size."""
+    save(figure, directory, name, GALLERY_DPI)
+    try:
+        from PIL import Image
+    except ImportError:
+        return
+    path = os.path.join(directory, name)
+    with Image.open(path) as image:
+        small = image.convert("RGB").quantize(256, method=Image.Quantize.MEDIANCUT,
+                                              dither=Image.Dither.NONE)
+    small.save(path, optimize=True)
+
+
 def animate(frames, directory):
     """One picture per frame, all at the last one's scale; MP4 with ffmpeg, else GIF."""
     strata = max(frame.meta["strata"] for frame in frames)
@@ -850,12 +900,12 @@ def animate(frames, directory):
         os.replace(path, os.path.join(directory, name + ".gif"))
 
 
-def save(figure, directory, name):
+def save(figure, directory, name, dpi=DPI):
     """Write a PNG under a temporary name, then rename it."""
     path = os.path.join(directory, name)
     temporary = os.path.join(directory, f".{name}.{os.getpid()}.tmp")
     try:
-        figure.savefig(temporary, format="png", dpi=DPI)
+        figure.savefig(temporary, format="png", dpi=dpi)
         os.replace(temporary, path)
     finally:
         if os.path.exists(temporary):
@@ -863,9 +913,10 @@ def save(figure, directory, name):
 
 
 def main(arguments):
-    if len(arguments) != 3 or arguments[0] not in ("sections", "experiment", "animation"):
+    if len(arguments) != 3 or arguments[0] not in ("sections", "experiment", "animation",
+                                                      "gallery"):
         raise InputError(
-            "usage: figures.py sections|experiment|animation DATA_DIR FIGURES_DIR")
+            "usage: figures.py sections|experiment|animation|gallery DATA_DIR FIGURES_DIR")
     kind, data, directory = arguments
     if not os.path.isdir(data):
         raise InputError(f"{data}: no such directory")
@@ -878,6 +929,8 @@ def main(arguments):
             save(draw_sheet(frames), directory, f"experiment-{extension_text(frames[-1])}km.png")
         elif kind == "animation":
             animate(frames, directory)
+        elif kind == "gallery":
+            save_small(draw_gallery(frames), directory, "gallery.png")
         else:
             for frame in frames:
                 for name, panels in [(p[0], [p]) for p in PANELS] + [

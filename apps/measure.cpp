@@ -143,13 +143,8 @@ void measure_ramp_flat_ramp(Measures& m, const State& state, const Chain& detach
                                             std::atan2(foot->normal.x, foot->normal.y) < toe_dip &&
                                             foot->distance < block_size;
                                  }));
-    const double height = -detachment.back().end.y - parts->flat_depth;
-    const auto on_lower_ramp = [&](Point start, const auto& foot) {
-        return -start.y > parts->flat_depth && foot && foot->arc_length > parts->lower_start &&
-               foot->normal.x > 1e-6 && foot->distance < 0.5 * height;
-    };
     m.lower_block_rotation =
-        mean_rotation(state, block_of(state, detachment, on_lower_ramp), block_size);
+        mean_rotation(state, lower_block(state, detachment, *parts), block_size);
 }
 
 const Event* find_event(std::span<const std::unique_ptr<Event>> events, std::string_view name) {
@@ -181,10 +176,7 @@ void measure_kinematics(const Scene& scene, const Chain& detachment, double exte
         m.normals_misfit = misfit(detachment, normals, profile.x, profile.pre_rift_top, last);
     }
 
-    std::vector<double> depth;
-    for (double top : profile.pre_rift_top)
-        depth.push_back(-top);
-    depth = smooth(depth, static_cast<std::ptrdiff_t>(std::lround(0.5 * 1e3 / column)));
+    const std::vector<double> depth = smoothed_depth(profile);
     if (const auto high = find_intervening_high(profile.x, depth, 250.0)) {
         m.intervening_high = Point{profile.x[*high], depth[*high]};
         double left = 0.0;
@@ -292,6 +284,23 @@ std::optional<RampFlatRamp> find_ramp_flat_ramp(const Chain& detachment) {
         at += s.length;
     }
     return in_kink ? std::optional(found) : std::nullopt;
+}
+
+std::vector<std::size_t> lower_block(const State& state, const Chain& detachment,
+                                     const RampFlatRamp& parts) {
+    const double height = -detachment.back().end.y - parts.flat_depth;
+    return block_of(state, detachment, [&](Point start, const auto& foot) {
+        return -start.y > parts.flat_depth && foot && foot->arc_length > parts.lower_start &&
+               foot->normal.x > 1e-6 && foot->distance < 0.5 * height;
+    });
+}
+
+std::vector<double> smoothed_depth(const Profile& profile) {
+    std::vector<double> depth;
+    for (double top : profile.pre_rift_top)
+        depth.push_back(-top);
+    const double column = profile.x.size() > 1 ? profile.x[1] - profile.x[0] : 1e3;
+    return smooth(depth, static_cast<std::ptrdiff_t>(std::lround(0.5 * 1e3 / column)));
 }
 
 Profile measure_profile(const Scene& scene, const State& state, const RigidBase& base) {

@@ -70,6 +70,9 @@ std::optional<RampFlatRamp> find_ramp_flat_ramp(const Chain& detachment);
 
 Profile measure_profile(const Scene& scene, const State& state, const RigidBase& base);
 
+/// Depth of the pre-rift top below the original surface, smoothed over 1 km, by column, m.
+std::vector<double> smoothed_depth(const Profile& profile);
+
 /// Where the basin is shallowest between its first depocentre and the most prominent one beyond;
 /// none if there is no second. `depth` in equal columns, m.
 std::optional<std::size_t> find_intervening_high(std::span<const double> x,
@@ -80,6 +83,11 @@ std::optional<std::size_t> find_intervening_high(std::span<const double> x,
 /// the level and older than `age` m of extension. None if there are no such pairs.
 std::optional<double> bonded_share_of_old_sediment(const State& state, double level, double depth,
                                                    double age);
+
+/// Rows of the pre-rift discs of a ramp-flat-ramp hanging wall that started below the flat's level,
+/// on the lower ramp and within half its height.
+std::vector<std::size_t> lower_block(const State& state, const Chain& detachment,
+                                     const RampFlatRamp& parts);
 
 Measures measure(const Scene& scene, const State& state, const RigidBase& base,
                  std::span<const std::unique_ptr<Event>> events);

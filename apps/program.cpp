@@ -7,6 +7,7 @@
 #include "apps/laboratory.hpp"
 #include "apps/run.hpp"
 #include "apps/study.hpp"
+#include "apps/validation.hpp"
 #include "apps/version.hpp"
 #include "dem/cycle.hpp"
 
@@ -140,6 +141,21 @@ void add_study_options(CLI::App& command, StudyRequest& request) {
     command.add_flag("--quiet", request.quiet, "No progress");
 }
 
+void add_validation_options(CLI::App& command, ValidationRequest& request) {
+    command.add_option("--accuracy", request.accuracy, "Of the runs: draft, standard, ...");
+    command.add_option("--seeds", request.seeds, "Runs per experiment")->check(CLI::Range(1, 1000));
+    command.add_option("--runs", request.runs, "Folder of the runs (out/validation-ACCURACY)");
+    command.add_option("--output", request.output,
+                       "Document (docs/validation.md; not at standard: beside the runs)");
+    command.add_option("--only", request.only, "One experiment");
+    command.add_option("--plan", request.plan, "Runs and expectations (apps/validation.toml)");
+    command.add_option("--threads", request.threads, "Processor cores to use")
+        ->check(CLI::Range(1, 1024));
+    command.add_flag("--remeasure", request.remeasure, "Measure all runs anew");
+    command.add_flag("--without-runs", request.without_runs, "Take the runs that are there");
+}
+
+/// Signals end a run at its next opportunity.
 void stop_on_signals() {
     std::signal(SIGINT, [](int) { stop_requested = true; });
     std::signal(SIGTERM, [](int) { stop_requested = true; });
@@ -224,6 +240,12 @@ int dispatch(int argc, char** argv) {
         app.add_subcommand("study", "Accuracy against time: a table and a figure");
     add_study_options(*study_command, study_request);
 
+    ValidationRequest validation_request;
+    validation_request.threads = options.threads;
+    CLI::App* validate_command = app.add_subcommand(
+        "validate", "Run the paper's experiments and write what is met and what is missed");
+    add_validation_options(*validate_command, validation_request);
+
     if (argc > 1 && argv[1][0] != '-') {
         std::vector<std::string_view> calls;
         for (const CLI::App* command : app.get_subcommands({}))
@@ -256,6 +278,10 @@ int dispatch(int argc, char** argv) {
             std::cout << explain(load_scene(request));
     } else if (*figures_command) {
         animation ? animate_run(folder) : draw_run(folder);
+    } else if (*validate_command) {
+        stop_on_signals();
+        if (!run_validation(validation_request))
+            return stopped;
     } else if (*calibrate_command) {
         run_calibration(calibration_request);
     } else if (*laboratory_command) {

@@ -8,6 +8,7 @@
 #include "apps/measure.hpp"
 #include "apps/paraview.hpp"
 #include "apps/prediction.hpp"
+#include "apps/run_folder.hpp"
 #include "apps/summary.hpp"
 #include "apps/version.hpp"
 #include "dem/contacts.hpp"
@@ -134,10 +135,6 @@ fs::path snapshot_path(const fs::path& output, const State& state) {
     return output / "snapshots" / fmt::format("extension-{:08.2f}m.h5", state.clock.extension);
 }
 
-double snapshot_extension(const fs::path& path) {
-    return std::strtod(path.filename().c_str() + std::strlen("extension-"), nullptr);
-}
-
 /// Genesis is the same for every scene with the same hanging wall, so it is kept.
 fs::path cache_path(const Scene& scene) {
     Scene start = scene;
@@ -248,17 +245,6 @@ void begin(Run& run, Voice& voice) {
         event->begin(run.state);
     find_contacts(run.state, run.base);
     voice.say(fmt::format("hanging wall: {} discs", run.state.discs.rows()));
-}
-
-/// Gives the events of a scene back what they remembered.
-void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> events) {
-    for (const auto& event : events) {
-        const auto memory = snapshot.event_memory.find(event->name());
-        if (memory == snapshot.event_memory.end())
-            throw StorageError("the snapshot knows nothing of " + event->name());
-        event->memory = std::move(memory->second);
-        event->applied = snapshot.event_applied.at(event->name());
-    }
 }
 
 /// Continues from the newest snapshot that can be read. False if there is none.
@@ -580,18 +566,6 @@ void prepare_output(const Scene& scene, const RunOptions& options) {
 
 } // namespace
 
-std::vector<fs::path> list_snapshots(const fs::path& output) {
-    std::vector<fs::path> snapshots;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(output / "snapshots", error))
-        if (entry.path().extension() == ".h5")
-            snapshots.push_back(entry.path());
-    // By extension: longer names are further.
-    std::ranges::sort(snapshots, {},
-                      [](const fs::path& p) { return std::pair(p.native().size(), p.native()); });
-    return snapshots;
-}
-
 RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     if (check_output(scene, options))
         return RunOutcome::finished;
@@ -656,28 +630,13 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
 
 namespace {
 
-/// A run's folder and what is needed to draw it again.
-struct Drawing {
-    Scene scene;
-    RigidBase base;
-    std::vector<fs::path> snapshots;
-
-    explicit Drawing(const fs::path& output) : snapshots(list_snapshots(output)) {
-        if (snapshots.empty())
-            throw UsageError(output.string() + ": no snapshots to draw; is this a run's folder?");
-        SceneRequest request;
-        request.scene = (output / "scene.toml").string();
-        scene = load_scene(request);
-        base = make_base(scene);
-    }
-
+/// A run's folder, to be drawn again.
+struct Drawing : RunFolder {
     /// @param history  earlier snapshots in which the faults' history is looked up
     void add(FigureFrames& frames, const fs::path& path, std::span<const fs::path> history) const {
-        Snapshot snapshot = read_snapshot(path);
-        const auto events = make_events(scene);
-        hand_over(snapshot, events);
-        frames.add(scene, snapshot.state, base, events,
-                   report_faults(scene, base, snapshot.state, history));
+        const Moment moment = read(path);
+        frames.add(scene, moment.state, base, moment.events,
+                   report_faults(scene, base, moment.state, history));
     }
 
     /// Snapshots at the scene's figure extensions, and the newest.
@@ -691,6 +650,13 @@ struct Drawing {
     }
 };
 
+/// Throws UsageError if there is nothing to draw.
+Drawing open_drawing(const fs::path& output) {
+    if (list_snapshots(output).empty())
+        throw UsageError(output.string() + ": no snapshots to draw; is this a run's folder?");
+    return Drawing{RunFolder(output)};
+}
+
 } // namespace
 
 void draw_run(const fs::path& output) {
@@ -700,7 +666,7 @@ void draw_run(const fs::path& output) {
             throw StorageError(problem);
         return;
     }
-    const Drawing drawing(output);
+    const Drawing drawing = open_drawing(output);
     const std::vector<fs::path> chosen = drawing.chosen();
     FigureFrames frames(output / "figures");
     for (const fs::path& path : chosen)
@@ -711,7 +677,7 @@ void draw_run(const fs::path& output) {
 }
 
 void draw_experiment(const fs::path& output) {
-    const Drawing drawing(output);
+    const Drawing drawing = open_drawing(output);
     const std::vector<fs::path> chosen = drawing.chosen();
     if (chosen.size() < 2)
         return;
@@ -722,7 +688,7 @@ void draw_experiment(const fs::path& output) {
 }
 
 void animate_run(const fs::path& output) {
-    const Drawing drawing(output);
+    const Drawing drawing = open_drawing(output);
     FigureFrames frames(output / "figures");
     for (std::size_t k = 0; k < drawing.snapshots.size(); ++k) {
         // The window before shows where the faults are; their history is not drawn.

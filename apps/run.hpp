@@ -1,7 +1,7 @@
 #pragma once
 
+#include "apps/run_folder.hpp"
 #include "apps/scene.hpp"
-#include "apps/snapshot.hpp"
 
 #include <atomic>
 #include <filesystem>
@@ -46,8 +46,5 @@ void draw_experiment(const std::filesystem::path& output);
 
 /// Draws every snapshot of a run's folder as a frame of an animation: MP4 with ffmpeg, else GIF.
 void animate_run(const std::filesystem::path& output);
-
-/// Snapshots of a run, oldest first.
-std::vector<std::filesystem::path> list_snapshots(const std::filesystem::path& output);
 
 } // namespace listric

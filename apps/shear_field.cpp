@@ -40,6 +40,7 @@ ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double l
         const auto old = static_cast<std::size_t>(before.row_of[id]);
         field.x.push_back(now.x[i]);
         field.y.push_back(now.y[i]);
+        field.id.push_back(now.id[i]);
         old_x.push_back(before.x[old]);
         old_y.push_back(before.y[old]);
     }

@@ -27,6 +27,7 @@ struct DiscPlaces {
 /// dem/events/strain, whose reach is 2.6, would make it 3.2.
 struct ShearField {
     std::vector<double> x, y;           ///< where the discs are in the later state, m
+    std::vector<std::int64_t> id;       ///< of the discs
     std::vector<double> xx, xy, yx, yy; ///< xy: change of u_x with y
     double diameter = 0.0;              ///< mean of the basement, m
     double window = 0.0;                ///< extension between the states, m

@@ -87,11 +87,14 @@ void add_faults(nlohmann::ordered_json& json, const FaultReport& report) {
                         {"curvature_per_m", f.curvature},
                         {"born_at_m", f.born_at},
                         {"dip_at_birth_deg", f.dip_at_birth},
+                        {"traced_since_m", f.traced_since},
                         {"footwall_turn_deg", f.footwall_turn},
                         {"foot_x_m", f.foot.x},
                         {"foot_z_m", -f.foot.y},
                         {"throw_m", throws},
                         {"points_m", points}});
+        if (f.pre_rift_throw)
+            list.back()["pre_rift_throw_m"] = *f.pre_rift_throw;
     }
 }
 

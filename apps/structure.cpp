@@ -1,0 +1,510 @@
+#include "apps/structure.hpp"
+
+#include "apps/effects.hpp"
+#include "apps/fault_history.hpp"
+#include "apps/kinematics.hpp"
+#include "apps/rigid_motion.hpp"
+#include "apps/run_folder.hpp"
+#include "apps/summary.hpp"
+#include "dem/cells.hpp"
+#include "dem/contacts.hpp"
+#include "dem/power_cell.hpp"
+#include "dem/target_line.hpp"
+#include "dem/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace listric {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+/// The trace's points below the pre-rift top.
+std::vector<Point> in_basement(const std::vector<Point>& trace, const Profile& profile) {
+    std::vector<Point> points;
+    for (Point p : trace) {
+        const auto next = std::ranges::lower_bound(profile.x, p.x);
+        const auto k =
+            static_cast<std::size_t>(std::min(next - profile.x.begin(), std::ssize(profile.x) - 1));
+        if (p.y < profile.pre_rift_top[k])
+            points.push_back(p);
+    }
+    return points;
+}
+
+/// Where a trace is at a height; none if it does not reach it.
+std::optional<double> x_at(const std::vector<Point>& trace, double y) {
+    for (std::size_t k = 0; k + 1 < trace.size(); ++k)
+        if (const Point a = trace[k], b = trace[k + 1]; a.y >= y && b.y < y)
+            return a.x + (b.x - a.x) * (a.y - y) / (a.y - b.y);
+    return std::nullopt;
+}
+
+class Structure {
+public:
+    Structure(const Scene& scene, const RigidBase& base, const State& now,
+              const FaultReport& faults, const Measures& measures, std::span<const Past> past)
+        : scene_(scene), now_(now), faults_(faults), measures_(measures), past_(past),
+          detachment_(base.surfaces.front().chain), d_(disc_columns(now)),
+          diameter_(2.0 * now.mean_radius), extension_(now.clock.extension),
+          profile_(measure_profile(scene, now, base)) {
+        if (!past.empty())
+            window_ = shear_field(past.back().places, DiscPlaces(now), least_age());
+    }
+
+    NamedNumbers numbers() {
+        measure_faults();
+        measure_material();
+        measure_basins();
+        measure_hinge();
+        measure_ramp_flat_ramp();
+        return std::move(numbers_);
+    }
+
+private:
+    void put(const std::string& name, std::optional<double> value) {
+        if (value && std::isfinite(*value))
+            numbers_.emplace_back(name, *value);
+    }
+
+    double least_age() const {
+        return (scene_.fault_weakening ? *scene_.fault_weakening : FaultWeakeningParameters{})
+                   .youngest_sediment *
+               scene_.extension.rate;
+    }
+
+    void measure_faults() {
+        put("faults", static_cast<double>(faults_.faults.size()));
+        put("fault_width_diameters", faults_.width);
+        put("sediment_weak_off_fault_fraction", faults_.sediment_weak_off_fault_fraction);
+        put("antithetic_foot_x_m", faults_.antithetic_foot);
+        if (faults_.antithetic_foot)
+            put("antithetic_foot_beyond_sole_m",
+                *faults_.antithetic_foot - detachment_.back().start.x);
+        put_main("antithetic", faults_.main_antithetic);
+        put_main("synthetic", faults_.main_synthetic);
+        if (faults_.main_antithetic && faults_.main_synthetic) {
+            const auto& a = faults_.faults[*faults_.main_antithetic].pre_rift_throw;
+            const auto& s = faults_.faults[*faults_.main_synthetic].pre_rift_throw;
+            if (a && s && *s > 0.0)
+                put("antithetic_over_synthetic_throw", *a / *s);
+        }
+        std::vector<double> correlations;
+        for (const Fault& f : faults_.faults)
+            if (const auto r = throw_age_correlation(f.throws); r && f.normal)
+                correlations.push_back(*r);
+        put("throw_age_faults", static_cast<double>(correlations.size()));
+        if (!correlations.empty())
+            put("throw_age_correlation", median(correlations));
+    }
+
+    void put_main(const std::string& name, std::optional<std::size_t> index) {
+        if (!index)
+            return;
+        const Fault& f = faults_.faults[*index];
+        const std::vector<Point> basement = in_basement(f.trace.points, profile_);
+        put(name + "_born_at_m", f.born_at);
+        put(name + "_dip_at_birth_deg", f.dip_at_birth);
+        put(name + "_turn_deg", f.footwall_turn);
+        put(name + "_throw_m", f.pre_rift_throw);
+        put(name + "_rate_mm_per_a", f.rate);
+        put(name + "_x_at_half_depth_m", x_at(f.trace.points, 0.5 * detachment_.back().end.y));
+        if (basement.size() >= 8) {
+            const Point a = basement.front(), b = basement.back();
+            put(name + "_dip_deg", dip_of(basement));
+            put(name + "_bow", curvature_of(basement) * std::hypot(b.x - a.x, b.y - a.y) / 8.0);
+        }
+        if (measures_.rollover_tilt && f.born_at < extension_)
+            if (const double turned =
+                    *measures_.rollover_tilt - normals_tilt(detachment_, f.born_at);
+                turned > 1.0)
+                put(name + "_turn_over_head_block", f.footwall_turn / turned);
+    }
+
+    void measure_material() {
+        const std::vector<double> rock = rock_radii(now_);
+        double area = 0.0, weak_area = 0.0;
+        for (std::size_t i = 0; i < d_.x.size(); ++i)
+            if (d_.stratum[i] == 0) {
+                area += rock[i] * rock[i];
+                weak_area += d_.material[i] == weak ? rock[i] * rock[i] : 0.0;
+            }
+        if (scene_.fault_weakening)
+            put("basement_weak_fraction", weak_area / area);
+        if (scene_.sedimentation && scene_.compaction)
+            measure_compaction();
+        if (scene_.sedimentation)
+            put("superposition_fraction", superposition());
+    }
+
+    /// Porosity of sediment beside Phi(depth). Discs that have risen since keep what they had.
+    void measure_compaction() {
+        const auto porosity = now_.discs.get<double>("porosity");
+        const TargetLine surface = Target(scene_.sedimentation->level, scene_.sedimentation->target)
+                                       .at(extension_ / scene_.extension.rate);
+        double all = 0.0, error = 0.0, beyond = 0.0;
+        for (std::size_t i = 0; i < d_.x.size(); ++i) {
+            if (d_.stratum[i] == 0)
+                continue;
+            const double depth = std::max(0.0, surface.height(d_.x[i]) - d_.y[i]);
+            const double expected = scene_.sedimentation->surface_porosity *
+                                    std::exp(-scene_.compaction->coefficient * depth);
+            const double off = std::abs(porosity[i] / expected - 1.0);
+            all += d_.mass[i];
+            error += d_.mass[i] * off;
+            beyond += off > 0.02 ? d_.mass[i] : 0.0;
+        }
+        if (all > 0.0) {
+            put("porosity_error", error / all);
+            put("porosity_off_fraction", beyond / all);
+        }
+    }
+
+    /// Share of the touching pairs of discs of different strata, one above the other within 45
+    /// degrees, whose younger disc is on top.
+    std::optional<double> superposition() const {
+        const ConstContactColumns c = contact_columns(now_);
+        const std::vector<bool> touches = touching(now_);
+        double all = 0.0, right = 0.0;
+        for (std::size_t k = 0; k < touches.size(); ++k) {
+            const auto i = static_cast<std::size_t>(c.first[k]);
+            const auto j = static_cast<std::size_t>(c.second[k]);
+            const double dx = d_.x[j] - d_.x[i], dy = d_.y[j] - d_.y[i];
+            if (!touches[k] || d_.stratum[i] == d_.stratum[j] || std::abs(dx) > std::abs(dy))
+                continue;
+            all += 1.0;
+            right += (d_.stratum[j] > d_.stratum[i]) == (dy > 0.0);
+        }
+        return all > 0.0 ? std::optional(right / all) : std::nullopt;
+    }
+
+    void measure_basins() {
+        const std::vector<Depocentre> basins = find_basins(profile_);
+        put("basins", static_cast<double>(basins.size()));
+        // All but the one at the breakaway are collapse grabens. They move with the right wall once
+        // they are made, so their places are compared less the extension.
+        const auto first_x = [](const std::vector<Depocentre>& all) {
+            return all.empty() ? 0.0 : std::ranges::min(all, {}, &Depocentre::x).x;
+        };
+        double innermost = std::numeric_limits<double>::infinity(), most = 0.0;
+        int grabens = 0;
+        for (const Depocentre& b : basins)
+            if (b.x > first_x(basins)) {
+                ++grabens;
+                innermost = std::min(innermost, b.x - extension_);
+                most = std::max(most, b.prominence);
+            }
+        put("collapse_grabens", grabens);
+        put("collapse_graben_prominence_m", most);
+        for (const Past& p : past_) {
+            std::optional<double> outermost;
+            for (const Depocentre& b : p.basins)
+                if (b.x > first_x(p.basins))
+                    outermost = std::max(outermost.value_or(b.x), b.x);
+            if (!outermost || p.places.extension <= 0.0)
+                continue;
+            put("first_graben_at_m", p.places.extension);
+            if (grabens > 0)
+                put("graben_step_m", *outermost - p.places.extension - innermost);
+            break;
+        }
+    }
+
+    /// How far the deformation has moved into the hanging wall: the tenth percentile, by strain, of
+    /// the start x of discs that started 5 to 10 km deep and are strained as much as a fault is.
+    std::optional<double> hinge(const ShearField& field) const {
+        std::vector<std::pair<double, double>> strained; // start x, strain
+        double all = 0.0;
+        const double least = FaultTraceOptions{}.least_strain * field.window / strain_window;
+        for (std::size_t k = 0; k < field.x.size(); ++k) {
+            const auto i = static_cast<std::size_t>(row_of_[static_cast<std::size_t>(field.id[k])]);
+            if (const double depth = -d_.start_y[i], shear = field.shear(k);
+                d_.stratum[i] == 0 && depth > 5e3 && depth < 10e3 && shear >= least) {
+                strained.emplace_back(d_.start_x[i], shear);
+                all += shear;
+            }
+        }
+        std::ranges::sort(strained);
+        double sum = 0.0;
+        for (const auto& [x, shear] : strained)
+            if ((sum += shear) >= 0.1 * all)
+                return x;
+        return std::nullopt;
+    }
+
+    void measure_hinge() {
+        row_of_ = DiscPlaces(now_).row_of;
+        std::vector<double> early, late;
+        for (std::size_t k = 0; k + 1 < past_.size(); ++k) {
+            const double end = past_[k + 1].places.extension;
+            const bool is_early = end > 0.1 * extension_ && end < 0.42 * extension_;
+            if (!is_early && end < 0.78 * extension_)
+                continue;
+            if (const auto x = hinge(
+                    only_present(shear_field(past_[k].places, past_[k + 1].places, least_age()))))
+                (is_early ? early : late).push_back(*x);
+        }
+        if (early.empty() || late.empty())
+            return;
+        put("hinge_start_x_m", median(late));
+        put("hinge_step_m", median(early) - median(late));
+    }
+
+    /// Discs of an earlier field that are still there.
+    ShearField only_present(ShearField field) const {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < field.x.size(); ++k) {
+            if (row_of_[static_cast<std::size_t>(field.id[k])] < 0)
+                continue;
+            field.id[kept] = field.id[k];
+            for (auto* values : {&field.x, &field.y, &field.xx, &field.xy, &field.yx, &field.yy})
+                (*values)[kept] = (*values)[k];
+            ++kept;
+        }
+        for (auto* values : {&field.x, &field.y, &field.xx, &field.xy, &field.yx, &field.yy})
+            values->resize(kept);
+        field.id.resize(kept);
+        return field;
+    }
+
+    void measure_ramp_flat_ramp() {
+        const auto parts = find_ramp_flat_ramp(detachment_);
+        if (!parts || past_.empty())
+            return;
+        const double kink = point_at(detachment_, parts->flat_end).x;
+        row_of_ = DiscPlaces(now_).row_of;
+
+        double all = 0.0, reverse = 0.0, sediment = 0.0, stretch = 0.0;
+        for (std::size_t k = 0; k < window_.x.size(); ++k) {
+            if (window_.y[k] < -parts->flat_depth || window_.x[k] < kink - 3e3 ||
+                window_.x[k] > kink + 6e3)
+                continue;
+            const auto i =
+                static_cast<std::size_t>(row_of_[static_cast<std::size_t>(window_.id[k])]);
+            const double area = d_.radius[i] * d_.radius[i];
+            if (d_.stratum[i] > 0) {
+                sediment += area;
+                stretch += area * window_.xx[k];
+            }
+            const ShearPlane plane = shear_plane(window_, k);
+            all += area * plane.strain;
+            if (plane.reverse && !plane.falls_right && plane.dip > 20.0 && plane.dip < 80.0)
+                reverse += area * plane.strain;
+        }
+        if (all > 0.0)
+            put("kink_reverse_strain_share", reverse / all);
+        if (sediment > 0.0)
+            put("kink_synrift_shortening", -stretch / sediment);
+        double traced = 0.0;
+        for (const Fault& f : faults_.faults)
+            if (const Point middle = f.trace.points[f.trace.points.size() / 2];
+                !f.normal && middle.x > kink - 3e3 && middle.x < kink + 6e3)
+                traced += f.trace.length();
+        put("kink_reverse_trace_m", traced);
+
+        double upper = 0.0, lower = 0.0;
+        const std::vector<Depocentre> basins = find_basins(profile_);
+        for (const Depocentre& b : basins)
+            if (b.x > std::ranges::min(basins, {}, &Depocentre::x).x) {
+                double& graben = b.x < kink + 3e3 ? upper : lower;
+                graben = std::max(graben, b.prominence);
+            }
+        put("upper_graben_prominence_m", upper);
+        put("lower_graben_prominence_m", lower);
+        measure_rollovers();
+        measure_lower_block(*parts);
+    }
+
+    /// Rotation of the uppermost 4 km of pre-rift rock along x. A rollover turns toward the
+    /// detachment; a syncline lies where between two of them it turns back.
+    void measure_rollovers() {
+        constexpr double column = 1e3, thickness = 4e3, least = 10.0;
+        std::map<std::int64_t, RigidMotion> columns;
+        for (std::size_t i = 0; i < d_.x.size(); ++i)
+            if (d_.stratum[i] == 0 && d_.start_y[i] > -thickness)
+                columns[static_cast<std::int64_t>(std::floor(d_.x[i] / column))].add(
+                    {d_.start_x[i], d_.start_y[i]}, {d_.x[i], d_.y[i]});
+        std::vector<double> x, turn;
+        for (auto& [number, motion] : columns)
+            if (motion.size() >= 20) {
+                motion.fit();
+                x.push_back((static_cast<double>(number) + 0.5) * column);
+                turn.push_back(motion.angle() * 180.0 / pi);
+            }
+        std::vector<double> smooth = turn;
+        for (std::size_t k = 1; k + 1 < turn.size(); ++k)
+            smooth[k] = (turn[k - 1] + turn[k] + turn[k + 1]) / 3.0;
+        std::vector<Depocentre> maxima = find_depocentres(x, smooth, least);
+        put("rollovers", static_cast<double>(maxima.size()));
+        if (maxima.size() < 2)
+            return;
+        maxima.resize(2); // the two that turned most
+        const auto [left, right] = std::minmax(maxima[0].x, maxima[1].x);
+        double lowest = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < x.size(); ++k)
+            if (x[k] > left && x[k] < right)
+                lowest = std::min(lowest, smooth[k]);
+        put("syncline_turn_deg", lowest);
+    }
+
+    /// Whether faults surround the block on the lower ramp: the share of directions, seen from its
+    /// middle, in which strain of a fault or the detachment comes before 12 km of other rock.
+    void measure_lower_block(const RampFlatRamp& parts) {
+        const std::vector<std::size_t> block = lower_block(now_, detachment_, parts);
+        if (block.size() < 20)
+            return;
+        Point middle;
+        for (std::size_t i : block)
+            middle = {middle.x + d_.x[i] / static_cast<double>(block.size()),
+                      middle.y + d_.y[i] / static_cast<double>(block.size())};
+        const Cells cells(window_.x, window_.y, 1.5 * diameter_);
+        const double least = FaultTraceOptions{}.least_strain * window_.window / strain_window;
+        const auto is_fault = [&](Point p) {
+            double sum = 0.0, count = 0.0;
+            cells.for_each_near(p.x, p.y, [&](std::int32_t row) {
+                const auto k = static_cast<std::size_t>(row);
+                if (std::hypot(window_.x[k] - p.x, window_.y[k] - p.y) < 1.5 * diameter_) {
+                    sum += window_.shear(k);
+                    count += 1.0;
+                }
+            });
+            return count > 0.0 && sum >= least * count;
+        };
+        constexpr int directions = 72;
+        constexpr double farthest = 12e3;
+        int bounded = 0;
+        for (int n = 0; n < directions; ++n) {
+            const double a = 2.0 * pi * n / directions;
+            for (double s = 5.0 * diameter_; s < farthest; s += 0.5 * diameter_) {
+                const Point p{middle.x + s * std::cos(a), middle.y + s * std::sin(a)};
+                const auto foot = foot_point(detachment_, p);
+                if ((foot && foot->distance < 0.0) || is_fault(p)) {
+                    ++bounded;
+                    break;
+                }
+            }
+        }
+        put("lower_block_bounded_share", static_cast<double>(bounded) / directions);
+        double low_angle = 0.0;
+        for (const Fault& f : faults_.faults)
+            for (std::size_t k = 0; k + 1 < f.trace.points.size() && f.normal; ++k) {
+                const Point a = f.trace.points[k], b = f.trace.points[k + 1];
+                if (a.y - b.y < 0.5 * std::hypot(b.x - a.x, b.y - a.y) &&
+                    std::ranges::any_of(block, [&](std::size_t i) {
+                        return std::hypot(d_.x[i] - a.x, d_.y[i] - a.y) < 3e3;
+                    }))
+                    low_angle += std::hypot(b.x - a.x, b.y - a.y);
+            }
+        put("lower_block_low_angle_fault_m", low_angle);
+    }
+
+    const Scene& scene_;
+    const State& now_;
+    const FaultReport& faults_;
+    const Measures& measures_;
+    std::span<const Past> past_;
+    const Chain& detachment_;
+    ConstDiscColumns d_;
+    double diameter_, extension_;
+    Profile profile_;
+    ShearField window_; ///< the last
+    std::vector<std::int32_t> row_of_;
+    NamedNumbers numbers_;
+};
+
+} // namespace
+
+std::vector<Depocentre> find_basins(const Profile& profile) {
+    return find_depocentres(profile.x, smoothed_depth(profile), 250.0);
+}
+
+NamedNumbers measure_structure(const Scene& scene, const RigidBase& base, const State& now,
+                               const FaultReport& faults, const Measures& measures,
+                               std::span<const Past> past) {
+    return Structure(scene, base, now, faults, measures, past).numbers();
+}
+
+std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
+                                                         std::span<const double> extensions) {
+    const RunFolder run(output);
+    const auto nearest_snapshot = [&](double extension) {
+        return *std::ranges::min_element(run.snapshots, {}, [&](const fs::path& path) {
+            return std::abs(snapshot_extension(path) - extension);
+        });
+    };
+    std::map<fs::path, double> wanted;
+    for (double extension : extensions)
+        wanted[nearest_snapshot(extension)] = extension;
+    std::vector<std::pair<double, NamedNumbers>> found;
+    std::vector<Past> past;
+    std::vector<DiscPlaces> places;
+    for (const fs::path& path : run.snapshots) {
+        const Moment moment = run.read(path);
+        const State& now = moment.state;
+        if (wanted.contains(path)) {
+            const Measures measures = measure(run.scene, now, run.base, moment.events);
+            const FaultReport faults = report_faults(run.scene, run.base, now, places);
+            NamedNumbers numbers = history_row(now, measures);
+            std::erase_if(numbers, [](const auto& n) { return std::isnan(n.second); });
+            const NamedNumbers more =
+                measure_structure(run.scene, run.base, now, faults, measures, past);
+            numbers.insert(numbers.end(), more.begin(), more.end());
+            found.emplace_back(wanted[path], std::move(numbers));
+        }
+        // A snapshot of a stopped run must not make a window too short.
+        if (!past.empty() &&
+            now.clock.extension - past.back().places.extension < 0.75 * run.scene.output.interval)
+            continue;
+        past.push_back({DiscPlaces(now), find_basins(measure_profile(run.scene, now, run.base))});
+        places.push_back(past.back().places);
+    }
+    return found;
+}
+
+std::optional<double> throw_age_correlation(const std::map<int, double>& throws) {
+    const auto n = static_cast<double>(throws.size());
+    if (throws.size() < 5)
+        return std::nullopt;
+    std::vector<double> values;
+    for (const auto& [stratum, value] : throws)
+        values.push_back(value);
+    // Throws do not tie; strata are in order.
+    double squares = 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const auto rank = std::ranges::count_if(values, [&](double v) { return v < values[k]; });
+        const double difference = static_cast<double>(rank) - static_cast<double>(k);
+        squares += difference * difference;
+    }
+    return 1.0 - 6.0 * squares / (n * (n * n - 1.0));
+}
+
+ShearPlane shear_plane(const ShearField& field, std::size_t k) {
+    // Simple shear g on a plane of direction t: grad u = g t n, so that u_xx - u_yy = -g sin 2a,
+    // u_xy + u_yx = g cos 2a and u_xy - u_yx = g for t = (cos a, sin a).
+    const double stretch = field.xx[k] - field.yy[k], turn = field.xy[k] + field.yx[k];
+    const double sign = field.xy[k] >= field.yx[k] ? 1.0 : -1.0;
+    double a = 0.5 * std::atan2(-sign * stretch, sign * turn);
+    if (a > 0.0)
+        a -= pi; // downward
+    ShearPlane plane;
+    plane.strain = std::hypot(stretch, turn);
+    plane.falls_right = std::cos(a) > 0.0;
+    plane.dip = (plane.falls_right ? -a : a + pi) * 180.0 / pi;
+    // g > 0: the left of the downward direction moves down; that is the side above a plane that
+    // falls right.
+    plane.reverse = (sign > 0.0) != plane.falls_right;
+    return plane;
+}
+
+} // namespace listric

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "apps/fault.hpp"
+#include "apps/measure.hpp"
+#include "apps/shear_field.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace listric {
+
+/// Measures by the names of docs/measures.md; those without meaning are absent.
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
+/// What a moment's structure needs of an earlier one.
+struct Past {
+    DiscPlaces places;
+    std::vector<Depocentre> basins; ///< see find_basins
+};
+
+/// Local maxima of the pre-rift top's depth with a prominence of 250 m or more, the deepest first.
+std::vector<Depocentre> find_basins(const Profile& profile);
+
+/// Structural measures of one moment that need the run's past, its faults, or both.
+/// @param past  earlier states, oldest first
+NamedNumbers measure_structure(const Scene& scene, const RigidBase& base, const State& now,
+                               const FaultReport& faults, const Measures& measures,
+                               std::span<const Past> past);
+
+/// All measures of a finished run at the given extensions (m; the snapshots nearest to them),
+/// recomputed from its snapshots. Throws SceneError, StorageError.
+std::vector<std::pair<double, NamedNumbers>> examine_run(const std::filesystem::path& output,
+                                                         std::span<const double> extensions);
+
+/// Rank correlation of a fault's throws with the strata's numbers (Spearman), -1 where throw falls
+/// from each stratum to the next younger. None for fewer than five strata.
+std::optional<double> throw_age_correlation(const std::map<int, double>& throws);
+
+/// The plane on which a disc's surroundings shear, if they shear on one: of the two planes of
+/// largest shear, the one whose simple shear turns the way the displacement field does.
+struct ShearPlane {
+    double strain = 0.0;     ///< engineering shear strain, > 0
+    double dip = 0.0;        ///< degrees
+    bool falls_right = true; ///< away from the breakaway
+    bool reverse = false;
+};
+ShearPlane shear_plane(const ShearField& field, std::size_t k);
+
+} // namespace listric

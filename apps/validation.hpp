@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace listric {
+
+/// A call of `listric validate`.
+struct ValidationRequest {
+    std::string accuracy = "standard";
+    int seeds = 5;
+    int threads = 1;
+    std::filesystem::path runs;      ///< folder of the runs; empty: out/validation-ACCURACY
+    std::filesystem::path output;    ///< document; empty: docs/validation.md at standard, else
+                                     ///< validation.md beside the runs
+    std::filesystem::path plan;      ///< empty: apps/validation.toml
+    std::optional<std::string> only; ///< one experiment
+    bool remeasure = false;          ///< even runs that are measured already
+    bool without_runs = false;       ///< takes the runs that are there
+};
+
+/// Makes the runs that are missing, measures them from their snapshots and writes the document
+/// beside a folder of the same name with pictures and measures.csv. False if it was interrupted.
+/// Throws UsageError, SceneError, NumericalFailure, StorageError.
+bool run_validation(const ValidationRequest& request);
+
+} // namespace listric

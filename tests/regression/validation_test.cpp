@@ -1,0 +1,168 @@
+// `listric validate` on a scene of a few hundred discs: it makes the runs, resumes where it was
+// stopped, measures and writes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string scene = R"([hanging_wall]
+length_m = 4000.0
+thickness_m = 1500.0
+mean_radius_m = 60.0
+[detachment]
+segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
+[extension]
+distance_m = 200.0
+speed_m_per_s = 4.0
+ramp_s = 2.0
+[output]
+interval_m = 50.0
+figures_at_m = []
+series = "none"
+[gravity]
+[bonds]
+[fault_weakening]
+interval_a = 6000.0
+youngest_sediment_a = 5000.0
+[bond_healing]
+[sedimentation]
+interval_a = 6000.0
+[compaction]
+)";
+
+const std::string plan = R"([[run]]
+name = "tiny"
+scene = "tiny"
+at_m = [100, 200]
+[[run]]
+name = "plain"
+scene = "tiny"
+without = "fault_weakening bond_healing"
+seeds = 1
+at_m = [200]
+[[experiment]]
+name = "first"
+title = "First"
+runs = "tiny plain"
+expect = [
+    {kind = "kinematics", measure = "extension_m", what = "reached", digits = 0, expected = 200, tolerance = 1, source = "scene"},
+    {kind = "kinematics", measure = "extension_m", what = "gone since", since_m = 100, digits = 0, expected = 150, tolerance = 1, source = "nobody"},
+    {measure = "weak_fraction", what = "weakened without weakening", run = "plain", least = 0.5, source = "nobody"},
+    {kind = "conservation", measure = "mass_error_fraction", what = "mass", digits = 3, most = 1e-12, source = "round-off"},
+]
+picture = [{name = "all", caption = "All.", rows = [{run = "tiny", at_m = 200}]}]
+[[experiment]]
+name = "second"
+title = "Second"
+runs = "plain"
+expect = [{measure = "extension_m", what = "reached", least = 1, source = "scene"}]
+)";
+
+std::string contents(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class ValidationTest : public testing::Test {
+protected:
+    fs::path folder =
+        fs::temp_directory_path() / ("validation-" + std::to_string(getpid()) + "-" +
+                                     testing::UnitTest::GetInstance()->current_test_info()->name());
+    ValidationTest() {
+        fs::create_directories(folder / "scenes");
+        std::ofstream(folder / "scenes/tiny.toml") << scene;
+        std::ofstream(folder / "plan.toml") << plan;
+    }
+    ~ValidationTest() override { fs::remove_all(folder); }
+
+    /// Exit code of `listric validate` with these arguments; what it says is in `said`.
+    int validate(const std::string& arguments) {
+        const std::string line =
+            "LISTRIC_SCENES=" + (folder / "scenes").string() + " '" LISTRIC_PROGRAM "' validate " +
+            "--plan " + (folder / "plan.toml").string() + " --runs " + (folder / "runs").string() +
+            " --output " + (folder / "doc/report.md").string() + " " + arguments + " 2> " +
+            (folder / "said").string();
+        const int code = WEXITSTATUS(std::system(line.c_str()));
+        said = contents(folder / "said");
+        return code;
+    }
+    std::string document() { return contents(folder / "doc/report.md"); }
+    std::string said;
+};
+
+TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
+    ASSERT_EQ(validate("--seeds 2"), 0) << said;
+    EXPECT_THAT(document(), AllOf(HasSubstr("3 of 3 runs"), HasSubstr("## First"),
+                                  HasSubstr("## Second"), HasSubstr("![all](report/all.png)")));
+    // Two seeds that reached 200 m, and cannot have gone 150 m since 100.
+    EXPECT_THAT(document(), HasSubstr("| 200 ± 1 | scene | 200 ± 0 (200 to 200) | met (2 of 2) |"));
+    EXPECT_THAT(document(), HasSubstr("| 150 ± 1 | nobody | 100 ± 0 (100 to 100) | missed (0 of "));
+    EXPECT_THAT(document(), HasSubstr("| at least 0.50 | nobody | no value | missed (0 of 1) |"));
+    EXPECT_THAT(document(), HasSubstr("| First | 1 of 2 | 0 of 1 | 1 of 1 |"));
+    EXPECT_TRUE(fs::exists(folder / "doc/report/all.png"));
+    const auto hash = [&](const char* run) {
+        return nlohmann::json::parse(contents(folder / "runs" / run / "summary.json"))["state_hash"]
+            .get<std::string>();
+    };
+    EXPECT_THAT(contents(folder / "doc/report/measures.csv"),
+                AllOf(HasSubstr("tiny,1,100," + hash("tiny-1")),
+                      HasSubstr("tiny,2,200," + hash("tiny-2")),
+                      HasSubstr("plain,1,200," + hash("plain-1"))));
+
+    // Again: nothing is run or measured, and the document is the same.
+    const std::string before = document();
+    const auto made = fs::last_write_time(folder / "runs/tiny-1/summary.json");
+    ASSERT_EQ(validate("--seeds 2"), 0) << said;
+    EXPECT_EQ(document(), before);
+    EXPECT_EQ(fs::last_write_time(folder / "runs/tiny-1/summary.json"), made);
+    EXPECT_THAT(said, Not(HasSubstr("measuring")));
+    ASSERT_EQ(validate("--seeds 2 --remeasure"), 0) << said;
+    EXPECT_THAT(said, AllOf(HasSubstr("measuring"), HasSubstr("tiny-2")));
+    EXPECT_EQ(document(), before);
+
+    // A run that was stopped goes on, to the same end.
+    const std::string end = hash("tiny-2");
+    fs::remove(folder / "runs/tiny-2/summary.json");
+    ASSERT_EQ(validate("--seeds 2 --without-runs"), 0) << said;
+    EXPECT_THAT(document(), AllOf(HasSubstr("2 of 3 runs"), HasSubstr("not there: tiny-2")));
+    ASSERT_EQ(validate("--seeds 2"), 0) << said;
+    EXPECT_THAT(said, HasSubstr("resuming"));
+    EXPECT_EQ(hash("tiny-2"), end);
+    EXPECT_EQ(document(), before);
+
+    // Runs of another accuracy are no runs of this one.
+    EXPECT_EQ(validate("--seeds 1 --accuracy draft"), 2);
+    EXPECT_THAT(said, AllOf(HasSubstr("tiny-1"), HasSubstr("standard"), HasSubstr("draft")));
+}
+
+TEST_F(ValidationTest, OneExperimentAlone) {
+    ASSERT_EQ(validate("--seeds 1 --only second"), 0) << said;
+    EXPECT_THAT(document(), AllOf(HasSubstr("## Second"), Not(HasSubstr("## First"))));
+    EXPECT_FALSE(fs::exists(folder / "runs/tiny-1"));
+}
+
+TEST_F(ValidationTest, BadCalls) {
+    EXPECT_EQ(validate("--only third"), 2);
+    EXPECT_THAT(said, HasSubstr("first, second"));
+    EXPECT_EQ(validate("--accuracy rough"), 2);
+    EXPECT_THAT(said, HasSubstr("draft, standard"));
+    std::ofstream(folder / "plan.toml") << "[[run]]\nname = 3\n";
+    EXPECT_EQ(validate(""), 2);
+    EXPECT_THAT(said, AllOf(HasSubstr("plan.toml:2"), HasSubstr("name")));
+    EXPECT_FALSE(fs::exists(folder / "runs"));
+}
+
+} // namespace

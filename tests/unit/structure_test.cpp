@@ -1,0 +1,141 @@
+// Structural measures of states whose structure is known.
+
+#include "apps/fault_throw.hpp"
+#include "apps/structure.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+constexpr double r = 93.1, d = 2.0 * r;
+constexpr double degree = pi / 180.0;
+
+/// Simple shear of `amount` on a plane that dips by `dip` and falls right or left.
+ShearField sheared(double dip, bool falls_right, bool reverse, double amount) {
+    const Point t{(falls_right ? 1.0 : -1.0) * std::cos(dip * degree), -std::sin(dip * degree)};
+    const Point n{-t.y, t.x};
+    // The side above the plane is left of t where it falls right; it moves down unless reverse.
+    const double g = (falls_right != reverse ? 1.0 : -1.0) * amount;
+    ShearField field;
+    field.x = field.y = {0.0};
+    field.xx = {g * t.x * n.x};
+    field.xy = {g * t.x * n.y};
+    field.yx = {g * t.y * n.x};
+    field.yy = {g * t.y * n.y};
+    return field;
+}
+
+TEST(ShearPlane, DipDirectionAndSenseOfSimpleShear) {
+    for (double dip : {20.0, 45.0, 60.0, 80.0})
+        for (bool falls_right : {true, false})
+            for (bool reverse : {true, false}) {
+                SCOPED_TRACE(testing::Message() << dip << " " << falls_right << " " << reverse);
+                const ShearPlane plane = shear_plane(sheared(dip, falls_right, reverse, 0.3), 0);
+                EXPECT_NEAR(plane.strain, 0.3, 1e-12);
+                EXPECT_NEAR(plane.dip, dip, 1e-9);
+                EXPECT_EQ(plane.falls_right, falls_right);
+                EXPECT_EQ(plane.reverse, reverse);
+            }
+}
+
+TEST(ThrowAgeCorrelation, FallingAndRisingAndTooFew) {
+    EXPECT_NEAR(*throw_age_correlation({{0, 500}, {1, 400}, {2, 300}, {5, 100}, {9, 0}}), -1.0,
+                1e-12);
+    EXPECT_NEAR(*throw_age_correlation({{0, 0}, {1, 1}, {2, 2}, {3, 3}, {4, 4}}), 1.0, 1e-12);
+    // One neighbouring pair exchanged: 1 - 6 * 2 / 120.
+    EXPECT_NEAR(*throw_age_correlation({{0, 5}, {1, 3}, {2, 4}, {3, 2}, {4, 1}}), -0.9, 1e-12);
+    EXPECT_FALSE(throw_age_correlation({{0, 4}, {1, 3}, {2, 2}, {3, 1}}).has_value());
+}
+
+/// Layers cut by a fault that falls right by 60 degrees; the right side has slid 20 diameters down
+/// along it, far more than the discs beside the trace reach, and the footwall has turned.
+TEST(PreRiftThrow, OfSidesThatHavePartedAndTurned) {
+    for (double turn : {0.0, 20.0}) {
+        std::vector<Disc> discs = cloud(110, 100, r, 5);
+        for (Disc& disc : discs)
+            disc.y -= 99.0 * std::sqrt(3.0) * r;
+        State state = make_state(discs);
+        const DiscColumns c = disc_columns(state);
+        const Point through{110.0 * r, -80.0 * r};
+        const Point down{std::cos(60.0 * degree), -std::sin(60.0 * degree)};
+        for (std::size_t i = 0; i < c.x.size(); ++i) {
+            const double s = down.x * (c.y[i] - through.y) - down.y * (c.x[i] - through.x);
+            if (s > 0.0) {
+                c.x[i] += 20.0 * d * down.x;
+                c.y[i] += 20.0 * d * down.y;
+            } else {
+                // About a point of the fault, so that layers on it turn with the block.
+                const double a = turn * degree, x = c.x[i] - through.x, y = c.y[i] - through.y;
+                c.x[i] = through.x + std::cos(a) * x - std::sin(a) * y;
+                c.y[i] = through.y + std::sin(a) * x + std::cos(a) * y;
+            }
+        }
+        std::vector<Point> trace;
+        for (int k = -18; k <= 18; ++k)
+            trace.push_back({through.x + k * d * down.x, through.y + k * d * down.y});
+        const auto found = pre_rift_throw(state, trace);
+        ASSERT_TRUE(found.has_value());
+        // A layer that started h above the pivot meets the fault there in the footwall at the
+        // height h sin 60 / sin(120 - turn), in the hanging wall at h less the slip's height.
+        // Layers of -18 diameters down the hanging wall to 18 up the footwall are on both.
+        const double sine = std::sin(60.0 * degree), turned = std::sin((120.0 - turn) * degree);
+        const double layer = 0.5 * ((20.0 - 18.0) * sine + 18.0 * turned) * d;
+        EXPECT_NEAR(*found, 20.0 * d * sine + layer * (sine / turned - 1.0), 0.3 * d) << turn;
+        std::ranges::for_each(c.stratum, [](std::int32_t& n) { n = 1; });
+        EXPECT_FALSE(pre_rift_throw(state, trace).has_value());
+    }
+}
+
+TEST(Basins, OfTheDepthOfThePreRiftTop) {
+    Profile profile;
+    for (int k = 0; k < 400; ++k) {
+        const double x = 100.0 * k;
+        profile.x.push_back(x);
+        profile.pre_rift_top.push_back(-4e3 * std::exp(-std::pow((x - 4e3) / 3e3, 2.0)) -
+                                       1e3 * std::exp(-std::pow((x - 20e3) / 2e3, 2.0)) -
+                                       100.0 * std::exp(-std::pow((x - 32e3) / 2e3, 2.0)));
+    }
+    const std::vector<Depocentre> basins = find_basins(profile);
+    ASSERT_EQ(basins.size(), 2u); // the third is too shallow
+    EXPECT_NEAR(basins[0].x, 4e3, 100.0);
+    EXPECT_NEAR(basins[1].x, 20e3, 100.0);
+    EXPECT_NEAR(basins[1].prominence, 1e3, 50.0);
+}
+
+/// Ten sediment discs 1 km deep; one of them has kept the porosity of a place twice as deep.
+TEST(Compaction, PorosityBesideThatOfTheDepth) {
+    std::vector<Disc> discs = row(20, r);
+    for (std::size_t i = 0; i < discs.size(); ++i)
+        discs[i].y = i < 10 ? -1e3 : -2e3;
+    State state = make_state(discs);
+    DiscColumns c = disc_columns(state);
+    state.discs.add<double>("porosity", "1", 0.0);
+    c = disc_columns(state);
+    const auto porosity = state.discs.get<double>("porosity");
+    for (std::size_t i = 0; i < 10; ++i) {
+        c.stratum[i] = 1;
+        porosity[i] = 0.5 * std::exp(-0.4);
+    }
+    porosity[3] = 0.5 * std::exp(-0.8);
+    Scene scene;
+    scene.hanging_wall.emplace();
+    scene.sedimentation.emplace();
+    scene.compaction.emplace();
+    RigidBase base;
+    base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
+    for (const auto& [name, value] : measure_structure(scene, base, state, {}, {}, {})) {
+        if (name == "porosity_error")
+            EXPECT_NEAR(value, 0.1 * (1.0 - std::exp(-0.4)), 1e-12);
+        if (name == "porosity_off_fraction")
+            EXPECT_NEAR(value, 0.1, 1e-12);
+    }
+}
+
+} // namespace
+} // namespace listric
