@@ -144,7 +144,8 @@ double FastCycle::sweep(Strip& strip, double stretch_rate) {
                         std::numeric_limits<std::int64_t>::min(),
                         std::numeric_limits<std::int64_t>::min(), 0};
     // Of the mean velocity; spin is damped as it is, its mean stays 0.
-    const double share = relative ? time_step_ / physics_.averaging_time : 0.0;
+    const double share =
+        motion == DampedAgainst::mean_motion ? time_step_ / physics_.averaging_time : 0.0;
     const Double4 shares = {share, share, 0.0, 0.0};
     Double4 fastest = no_force;
     const Slot* const slots = slots_.data();
@@ -159,7 +160,7 @@ double FastCycle::sweep(Strip& strip, double stretch_rate) {
             const std::size_t first = group * group_discs;
             prefetch(ahead(discs_, first + strip.look_ahead), group_discs * sizeof(Disc));
             prefetch(ahead(constants_, first + 64), group_discs * sizeof(DiscConstants));
-            if constexpr (relative)
+            if constexpr (motion == DampedAgainst::mean_motion)
                 prefetch(ahead(mean_velocities_, first + 64), group_discs * sizeof(Double4));
             prefetch(
                 ahead(strip.gathers, static_cast<std::size_t>(list - strip.gathers.data()) + 512),
