@@ -211,7 +211,7 @@ std::vector<Parameter> parameters(ElasticBaseParameters& p) {
          "rock along the detachment that keeps its shear modulus below the elastic thickness"},
         {"cell_size_m", &p.cell_size, "m", {.above = 0, .to = 1e5}, "",
          "elements at the detachment"},
-        {"scheme", one_of({"modal", "lumped", "strong", "staggered"}, p.scheme), "", {}, "",
+        {"scheme", one_of({"modal", "lumped", "staggered"}, p.scheme), "", {}, "",
          "how base and discs advance together"},
         {"update_interval_cycles", &p.update_interval, "", {.from = 1, .to = 1e6}, "",
          "cycles between updates of the base"},

@@ -47,6 +47,31 @@ std::string explain_flexure(const Scene& scene) {
 
 } // namespace
 
+/// What the footwall feels and what it does not.
+std::string explain_elastic_base(const Scene& scene) {
+    const ElasticBaseParameters& base = *scene.elastic_base;
+    constexpr const char* schemes[] = {"modal", "lumped", "staggered"};
+    return fmt::format(
+        "elastic base\n"
+        "  Te {:g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "
+        "1/{:g},\n  but not within {:g} km of the detachment; scheme {}, every {} cycles\n"
+        "  loaded by what changes in the discs' forces since they settled on it\n"
+        "  loads that no disc carries\n"
+        "    right of the right wall: the weight of the undisturbed hanging wall, up to where the\n"
+        "    wall is; the wall takes this weight along\n"
+        "    springs (density x gravity) where rock of other density moves in: {} kg/m3 above the\n"
+        "    footwall and on the detachment, {} kg/m3 at the base\n"
+        "    {}\n"
+        "  not in the model: erosion of the footwall, water, thinning of the lower crust,\n"
+        "  friction of the right wall; what leans on the backstop above the breakaway\n",
+        base.elastic_thickness / 1e3, base.depth / 1e3, base.left / 1e3, base.right / 1e3,
+        base.relaxation, base.skin_thickness / 1e3, schemes[static_cast<int>(base.scheme)],
+        base.update_interval, base.crust_density, base.mantle_density - base.crust_density,
+        base.infill_density > 0.0
+            ? fmt::format("{} kg/m3 on the footwall's surface where it sinks", base.infill_density)
+            : std::string("nothing fills what sinks of the footwall's surface"));
+}
+
 std::string explain(const Scene& scene) {
     if (scene.flexure)
         return explain_flexure(scene);
@@ -75,6 +100,8 @@ std::string explain(const Scene& scene) {
         static_cast<double>(p.cycles) / 1e6, scene.extension.speed);
     add("  {:.2g} disc-steps, about {:.0f} MB of memory", p.disc_steps, p.memory / 1e6);
     add("");
+    if (scene.elastic_base)
+        add("{}", explain_elastic_base(scene));
     add("on this machine, {} threads ({:.0f} million disc-steps per second)", threads, rate / 1e6);
     add("  {:<10} {:>10} {:>9} {:>12} {:>9}", "accuracy", "radius, m", "discs", "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {
