@@ -45,6 +45,45 @@ std::string explain_flexure(const Scene& scene) {
         plate.restoring, plate.alpha() / 1e3, base.cells, base.degree, base.infill_density);
 }
 
+/// What loads the elastic base, and what does not: a coupled base answers to changes of load only.
+std::string explain_loads(const Scene& scene) {
+    const ElasticBaseParameters& base = *scene.elastic_base;
+    const double gravity = scene.gravity->acceleration;
+    std::string text = "loads on the elastic base, relative to the settled start\n";
+    const auto add = [&](auto format, const auto&... values) {
+        text += "  " + fmt::format(fmt::runtime(format), values...) + "\n";
+    };
+    add("in the model: the discs' forces on the detachment{}",
+        scene.sedimentation ? ", sediment included" : "; the basin stays empty");
+    add("virtual: the weight of the hanging wall right of the moving wall, as it moves away");
+    add("springs at density contrasts: {:.4g} Pa/m on the footwall's top, {:.4g} on the "
+        "detachment, {:.4g} at the base",
+        (base.crust_density - base.infill_density) * gravity, base.crust_density * gravity,
+        (base.mantle_density - base.crust_density) * gravity);
+    if (const auto& thinning = scene.lower_crust_thinning) {
+        const double distance = scene.extension.distance;
+        const double thinner = lower_crust_thinning(*thinning, distance);
+        add("lower crust: {:g} km over {:g} km thins by {:.0f} m at the end; mantle in its place "
+            "lowers a wide area by {:.0f} m (empty)",
+            thinning->thickness / 1e3, thinning->width / 1e3, thinner,
+            thinner * (base.mantle_density - base.crust_density) / base.mantle_density);
+    } else {
+        add("not in the model: extension below the detachment ([lower_crust_thinning])");
+    }
+    if (const auto& erosion = scene.footwall_erosion)
+        add("footwall: to its target every {:g} a, {:g} km wide; eroded at {:g} kg/m3, filled at "
+            "{:g}",
+            erosion->interval, erosion->width / 1e3, base.crust_density,
+            erosion->sediment_density);
+    else
+        add("not in the model: erosion and deposition on the footwall ([footwall_erosion])");
+    if (base.infill_density > 0.0)
+        add("infill of {:g} kg/m3 follows the footwall's top as it sinks", base.infill_density);
+    else
+        add("not in the model: water");
+    return text;
+}
+
 } // namespace
 
 std::string explain(const Scene& scene) {
@@ -75,6 +114,11 @@ std::string explain(const Scene& scene) {
         static_cast<double>(p.cycles) / 1e6, scene.extension.speed);
     add("  {:.2g} disc-steps, about {:.0f} MB of memory", p.disc_steps, p.memory / 1e6);
     add("");
+    if (scene.elastic_base)
+        add("{}", explain_loads(scene));
+    if (scene.base_motion)
+        add("the detachment moves as prescribed, at up to {:.2g} of the speed of extension\n",
+            greatest_base_speed(*scene.base_motion, scene.extension.rate));
     add("on this machine, {} threads ({:.0f} million disc-steps per second)", threads, rate / 1e6);
     add("  {:<10} {:>10} {:>9} {:>12} {:>9}", "accuracy", "radius, m", "discs", "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {

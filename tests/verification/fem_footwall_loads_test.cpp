@@ -39,7 +39,7 @@ TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
     const LowerCrustThinningParameters thinning{20e3, 2000e3, 0.0};
     constexpr double distance = 10e3;
     const FootwallResponses found =
-        solve_footwall_loads(*footwall, nullptr, request.left, &thinning, contrast, distance);
+        solve_footwall_loads(*footwall, 2 * footwall->interface().size(), nullptr, request.left, &thinning, contrast, distance);
     const std::size_t unknowns = 2 * footwall->interface().size();
     ASSERT_EQ(found.crust.interface.size(), (found.crust.steps + 1) * unknowns);
     // Thinner by h e / (b + e); of the load no more than the model's width is there, so that the
@@ -67,7 +67,7 @@ TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
     const auto footwall = fem::make_footwall(request);
     const LowerCrustThinningParameters thinning{20e3, 100e3, 15e3};
     const FootwallResponses found =
-        solve_footwall_loads(*footwall, nullptr, request.left, &thinning, contrast, 10e3);
+        solve_footwall_loads(*footwall, 2 * footwall->interface().size(), nullptr, request.left, &thinning, contrast, 10e3);
     // The interface of a flat layer is its surface: what the springs there hold and those at the
     // base, with the layer rigid enough to move as one over 400 km, is the load. Held by the
     // exact mean: integrate the surface's displacement; the base differs by the layer's own
@@ -98,7 +98,7 @@ protected:
     std::unique_ptr<fem::Footwall> footwall_ = fem::make_footwall(request_);
     FootwallErosionParameters erosion_ = {};
     SurfaceResponse response_ =
-        solve_footwall_loads(*footwall_, &erosion_, request_.left, nullptr, 0.0, 0.0).surface;
+        solve_footwall_loads(*footwall_, 2 * footwall_->interface().size(), &erosion_, request_.left, nullptr, 0.0, 0.0).surface;
     std::vector<double> eroded_ = std::vector<double>(response_.x.size(), 0.0);
     std::vector<double> deposited_ = eroded_, target_ = eroded_;
     FootwallCover cover_{eroded_, deposited_};
@@ -179,7 +179,7 @@ TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
     const FootwallErosionParameters erosion;
     const LowerCrustThinningParameters thinning;
     const FootwallResponses found =
-        solve_footwall_loads(*footwall, &erosion, request.left, &thinning, contrast, 10e3);
+        solve_footwall_loads(*footwall, 2 * footwall->interface().size(), &erosion, request.left, &thinning, contrast, 10e3);
     const SurfaceResponse& surface = found.surface;
     const std::size_t n = surface.x.size();
     for (std::size_t k = 0; k < n; ++k)
