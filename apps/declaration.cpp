@@ -93,7 +93,7 @@ std::vector<Parameter> parameters(CycleParameters& p) {
 
 std::vector<Parameter> parameters(OutputParameters& p) {
     return {
-        {"interval_m", &p.interval, "m", {.from = 1, .to = 1e6}, "", "extension between snapshots"},
+        {"interval_m", &p.interval, "m", {.from = 1e-6, .to = 1e6}, "", "extension between snapshots"},
         {"figures_at_m", &p.figures, "m", {.from = 0, .to = 1e6}, "",
          "extensions at which figures are drawn"},
         {"series", one_of({"paraview", "none"}, p.series), "", {}, "",

@@ -10,7 +10,8 @@ fem::FootwallRequest make_footwall_request(const Scene& scene) {
     const ElasticBaseParameters& base = *scene.elastic_base;
     const double gravity = scene.gravity->acceleration;
     fem::FootwallRequest request;
-    for (const Segment& s : make_base(scene).surfaces.front().chain)
+    const RigidBase surfaces = make_base(scene);
+    for (const Segment& s : surfaces.surfaces.front().chain)
         request.detachment.push_back({{s.start.x, s.start.y},
                                       std::atan2(s.start_tangent.y, s.start_tangent.x),
                                       s.length,
