@@ -136,14 +136,19 @@ void FootwallCoupling::recover(const State& state) {
     footwall_->solve(load);
 }
 
-std::optional<IndependentSolution> FootwallCoupling::check(const State& state) const {
+std::optional<FootwallCoupling::Check> FootwallCoupling::check(const State& state) const {
     const auto means = state.base_memory.find(last_window);
     if (means == state.base_memory.end())
         return std::nullopt;
+    const auto force = means->second.get<double>("force");
+    std::vector<double> all(force.begin(), force.end());
+    add_footwall_loads(state, all);
     try {
-        return solve_independently(make_footwall_request(scene_), base_->interface(),
-                                   means->second.get<double>("force"),
-                                   means->second.get<double>("displacement"), other_loads(state));
+        const IndependentSolution fine = solve_independently(
+            make_footwall_request(scene_), base_->interface(), force, other_loads(state));
+        return Check{
+            fine.unknowns, relative_difference(base_->displacement(all), fine.displacement),
+            relative_difference(means->second.get<double>("displacement"), fine.displacement)};
     } catch (const fem::FootwallError& error) {
         throw UsageError(fmt::format("elastic_base: {}", error.what()));
     }

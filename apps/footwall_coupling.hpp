@@ -32,7 +32,12 @@ public:
 
     /// Solves for the base under the mean forces of the last window on a mesh twice as fine; none
     /// before a window has ended.
-    std::optional<IndependentSolution> check(const State& state) const;
+    struct Check {
+        std::size_t unknowns; ///< of that mesh
+        double elements;      ///< from the run's own elements under the same forces
+        double base;          ///< from the base's mean displacement in that window
+    };
+    std::optional<Check> check(const State& state) const;
 
     /// What is said in the log about it, a line each.
     std::vector<std::string> description() const;

@@ -419,10 +419,11 @@ void check_base(Run& run, Voice& voice) {
         return;
     const Stopwatch watch(run.record, "base");
     if (const auto fine = run.footwall->check(run.state)) {
-        run.record.base_resolved_difference = fine->difference;
+        run.record.base_elements_difference = fine->elements;
+        run.record.base_resolved_difference = fine->base;
         voice.say(fmt::format("the base under the last window's mean forces, solved again with {} "
-                              "unknowns, is {:.2f} % from the run's",
-                              fine->unknowns, 100.0 * fine->difference));
+                              "unknowns: the run's elements are {:.2f} % off, its base {:.2f} %",
+                              fine->unknowns, 100.0 * fine->elements, 100.0 * fine->base));
     }
 }
 

@@ -25,7 +25,7 @@ struct RunRecord {
     std::map<std::string, double> seconds_by_part;  ///< wall time spent so far
     double disc_steps = 0.0;                        ///< discs times cycles so far
     double predicted_seconds = 0.0;                 ///< of the whole run
-    std::optional<double> base_resolved_difference; ///< at the end of a run with an elastic base
+    std::optional<double> base_elements_difference, base_resolved_difference; ///< at the end of a run with an elastic base
 };
 
 /// Everything that the run needs to go on as if it had never stopped.

@@ -12,22 +12,23 @@ namespace listric {
 struct IndependentSolution {
     std::size_t unknowns = 0;         ///< of the mesh
     std::vector<double> displacement; ///< of the recorded interface's nodes, m
-    double difference = 0.0;          ///< from the recorded displacement: root mean squares' ratio
 };
+
+/// Root mean square of a - b over that of b.
+double relative_difference(std::span<const double> a, std::span<const double> b);
 
 /// Tractions whose equivalent forces on the nodes are `forces`, Pa: the faces' mass matrix
 /// inverted.
 std::vector<double> tractions(const Interface& interface, std::span<const double> forces);
 
 /// Makes a footwall with elements half as large, puts the forces on it as tractions, which no mesh
-/// owns, and compares.
+/// owns.
 /// @param forces        on the interface's unknowns, N
-/// @param displacement  that the run has recorded with them, m
+///
 /// @param other         loads elsewhere
 /// Throws fem::FootwallError.
 IndependentSolution solve_independently(fem::FootwallRequest request, const Interface& interface,
                                         std::span<const double> forces,
-                                        std::span<const double> displacement,
                                         const fem::Load& other = {});
 
 } // namespace listric
