@@ -45,46 +45,48 @@ std::string explain_flexure(const Scene& scene) {
         plate.restoring, plate.alpha() / 1e3, base.cells, base.degree, base.infill_density);
 }
 
-/// What loads the elastic base, and what does not: a coupled base answers to changes of load only.
-std::string explain_loads(const Scene& scene) {
+} // namespace
+
+/// What the footwall feels and what it does not.
+std::string explain_elastic_base(const Scene& scene) {
     const ElasticBaseParameters& base = *scene.elastic_base;
-    const double gravity = scene.gravity->acceleration;
-    std::string text = "loads on the elastic base, relative to the settled start\n";
-    const auto add = [&](auto format, const auto&... values) {
-        text += "  " + fmt::format(fmt::runtime(format), values...) + "\n";
-    };
-    add("in the model: the discs' forces on the detachment{}",
-        scene.sedimentation ? ", sediment included" : "; the basin stays empty");
-    add("virtual: the weight of the hanging wall right of the moving wall, as it moves away");
-    add("springs at density contrasts: {:.4g} Pa/m on the footwall's top, {:.4g} on the "
-        "detachment, {:.4g} at the base",
-        (base.crust_density - base.infill_density) * gravity, base.crust_density * gravity,
-        (base.mantle_density - base.crust_density) * gravity);
+    constexpr const char* schemes[] = {"modal", "lumped", "staggered"};
+    std::string text = fmt::format(
+        "elastic base\n"
+        "  Te {:g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "
+        "1/{:g},\n  but not within {:g} km of the detachment; scheme {}, every {} cycles\n"
+        "  loaded by what changes in the discs' forces since they settled on it\n"
+        "  loads that no disc carries\n"
+        "    right of the right wall: the weight of the undisturbed hanging wall, up to where the\n"
+        "    wall is; the wall takes this weight along\n"
+        "    springs (density x gravity) where rock of other density moves in: {} kg/m3 above the\n"
+        "    footwall and on the detachment, {} kg/m3 at the base\n"
+        "    {}\n",
+        base.elastic_thickness / 1e3, base.depth / 1e3, base.left / 1e3, base.right / 1e3,
+        base.relaxation, base.skin_thickness / 1e3, schemes[static_cast<int>(base.scheme)],
+        base.update_interval, base.crust_density, base.mantle_density - base.crust_density,
+        base.infill_density > 0.0
+            ? fmt::format("{} kg/m3 on the footwall's surface where it sinks", base.infill_density)
+            : std::string("no infill of what sinks of the footwall's surface"));
     if (const auto& thinning = scene.lower_crust_thinning) {
-        const double distance = scene.extension.distance;
-        const double thinner = lower_crust_thinning(*thinning, distance);
-        add("lower crust: {:g} km over {:g} km thins by {:.0f} m at the end; mantle in its place "
-            "lowers a wide area by {:.0f} m (empty)",
+        const double thinner = lower_crust_thinning(*thinning, scene.extension.distance);
+        text += fmt::format(
+            "    lower crust: {:g} km over {:g} km thins by {:.0f} m in the end; the mantle in its "
+            "place\n    lowers a wide area by {:.0f} m\n",
             thinning->thickness / 1e3, thinning->width / 1e3, thinner,
             thinner * (base.mantle_density - base.crust_density) / base.mantle_density);
-    } else {
-        add("not in the model: extension below the detachment ([lower_crust_thinning])");
     }
     if (const auto& erosion = scene.footwall_erosion)
-        add("footwall: to its target every {:g} a, {:g} km wide; eroded at {:g} kg/m3, filled at "
-            "{:g}",
-            erosion->interval, erosion->width / 1e3, base.crust_density,
-            erosion->sediment_density);
-    else
-        add("not in the model: erosion and deposition on the footwall ([footwall_erosion])");
-    if (base.infill_density > 0.0)
-        add("infill of {:g} kg/m3 follows the footwall's top as it sinks", base.infill_density);
-    else
-        add("not in the model: water");
-    return text;
+        text += fmt::format("    footwall: over {:g} km to its target every {:g} a; {} kg/m3 go, "
+                            "{} kg/m3 come\n",
+                            erosion->width / 1e3, erosion->interval, base.crust_density,
+                            erosion->sediment_density);
+    return text + fmt::format("  not in the model: {}{}water,\n"
+                              "  friction of the right wall; what leans on the backstop above the "
+                              "breakaway\n",
+                              scene.footwall_erosion ? "" : "erosion of the footwall, ",
+                              scene.lower_crust_thinning ? "" : "thinning of the lower crust, ");
 }
-
-} // namespace
 
 std::string explain(const Scene& scene) {
     if (scene.flexure)
@@ -115,7 +117,7 @@ std::string explain(const Scene& scene) {
     add("  {:.2g} disc-steps, about {:.0f} MB of memory", p.disc_steps, p.memory / 1e6);
     add("");
     if (scene.elastic_base)
-        add("{}", explain_loads(scene));
+        add("{}", explain_elastic_base(scene));
     if (scene.base_motion)
         add("the detachment moves as prescribed, at up to {:.2g} of the speed of extension\n",
             greatest_base_speed(*scene.base_motion, scene.extension.rate));

@@ -67,6 +67,15 @@ FootwallCoupling::FootwallCoupling(const Scene& scene) : scene_(scene) {
     } catch (const fem::FootwallError& error) {
         throw UsageError(fmt::format("elastic_base: {}", error.what()));
     }
+    // Long intervals in which the discs come to rest are the one way in which it was seen to work.
+    constexpr int long_enough = 1000;
+    if (scene.elastic_base->scheme == CouplingScheme::staggered &&
+        base_->staggered_growth() >= 1.0 && scene.elastic_base->update_interval < long_enough)
+        throw UsageError(fmt::format(
+            "elastic_base.scheme: staggered would blow up: the base gives way {:.3g} times as far "
+            "as a contact that pushes it is pressed, allowed: below 1; scheme modal is stable, or "
+            "let discs rest in between with elastic_base.update_interval_cycles of {} or more",
+            base_->staggered_growth(), long_enough));
 }
 
 std::vector<std::string> FootwallCoupling::description() const {

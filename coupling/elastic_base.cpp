@@ -62,6 +62,24 @@ ElasticBase::ElasticBase(Interface interface, const CouplingParameters& paramete
       load_(interface_.unknowns()), modal_load_(modes_.count()), modal_velocity_(modes_.count()),
       velocity_(interface_.unknowns()) {
     interval = parameters.interval;
+    if (parameters.scheme != CouplingScheme::lumped)
+        return;
+    const std::size_t n = modes_.unknowns, kept = modes_.count();
+    std::vector<double> scaled(kept), row(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t k = 0; k < kept; ++k)
+            scaled[k] = modes_.by_unknown[i * kept + k] / modes_.compliance[k];
+        add_rows(modes_.by_mode, scaled, row);
+        stiffness_.insert(stiffness_.end(), row.begin(), row.end());
+        double sum = 0.0;
+        for (const double s : row)
+            sum += std::abs(s);
+        lumped_stiffness_.push_back(sum);
+    }
+}
+
+double ElasticBase::staggered_growth() const {
+    return modes_.compliance.front() * parameters_.contact_stiffness / 3.0;
 }
 
 void ElasticBase::attach(State& state) const {
@@ -200,7 +218,18 @@ void ElasticBase::respond(State& state, const Clock& clock) {
     }
 
     add_footwall_loads(state, load_);
-    move_modes(state, cycles * clock.time_step);
+    const double step = cycles * clock.time_step;
+    switch (parameters_.scheme) {
+    case CouplingScheme::modal:
+        move_modes(state, step);
+        break;
+    case CouplingScheme::lumped:
+        move_lumped(state, step);
+        break;
+    case CouplingScheme::staggered:
+        move_staggered(state, step);
+        break;
+    }
     seconds += std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
@@ -224,6 +253,35 @@ void ElasticBase::move_modes(State& state, double step) {
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
         nodes.vx[k] = velocity_[2 * k];
         nodes.vy[k] = velocity_[2 * k + 1];
+    }
+}
+
+/// The same for every node, whose mass its row of the stiffness bounds.
+void ElasticBase::move_lumped(State& state, double step) {
+    const BaseNodeColumns nodes = base_node_columns(state);
+    std::vector<double> u(modes_.unknowns);
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        u[2 * k] = nodes.ux[k];
+        u[2 * k + 1] = nodes.uy[k];
+    }
+    add_rows(stiffness_, u, velocity_); // symmetric
+    const auto accelerate = [&](double& v, std::size_t i) {
+        const double mass = parameters_.mass_factor *
+                            (lumped_stiffness_[i] + parameters_.contact_stiffness) * step * step;
+        v += damped(load_[i] - velocity_[i], v, parameters_.damping) / mass * step;
+    };
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        accelerate(nodes.vx[k], 2 * k);
+        accelerate(nodes.vy[k], 2 * k + 1);
+    }
+}
+
+void ElasticBase::move_staggered(State& state, double step) {
+    const std::vector<double> u = displacement(load_);
+    const BaseNodeColumns nodes = base_node_columns(state);
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        nodes.vx[k] = (u[2 * k] - nodes.ux[k]) / step;
+        nodes.vy[k] = (u[2 * k + 1] - nodes.uy[k]) / step;
     }
 }
 

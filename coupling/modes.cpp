@@ -32,14 +32,4 @@ Modes find_modes(std::span<const double> compliance, std::size_t unknowns, std::
     return modes;
 }
 
-void add_rows(std::span<const double> rows, std::span<const double> v, std::span<double> result) {
-    std::ranges::fill(result, 0.0);
-    const double* row = rows.data();
-    for (const double factor : v) {
-        for (std::size_t k = 0; k < result.size(); ++k)
-            result[k] += factor * row[k];
-        row += result.size();
-    }
-}
-
 } // namespace listric

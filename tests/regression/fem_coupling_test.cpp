@@ -1,0 +1,102 @@
+// A small halfgraben on an elastic footwall: recorded numbers, and the same end after a stop.
+
+#include "apps/run.hpp"
+#include "apps/scene.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+namespace listric {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* small = R"([hanging_wall]
+length_m = 4000.0
+thickness_m = 1500.0
+mean_radius_m = 60.0
+[detachment]
+segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
+[extension]
+distance_m = 200.0
+[output]
+interval_m = 50.0
+figures_at_m = []
+series = "none"
+[gravity]
+[bonds]
+[bond_healing]
+[sedimentation]
+interval_a = 5000
+[elastic_base]
+elastic_thickness_m = 1000.0
+depth_m = 3000.0
+left_m = -30e3
+right_m = 35e3
+skin_thickness_m = 300.0
+cell_size_m = 150.0
+)";
+
+class CoupledRun : public testing::Test {
+protected:
+    CoupledRun() {
+        fs::create_directories(folder_);
+        std::ofstream(folder_ / "small.toml") << small;
+    }
+    ~CoupledRun() override { fs::remove_all(folder_); }
+
+    nlohmann::json run(const std::string& name, int threads, std::optional<double> until = {},
+                       bool resume = false, std::vector<std::string> set = {}) {
+        SceneRequest request;
+        request.scene = (folder_ / "small.toml").string();
+        request.set = std::move(set);
+        RunOptions options;
+        options.output = folder_ / name;
+        options.threads = threads;
+        options.until = until;
+        options.resume = resume;
+        options.quiet = true;
+        run_scene(load_scene(request), options);
+        std::ifstream in(options.output / "summary.json");
+        return nlohmann::json::parse(in);
+    }
+
+    fs::path folder_ = fs::temp_directory_path() / ("listric-coupled-" + std::to_string(getpid()));
+};
+
+TEST_F(CoupledRun, HasTheRecordedUpliftAndKeepsTheLoad) {
+    const nlohmann::json one = run("one", 1);
+    EXPECT_LT(one["interface_force_error"].get<double>(), 1e-12);
+    EXPECT_LT(one["interface_moment_error"].get<double>(), 1e-12);
+    EXPECT_LT(one["interface_work_error"].get<double>(), 1e-12);
+    EXPECT_GT(one["footwall_uplift_m"].get<double>(), 0.0);
+    run("two", 2, 110.0);
+    const nlohmann::json two = run("two", 1, {}, true);
+    EXPECT_EQ(one["state_hash"], two["state_hash"]);
+}
+
+TEST_F(CoupledRun, SchemesAgree) {
+    const double modal = run("modal", 2)["footwall_uplift_m"];
+    const double lumped =
+        run("lumped", 2, {}, false, {"elastic_base.scheme=lumped"})["footwall_uplift_m"];
+    const double often =
+        run("often", 2, {}, false, {"elastic_base.update_interval_cycles=1"})["footwall_uplift_m"];
+    EXPECT_NEAR(lumped, modal, 0.1 * modal);
+    EXPECT_NEAR(often, modal, 0.1 * modal);
+}
+
+TEST_F(CoupledRun, RefusesToBlowUp) {
+    try {
+        run("staggered", 1, {}, false, {"elastic_base.scheme=staggered"});
+        FAIL() << "not refused";
+    } catch (const UsageError& error) {
+        EXPECT_NE(std::string(error.what()).find("staggered would blow up"), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace listric

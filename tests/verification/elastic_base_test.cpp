@@ -1,0 +1,285 @@
+// Discs on an elastic base, whose compliance is made up: no finite elements are needed to see that
+// the transfer keeps force, moment and work, that the rigid base is the limit, that the schemes are
+// stable and that neither threads nor the kind of cycle change a bit.
+
+#include "coupling/elastic_base.hpp"
+#include "dem/base_place.hpp"
+#include "dem/contacts.hpp"
+#include "dem/genesis.hpp"
+#include "dem/monitor.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+namespace {
+
+using namespace support;
+
+constexpr double radius = 1500.0, length = 4000.0, gravity = 9.81;
+
+RigidBase make_listric_base() {
+    RigidBase base = listric_base(radius, length);
+    base.surfaces[0].friction = 0.5;
+    base.surfaces[0].follows = Follows::nodes;
+    base.surfaces[1].follows = Follows::breakaway;
+    return base;
+}
+
+/// A settled hanging wall of some 400 discs, made once.
+const State& hanging_wall() {
+    static const State state = [] {
+        GenesisRequest request;
+        request.hanging_wall.length = length;
+        request.hanging_wall.thickness = radius;
+        request.hanging_wall.mean_radius = 60.0;
+        request.base = make_listric_base();
+        request.materials = {Material{}, Material{}, Material{}};
+        request.bonds = BondStrength{};
+        request.physics = {0.7, gravity};
+        return make_hanging_wall(request, [](std::string_view, double) {});
+    }();
+    return state;
+}
+
+/// Nodes every 98 m, and a base that gives way over a distance of 1 km: C = c exp(-|s - t| / 1 km)
+/// in x and in y, which is positive definite.
+Interface make_interface(double compliance) {
+    const Chain chain = listric_chain(radius, 2.0 * length);
+    constexpr std::size_t nodes = 61;
+    constexpr double spacing = 0.5 * pi * radius / 24.0; // a face ends where the arc does
+    Interface interface;
+    for (std::size_t k = 0; k < nodes; ++k) {
+        const Point p = point_at(chain, spacing * static_cast<double>(k));
+        interface.x.push_back(p.x);
+        interface.y.push_back(p.y);
+    }
+    interface.compliance.assign(4 * nodes * nodes, 0.0);
+    for (std::size_t i = 0; i < nodes; ++i)
+        for (std::size_t k = 0; k < nodes; ++k)
+            for (std::size_t c = 0; c < 2; ++c)
+                interface.compliance[(2 * i + c) * 2 * nodes + 2 * k + c] =
+                    compliance *
+                    std::exp(-spacing * std::abs(static_cast<double>(i) - static_cast<double>(k)) /
+                             1e3);
+    return interface;
+}
+
+/// 1e-11 m per N/m: the weight of the hanging wall, 1.4e11 N/m, would bend it by about 1 m.
+constexpr double soft = 1e-11;
+
+struct Coupled {
+    RigidBase base = make_listric_base();
+    CyclePhysics physics{0.7, gravity};
+    State state = hanging_wall();
+    ElasticBase elastic;
+
+    explicit Coupled(double compliance, CouplingParameters p = {})
+        : elastic(make_interface(compliance), complete(p)) {
+        elastic.attach(state);
+        find_contacts(state, base);
+    }
+
+    static CouplingParameters complete(CouplingParameters p) {
+        p.wall_x = length;
+        p.gravity = gravity;
+        const std::vector<Material> discs{Material{}};
+        p.contact_stiffness = node_stiffness(Material{}, discs, 100.0, 60.0);
+        return p;
+    }
+
+    void settle() {
+        elastic.settle(state, base, physics, {1}, [](std::string_view, double) {});
+        physics.averaging_time = 50.0;
+        add_mean_velocities(state);
+    }
+    void go(std::int64_t cycles, const Execution& execution = {}) {
+        advance(state, base, physics, cycles, execution, &elastic);
+    }
+    double greatest_displacement() const { return greatest_node_displacement(base_place(state)); }
+};
+
+/// A base that was settled on, so that tests need not wait for it again.
+Coupled settled(double compliance, CouplingParameters p = {}) {
+    static const State state = [] {
+        Coupled first(soft);
+        first.settle();
+        return first.state;
+    }();
+    Coupled coupled(compliance, p);
+    coupled.state = state;
+    // Of all modes: memory is as large as the modes that are kept.
+    coupled.state.base_memory["modes"].resize(coupled.elastic.modes().count());
+    coupled.physics.averaging_time = 50.0;
+    return coupled;
+}
+
+TEST(ElasticBase, TransferKeepsForceMomentAndWork) {
+    Coupled coupled = settled(soft);
+    coupled.base.motion = {1.0, 1.0};
+    coupled.go(2000);
+    ASSERT_GT(coupled.greatest_displacement(), 0.01);
+    // And with a wall that is bent by metres.
+    for (const double bend : {0.0, 5.0}) {
+        const BaseNodeColumns nodes = base_node_columns(coupled.state);
+        Random random(3);
+        for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+            nodes.ux[k] += random.between(-bend, bend);
+            nodes.uy[k] += random.between(-bend, bend);
+        }
+        std::ranges::fill(coupled.state.base_contacts.get<double>("place"), -1.0);
+        const InterfaceBalance balance = interface_balance(coupled.state, coupled.base);
+        EXPECT_LT(balance.force_error, 1e-12);
+        EXPECT_LT(balance.moment_error, 1e-12);
+        EXPECT_LT(balance.work_error, 1e-12);
+        EXPECT_GT(force_balance(coupled.state, coupled.base, gravity).reaction[0].y, 0.0);
+    }
+}
+
+TEST(ElasticBase, NodesCollectTheReactionOfTheCycle) {
+    Coupled coupled(soft);
+    coupled.state.clock.cycle = 1; // no check, which might list anew
+    State before = coupled.state;
+    coupled.go(0);
+    advance(coupled.state, coupled.base, coupled.physics, 1, {1, Cycle::plain}, nullptr);
+    double y = 0.0;
+    for (const double load : base_node_columns(coupled.state).load_y)
+        y += load;
+    // The forces of a cycle are those at its start; shear forces are those after it.
+    for (std::size_t k = 0; k < before.base_contacts.rows(); ++k)
+        base_contact_columns(before).shear_force[k] =
+            base_contact_columns(coupled.state).shear_force[k];
+    const double reaction = force_balance(before, coupled.base, gravity).reaction[0].y;
+    EXPECT_NEAR(-y / reaction, 1.0, 1e-9);
+}
+
+TEST(ElasticBase, HeldNodesAreTheRigidBase) {
+    Coupled coupled(soft);
+    const double on_nodes = force_balance(coupled.state, coupled.base, gravity).reaction[0].y;
+    const double on_chain =
+        force_balance(hanging_wall(), make_listric_base(), gravity).reaction[0].y;
+    // The trace departs from the arc by h^4 / (100 R^3), 3e-4 m against overlaps of 0.05 m.
+    EXPECT_NEAR(on_nodes / on_chain, 1.0, 0.01);
+}
+
+TEST(ElasticBase, RigidIsTheLimit) {
+    std::vector<double> u;
+    for (const double factor : {1e-2, 1e-4, 1e-6}) {
+        Coupled coupled = settled(factor * soft);
+        coupled.base.motion = {1.0, 1.0};
+        coupled.go(1500);
+        u.push_back(coupled.greatest_displacement());
+    }
+    EXPECT_GT(u[0], 0.0);
+    // First order. The discs' paths part with the first bond that breaks a cycle earlier.
+    EXPECT_NEAR(std::log10(u[0] / u[1]), 2.0, 0.2);
+    EXPECT_NEAR(std::log10(u[1] / u[2]), 2.0, 0.2);
+}
+
+TEST(ElasticBase, RestsWithoutExtension) {
+    Coupled coupled = settled(soft);
+    coupled.go(20000);
+    // What is left of settling, 2e-5 of the load, and 1,000 times less than the load would bend.
+    EXPECT_LT(coupled.greatest_displacement(), 1e-3);
+    EXPECT_GT(coupled.greatest_displacement(), 0.0);
+}
+
+TEST(ElasticBase, RefusesALoadThatDrifts) {
+    Coupled coupled(soft);
+    // Nothing comes to rest as completely as this.
+    EXPECT_THROW(coupled.elastic.settle(
+                     coupled.state, coupled.base, coupled.physics, {1},
+                     [](std::string_view, double) {}, 1e-30),
+                 NumericalFailure);
+}
+
+TEST(ElasticBase, HasTheSameBitsWithAnyThreadsAndInParts) {
+    Coupled plain = settled(soft);
+    plain.base.motion = {1.0, 1.0};
+    plain.go(2500, {1, Cycle::plain});
+    for (const int threads : {1, 2, 3}) {
+        Coupled fast = settled(soft);
+        fast.base.motion = {1.0, 1.0};
+        for (const int part : {1, 3, 496, 2000}) // not multiples of the interval
+            fast.go(part, {threads, Cycle::fast});
+        EXPECT_EQ(hash(fast.state), hash(plain.state)) << threads;
+    }
+    EXPECT_GT(plain.greatest_displacement(), 0.01);
+}
+
+TEST(ElasticBase, AbsoluteDampingHasTheSameBitsToo) {
+    Coupled plain(soft), fast(soft);
+    for (Coupled* c : {&plain, &fast})
+        c->base.motion = {1.0, 1.0};
+    plain.go(500, {1, Cycle::plain});
+    fast.go(500, {2, Cycle::fast});
+    EXPECT_EQ(hash(fast.state), hash(plain.state));
+    EXPECT_FALSE(plain.state.discs.has("mean_vx"));
+}
+
+TEST(ElasticBase, IsStableAndForgetsTheScheme) {
+    // A load that is not balanced: a tenth of the reference is taken off. Whatever mass, interval
+    // and number of modes, it comes to rest where C (f - f0) says.
+    for (const double compliance : {soft, 100.0 * soft})
+        for (const auto& [interval, factor] :
+             {std::pair(1, 0.6), std::pair(5, 0.6), std::pair(20, 0.6), std::pair(5, 60.0)}) {
+            CouplingParameters p;
+            p.interval = interval;
+            p.mass_factor = factor;
+            Coupled coupled = settled(compliance, p);
+            for (double& load : coupled.state.base_nodes.get<double>("reference_load_y"))
+                load *= 0.9;
+            coupled.go(20000);
+            const double u = coupled.greatest_displacement();
+            const double before = u;
+            coupled.go(2000);
+            EXPECT_TRUE(std::isfinite(u));
+            EXPECT_GT(u, 0.0);
+            // Bounded by a few times the static answer to a tenth of the weight.
+            EXPECT_LT(u, 2.0e11 * compliance) << interval << " " << factor;
+            EXPECT_NEAR(coupled.greatest_displacement(), before, 0.05 * before)
+                << compliance << " " << interval << " " << factor;
+        }
+}
+
+TEST(ElasticBase, PressureIsKept) {
+    const Interface interface = make_interface(soft);
+    for (const auto& [from, to] : {std::pair(4000.0, 4123.0), std::pair(4000.0, 4600.0),
+                                   std::pair(3990.0, 4000.0), std::pair(4000.0, 4000.0)}) {
+        double force = 0.0, moment = 0.0;
+        const std::vector<double> forces = pressure_forces(interface, from, to);
+        for (std::size_t k = 0; k < forces.size(); ++k) {
+            force += forces[k];
+            moment += forces[k] * interface.x[k];
+        }
+        EXPECT_NEAR(force, to - from, 1e-9);
+        EXPECT_NEAR(moment, 0.5 * (to * to - from * from), 1e-5);
+    }
+}
+
+TEST(ElasticBase, ModesGiveTheComplianceBack) {
+    const Interface interface = make_interface(soft);
+    const std::size_t n = interface.unknowns();
+    const Modes modes = find_modes(interface.compliance, n);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < n; ++k) {
+            double sum = 0.0;
+            for (std::size_t m = 0; m < n; ++m)
+                sum += modes.by_unknown[i * n + m] * modes.compliance[m] * modes.by_mode[m * n + k];
+            worst = std::max(worst, std::abs(sum - interface.compliance[i * n + k]));
+        }
+    EXPECT_LT(worst, 1e-13 * soft * static_cast<double>(n));
+    EXPECT_TRUE(std::ranges::is_sorted(modes.compliance, std::greater()));
+    std::vector<double> wrong = interface.compliance;
+    wrong[1] += soft;
+    EXPECT_THROW(find_modes(wrong, n), std::invalid_argument);
+    std::ranges::fill(wrong, 0.0);
+    EXPECT_THROW(find_modes(wrong, n), std::invalid_argument);
+}
+
+} // namespace
+} // namespace listric
