@@ -210,7 +210,19 @@ std::vector<Parameter> parameters(ElasticBaseParameters& p) {
         {"skin_thickness_m", &p.skin_thickness, "m", {.from = 0, .to = 1e5}, "",
          "rock along the detachment that keeps its shear modulus below the elastic thickness"},
         {"cell_size_m", &p.cell_size, "m", {.above = 0, .to = 1e5}, "",
-         "elements at the detachment"},
+         "elements at the detachment; its default depends on the accuracy"},
+        {"refinements", &p.refinements, "", {.from = 0, .to = 6}, "",
+         "times that all elements are halved on top"},
+        {"layers", &p.layers, "", {}, "",
+         "rock by depth, the first from 0: {top_depth_m, young_modulus_pa, poisson_ratio, density_kg_per_m3}; none: one of the values above"},
+        {"mesh_file", &p.mesh_file, "", {}, "",
+         "Gmsh mesh (.msh, format 2.2) of the footwall, instead of elements made from the detachment"},
+        {"left_side", one_of({"free", "roller", "elastic"}, p.left_side), "", {}, "",
+         "nothing holds it, rollers do, or springs like as much rock again"},
+        {"right_side", one_of({"free", "roller", "elastic"}, p.right_side), "", {}, "",
+         "the same of the other far side"},
+        {"solver", one_of({"mumps", "boomeramg", "gamg"}, p.solver), "", {}, "",
+         "factors, which a base under discs needs, or multigrid for large ones without discs"},
         {"scheme", one_of({"modal", "lumped", "staggered"}, p.scheme), "", {}, "",
          "how base and discs advance together"},
         {"update_interval_cycles", &p.update_interval, "", {.from = 1, .to = 1e6}, "",
@@ -223,6 +235,39 @@ std::vector<Parameter> parameters(ElasticBaseParameters& p) {
          "of discs: against their mean motion, or as PFC does, which holds sinking rock up"},
         {"damping_averaging_time_s", &p.averaging_time, "s", {.above = 0, .to = 1e9}, "",
          "model time over which the mean motion of a disc is taken"},
+    };
+}
+
+std::vector<Parameter> parameters(LowerCrustThinningParameters& p) {
+    return {
+        {"thickness_m", &p.thickness, "m", {.above = 0, .to = 1e5}, "",
+         "of the lower crust before extension"},
+        {"width_m", &p.width, "m", {.from = 1e3, .to = 1e7}, "",
+         "over which it stretches by as much as the hanging wall is pulled out"},
+        {"centre_m", &p.centre, "m", {.from = -1e7, .to = 1e7}, "",
+         "x of its middle before extension"},
+    };
+}
+
+std::vector<Parameter> parameters(FootwallErosionParameters& p) {
+    return {
+        {"interval_a", &p.interval, "a", years, "", "time between adaptations of the surface"},
+        {"level_m", &p.level, "m", {.from = -1e5, .to = 1e5}, "",
+         "of the target, above the original surface, where no target line is given"},
+        {"target", &p.target, "", {.from = -1e5, .to = 1e5}, "",
+         "target line: points [x, y] in m, or stages {time_a, points}"},
+        {"width_m", &p.width, "m", {.from = 4e3, .to = 1e7}, "",
+         "of the footwall, left of the breakaway, that is worked on"},
+        {"sediment_density_kg_per_m3", &p.sediment_density, "kg/m3", density, "",
+         "of what is laid down where the footwall sinks"},
+    };
+}
+
+std::vector<Parameter> parameters(BaseMotionParameters& p) {
+    return {
+        {"uplift", &p.uplift, "", {.from = -1e5, .to = 1e5}, "",
+         "upward displacement of the detachment: points [x, uplift] in m, or stages {time_a, points}; what counts is the change since time 0"},
+        {"shift", &p.shift, "", {.from = -1e5, .to = 1e5}, "", "the same to the right"},
     };
 }
 
@@ -263,10 +308,10 @@ SceneTable effect(std::string_view name, std::string_view doc, std::optional<Par
 
 std::span<const AccuracyLevel> accuracy_levels() {
     static constexpr std::array<AccuracyLevel, 4> levels{
-        {{"draft", 186.2, 1.25},
-         {"standard", 93.1, 1.0},
-         {"fine", 46.55, 1.0},
-         {"sandbox", 18.62, 1.0}}};
+        {{"draft", 186.2, 2000.0, 1.25},
+         {"standard", 93.1, 1000.0, 1.0},
+         {"fine", 46.55, 500.0, 1.0},
+         {"sandbox", 18.62, 500.0, 1.0}}};
     return levels;
 }
 
@@ -290,6 +335,15 @@ std::vector<SceneTable> scene_tables(Scene& scene) {
     const Parameter target_csv{"target_csv", &scene.target_csv, "", {}, "",
                                "file with the target line: columns time_a, x_m, y_m; linear between times"};
     sedimentation.parameters.push_back(target_csv);
+    SceneTable erosion = effect("footwall_erosion",
+                                "the footwall's surface adapts to a target: what rises is eroded, what sinks filled",
+                                scene.footwall_erosion);
+    erosion.parameters.push_back({"target_csv", &scene.footwall_target_csv, "", {}, "",
+                                  "file with the target line: columns time_a, x_m, y_m; linear between times"});
+    SceneTable motion = effect("base_motion", "the detachment moves as prescribed; needs no finite elements",
+                               scene.base_motion);
+    motion.parameters.push_back({"csv", &scene.base_motion_csv, "", {}, "",
+                                 "file with the motion: columns time_a, x_m and uplift_m, or dx_m and dy_m"});
     return {
         table("hanging_wall", "the block that slides and breaks, before extension",
               scene.hanging_wall),
@@ -308,6 +362,10 @@ std::vector<SceneTable> scene_tables(Scene& scene) {
         sedimentation,
         effect("compaction", "sediment loses pore space with burial", scene.compaction),
         effect("elastic_base", "footwall and basement bend and float", scene.elastic_base),
+        effect("lower_crust_thinning", "the lower crust stretches, mantle rises: isostasy lowers the base",
+               scene.lower_crust_thinning),
+        erosion,
+        motion,
         table("flexure", "a load on the elastic base alone, without discs", scene.flexure),
     };
 }
@@ -320,6 +378,18 @@ std::vector<Parameter> parameters(Material& p) {
          "shear stiffness of one disc"},
         {"friction", &p.friction, "", friction, "mu_d",
          "of a disc; a contact has the smaller of its two discs'"},
+    };
+}
+
+std::vector<Parameter> parameters(fem::Layer& p) {
+    return {
+        {"top_depth_m", &p.top_depth, "m", {.from = 0, .to = 1e6}, "", "where it begins"},
+        {"young_modulus_pa", &p.young_modulus, "Pa", {.from = 1e6, .to = 1e13}, "E",
+         "Young's modulus"},
+        {"poisson_ratio", &p.poisson_ratio, "", {.from = 0, .below = 0.5}, "nu",
+         "Poisson's ratio"},
+        {"density_kg_per_m3", &p.density, "kg/m3", density, "",
+         "for pictures; what carries is crust_density_kg_per_m3"},
     };
 }
 
@@ -390,6 +460,9 @@ std::string type_of(const Parameter& parameter) {
         }
         std::string operator()(const std::vector<TargetStage>*) const {
             return "array of points [x, y], or of {time_a = ..., points = [[x, y], ...]}";
+        }
+        std::string operator()(const std::vector<fem::Layer>*) const {
+            return "array of {top_depth_m = ..., young_modulus_pa = ..., ...}";
         }
     } name;
     return std::visit(name, parameter.variable);

@@ -31,9 +31,9 @@ struct Choice {
 };
 
 /// The variable behind a parameter.
-using Variable =
-    std::variant<double*, std::optional<double>*, int*, std::uint64_t*, std::string*, Choice,
-                 std::vector<double>*, std::vector<DetachmentSegment>*, std::vector<TargetStage>*>;
+using Variable = std::variant<double*, std::optional<double>*, int*, std::uint64_t*, std::string*,
+                              Choice, std::vector<double>*, std::vector<DetachmentSegment>*,
+                              std::vector<TargetStage>*, std::vector<fem::Layer>*>;
 
 /// The one declaration of a parameter: reading, writing and the reference follow from it.
 /// A default outside the range means that the parameter must be given.
@@ -60,6 +60,7 @@ struct SceneTable {
 struct AccuracyLevel {
     std::string_view name;
     double mean_radius; ///< of the hanging wall's discs, m
+    double cell_size;   ///< of an elastic base at the detachment, m
     double speed;       ///< of extension, m/s: unbalanced forces stay below 4e-3 of contact forces
 };
 std::span<const AccuracyLevel> accuracy_levels();
@@ -73,6 +74,9 @@ std::vector<SceneTable> scene_tables(Scene& scene);
 
 /// The parameters of one arc or line of the detachment.
 std::vector<Parameter> parameters(DetachmentSegment& segment);
+
+/// The parameters of one layer of the elastic base.
+std::vector<Parameter> parameters(fem::Layer& layer);
 
 /// Microproperties, [material]: of a scene's basement or of a material file.
 std::vector<Parameter> parameters(Material& material);

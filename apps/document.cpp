@@ -156,6 +156,15 @@ struct Reader {
 
     void operator()(std::vector<TargetStage>* x) const { *x = read_target(entry, parameter); }
 
+    void operator()(std::vector<fem::Layer>* x) const {
+        x->clear();
+        for (const toml::node& node : array(entry, parameter)) {
+            fem::Layer layer;
+            read_table({node, item_path(x->size())}, parameters(layer));
+            x->push_back(layer);
+        }
+    }
+
 private:
     template <class Integer> void read_integer(Integer* x) const {
         if (!entry.node.is_integer())
@@ -408,6 +417,7 @@ struct Writer {
         return fmt::format("[{}]", fmt::join(items, ", "));
     }
     std::string operator()(const std::vector<DetachmentSegment>* x) const;
+    std::string operator()(const std::vector<fem::Layer>* x) const;
     std::string operator()(const std::vector<TargetStage>* x) const {
         const auto points = [](const TargetStage& stage) {
             std::vector<std::string> items;
@@ -431,19 +441,29 @@ std::string write(const Parameter& parameter) {
     return std::visit(Writer{parameter.per_si}, parameter.variable);
 }
 
+std::string inline_table(const std::vector<Parameter>& parameters) {
+    std::vector<std::string> pairs;
+    for (const Parameter& parameter : parameters) {
+        if (const std::string value = write(parameter); !value.empty())
+            pairs.push_back(fmt::format("{} = {}", parameter.key, value));
+    }
+    return fmt::format("{{{}}}", fmt::join(pairs, ", "));
+}
+
 std::string Writer::operator()(const std::vector<DetachmentSegment>* x) const {
     std::string lines;
-    for (DetachmentSegment segment : *x) {
-        std::vector<std::string> pairs;
-        for (const Parameter& parameter : parameters(segment)) {
-            if (const std::string value = write(parameter); !value.empty())
-                pairs.push_back(fmt::format("{} = {}", parameter.key, value));
-        }
-        lines += fmt::format("    {{{} = {{{}}}}},\n",
+    for (DetachmentSegment segment : *x)
+        lines += fmt::format("    {{{} = {}}},\n",
                              segment.kind == DetachmentSegment::Kind::arc ? "arc" : "line",
-                             fmt::join(pairs, ", "));
-    }
+                             inline_table(parameters(segment)));
     return lines.empty() ? "[]" : fmt::format("[\n{}]", lines);
+}
+
+std::string Writer::operator()(const std::vector<fem::Layer>* x) const {
+    std::string lines;
+    for (fem::Layer layer : *x)
+        lines += fmt::format("    {},\n", inline_table(parameters(layer)));
+    return lines.empty() ? "" : fmt::format("[\n{}]", lines);
 }
 
 } // namespace

@@ -90,9 +90,9 @@ RigidBase make_base(const Scene& s) {
         {"backstop", {line({0.0, high}, {0.0, 0.0})}},
         right_wall,
     };
-    if (s.elastic_base) {
+    if (s.elastic_base || s.base_motion) {
         base.surfaces[0].follows = Follows::nodes;
-        base.surfaces[0].degree = s.elastic_base->degree;
+        base.surfaces[0].degree = s.elastic_base ? s.elastic_base->degree : 2;
         base.surfaces[1].follows = Follows::breakaway;
     }
     return base;
@@ -114,6 +114,12 @@ std::vector<std::string> effect_names(const Scene& s) {
         names.push_back("compaction");
     if (s.elastic_base)
         names.push_back("elastic_base");
+    if (s.lower_crust_thinning)
+        names.push_back("lower_crust_thinning");
+    if (s.footwall_erosion)
+        names.push_back("footwall_erosion");
+    if (s.base_motion)
+        names.push_back("base_motion");
     return names;
 }
 

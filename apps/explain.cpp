@@ -51,7 +51,7 @@ std::string explain_flexure(const Scene& scene) {
 std::string explain_elastic_base(const Scene& scene) {
     const ElasticBaseParameters& base = *scene.elastic_base;
     constexpr const char* schemes[] = {"modal", "lumped", "staggered"};
-    return fmt::format(
+    std::string text = fmt::format(
         "elastic base\n"
         "  Te {:g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "
         "1/{:g},\n  but not within {:g} km of the detachment; scheme {}, every {} cycles\n"
@@ -61,15 +61,31 @@ std::string explain_elastic_base(const Scene& scene) {
         "    wall is; the wall takes this weight along\n"
         "    springs (density x gravity) where rock of other density moves in: {} kg/m3 above the\n"
         "    footwall and on the detachment, {} kg/m3 at the base\n"
-        "    {}\n"
-        "  not in the model: erosion of the footwall, water, thinning of the lower crust,\n"
-        "  friction of the right wall; what leans on the backstop above the breakaway\n",
+        "    {}\n",
         base.elastic_thickness / 1e3, base.depth / 1e3, base.left / 1e3, base.right / 1e3,
         base.relaxation, base.skin_thickness / 1e3, schemes[static_cast<int>(base.scheme)],
         base.update_interval, base.crust_density, base.mantle_density - base.crust_density,
         base.infill_density > 0.0
             ? fmt::format("{} kg/m3 on the footwall's surface where it sinks", base.infill_density)
-            : std::string("nothing fills what sinks of the footwall's surface"));
+            : std::string("no infill of what sinks of the footwall's surface"));
+    if (const auto& thinning = scene.lower_crust_thinning) {
+        const double thinner = lower_crust_thinning(*thinning, scene.extension.distance);
+        text += fmt::format(
+            "    lower crust: {:g} km over {:g} km thins by {:.0f} m in the end; the mantle in its "
+            "place\n    lowers a wide area by {:.0f} m\n",
+            thinning->thickness / 1e3, thinning->width / 1e3, thinner,
+            thinner * (base.mantle_density - base.crust_density) / base.mantle_density);
+    }
+    if (const auto& erosion = scene.footwall_erosion)
+        text += fmt::format("    footwall: over {:g} km to its target every {:g} a; {} kg/m3 go, "
+                            "{} kg/m3 come\n",
+                            erosion->width / 1e3, erosion->interval, base.crust_density,
+                            erosion->sediment_density);
+    return text + fmt::format("  not in the model: {}{}water,\n"
+                              "  friction of the right wall; what leans on the backstop above the "
+                              "breakaway\n",
+                              scene.footwall_erosion ? "" : "erosion of the footwall, ",
+                              scene.lower_crust_thinning ? "" : "thinning of the lower crust, ");
 }
 
 std::string explain(const Scene& scene) {
@@ -102,6 +118,9 @@ std::string explain(const Scene& scene) {
     add("");
     if (scene.elastic_base)
         add("{}", explain_elastic_base(scene));
+    if (scene.base_motion)
+        add("the detachment moves as prescribed, at up to {:.2g} of the speed of extension\n",
+            greatest_base_speed(*scene.base_motion, scene.extension.rate));
     add("on this machine, {} threads ({:.0f} million disc-steps per second)", threads, rate / 1e6);
     add("  {:<10} {:>10} {:>9} {:>12} {:>9}", "accuracy", "radius, m", "discs", "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {

@@ -78,6 +78,7 @@ Case make_case(const Scene& scene) {
     c.request.surface_spring = (base.crust_density - base.infill_density) * gravity;
     c.request.base_spring = (base.mantle_density - base.crust_density) * gravity;
     c.request.degree = base.degree;
+    c.request.solver = base.solver;
     c.request.cell_size = te / base.cells;
     c.plate = {base.young_modulus, base.poisson_ratio, te,
                (base.mantle_density - base.infill_density) * gravity};

@@ -20,6 +20,31 @@ namespace {
 // relaxed flows, and only its bulk is still meant.
 constexpr double relaxed_strain_allowed = 0.10;
 
+/// Of mantle and crust, times gravity, Pa/m.
+double mantle_contrast(const Scene& scene) {
+    const ElasticBaseParameters& base = *scene.elastic_base;
+    return (base.mantle_density - base.crust_density) * scene.gravity->acceleration;
+}
+
+FootwallErosionParameters erosion_parameters(const Scene& scene) {
+    FootwallErosionParameters erosion = *scene.footwall_erosion;
+    erosion.rock_density = scene.elastic_base->crust_density;
+    return erosion;
+}
+
+/// Forces on the interface that displace it as each of the rows, by rows.
+std::vector<double> equivalent_forces(const ElasticBase& base, std::span<const double> rows) {
+    const std::size_t unknowns = base.interface().unknowns();
+    std::vector<double> forces;
+    for (std::size_t first = 0; first < rows.size(); first += unknowns)
+        std::ranges::move(base.forces_for(rows.subspan(first, unknowns)),
+                          std::back_inserter(forces));
+    return forces;
+}
+
+/// Name of the table of the mean forces and displacements of the window that ended last.
+constexpr const char* last_window = "last_window";
+
 std::string moment_name(double extension) { return fmt::format("footwall-{:08.2f}m", extension); }
 
 } // namespace
@@ -31,8 +56,14 @@ FootwallCoupling::FootwallCoupling(const Scene& scene) : scene_(scene) {
         const std::size_t last = interface.x.size() - 1;
         const double spacing = std::hypot(interface.x[last] - interface.x[last - 1],
                                           interface.y[last] - interface.y[last - 1]);
+        const std::size_t unknowns = interface.unknowns();
         base_ = std::make_unique<ElasticBase>(std::move(interface),
                                               make_coupling_parameters(scene, spacing));
+        const auto& erosion = scene.footwall_erosion;
+        const auto& thinning = scene.lower_crust_thinning;
+        responses_ = solve_footwall_loads(*footwall_, unknowns, erosion ? &*erosion : nullptr,
+                                          scene.elastic_base->left, thinning ? &*thinning : nullptr,
+                                          mantle_contrast(scene), scene.extension.distance);
     } catch (const fem::FootwallError& error) {
         throw UsageError(fmt::format("elastic_base: {}", error.what()));
     }
@@ -54,11 +85,82 @@ std::vector<std::string> FootwallCoupling::description() const {
                         mesh.cells, mesh.unknowns, base_->interface().x.size())};
 }
 
+double FootwallCoupling::share_of_extension(const State& state) const {
+    return state.clock.extension / responses_.crust.distance;
+}
+
+std::vector<std::unique_ptr<Event>> FootwallCoupling::make_events() {
+    std::vector<std::unique_ptr<Event>> events;
+    const double rate = scene_.extension.rate;
+    const LowerCrustResponse& crust = responses_.crust;
+    if (scene_.lower_crust_thinning)
+        events.push_back(std::make_unique<LowerCrustThinning>(
+            crust, equivalent_forces(*base_, crust.interface), rate));
+    if (scene_.footwall_erosion) {
+        const SurfaceResponse& surface = responses_.surface;
+        const auto uplift = [this, &surface, &crust](const State& state) {
+            std::vector<double> result = surface.uplift_by(disc_forces(*base_, state));
+            if (scene_.lower_crust_thinning) {
+                const auto sinks =
+                    LowerCrustResponse::at(crust.uplift, crust.steps, share_of_extension(state));
+                std::ranges::transform(result, sinks, result.begin(), std::plus());
+            }
+            return result;
+        };
+        auto erosion = std::make_unique<FootwallErosion>(
+            surface, equivalent_forces(*base_, surface.interface), uplift,
+            erosion_parameters(scene_), scene_.gravity->acceleration, rate);
+        erosion_ = erosion.get();
+        events.push_back(std::move(erosion));
+    }
+    return events;
+}
+
+/// What acts on the footwall elsewhere than on the interface.
+fem::Load FootwallCoupling::other_loads(const State& state) const {
+    std::vector<fem::Load> loads;
+    if (scene_.lower_crust_thinning)
+        loads.push_back(lower_crust_load(*scene_.lower_crust_thinning, mantle_contrast(scene_),
+                                         state.clock.extension));
+    if (erosion_)
+        loads.push_back(erosion_->load());
+    fem::Load sum;
+    if (!loads.empty())
+        sum.traction = [loads](fem::Vector place, fem::Vector normal, fem::Boundary boundary) {
+            fem::Vector traction;
+            for (const fem::Load& load : loads) {
+                const fem::Vector t = load.traction(place, normal, boundary);
+                traction.x += t.x;
+                traction.y += t.y;
+            }
+            return traction;
+        };
+    return sum;
+}
+
 void FootwallCoupling::recover(const State& state) {
-    fem::Load load;
-    load.interface = base_->holding_forces(state);
+    fem::Load load = other_loads(state);
+    load.interface = disc_forces(*base_, state);
     load.interface.resize(2 * footwall_->interface().size(), 0.0);
     footwall_->solve(load);
+}
+
+std::optional<FootwallCoupling::Check> FootwallCoupling::check(const State& state) const {
+    const auto means = state.base_memory.find(last_window);
+    if (means == state.base_memory.end())
+        return std::nullopt;
+    const auto force = means->second.get<double>("force");
+    std::vector<double> all(force.begin(), force.end());
+    add_footwall_loads(state, all);
+    try {
+        const IndependentSolution fine = solve_independently(
+            make_footwall_request(scene_), base_->interface(), force, other_loads(state));
+        return Check{
+            fine.unknowns, relative_difference(base_->displacement(all), fine.displacement),
+            relative_difference(means->second.get<double>("displacement"), fine.displacement)};
+    } catch (const fem::FootwallError& error) {
+        throw UsageError(fmt::format("elastic_base: {}", error.what()));
+    }
 }
 
 std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& state,
@@ -71,6 +173,8 @@ std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& 
     double deflection = 0.0;
     for (const double u : nodes.uy)
         deflection = std::max(deflection, std::abs(u));
+    if (window.cycles > 0.0)
+        state.base_memory[last_window] = base_->window_means(state);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const bool loaded = std::abs(window.weight_change) > 0.0;
     std::vector<std::pair<std::string, double>> row = {
@@ -87,6 +191,14 @@ std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& 
         {"strong_rock_strain_max", guard.strong_gradient},
         {"relaxed_rock_strain_max", guard.relaxed_gradient},
     };
+    if (scene_.lower_crust_thinning)
+        row.emplace_back("lower_crust_thinning_m",
+                         lower_crust_thinning(*scene_.lower_crust_thinning, state.clock.extension));
+    if (erosion_) {
+        const auto [eroded, deposited] = erosion_->areas();
+        row.emplace_back("footwall_eroded_m2", eroded);
+        row.emplace_back("footwall_deposited_m2", deposited);
+    }
     base_->begin_window(state);
     if (!(guard.relaxed_gradient <= relaxed_strain_allowed) ||
         !std::isfinite(guard.strong_gradient))
@@ -149,6 +261,10 @@ std::vector<std::pair<std::string, double>> footwall_summary(const Table& histor
         measures.emplace_back(name, column(name).back());
     for (const char* name : {"strong_rock_strain_max", "relaxed_rock_strain_max"})
         measures.emplace_back(name, largest(name));
+    for (const char* name :
+         {"lower_crust_thinning_m", "footwall_eroded_m2", "footwall_deposited_m2"})
+        if (history.has(name))
+            measures.emplace_back(name, column(name).back());
     return measures;
 }
 

@@ -2,6 +2,8 @@
 
 #include "apps/scene.hpp"
 #include "coupling/elastic_base.hpp"
+#include "coupling/footwall_loads.hpp"
+#include "coupling/independent_solution.hpp"
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 #include "fem/footwall.hpp"
@@ -9,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +27,18 @@ public:
 
     ElasticBase& base() { return *base_; }
 
+    /// Effects that load the footwall, for the run to apply: to be called once.
+    std::vector<std::unique_ptr<Event>> make_events();
+
+    /// Solves for the base under the mean forces of the last window on a mesh twice as fine; none
+    /// before a window has ended.
+    struct Check {
+        std::size_t unknowns; ///< of that mesh
+        double elements;      ///< from the run's own elements under the same forces
+        double base;          ///< from the base's mean displacement in that window
+    };
+    std::optional<Check> check(const State& state) const;
+
     /// What is said in the log about it, a line each.
     std::vector<std::string> description() const;
 
@@ -38,8 +53,12 @@ public:
 
 private:
     void recover(const State& state);
+    double share_of_extension(const State& state) const;
+    fem::Load other_loads(const State& state) const;
 
     const Scene& scene_;
+    FootwallResponses responses_;
+    const FootwallErosion* erosion_ = nullptr; ///< of the run's events
     std::unique_ptr<fem::Footwall> footwall_;
     std::unique_ptr<ElasticBase> base_;
 };

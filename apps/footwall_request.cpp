@@ -19,7 +19,14 @@ fem::FootwallRequest make_footwall_request(const Scene& scene) {
     request.left = base.left;
     request.right = base.right;
     request.depth = base.depth;
-    request.layers = {{0.0, base.young_modulus, base.poisson_ratio, base.crust_density}};
+    request.layers = base.layers;
+    if (request.layers.empty())
+        request.layers = {{0.0, base.young_modulus, base.poisson_ratio, base.crust_density}};
+    request.mesh_file = base.mesh_file;
+    request.left_side = base.left_side;
+    request.right_side = base.right_side;
+    request.solver = base.solver;
+    request.refinements = base.refinements;
     request.elastic_thickness = base.elastic_thickness;
     request.relaxation = base.relaxation;
     request.skin_thickness = base.skin_thickness;

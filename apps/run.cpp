@@ -50,7 +50,8 @@ struct Run {
     RigidBase base;
     CyclePhysics physics;
     std::vector<std::unique_ptr<Event>> events;
-    std::unique_ptr<FootwallCoupling> footwall; ///< none: the base is rigid
+    std::unique_ptr<FootwallCoupling> footwall; ///< none: the base does not respond
+    std::unique_ptr<BaseMotion> base_motion;    ///< none: it is not prescribed
     State state;
     RunRecord record;
     SteadyClock::time_point started = SteadyClock::now();
@@ -64,6 +65,9 @@ struct Run {
           events(make_events(s)) {
         if (s.elastic_base && s.elastic_base->relative_damping)
             physics.averaging_time = s.elastic_base->averaging_time;
+        if (s.base_motion)
+            base_motion =
+                std::make_unique<BaseMotion>(*s.base_motion, base.motion, s.extension.rate);
     }
 
     double wall_seconds() const { return seconds_before + seconds_since(started); }
@@ -147,6 +151,9 @@ fs::path cache_path(const Scene& scene) {
     start.sedimentation.reset();
     start.compaction.reset();
     start.elastic_base.reset();
+    start.lower_crust_thinning.reset();
+    start.footwall_erosion.reset();
+    start.base_motion.reset();
     std::uint64_t key = 1469598103934665603u; // FNV-1a
     const auto stir = [&](std::string_view text) {
         for (char letter : text)
@@ -214,6 +221,19 @@ void make_footwall(Run& run, Voice& voice) {
     run.footwall = std::make_unique<FootwallCoupling>(run.scene);
     for (const std::string& line : run.footwall->description())
         voice.say(line);
+    std::ranges::move(run.footwall->make_events(), std::back_inserter(run.events));
+}
+
+/// Gives a detachment whose motion is prescribed the nodes that it moves by.
+void attach_base_motion(Run& run) {
+    constexpr double face = 1000.0; // m: arcs are followed to millimetres
+    const auto nodes = detachment_nodes(run.base.surfaces.front().chain, face);
+    std::vector<double> x, y;
+    for (const Point& node : nodes) {
+        x.push_back(node.x);
+        y.push_back(node.y);
+    }
+    add_base_nodes(run.state, x, y);
 }
 
 Execution execution(const Run& run) {
@@ -237,10 +257,13 @@ void settle_on_base(Run& run, Voice& voice) {
 }
 
 void begin(Run& run, Voice& voice) {
-    make_footwall(run, voice);
+    if (!run.footwall)
+        make_footwall(run, voice);
     run.state = make_state(run, voice);
     if (run.footwall)
         settle_on_base(run, voice);
+    if (run.base_motion)
+        attach_base_motion(run);
     for (auto& event : run.events)
         event->begin(run.state);
     find_contacts(run.state, run.base);
@@ -251,6 +274,8 @@ void begin(Run& run, Voice& voice) {
 bool restore(Run& run, Voice& voice) {
     std::vector<fs::path> snapshots = list_snapshots(run.options.output);
     for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
+        if (!run.footwall)
+            make_footwall(run, voice); // its effects are handed their memories
         try {
             Snapshot snapshot = read_snapshot(*path);
             hand_over(snapshot, run.events);
@@ -259,7 +284,6 @@ bool restore(Run& run, Voice& voice) {
             for (const auto& [part, seconds] : run.record.seconds_by_part)
                 run.seconds_before += seconds;
             run.kept = *path;
-            make_footwall(run, voice);
             voice.say(fmt::format("resuming at {:.2f} m of extension from {}",
                                   run.state.clock.extension, path->string()));
             return true;
@@ -302,7 +326,8 @@ void cycle_toward(Run& run, double extension) {
         std::clamp(std::floor(wanted), 1.0, std::max(1.0, std::floor(2e7 / discs))));
     ElasticBase* const base = run.footwall ? &run.footwall->base() : nullptr;
     const double before = base ? base->seconds : 0.0;
-    advance(run.state, run.base, run.physics, batch, execution(run), base);
+    BaseResponse* const response = base ? static_cast<BaseResponse*>(base) : run.base_motion.get();
+    advance(run.state, run.base, run.physics, batch, execution(run), response);
     if (base) {
         run.record.seconds_by_part["base"] += base->seconds - before;
         run.record.seconds_by_part["cycle"] -= base->seconds - before;
@@ -376,6 +401,20 @@ std::string quoted(const std::string& word) {
     for (char letter : word)
         result += letter == '\'' ? "'\\''" : std::string(1, letter);
     return result + "'";
+}
+
+/// Solves for the base once more on a finer mesh.
+void check_base(Run& run, Voice& voice) {
+    if (!run.footwall)
+        return;
+    const Stopwatch watch(run.record, "base");
+    if (const auto fine = run.footwall->check(run.state)) {
+        run.record.base_elements_difference = fine->elements;
+        run.record.base_resolved_difference = fine->base;
+        voice.say(fmt::format("the base under the last window's mean forces, solved again with {} "
+                              "unknowns: the run's elements are {:.2f} % off, its base {:.2f} %",
+                              fine->unknowns, 100.0 * fine->elements, 100.0 * fine->base));
+    }
 }
 
 std::string resume_hint(const fs::path& output) {
@@ -604,6 +643,7 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
         draw_sheet(run, voice);
         const Measures measures = measure(scene, run.state, run.base, run.events);
         const FaultReport faults = report_faults(run);
+        check_base(run, voice);
         write_text(output / "summary.json",
                    summary_json(scene, options.threads, run.state, run.record, measures, faults,
                                 run.wall_seconds(), run_hash(run.state, run.events)));

@@ -144,6 +144,52 @@ bool read_materials(Scene& scene, const toml::table& document, const fs::path& f
     return basement.bonds.has_value();
 }
 
+// ----------------------------------------------------------------------------------- other files
+
+/// The value at `path`, or else its table, or else the document.
+Entry entry_at(const toml::table& document, const std::string& path);
+
+/// Reads the files that parameters name into what they stand for.
+void read_files(Scene& scene, const toml::table& document, const fs::path& folder) {
+    const auto find = [&](const std::string& name, const std::string& key) {
+        const Entry entry = entry_at(document, key);
+        const std::string file = located(name, &entry.node, folder);
+        std::error_code error;
+        if (!fs::is_regular_file(file, error))
+            fail(entry, fmt::format("{}: no such file", file));
+        return file;
+    };
+    const auto read_line = [&](std::string& name, const std::string& table,
+                               std::vector<TargetStage>& target) {
+        if (name.empty())
+            return;
+        const std::string key = table + ".target_csv";
+        if (!target.empty())
+            fail(entry_at(document, key), fmt::format("beside {}.target; give one of them", table));
+        target = read_target_csv(find(name, key));
+        name.clear();
+    };
+    read_line(scene.target_csv, "sedimentation", scene.sedimentation->target);
+    read_line(scene.footwall_target_csv, "footwall_erosion", scene.footwall_erosion->target);
+    if (!scene.base_motion_csv.empty()) {
+        BaseMotionParameters& motion = *scene.base_motion;
+        if (!motion.uplift.empty() || !motion.shift.empty())
+            fail(entry_at(document, "base_motion.csv"),
+                 "beside base_motion.uplift or shift; give one of them");
+        const std::string file = find(scene.base_motion_csv, "base_motion.csv");
+        if (csv_has_column(file, "dx_m") || csv_has_column(file, "dy_m")) {
+            motion.shift = read_target_csv(file, "dx_m");
+            motion.uplift = read_target_csv(file, "dy_m");
+        } else {
+            motion.uplift = read_target_csv(file, "uplift_m");
+        }
+        scene.base_motion_csv.clear();
+    }
+    if (!scene.elastic_base->mesh_file.empty())
+        scene.elastic_base->mesh_file =
+            fs::absolute(find(scene.elastic_base->mesh_file, "elastic_base.mesh_file")).string();
+}
+
 // ------------------------------------------------------------------------- checks between tables
 
 /// The value at `path`, or else its table, or else the document.
@@ -274,11 +320,33 @@ void check_elastic_base(const Scene& scene, const toml::table& document) {
         fail(entry_at(document, "elastic_base.right_m"),
              fmt::format("is {}, allowed: above {}, beyond the right wall's last position",
                          text(base.right), text(reach)));
+    if (base.solver != fem::Solver::mumps)
+        fail(entry_at(document, "elastic_base.solver"),
+             "makes no factors, which a base under discs is condensed with; allowed: mumps");
+    if (scene.footwall_erosion && base.infill_density > 0.0)
+        fail(entry_at(document, "footwall_erosion"),
+             "fills hollows itself; elastic_base.infill_density_kg_per_m3 must be 0 beside it");
     try {
         fem::check(make_footwall_request(scene));
     } catch (const fem::FootwallError& error) {
         fail(entry_at(document, "elastic_base"), error.what());
     }
+}
+
+void check_base_motion(const Scene& scene, const toml::table& document) {
+    // Discs follow a base that moves as fast as the right wall; much faster is an impact.
+    constexpr double fastest = 5.0;
+    if (scene.elastic_base)
+        fail(entry_at(document, "base_motion"),
+             "beside [elastic_base]; the detachment is either prescribed or responds, give one");
+    if (scene.base_motion->uplift.empty() && scene.base_motion->shift.empty())
+        fail(entry_at(document, "base_motion"), "needs csv, or uplift or shift");
+    const double speed = greatest_base_speed(*scene.base_motion, scene.extension.rate);
+    if (speed > fastest)
+        fail(entry_at(document, "base_motion"),
+             fmt::format("moves {:.3g} times as fast as extension, allowed: at most {}; spread it "
+                         "over more time, or raise extension.rate_m_per_a",
+                         speed, fastest));
 }
 
 void check(const Scene& scene, const toml::table& document) {
@@ -310,6 +378,12 @@ void check(const Scene& scene, const toml::table& document) {
     needs("elastic_base", scene.elastic_base.has_value(), "gravity", scene.gravity.has_value());
     if (scene.elastic_base)
         check_elastic_base(scene, document);
+    needs("lower_crust_thinning", scene.lower_crust_thinning.has_value(), "elastic_base",
+          scene.elastic_base.has_value());
+    needs("footwall_erosion", scene.footwall_erosion.has_value(), "elastic_base",
+          scene.elastic_base.has_value());
+    if (scene.base_motion)
+        check_base_motion(scene, document);
     needs("bond_healing", scene.bond_healing.has_value(), "bonds", scene.bonds.has_value());
     needs("compaction", scene.compaction.has_value(), "sedimentation",
           scene.sedimentation.has_value());
@@ -348,6 +422,7 @@ Scene load_scene(const SceneRequest& request) {
     const AccuracyLevel& level =
         *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
     scene.hanging_wall->mean_radius = level.mean_radius;
+    scene.elastic_base->cell_size = level.cell_size;
     scene.extension.speed = level.speed;
     const bool can_be_bonded = read_materials(scene, document, path.parent_path());
     for (SceneTable& table : all) {
@@ -356,17 +431,7 @@ Scene load_scene(const SceneRequest& request) {
             table.in_scene = true;
         }
     }
-    if (!scene.target_csv.empty()) {
-        const Entry entry = entry_at(document, "sedimentation.target_csv");
-        if (!scene.sedimentation->target.empty())
-            fail(entry, "beside sedimentation.target; give one of them");
-        const std::string file = located(scene.target_csv, &entry.node, path.parent_path());
-        std::error_code error;
-        if (!fs::is_regular_file(file, error))
-            fail(entry, fmt::format("{}: no such file", file));
-        scene.sedimentation->target = read_target_csv(file);
-        scene.target_csv.clear();
-    }
+    read_files(scene, document, path.parent_path());
     drop_effects(request.without, all);
     for (const SceneTable& table : all) {
         if (!table.in_scene)

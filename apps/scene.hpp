@@ -1,6 +1,9 @@
 #pragma once
 
 #include "coupling/elastic_base.hpp"
+#include "coupling/footwall_erosion.hpp"
+#include "coupling/lower_crust_thinning.hpp"
+#include "dem/base_motion.hpp"
 #include "dem/events/bond_healing.hpp"
 #include "dem/events/compaction.hpp"
 #include "dem/events/fault_weakening.hpp"
@@ -76,6 +79,11 @@ struct ElasticBaseParameters {
     double relaxation = 100.0;           ///< shear modulus over that below the elastic thickness
     double skin_thickness = 3e3;         ///< rock along the detachment that is not relaxed, m
     double cell_size = 1000.0;           ///< elements at the detachment, m
+    std::vector<fem::Layer> layers;      ///< rock by depth; none: one of the values above
+    std::string mesh_file;               ///< Gmsh .msh instead of elements made from the scene
+    fem::Side left_side = fem::Side::roller, right_side = fem::Side::roller;
+    fem::Solver solver = fem::Solver::mumps;
+    int refinements = 0; ///< times that all elements are halved
     CouplingScheme scheme = CouplingScheme::modal;
     int update_interval = 5;       ///< cycles
     int modes = 0;                 ///< 0: all
@@ -125,11 +133,15 @@ struct Scene {
     std::optional<SedimentationParameters> sedimentation;
     std::optional<CompactionParameters> compaction;
     std::optional<ElasticBaseParameters> elastic_base;
+    std::optional<LowerCrustThinningParameters> lower_crust_thinning;
+    std::optional<FootwallErosionParameters> footwall_erosion;
+    std::optional<BaseMotionParameters> base_motion;
     std::optional<FlexureParameters> flexure;
 
-    /// Parameter of [sedimentation]; load_scene reads the file into its target and empties the
-    /// name, so that what a run writes stands alone.
-    std::string target_csv;
+    /// Parameters of [sedimentation], [footwall_erosion] and [base_motion]; load_scene reads the
+    /// files into what they stand for and empties the names, so that what a run writes stands
+    /// alone.
+    std::string target_csv, footwall_target_csv, base_motion_csv;
 };
 
 /// How a call modifies a scene.

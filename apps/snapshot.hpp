@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -21,9 +22,10 @@ struct StorageError : std::runtime_error {
 struct RunRecord {
     std::string scene; ///< the scene in force, as TOML
     Table history;     ///< a row per window, see docs/measures.md; NaN: no meaning there
-    std::map<std::string, double> seconds_by_part; ///< wall time spent so far
-    double disc_steps = 0.0;                       ///< discs times cycles so far
-    double predicted_seconds = 0.0;                ///< of the whole run
+    std::map<std::string, double> seconds_by_part;  ///< wall time spent so far
+    double disc_steps = 0.0;                        ///< discs times cycles so far
+    double predicted_seconds = 0.0;                 ///< of the whole run
+    std::optional<double> base_elements_difference, base_resolved_difference; ///< at the end of a run with an elastic base
 };
 
 /// Everything that the run needs to go on as if it had never stopped.

@@ -154,6 +154,10 @@ std::string summary_json(const Scene& scene, int threads, const State& state,
     for (const auto& [name, value] : footwall_summary(record.history))
         if (std::isfinite(value))
             json[name] = value;
+    if (record.base_elements_difference)
+        json["base_elements_difference"] = *record.base_elements_difference;
+    if (record.base_resolved_difference)
+        json["base_resolved_difference"] = *record.base_resolved_difference;
     json["effects"] = effect_names(scene);
     double named = 0.0;
     auto& parts = json["time_by_part_s"] = nlohmann::ordered_json::object();

@@ -36,8 +36,22 @@ bool is_blank(const std::string& line) {
 
 } // namespace
 
-std::vector<TargetStage> read_target_csv(const std::filesystem::path& path) {
-    constexpr std::array<std::string_view, 3> names{"time_a", "x_m", "y_m"};
+bool csv_has_column(const std::filesystem::path& path, std::string_view name) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file.is_open())
+        fail(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+    std::string line;
+    while (std::getline(file, line) && is_blank(line)) {
+    }
+    if (line.starts_with("\xef\xbb\xbf"))
+        line.erase(0, 3);
+    const std::vector<std::string> header = cells(line);
+    return std::ranges::find(header, name) != header.end();
+}
+
+std::vector<TargetStage> read_target_csv(const std::filesystem::path& path,
+                                         std::string_view value_name) {
+    const std::array<std::string_view, 3> names{"time_a", "x_m", value_name};
     std::ifstream file(path, std::ios::binary);
     if (!file.is_open())
         fail(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
@@ -79,8 +93,8 @@ std::vector<TargetStage> read_target_csv(const std::filesystem::path& path) {
             refuse(fmt::format("time_a: {} is before the start of extension, allowed: at least 0",
                                text(time)));
         if (std::abs(y) > 1e5)
-            refuse(fmt::format("y_m: {} is out of range, allowed: at least -1e5, at most 1e5",
-                               text(y)));
+            refuse(fmt::format("{}: {} is out of range, allowed: at least -1e5, at most 1e5",
+                               value_name, text(y)));
         if (stages.empty() || time > stages.back().time) {
             stages.push_back({time, {}});
         } else if (time < stages.back().time) {

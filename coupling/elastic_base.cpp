@@ -1,5 +1,6 @@
 #include "coupling/elastic_base.hpp"
 
+#include "coupling/footwall_loads.hpp"
 #include "dem/law.hpp"
 
 #include <algorithm>
@@ -160,12 +161,17 @@ std::vector<double> ElasticBase::displacement(std::span<const double> forces) co
 
 std::vector<double> ElasticBase::holding_forces(const State& state) const {
     const ConstBaseNodeColumns nodes = base_node_columns(state);
-    std::vector<double> u(interface_.unknowns()), modal(modes_.count()), forces(u.size());
+    std::vector<double> u(interface_.unknowns());
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
         u[2 * k] = nodes.ux[k];
         u[2 * k + 1] = nodes.uy[k];
     }
-    add_rows(modes_.by_unknown, u, modal);
+    return forces_for(u);
+}
+
+std::vector<double> ElasticBase::forces_for(std::span<const double> displacement) const {
+    std::vector<double> modal(modes_.count()), forces(displacement.size());
+    add_rows(modes_.by_unknown, displacement, modal);
     for (std::size_t k = 0; k < modal.size(); ++k)
         modal[k] /= modes_.compliance[k];
     add_rows(modes_.by_mode, modal, forces);
@@ -204,6 +210,14 @@ void ElasticBase::respond(State& state, const Clock& clock) {
     sums.get<double>("net_load")[0] += cycles * net;
     sums.get<double>("weight_change")[0] += cycles * change;
 
+    Table& means = state.base_memory["window_means"];
+    const auto force = means.get<double>("force"), displacement = means.get<double>("displacement");
+    for (std::size_t k = 0; k < load_.size(); ++k) {
+        force[k] += cycles * load_[k];
+        displacement[k] += cycles * (k % 2 ? nodes.uy[k / 2] : nodes.ux[k / 2]);
+    }
+
+    add_footwall_loads(state, load_);
     const double step = cycles * clock.time_step;
     switch (parameters_.scheme) {
     case CouplingScheme::modal:
@@ -279,7 +293,21 @@ WindowBalance ElasticBase::window(const State& state) const {
             sum("cycles")};
 }
 
+Table ElasticBase::window_means(const State& state) const {
+    Table means = state.base_memory.at("window_means");
+    const double cycles = std::max(1.0, window(state).cycles);
+    for (const char* name : {"force", "displacement"})
+        for (double& sum : means.get<double>(name))
+            sum /= cycles;
+    return means;
+}
+
 void ElasticBase::begin_window(State& state) const {
+    Table means;
+    means.resize(interface_.unknowns());
+    means.add<double>("force", "N", 0.0);
+    means.add<double>("displacement", "m", 0.0);
+    state.base_memory["window_means"] = std::move(means);
     state.base_memory["window"] = one_row(
         {{"cycles", "1"}, {"reaction_error", "1"}, {"net_load", "N"}, {"weight_change", "N"}});
 }

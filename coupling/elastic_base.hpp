@@ -74,8 +74,16 @@ public:
     /// Static displacement of the interface under forces on its unknowns.
     std::vector<double> displacement(std::span<const double> forces) const;
 
-    /// Forces on the interface that hold its present displacement.
+    /// Forces on the interface that hold it so.
+    std::vector<double> forces_for(std::span<const double> displacement) const;
+
+    /// The same for its present displacement.
     std::vector<double> holding_forces(const State& state) const;
+
+    /// Means of the window: forces of the discs relative to the reference with the virtual ones,
+    /// and displacement.
+    /// Columns force, N, and displacement, m, of the unknowns.
+    Table window_means(const State& state) const;
 
     WindowBalance window(const State& state) const;
     void begin_window(State& state) const;

@@ -33,18 +33,25 @@ std::vector<double> surface_knots(double width, double left) {
 std::vector<fem::Load> surface_loads(const std::vector<double>& knots) {
     std::vector<fem::Load> loads;
     for (std::size_t k = 0; k < knots.size(); ++k) {
-        const double at = knots[k], before = k > 0 ? knots[k - 1] : at,
-                     after = k + 1 < knots.size() ? knots[k + 1] : at;
-        loads.emplace_back();
-        loads.back().traction = [=](fem::Vector p, fem::Vector, fem::Boundary boundary) {
-            if (boundary != fem::Boundary::surface || p.x < before || p.x > after)
-                return fem::Vector{};
-            return fem::Vector{0.0, p.x < at   ? -(p.x - before) / (at - before)
-                                    : p.x > at ? -(after - p.x) / (after - at)
-                                               : -1.0};
-        };
+        std::vector<double> pressure(knots.size(), 0.0);
+        pressure[k] = 1.0;
+        loads.push_back(surface_load(knots, pressure));
     }
     return loads;
+}
+
+fem::Load surface_load(std::vector<double> knots, std::vector<double> pressure) {
+    std::vector<Point> points;
+    for (std::size_t k = 0; k < knots.size(); ++k)
+        points.push_back({knots[k], pressure[k]});
+    fem::Load load;
+    load.traction = [line = TargetLine(points), points](fem::Vector p, fem::Vector,
+                                                        fem::Boundary boundary) {
+        const bool is_loaded =
+            boundary == fem::Boundary::surface && p.x >= points.front().x && p.x <= points.back().x;
+        return fem::Vector{0.0, is_loaded ? -line.height(p.x) : 0.0};
+    };
+    return load;
 }
 
 std::vector<double> cover_pressure(const FootwallErosionParameters& p, double gravity,
@@ -100,6 +107,22 @@ FootwallErosion::FootwallErosion(SurfaceResponse response, std::vector<double> f
 
 void FootwallErosion::begin(State& state) {
     footwall_load(state, name(), forces_.size() / response_.x.size());
+}
+
+fem::Load FootwallErosion::load() const {
+    Table cover = memory;
+    return surface_load(
+        response_.x, cover_pressure(parameters_, gravity_,
+                                    {cover.get<double>("eroded"), cover.get<double>("deposited")}));
+}
+
+FootwallErosion::Areas FootwallErosion::areas() const {
+    Areas areas{};
+    for (std::size_t k = 0; k < response_.x.size(); ++k) {
+        areas.eroded += response_.width[k] * memory.get<double>("eroded")[k];
+        areas.deposited += response_.width[k] * memory.get<double>("deposited")[k];
+    }
+    return areas;
 }
 
 bool FootwallErosion::apply(State& state, const RigidBase&) {

@@ -40,6 +40,9 @@ std::vector<double> surface_knots(double width, double left);
 /// A pressure of 1 Pa downward at each knot.
 std::vector<fem::Load> surface_loads(const std::vector<double>& knots);
 
+/// Pressures at the knots, linear in between, downward, Pa.
+fem::Load surface_load(std::vector<double> knots, std::vector<double> pressure);
+
 /// Rock that is gone and sediment that has come, by knot, m.
 struct FootwallCover {
     std::span<double> eroded, deposited;
@@ -72,7 +75,12 @@ public:
     void begin(State& state) override;
     bool apply(State& state, const RigidBase& base) override;
 
-    const SurfaceResponse& response() const { return response_; }
+    fem::Load load() const; ///< of the cover as it is
+
+    struct Areas {
+        double eroded, deposited; ///< m^2
+    };
+    Areas areas() const;
 
 private:
     SurfaceResponse response_;

@@ -1,5 +1,10 @@
 #include "coupling/footwall_loads.hpp"
 
+#include "coupling/elastic_base.hpp"
+
+#include <algorithm>
+#include <functional>
+
 namespace listric {
 
 namespace {
@@ -28,7 +33,14 @@ void add_footwall_loads(const State& state, std::span<double> forces) {
     }
 }
 
-FootwallResponses solve_footwall_loads(fem::Footwall& footwall,
+std::vector<double> disc_forces(const ElasticBase& base, const State& state) {
+    std::vector<double> forces = base.holding_forces(state), loads(forces.size(), 0.0);
+    add_footwall_loads(state, loads);
+    std::ranges::transform(forces, loads, forces.begin(), std::minus());
+    return forces;
+}
+
+FootwallResponses solve_footwall_loads(fem::Footwall& footwall, std::size_t unknowns,
                                        const FootwallErosionParameters* erosion, double left,
                                        const LowerCrustThinningParameters* thinning,
                                        double contrast, double distance) {
@@ -49,11 +61,11 @@ FootwallResponses solve_footwall_loads(fem::Footwall& footwall,
         return result;
 
     const fem::Responses solved = footwall.responses(loads);
-    const std::size_t unknowns = 2 * footwall.interface().size();
+    const std::size_t all = 2 * footwall.interface().size();
     SurfaceResponse& surface = result.surface;
-    surface.interface.assign(solved.interface.begin(),
-                             solved.interface.begin() +
-                                 static_cast<std::ptrdiff_t>(knots * unknowns));
+    for (std::size_t k = 0; k < knots; ++k)
+        for (std::size_t i = 0; i < unknowns; ++i)
+            surface.interface.push_back(solved.interface[k * all + i]);
     for (std::size_t k = 0; k < knots; ++k)
         surface.width.push_back(-solved.sums[k].y);
     // A pressure's work over its width is the mean of the boundary's sinking there.
@@ -70,7 +82,7 @@ FootwallResponses solve_footwall_loads(fem::Footwall& footwall,
                                     : 0.0;
         const double found = -solved.sums[row].y, ratio = found > 0.0 ? sum / found : 0.0;
         for (std::size_t i = 0; i < unknowns; ++i)
-            result.crust.interface.push_back(ratio * solved.interface[row * unknowns + i]);
+            result.crust.interface.push_back(ratio * solved.interface[row * all + i]);
         for (std::size_t j = 0; j < knots; ++j)
             result.crust.uplift.push_back(ratio * uplift(row, j));
     }

@@ -10,6 +10,8 @@
 
 namespace listric {
 
+class ElasticBase;
+
 // Loads on the footwall that no disc brings: what thins below it, what is eroded from it. Each is
 // kept as the forces on the interface's nodes that displace the interface as the load itself does,
 // C f = u, so that they are superposed with the discs'. State::base_memory["footwall_loads"] has a
@@ -17,6 +19,9 @@ namespace listric {
 
 /// Where an effect keeps its forces; adds the column if it is not there.
 std::span<double> footwall_load(State& state, std::string_view effect, std::size_t unknowns);
+
+/// Forces of the discs that hold the present displacement together with the loads of the effects.
+std::vector<double> disc_forces(const ElasticBase& base, const State& state);
 
 /// Adds the forces of all effects.
 void add_footwall_loads(const State& state, std::span<double> forces);
@@ -29,10 +34,11 @@ struct FootwallResponses {
 
 /// Solves for the loads of the effects that are there. Rows of the lower crust are scaled to the
 /// load's exact sum, which quadrature misses where it ends inside an element.
+/// @param unknowns  of the interface that is kept, which may end before the footwall's
 /// @param contrast  of mantle and crust, times gravity, Pa/m
 /// @param left      side of the footwall, m
 /// Throws fem::FootwallError.
-FootwallResponses solve_footwall_loads(fem::Footwall& footwall,
+FootwallResponses solve_footwall_loads(fem::Footwall& footwall, std::size_t unknowns,
                                        const FootwallErosionParameters* erosion, double left,
                                        const LowerCrustThinningParameters* thinning,
                                        double contrast, double distance);

@@ -1,6 +1,7 @@
 // Loads on the footwall that no disc brings, against columns of rock on springs.
 
 #include "coupling/footwall_loads.hpp"
+#include "coupling/independent_solution.hpp"
 #include "dem/random.hpp"
 #include "tests/verification/footwalls.hpp"
 
@@ -39,7 +40,8 @@ TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
     const LowerCrustThinningParameters thinning{20e3, 2000e3, 0.0};
     constexpr double distance = 10e3;
     const FootwallResponses found =
-        solve_footwall_loads(*footwall, nullptr, request.left, &thinning, contrast, distance);
+        solve_footwall_loads(*footwall, 2 * footwall->interface().size(), nullptr, request.left,
+                             &thinning, contrast, distance);
     const std::size_t unknowns = 2 * footwall->interface().size();
     ASSERT_EQ(found.crust.interface.size(), (found.crust.steps + 1) * unknowns);
     // Thinner by h e / (b + e); of the load no more than the model's width is there, so that the
@@ -67,7 +69,8 @@ TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
     const auto footwall = fem::make_footwall(request);
     const LowerCrustThinningParameters thinning{20e3, 100e3, 15e3};
     const FootwallResponses found =
-        solve_footwall_loads(*footwall, nullptr, request.left, &thinning, contrast, 10e3);
+        solve_footwall_loads(*footwall, 2 * footwall->interface().size(), nullptr, request.left,
+                             &thinning, contrast, 10e3);
     // The interface of a flat layer is its surface: what the springs there hold and those at the
     // base, with the layer rigid enough to move as one over 400 km, is the load. Held by the
     // exact mean: integrate the surface's displacement; the base differs by the layer's own
@@ -97,8 +100,9 @@ protected:
     fem::FootwallRequest request_ = floating_crust();
     std::unique_ptr<fem::Footwall> footwall_ = fem::make_footwall(request_);
     FootwallErosionParameters erosion_ = {};
-    SurfaceResponse response_ =
-        solve_footwall_loads(*footwall_, &erosion_, request_.left, nullptr, 0.0, 0.0).surface;
+    SurfaceResponse response_ = solve_footwall_loads(*footwall_, 2 * footwall_->interface().size(),
+                                                     &erosion_, request_.left, nullptr, 0.0, 0.0)
+                                    .surface;
     std::vector<double> eroded_ = std::vector<double>(response_.x.size(), 0.0);
     std::vector<double> deposited_ = eroded_, target_ = eroded_;
     FootwallCover cover_{eroded_, deposited_};
@@ -179,7 +183,8 @@ TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
     const FootwallErosionParameters erosion;
     const LowerCrustThinningParameters thinning;
     const FootwallResponses found =
-        solve_footwall_loads(*footwall, &erosion, request.left, &thinning, contrast, 10e3);
+        solve_footwall_loads(*footwall, 2 * footwall->interface().size(), &erosion, request.left,
+                             &thinning, contrast, 10e3);
     const SurfaceResponse& surface = found.surface;
     const std::size_t n = surface.x.size();
     for (std::size_t k = 0; k < n; ++k)
@@ -211,6 +216,59 @@ TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
     compare(surface.uplift_by(load.interface));
     footwall->solve(lower_crust_load(thinning, contrast, 10e3));
     compare(LowerCrustResponse::at(found.crust.uplift, found.crust.steps, 1.0));
+}
+
+TEST(IndependentSolution, IsTheBaseOnAnotherMesh) {
+    fem::FootwallRequest request;
+    request.detachment = listric_detachment();
+    request.surface_spring = request.detachment_spring = crust * gravity;
+    request.base_spring = contrast;
+    request.elastic_thickness = 10e3;
+    request.skin_thickness = 3e3;
+    request.cell_size = 2000.0;
+    request.interface_end = 60e3;
+    const auto footwall = fem::make_footwall(request);
+    const Interface interface = condense(*footwall, 2);
+    // Like discs: forces at points along the arc and the flat, heavier toward the breakaway.
+    std::vector<fem::PointForce> points;
+    Random random(3);
+    for (double x = 100.0; x < 45e3; x += 300.0) {
+        const double y = x < 15e3 ? -std::sqrt(15e3 * 15e3 - (15e3 - x) * (15e3 - x)) : -15e3;
+        const double f = 300.0 * 5e7 * std::exp(-x / 15e3) * random.between(0.5, 1.5);
+        points.push_back({{x, y}, {0.2 * f, f}});
+    }
+    const LowerCrustThinningParameters thinning;
+    fem::Load load = lower_crust_load(thinning, contrast, 5e3);
+    load.interface = footwall->nodal_forces(points);
+    footwall->solve(load);
+    std::vector<double> u = footwall->interface_displacement(), forces = load.interface;
+    forces.resize(interface.unknowns());
+    u.resize(interface.unknowns());
+
+    const IndependentSolution fine =
+        solve_independently(request, interface, forces, lower_crust_load(thinning, contrast, 5e3));
+    const double apart = relative_difference(u, fine.displacement);
+    std::printf("%zu unknowns and %zu: %.5f\n", footwall->mesh().unknowns, fine.unknowns, apart);
+    EXPECT_GT(fine.unknowns, 2 * footwall->mesh().unknowns);
+    EXPECT_LT(apart, 0.01); // discretisation, of forces that change within an element
+    EXPECT_GT(apart, 1e-8); // it is another mesh
+}
+
+TEST(IndependentSolution, TractionsHaveTheForces) {
+    Interface interface;
+    for (int k = 0; k <= 20; ++k) {
+        interface.x.push_back(500.0 * k);
+        interface.y.push_back(-1000.0);
+    }
+    const std::vector<double> even = pressure_forces(interface, 0.0, 10e3);
+    std::vector<double> forces(interface.unknowns(), 0.0);
+    for (std::size_t k = 0; k < even.size(); ++k)
+        forces[2 * k + 1] = even[k];
+    const std::vector<double> pressure = tractions(interface, forces);
+    for (std::size_t k = 0; k < interface.x.size(); ++k) {
+        EXPECT_NEAR(pressure[2 * k], 0.0, 1e-12); // round-off
+        EXPECT_NEAR(pressure[2 * k + 1], 1.0, 1e-12);
+    }
 }
 
 } // namespace

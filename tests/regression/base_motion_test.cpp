@@ -1,0 +1,182 @@
+// A detachment that moves as prescribed, from the scene to the discs.
+
+#include "apps/run.hpp"
+#include "apps/snapshot.hpp"
+#include "dem/base_motion.hpp"
+#include "dem/base_place.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <unistd.h>
+
+namespace listric {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string scene = R"([hanging_wall]
+length_m = 4000.0
+thickness_m = 1500.0
+mean_radius_m = 60.0
+[detachment]
+segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
+[extension]
+distance_m = 20.0
+[output]
+interval_m = 10.0
+figures_at_m = []
+series = "none"
+[gravity]
+[bonds]
+)";
+
+class BaseMotionRun : public testing::Test {
+protected:
+    fs::path folder_ = fs::temp_directory_path() / ("listric-motion-" + std::to_string(getpid()));
+
+    BaseMotionRun() {
+        fs::create_directories(folder_ / "python"); // no pictures
+        std::ofstream(folder_ / "python/numpy.py") << "import os\nos._exit(1)\n";
+        setenv("PYTHONPATH", (folder_ / "python").c_str(), 1);
+    }
+    ~BaseMotionRun() override {
+        unsetenv("PYTHONPATH");
+        fs::remove_all(folder_);
+    }
+
+    Scene load(const std::string& more, const std::vector<std::string>& set = {}) const {
+        std::ofstream(folder_ / "small.toml") << scene << more;
+        SceneRequest request;
+        request.scene = (folder_ / "small.toml").string();
+        request.set = set;
+        return load_scene(request);
+    }
+
+    std::string refusal(const std::string& more, const std::vector<std::string>& set = {}) const {
+        try {
+            load(more, set);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    }
+
+    fs::path run(const Scene& s, const std::string& name, std::optional<double> until = {},
+                 bool resume = false, int threads = 1) const {
+        RunOptions options;
+        options.output = folder_ / name;
+        options.quiet = true;
+        options.until = until;
+        options.resume = resume;
+        options.force = !resume;
+        options.threads = threads;
+        EXPECT_EQ(run_scene(s, options), RunOutcome::finished);
+        return options.output;
+    }
+
+    static State last_state(const fs::path& output) {
+        return read_snapshot(list_snapshots(output).back()).state;
+    }
+    static json summary(const fs::path& output) {
+        return json::parse(std::ifstream(output / "summary.json"));
+    }
+};
+
+constexpr const char* even_uplift = R"([base_motion]
+uplift = [{time_a = 0.0, points = [[0.0, 7.0]]}, {time_a = 1000.0, points = [[0.0, 17.0]]}]
+)";
+
+TEST_F(BaseMotionRun, EvenUpliftMovesAllDiscs) {
+    const State rigid = last_state(run(load(""), "rigid"));
+    const State moved = last_state(run(load(even_uplift), "moved"));
+    const ConstDiscColumns a = disc_columns(rigid), b = disc_columns(moved);
+    std::map<std::int64_t, double> before;
+    for (std::size_t i = 0; i < a.id.size(); ++i)
+        before[a.id[i]] = a.y[i];
+    double sum = 0.0, least = 1e9, most = -1e9;
+    for (std::size_t i = 0; i < b.id.size(); ++i) {
+        const double lift = b.y[i] - before.at(b.id[i]);
+        sum += lift;
+        least = std::min(least, lift);
+        most = std::max(most, lift);
+    }
+    std::printf("discs lifted by %.3f m, from %.3f to %.3f\n",
+                sum / static_cast<double>(b.id.size()), least, most);
+    // 10 m of uplift after the start. Which contacts slip is another story in either run: of 20 m
+    // of extension single discs take some metres more or less, their mean some centimetres.
+    EXPECT_NEAR(sum / static_cast<double>(b.id.size()), 10.0, 0.1);
+    EXPECT_GT(least, 5.0);
+    EXPECT_LT(most, 15.0);
+    // The nodes are where they should be, to what a cycle's extension is uncertain.
+    const ConstBaseNodeColumns nodes = base_node_columns(moved);
+    ASSERT_GT(nodes.x.size(), 10u);
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        EXPECT_NEAR(nodes.uy[k], 10.0, 0.01);
+        EXPECT_EQ(nodes.ux[k], 0.0);
+    }
+    EXPECT_EQ(rigid.base_nodes.rows(), 0u);
+}
+
+TEST_F(BaseMotionRun, EndsInTheSameBitsAfterAResumeAndWithTwoThreads) {
+    std::ofstream(folder_ / "motion.csv") << "time_a,x_m,dx_m,dy_m\n0,0,0,0\n0,4000,0,0\n"
+                                             "2000,0,2,-8\n2000,4000,1,6\n";
+    const Scene s = load("[base_motion]\ncsv = \"motion.csv\"\n");
+    const auto whole = summary(run(s, "whole"));
+    run(s, "parts", 10.0);
+    const auto parts = summary(run(s, "parts", {}, true));
+    EXPECT_EQ(parts["state_hash"], whole["state_hash"]);
+    EXPECT_EQ(summary(run(s, "threads", {}, false, 2))["state_hash"], whole["state_hash"]);
+    EXPECT_THAT(whole["effects"], testing::Contains("base_motion"));
+    // What was written reads back without the file.
+    fs::remove(folder_ / "motion.csv");
+    SceneRequest request;
+    request.scene = (folder_ / "whole/scene.toml").string();
+    const Scene again = load_scene(request);
+    EXPECT_EQ(again.base_motion->uplift.size(), 2u);
+    EXPECT_EQ(again.base_motion->shift.size(), 2u);
+}
+
+TEST_F(BaseMotionRun, RefusesWhatMakesNoSense) {
+    EXPECT_THAT(refusal("[base_motion]\n"), HasSubstr("needs csv, or uplift or shift"));
+    EXPECT_THAT(refusal(std::string(even_uplift) + "[elastic_base]\n"),
+                HasSubstr("base_motion: beside [elastic_base]"));
+    EXPECT_THAT(refusal(even_uplift, {"extension.rate_m_per_a=0.0001"}),
+                HasSubstr("moves 50 times as fast as extension, allowed: at most 5"));
+    EXPECT_THAT(refusal("[base_motion]\ncsv = \"none.csv\"\n"), HasSubstr("no such file"));
+    std::ofstream(folder_ / "bad.csv") << "time_a,x_m\n0,0\n";
+    EXPECT_THAT(refusal("[base_motion]\ncsv = \"bad.csv\"\n"),
+                HasSubstr("bad.csv:1: has no column uplift_m"));
+}
+
+TEST(DetachmentNodes, FollowTheChain) {
+    const Chain chain{arc({0.0, 0.0}, {0.0, -1.0}, 1500.0, 0.5 * std::numbers::pi),
+                      line({1500.0, -1500.0}, {6000.0, -1500.0})};
+    const std::vector<Point> nodes = detachment_nodes(chain, 1000.0);
+    ASSERT_EQ(nodes.size() % 2, 1u); // start, middle, end of every face
+    EXPECT_EQ(nodes.front(), chain.front().start);
+    EXPECT_EQ(nodes.back(), chain.back().end);
+    std::vector<double> x, y, still(nodes.size(), 0.0);
+    for (const Point& p : nodes) {
+        x.push_back(p.x);
+        y.push_back(p.y);
+    }
+    const Trace trace(x, y, still, still, 2);
+    for (int k = 1; k < 100; ++k) {
+        const Point p = point_at(chain, 1500.0 * 0.5 * std::numbers::pi * k / 100);
+        const auto foot = trace.nearest(p);
+        ASSERT_TRUE(foot);
+        EXPECT_LT(std::abs(foot->foot.distance), 2.0); // h^3 / (72 sqrt(3) R^2) and less
+    }
+}
+
+} // namespace
+} // namespace listric

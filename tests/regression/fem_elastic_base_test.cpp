@@ -1,0 +1,261 @@
+// Scenes with an elastic base: what loads it besides discs, and what bad input leads to.
+
+#include "apps/explain.hpp"
+#include "apps/footwall_request.hpp"
+#include "apps/run.hpp"
+#include "apps/snapshot.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace listric {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+
+/// 400 discs on a crust of 5 km, so slow that the base keeps up with its load (it takes 75 s to
+/// follow); loads so large that they show in 60 m of extension.
+const std::string scene = R"([hanging_wall]
+length_m = 4000.0
+thickness_m = 1500.0
+mean_radius_m = 60.0
+[detachment]
+segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
+[extension]
+distance_m = 60.0
+speed_m_per_s = 0.1
+[output]
+interval_m = 20.0
+figures_at_m = []
+series = "none"
+[gravity]
+[bonds]
+[elastic_base]
+elastic_thickness_m = 1000.0
+skin_thickness_m = 300.0
+left_m = -40000.0
+right_m = 50000.0
+depth_m = 5000.0
+cell_size_m = 400.0
+)";
+const std::string loads = R"([lower_crust_thinning]
+thickness_m = 20000.0
+width_m = 15000.0
+centre_m = 1500.0
+[footwall_erosion]
+interval_a = 1000.0
+width_m = 20000.0
+)";
+
+class ElasticBaseRun : public testing::Test {
+protected:
+    fs::path folder_ = fs::temp_directory_path() / ("listric-elastic-" + std::to_string(getpid()));
+
+    ElasticBaseRun() {
+        fs::create_directories(folder_ / "python"); // no pictures
+        std::ofstream(folder_ / "python/numpy.py") << "import os\nos._exit(1)\n";
+        setenv("PYTHONPATH", (folder_ / "python").c_str(), 1);
+    }
+    ~ElasticBaseRun() override {
+        unsetenv("PYTHONPATH");
+        fs::remove_all(folder_);
+    }
+
+    std::string file(const std::string& more = "") const {
+        const fs::path path = folder_ / "small.toml";
+        std::ofstream(path) << scene << more;
+        return path.string();
+    }
+    Scene load(const std::string& more = "", const std::vector<std::string>& set = {}) const {
+        SceneRequest request;
+        request.scene = file(more);
+        request.set = set;
+        return load_scene(request);
+    }
+    std::string refusal(const std::vector<std::string>& set, const std::string& more = "") const {
+        try {
+            const Scene s = load(more, set);
+            RunOptions options;
+            options.output = folder_ / "refused";
+            options.quiet = options.force = true;
+            run_scene(s, options);
+        } catch (const SceneError& error) {
+            return error.what();
+        } catch (const UsageError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    json run(const Scene& s, const std::string& name, std::optional<double> until = {},
+             bool resume = false, int threads = 1) const {
+        RunOptions options;
+        options.output = folder_ / name;
+        options.quiet = true;
+        options.until = until;
+        options.resume = resume;
+        options.force = !resume;
+        options.threads = threads;
+        EXPECT_EQ(run_scene(s, options), RunOutcome::finished);
+        return json::parse(std::ifstream(options.output / "summary.json"));
+    }
+};
+
+TEST_F(ElasticBaseRun, LoadsBesideDiscsEndInTheSameBitsAfterAResumeAndWithTwoThreads) {
+    const Scene s = load(loads);
+    const json whole = run(s, "whole");
+    run(s, "parts", 25.0);
+    const json parts = run(s, "parts", {}, true);
+    EXPECT_EQ(parts["state_hash"], whole["state_hash"]);
+    EXPECT_EQ(parts["base_resolved_difference"], whole["base_resolved_difference"]);
+    EXPECT_EQ(run(s, "threads", {}, false, 2)["state_hash"], whole["state_hash"]);
+    EXPECT_THAT(whole["effects"],
+                AllOf(Contains("lower_crust_thinning"), Contains("footwall_erosion")));
+    const double e = whole["extension_m"];
+    EXPECT_DOUBLE_EQ(whole["lower_crust_thinning_m"], 20000.0 * e / (15000.0 + e));
+    EXPECT_TRUE(whole.contains("footwall_eroded_m2"));
+}
+
+TEST_F(ElasticBaseRun, ThinningLowersTheBase) {
+    const Scene loaded = load(loads.substr(0, loads.find("[footwall")));
+    const json without = run(load(), "without"), thinned = run(loaded, "thinned"),
+               with = run(load(loads), "with");
+    const auto sinks = [&](const json& s) {
+        return without["footwall_uplift_m"].get<double>() - s["footwall_uplift_m"].get<double>();
+    };
+    const auto footwall = fem::make_footwall(make_footwall_request(loaded));
+    footwall->solve(lower_crust_load(*loaded.lower_crust_thinning, 600.0 * 9.81, 60.0));
+    const double alone = -footwall->interface_displacement()[1];
+    std::printf("lower by %.2f m, footwall alone %.2f m, filled by %.0f m2: %.2f m\n",
+                sinks(thinned), alone, with["footwall_deposited_m2"].get<double>(), sinks(with));
+    // Discs rearrange themselves where the base sinks: metres.
+    EXPECT_NEAR(sinks(thinned), alone, 0.25 * alone);
+    EXPECT_GT(sinks(with), sinks(thinned)); // sediment weighs on the hollow
+    EXPECT_GT(with["footwall_deposited_m2"].get<double>(), 15e3 * 5.0);
+    EXPECT_FALSE(without.contains("footwall_eroded_m2"));
+    EXPECT_FALSE(without.contains("lower_crust_thinning_m"));
+}
+
+TEST_F(ElasticBaseRun, ASecondMeshGivesTheSameBase) {
+    const json s = run(load(), "checked");
+    std::printf("mesh twice as fine: elements %.4f, base %.4f\n",
+                s["base_elements_difference"].get<double>(),
+                s["base_resolved_difference"].get<double>());
+    EXPECT_LT(s["base_elements_difference"].get<double>(), 0.01);
+    // Discs push the base about while it deflects by metres only.
+    EXPECT_LT(s["base_resolved_difference"].get<double>(), 0.5);
+}
+
+TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {
+    const std::string with = explain(load(loads)), without = explain(load());
+    EXPECT_THAT(with, AllOf(HasSubstr("lower crust: 20 km over 15 km thins by 80 m"),
+                            HasSubstr("footwall: over 20 km to its target every 1000 a"),
+                            HasSubstr("not in the model: water")));
+    EXPECT_THAT(without, HasSubstr("not in the model: erosion of the footwall, thinning of the "
+                                   "lower crust, water"));
+}
+
+TEST_F(ElasticBaseRun, RefusesBadInput) {
+    EXPECT_THAT(refusal({"elastic_base.poisson_ratio=0.5"}), HasSubstr("below 0.5"));
+    EXPECT_THAT(refusal({"elastic_base.young_modulus_pa=-7e10"}), HasSubstr("at least 1e6"));
+    EXPECT_THAT(refusal({"elastic_base.depth_m=1600"}),
+                HasSubstr("the detachment leaves the mesh: it reaches a depth of 1500 m"));
+    EXPECT_THAT(refusal({"elastic_base.right_m=4500"}), HasSubstr("elastic_base.right_m: is 4500"));
+    const std::string two = "elastic_base.layers=[{top_depth_m=0.0, density_kg_per_m3=2600.0},"
+                            "{top_depth_m=DEPTH, young_modulus_pa=YOUNG, poisson_ratio=NU}]";
+    const auto layers = [&](const std::string& depth, const std::string& young,
+                            const std::string& nu) {
+        std::string text = two;
+        for (const auto& [name, value] :
+             {std::pair("DEPTH", depth), std::pair("YOUNG", young), std::pair("NU", nu)})
+            text.replace(text.find(name), std::string(name).size(), value);
+        return std::vector<std::string>{text};
+    };
+    EXPECT_THAT(refusal(layers("0.0", "5e10", "0.25")),
+                HasSubstr("layer 2 overlaps the one before"));
+    EXPECT_THAT(refusal(layers("9000.0", "5e10", "0.25")), HasSubstr("above the base at 5000"));
+    EXPECT_THAT(refusal(layers("2000.0", "-5e10", "0.25")),
+                HasSubstr("elastic_base.layers[1].young_modulus_pa: out of range"));
+    EXPECT_THAT(refusal(layers("2000.0", "5e10", "0.5")),
+                HasSubstr("elastic_base.layers[1].poisson_ratio: out of range"));
+    EXPECT_THAT(refusal({"elastic_base.solver=gamg"}), HasSubstr("allowed: mumps"));
+    EXPECT_THAT(refusal({"elastic_base.left_side=free", "elastic_base.right_side=free"}),
+                HasSubstr("nothing holds the footwall sideways"));
+    EXPECT_THAT(refusal({"elastic_base.mesh_file=none.msh"}), HasSubstr("none.msh: no such file"));
+    EXPECT_THAT(refusal({"elastic_base.mesh_file=" LISTRIC_SOURCE_DIR "/meshes/lis1-footwall.msh"}),
+                HasSubstr("does not match the scene"));
+    EXPECT_THAT(refusal({"elastic_base.infill_density_kg_per_m3=1030"}, loads),
+                HasSubstr("fills hollows itself"));
+    EXPECT_THAT(refusal({}, "[base_motion]\nuplift = [[0.0, 1.0]]\n"),
+                HasSubstr("beside [elastic_base]"));
+    SceneRequest request;
+    request.scene = "lis1";
+    request.set = {"lower_crust_thinning={}"};
+    EXPECT_THROW(load_scene(request), SceneError);
+}
+
+TEST_F(ElasticBaseRun, RefusesAnInvertedMesh) {
+    std::ifstream in(LISTRIC_SOURCE_DIR "/meshes/lis1-footwall.msh");
+    std::ofstream out(folder_ / "inverted.msh");
+    bool turned = false;
+    for (std::string line; std::getline(in, line); out << line << '\n') {
+        std::istringstream words(line);
+        std::vector<std::string> w{std::istream_iterator<std::string>(words), {}};
+        if (!turned && w.size() == 9 && w[1] == "3") { // a quadrilateral: two nodes change places
+            line = fmt::format("{} {} {} {} {} {} {} {} {}", w[0], w[1], w[2], w[3], w[4], w[5],
+                               w[8], w[7], w[6]);
+            turned = true;
+        }
+    }
+    out.close();
+    ASSERT_TRUE(turned);
+    EXPECT_THAT(refusal({"elastic_base.mesh_file=" + (folder_ / "inverted.msh").string()}),
+                HasSubstr("is inverted or folded"));
+}
+
+TEST_F(ElasticBaseRun, LayersAndSidesAreWrittenAndReadBack) {
+    const Scene s = load("", {"elastic_base.layers=[{top_depth_m=0.0, young_modulus_pa=5e10},"
+                              "{top_depth_m=2000.0, poisson_ratio=0.3}]",
+                              "elastic_base.left_side=elastic", "elastic_base.refinements=1"});
+    std::ofstream(folder_ / "again.toml") << to_toml(s);
+    SceneRequest request;
+    request.scene = (folder_ / "again.toml").string();
+    const Scene again = load_scene(request);
+    ASSERT_EQ(again.elastic_base->layers.size(), 2u);
+    EXPECT_EQ(again.elastic_base->layers[0].young_modulus, 5e10);
+    EXPECT_EQ(again.elastic_base->layers[1].poisson_ratio, 0.3);
+    EXPECT_EQ(again.elastic_base->layers[1].top_depth, 2000.0);
+    EXPECT_EQ(again.elastic_base->left_side, fem::Side::elastic);
+    EXPECT_EQ(again.elastic_base->refinements, 1);
+    EXPECT_EQ(to_toml(again), to_toml(s));
+}
+
+TEST_F(ElasticBaseRun, AMissingPluginIsNamedWithWhatToInstall) {
+    const std::string call = fmt::format("LISTRIC_FEM_PLUGIN=/nowhere/none.so {} run {} --output "
+                                         "{}/out --quiet 2>&1",
+                                         LISTRIC_PROGRAM, file(), folder_.string());
+    FILE* pipe = popen(call.c_str(), "r");
+    ASSERT_TRUE(pipe);
+    std::string said;
+    for (int c; (c = std::fgetc(pipe)) != EOF;)
+        said += static_cast<char>(c);
+    const int status = pclose(pipe);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 2) << said;
+    EXPECT_THAT(said, AllOf(HasSubstr("elastic_base"), HasSubstr("libdeal.ii-dev petsc-dev")));
+}
+
+} // namespace
+} // namespace listric
