@@ -241,8 +241,11 @@ void fit_strength(Calibration& c, RockMaterial& rock) {
         return std::sqrt(square / static_cast<double>(e.size()));
     };
     const double slope = c.request.targets.byerlee ? 0.75 : c.request.targets.friction;
-    Two x{std::clamp(2.0 * (slope - 0.35), 0.05, 2.0),
-          std::log(std::max(2e4, c.request.targets.byerlee ? 2e4 : c.request.targets.cohesion))};
+    // Far below the confining stresses tension changes nothing, and the search would not see which
+    // way to go.
+    const double tension = std::max(0.1 * confining.front(),
+                                    c.request.targets.byerlee ? 0.0 : c.request.targets.cohesion);
+    Two x{std::clamp(2.0 * (slope - 0.35), 0.05, 2.0), std::log(tension)};
     std::vector<double> e = errors(x);
     const Two step{x[0] > 1.0 ? -0.4 : 0.3, std::log(2.0)};
     std::array<std::vector<double>, 2> jacobian;

@@ -800,6 +800,8 @@ def draw_sheet(frames):
         for text, entries in legends.items():
             figure.text(LEFT / SHEET_WIDTH, (y + height + 0.07) / total, text, fontsize=10.5,
                         weight="semibold", va="bottom")
+            if not entries:
+                continue
             figure.legend(list(entries.values()), list(entries), ncol=len(entries),
                           loc="lower right",
                           bbox_to_anchor=((SHEET_WIDTH - RIGHT) / SHEET_WIDTH,
@@ -933,7 +935,9 @@ def main(arguments):
             save_small(draw_gallery(frames), directory, "gallery.png")
         else:
             for frame in frames:
-                for name, panels in [(p[0], [p]) for p in PANELS] + [
+                for name, panels in [(p[0], [p]) for p in PANELS
+                                     if p[0] != "kinematics" or
+                                     frame.predicted_shear is not None] + [
                         ("overview", [p for p in PANELS if p[0] != "kinematics"])]:
                     save(draw_figure(frame, panels), directory,
                          f"{name}-{extension_text(frame)}km.png")

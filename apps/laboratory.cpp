@@ -350,7 +350,7 @@ void stretch_slabs(Results& r, const std::vector<double>& confining) {
                                  "strain_top10,strain_top10_cumulative,weak_fraction,healed_share,"
                                  "unbalanced_ratio"};
     std::vector<std::string> list{"weakening_rate_per_s,healing_rate_per_s,seed,dip_at_birth_deg,"
-                                  "length_m,falls_right"};
+                                  "length_m,falls_right,born_at_m"};
     std::vector<SweepPoint> rows_of_table;
     for (std::size_t n = 0; n < points.size(); ++n) {
         SweepPoint point;
@@ -383,9 +383,9 @@ void stretch_slabs(Results& r, const std::vector<double>& confining) {
                                       slab.strain_top10_cumulative, slab.weak_fraction,
                                       slab.healed_share, slab.unbalanced_ratio));
             for (const SlabFault& f : slab.faults)
-                list.push_back(fmt::format("{},{},{},{},{},{}", points[n].weakening,
+                list.push_back(fmt::format("{},{},{},{},{},{},{}", points[n].weakening,
                                            points[n].healing, r.lab.seed + k, f.dip_at_birth,
-                                           f.length, f.falls_right ? 1 : 0));
+                                           f.length, f.falls_right ? 1 : 0, f.born_at));
         }
         rows_of_table.push_back(std::move(point));
     }

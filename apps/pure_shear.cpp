@@ -79,7 +79,8 @@ std::vector<SlabFault> trace_births(const std::vector<DiscPlaces>& states, const
             const double slip = std::accumulate(trace.slip.begin(), trace.slip.end(), 0.0);
             const bool normal = (slip > 0.0) == falls_right;
             if (normal && 2 * followed < std::ssize(trace.points))
-                born.push_back({dip_of(trace.points), trace.length(), falls_right});
+                born.push_back(
+                    {dip_of(trace.points), trace.length(), falls_right, states[k + 1].extension});
             known.push_back(std::move(trace));
         }
     }

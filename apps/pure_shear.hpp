@@ -21,6 +21,7 @@ struct CriticalRates {
 struct SlabFault {
     double dip_at_birth = 0.0, length = 0.0; ///< degrees, m
     bool falls_right = true;
+    double born_at = 0.0; ///< extension at the end of the window in which it was first traced, m
 };
 
 /// What stretching made of a slab (docs/measures.md).

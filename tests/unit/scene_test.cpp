@@ -441,8 +441,15 @@ TEST_F(SceneTest, TheBlockAndItsDetachmentBelongTogether) {
               "scene.toml:1: hanging_wall: is missing, every scene needs [hanging_wall] or "
               "[flexure]");
     EXPECT_EQ(error("seed = 1\n[hanging_wall]\n"),
-              "scene.toml:2: hanging_wall: needs [detachment], the surface on which it slides; "
-              "add [detachment]");
+              "scene.toml:2: hanging_wall: needs [detachment], the surface on which it slides, "
+              "or [stretching]; add one");
+    const Scene stretched = load("[hanging_wall]\n[stretching]\nfriction = 0.7\n");
+    EXPECT_FALSE(stretched.detachment);
+    EXPECT_EQ(bits(load(to_toml(stretched))), bits(stretched));
+    EXPECT_DOUBLE_EQ(hanging_wall_area(stretched), 40e3 * 15e3);
+    EXPECT_EQ(
+        error(minimal + "[stretching]\n"),
+        "scene.toml:4: stretching: stands in place of [detachment]; leave out one of the two");
     EXPECT_THAT(error("[hanging_wall]\n[detachment]\n"),
                 StartsWith("scene.toml:2: detachment.segments: has no arc and no line"));
 }
@@ -623,7 +630,7 @@ TEST_F(SceneTest, EffectsThatNeedOthers) {
 
 TEST_F(SceneTest, FilesThatAreNoScenes) {
     const std::string empty = "scene.toml: is empty; a scene has at least [hanging_wall] and "
-                              "[detachment], or [flexure] and [elastic_base]";
+                              "[detachment] or [stretching], or [flexure] and [elastic_base]";
     EXPECT_EQ(error(""), empty);
     EXPECT_EQ(error("\n# nothing here\n"), empty);
     EXPECT_EQ(error(std::string("a = 1\n\x7f"
@@ -715,8 +722,9 @@ TEST_F(SceneTest, AwkwardNumbersReadBackTheSame) {
         for (const SceneTable& table : scene_tables(scene)) {
             if (table.name == "hanging_wall" || table.name == "detachment")
                 continue; // checked against each other
-            if (table.name == "elastic_base" || table.name == "flexure") {
-                table.drop(); // scenes without discs
+            if (table.name == "elastic_base" || table.name == "flexure" ||
+                table.name == "stretching") {
+                table.drop(); // scenes without discs, or without detachment
                 continue;
             }
             for (const Parameter& parameter : table.parameters) {
