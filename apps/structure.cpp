@@ -18,6 +18,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace listric {
 
@@ -361,14 +362,21 @@ private:
                 traced += f.trace.length();
         put("kink_reverse_trace_m", traced);
 
-        double upper = 0.0, lower = 0.0;
+        // Beyond the kink the most prominent basin is the syncline's, the next a collapse graben.
+        double upper = 0.0, syncline = 0.0, lower = 0.0;
         const std::vector<Depocentre> basins = find_basins(profile_);
-        for (const Depocentre& b : basins)
-            if (b.x > std::ranges::min(basins, {}, &Depocentre::x).x) {
-                double& graben = b.x < kink + 3e3 ? upper : lower;
-                graben = std::max(graben, b.prominence);
-            }
+        for (const Depocentre& b : basins) {
+            if (b.x <= std::ranges::min(basins, {}, &Depocentre::x).x)
+                continue;
+            if (b.x < kink + 3e3)
+                upper = std::max(upper, b.prominence);
+            else if (b.prominence > syncline)
+                lower = std::exchange(syncline, b.prominence);
+            else
+                lower = std::max(lower, b.prominence);
+        }
         put("upper_graben_prominence_m", upper);
+        put("syncline_basin_prominence_m", syncline);
         put("lower_graben_prominence_m", lower);
         measure_rollovers();
         measure_lower_block(*parts);
