@@ -161,25 +161,38 @@ private:
 
     void measure_material() {
         const std::vector<double> rock = rock_radii(now_);
-        double area = 0.0, weak_area = 0.0;
-        for (std::size_t i = 0; i < d_.x.size(); ++i)
-            if (d_.stratum[i] == 0) {
-                area += rock[i] * rock[i];
-                weak_area += d_.material[i] == weak ? rock[i] * rock[i] : 0.0;
-            }
-        if (scene_.fault_weakening)
-            put("basement_weak_fraction", weak_area / area);
+        double area[2] = {}, weak_area[2] = {}; // basement, sediment
+        for (std::size_t i = 0; i < d_.x.size(); ++i) {
+            const std::size_t kind = d_.stratum[i] == 0 ? 0 : 1;
+            area[kind] += rock[i] * rock[i];
+            weak_area[kind] += d_.material[i] == weak ? rock[i] * rock[i] : 0.0;
+        }
+        if (scene_.fault_weakening) {
+            put("basement_weak_fraction", weak_area[0] / area[0]);
+            put("sediment_weak_fraction", weak_area[1] / area[1]); // not finite without sediment
+        }
         if (scene_.sedimentation && scene_.compaction)
             measure_compaction();
-        if (scene_.sedimentation)
+        if (scene_.sedimentation) {
             put("superposition_fraction", superposition());
+            const TargetLine surface = target_line();
+            double above = 0.0;
+            for (std::size_t i = 0; i < d_.x.size(); ++i)
+                above += surface.above({d_.x[i], d_.y[i]}) > d_.radius[i];
+            put("discs_above_target", above);
+        }
+    }
+
+    /// That sediment and erosion adapt the surface to.
+    TargetLine target_line() const {
+        return Target(scene_.sedimentation->level, scene_.sedimentation->target)
+            .at(extension_ / scene_.extension.rate);
     }
 
     /// Porosity of sediment beside Phi(depth). Discs that have risen since keep what they had.
     void measure_compaction() {
         const auto porosity = now_.discs.get<double>("porosity");
-        const TargetLine surface = Target(scene_.sedimentation->level, scene_.sedimentation->target)
-                                       .at(extension_ / scene_.extension.rate);
+        const TargetLine surface = target_line();
         double all = 0.0, error = 0.0, beyond = 0.0;
         for (std::size_t i = 0; i < d_.x.size(); ++i) {
             if (d_.stratum[i] == 0)

@@ -137,5 +137,33 @@ TEST(Compaction, PorosityBesideThatOfTheDepth) {
     EXPECT_NEAR(numbers.at("porosity_off_fraction"), 0.1, 1e-12);
 }
 
+/// Collapse grabens beyond a basin at 5 km: one of them is there alone, then both. They have moved
+/// with the right wall since.
+TEST(Grabens, TheOneThatIsThereFirst) {
+    for (double alone : {30e3, 20e3}) {
+        Scene scene;
+        scene.hanging_wall.emplace();
+        RigidBase base;
+        base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
+        State state = make_state(row(20, r));
+        const auto past = [&](double extension, std::vector<double> grabens) {
+            state.clock.extension = extension;
+            Past p{DiscPlaces(state), {{5e3, 4e3, 4e3}}, {}};
+            for (double x : grabens)
+                p.basins.push_back({x + extension, 1e3, 500.0});
+            return p;
+        };
+        // In the second moment two maxima of one graben.
+        const std::vector<Past> story{past(0.0, {}), past(1e3, {alone, alone + 1e3}),
+                                      past(2e3, {alone}), past(3e3, {20e3, 30e3})};
+        state.clock.extension = 4e3;
+        const NamedNumbers found = measure_structure(scene, base, state, {}, {}, story);
+        const std::map<std::string, double> numbers(found.begin(), found.end());
+        EXPECT_EQ(numbers.at("first_graben_at_m"), 1e3);
+        EXPECT_EQ(numbers.at("second_graben_at_m"), 3e3);
+        EXPECT_EQ(numbers.at("outer_graben_first"), alone == 30e3 ? 1.0 : 0.0);
+    }
+}
+
 } // namespace
 } // namespace listric
