@@ -39,13 +39,19 @@ template <class Read> void for_each_table(const Entry& parent, const char* key, 
         read(Entry{item, fmt::format("{}[{}]", path, number++)});
 }
 
-/// Reads the keys of a table that are not tables themselves.
+/// Reads the keys of a table but those of the given tables in it.
 void read_values(const Entry& entry, const std::vector<Parameter>& parameters,
                  const std::vector<std::string_view>& tables = {}) {
-    toml::table values = *entry.node.as_table();
-    for (std::string_view name : tables)
-        values.erase(name);
-    read_table({values, entry.path}, parameters);
+    std::vector<std::string_view> allowed = keys(parameters);
+    allowed.insert(allowed.end(), tables.begin(), tables.end());
+    for (const auto& [key, node] : *entry.node.as_table()) {
+        const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
+        if (std::ranges::find(allowed, key.str()) == allowed.end())
+            fail(inner, fmt::format("unknown key, {}", advice(key.str(), allowed)));
+        const auto parameter = std::ranges::find(parameters, key.str(), &Parameter::key);
+        if (parameter != parameters.end())
+            read(inner, *parameter);
+    }
 }
 
 void need(const Entry& entry, const char* key, bool present) {

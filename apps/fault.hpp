@@ -20,6 +20,7 @@ struct Fault {
     double born_at = 0.0;         ///< extension since which its place has been active, m
     double dip_at_birth = 0.0;    ///< of the line traced in the first window since, degrees
     double traced_since = 0.0;    ///< end of that window, m of extension
+    Point foot_at_birth;          ///< of that line, as foot, m
     double footwall_turn = 0.0;   ///< rotation of the footwall block since birth, degrees, > 0
                                   ///< counter-clockwise: toward the detachment
     Point foot;                   ///< lower end, extended to the detachment if that is close, m
@@ -33,8 +34,8 @@ struct FaultReport {
     /// Index of the main fault: normal, steeper than 30 degrees, if possible reaching the lower
     /// half of the hanging wall, and of those the one with most slip rate times length.
     std::optional<std::size_t> main_antithetic, main_synthetic;
-    std::optional<double> antithetic_foot; ///< x of the main antithetic fault's foot, less
-                                           ///< the extension since its birth, m
+    std::optional<double> antithetic_foot; ///< x of the main antithetic fault's foot at birth,
+                                           ///< less the extension from its birth to that line, m
     std::optional<double> width;           ///< median over faults by length, diameters
     std::optional<double> sediment_weak_off_fault_fraction;
 };

@@ -269,12 +269,14 @@ FaultReport report_faults(const Scene& scene, const RigidBase& base, const State
         }
         f.dip_at_birth = f.dip;
         f.traced_since = now.clock.extension;
+        f.foot_at_birth = f.foot;
         for (std::size_t n = since_birth; n-- > 0;) {
             const auto& [k, former] = lived[n];
             if (!traced[k])
                 traced[k] = trace_faults(windows[k], detachment, options);
             if (const FaultTrace* t = traced_on(former, *traced[k], slip, diameter)) {
                 f.dip_at_birth = dip_of(t->points);
+                f.foot_at_birth = foot_of(*t, detachment, diameter);
                 f.traced_since = older[k + 1].extension;
                 break;
             }
@@ -302,7 +304,7 @@ FaultReport report_faults(const Scene& scene, const RigidBase& base, const State
     report.main_synthetic = strongest(true);
     if (report.main_antithetic) {
         const Fault& f = report.faults[*report.main_antithetic];
-        report.antithetic_foot = f.foot.x - (now.clock.extension - f.born_at);
+        report.antithetic_foot = f.foot_at_birth.x - (f.traced_since - f.born_at);
     }
     std::vector<double> widths;
     for (const Fault& f : report.faults)

@@ -844,6 +844,8 @@ def draw_gallery(frames):
                             weight="semibold", annotation_clip=False)
             if row + 1 == len(frames):
                 ax.set_xlabel("Distance from the breakaway (km)")
+            else:
+                ax.tick_params(labelbottom=False)
     return figure
 
 

@@ -2,6 +2,7 @@
 
 #include "apps/effects.hpp"
 #include "apps/fault_history.hpp"
+#include "apps/fault_throw.hpp"
 #include "apps/kinematics.hpp"
 #include "apps/rigid_motion.hpp"
 #include "apps/run_folder.hpp"
@@ -17,6 +18,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace listric {
 
@@ -51,16 +53,39 @@ std::optional<double> x_at(const std::vector<Point>& trace, double y) {
     return std::nullopt;
 }
 
+/// The trace with its scarp, which sediment has buried: the pre-rift top from the trace's upper end
+/// up the footwall to where it is less than 250 m deep.
+std::vector<Point> with_scarp(const std::vector<Point>& trace, const Profile& profile) {
+    std::vector<Point> points = trace;
+    const double side = trace.front().x > trace.back().x ? 1.0 : -1.0;
+    const auto count = std::ssize(profile.x);
+    std::ptrdiff_t k = std::ranges::lower_bound(profile.x, trace.front().x) - profile.x.begin();
+    for (; k >= 0 && k < count && points.front().y<-250.0; k += side> 0.0 ? 1 : -1) {
+        const auto column = static_cast<std::size_t>(k);
+        // A trace ends short of the surface by some diameters.
+        if (const Point p{profile.x[column], profile.pre_rift_top[column]}; p.y > points.front().y)
+            points.insert(points.begin(), p);
+    }
+    return points;
+}
+
+/// Sediment younger than this, m of extension, is too loose for a fault.
+double least_age(const Scene& scene) {
+    return (scene.fault_weakening ? *scene.fault_weakening : FaultWeakeningParameters{})
+               .youngest_sediment *
+           scene.extension.rate;
+}
+
 class Structure {
 public:
     Structure(const Scene& scene, const RigidBase& base, const State& now,
               const FaultReport& faults, const Measures& measures, std::span<const Past> past)
-        : scene_(scene), now_(now), faults_(faults), measures_(measures), past_(past),
+        : scene_(scene), base_(base), now_(now), faults_(faults), measures_(measures), past_(past),
           detachment_(base.surfaces.front().chain), d_(disc_columns(now)),
           diameter_(2.0 * now.mean_radius), extension_(now.clock.extension),
           profile_(measure_profile(scene, now, base)) {
         if (!past.empty())
-            window_ = shear_field(past.back().places, DiscPlaces(now), least_age());
+            window_ = shear_field(past.back().places, DiscPlaces(now), least_age(scene));
     }
 
     NamedNumbers numbers() {
@@ -76,12 +101,6 @@ private:
     void put(const std::string& name, std::optional<double> value) {
         if (value && std::isfinite(*value))
             numbers_.emplace_back(name, *value);
-    }
-
-    double least_age() const {
-        return (scene_.fault_weakening ? *scene_.fault_weakening : FaultWeakeningParameters{})
-                   .youngest_sediment *
-               scene_.extension.rate;
     }
 
     void measure_faults() {
@@ -101,9 +120,13 @@ private:
                 put("antithetic_over_synthetic_throw", *a / *s);
         }
         std::vector<double> correlations;
-        for (const Fault& f : faults_.faults)
-            if (const auto r = throw_age_correlation(f.throws); r && f.normal)
-                correlations.push_back(*r);
+        for (const Past& p : past_)
+            correlations.insert(correlations.end(), p.throw_correlations.begin(),
+                                p.throw_correlations.end());
+        if (!past_.empty()) {
+            const auto last = throw_age_correlations(scene_, base_, now_, past_.back().places);
+            correlations.insert(correlations.end(), last.begin(), last.end());
+        }
         put("throw_age_faults", static_cast<double>(correlations.size()));
         if (!correlations.empty())
             put("throw_age_correlation", median(correlations));
@@ -120,10 +143,14 @@ private:
         put(name + "_throw_m", f.pre_rift_throw);
         put(name + "_rate_mm_per_a", f.rate);
         put(name + "_x_at_half_depth_m", x_at(f.trace.points, 0.5 * detachment_.back().end.y));
+        const auto bow = [](const std::vector<Point>& line) {
+            const Point a = line.front(), b = line.back();
+            return curvature_of(line) * std::hypot(b.x - a.x, b.y - a.y) / 8.0;
+        };
+        put(name + "_bow", bow(with_scarp(f.trace.points, profile_)));
         if (basement.size() >= 8) {
-            const Point a = basement.front(), b = basement.back();
             put(name + "_dip_deg", dip_of(basement));
-            put(name + "_bow", curvature_of(basement) * std::hypot(b.x - a.x, b.y - a.y) / 8.0);
+            put(name + "_bow_in_basement", bow(basement));
         }
         if (measures_.rollover_tilt && f.born_at < extension_)
             if (const double turned =
@@ -134,25 +161,38 @@ private:
 
     void measure_material() {
         const std::vector<double> rock = rock_radii(now_);
-        double area = 0.0, weak_area = 0.0;
-        for (std::size_t i = 0; i < d_.x.size(); ++i)
-            if (d_.stratum[i] == 0) {
-                area += rock[i] * rock[i];
-                weak_area += d_.material[i] == weak ? rock[i] * rock[i] : 0.0;
-            }
-        if (scene_.fault_weakening)
-            put("basement_weak_fraction", weak_area / area);
+        double area[2] = {}, weak_area[2] = {}; // basement, sediment
+        for (std::size_t i = 0; i < d_.x.size(); ++i) {
+            const std::size_t kind = d_.stratum[i] == 0 ? 0 : 1;
+            area[kind] += rock[i] * rock[i];
+            weak_area[kind] += d_.material[i] == weak ? rock[i] * rock[i] : 0.0;
+        }
+        if (scene_.fault_weakening) {
+            put("basement_weak_fraction", weak_area[0] / area[0]);
+            put("sediment_weak_fraction", weak_area[1] / area[1]); // not finite without sediment
+        }
         if (scene_.sedimentation && scene_.compaction)
             measure_compaction();
-        if (scene_.sedimentation)
+        if (scene_.sedimentation) {
             put("superposition_fraction", superposition());
+            const TargetLine surface = target_line();
+            double above = 0.0;
+            for (std::size_t i = 0; i < d_.x.size(); ++i)
+                above += surface.above({d_.x[i], d_.y[i]}) > d_.radius[i];
+            put("discs_above_target", above);
+        }
+    }
+
+    /// That sediment and erosion adapt the surface to.
+    TargetLine target_line() const {
+        return Target(scene_.sedimentation->level, scene_.sedimentation->target)
+            .at(extension_ / scene_.extension.rate);
     }
 
     /// Porosity of sediment beside Phi(depth). Discs that have risen since keep what they had.
     void measure_compaction() {
         const auto porosity = now_.discs.get<double>("porosity");
-        const TargetLine surface = Target(scene_.sedimentation->level, scene_.sedimentation->target)
-                                       .at(extension_ / scene_.extension.rate);
+        const TargetLine surface = target_line();
         double all = 0.0, error = 0.0, beyond = 0.0;
         for (std::size_t i = 0; i < d_.x.size(); ++i) {
             if (d_.stratum[i] == 0)
@@ -192,32 +232,54 @@ private:
     void measure_basins() {
         const std::vector<Depocentre> basins = find_basins(profile_);
         put("basins", static_cast<double>(basins.size()));
-        // All but the one at the breakaway are collapse grabens. They move with the right wall once
-        // they are made, so their places are compared less the extension.
+        // All but the one at the breakaway are collapse grabens.
         const auto first_x = [](const std::vector<Depocentre>& all) {
             return all.empty() ? 0.0 : std::ranges::min(all, {}, &Depocentre::x).x;
         };
-        double innermost = std::numeric_limits<double>::infinity(), most = 0.0;
+        double most = 0.0;
         int grabens = 0;
         for (const Depocentre& b : basins)
             if (b.x > first_x(basins)) {
                 ++grabens;
-                innermost = std::min(innermost, b.x - extension_);
                 most = std::max(most, b.prominence);
             }
+        if (measures_.intervening_high) {
+            // Relief across the deepest collapse graben: its outer rim is the original surface.
+            double deepest = 0.0;
+            for (const Depocentre& b : basins)
+                if (b.x > measures_.intervening_high->x)
+                    deepest = std::max(deepest, b.thickness);
+            if (const double inner = deepest - measures_.intervening_high->y; inner > 0.0)
+                put("antithetic_over_synthetic_relief", deepest / inner);
+        }
         put("collapse_grabens", grabens);
         put("collapse_graben_prominence_m", most);
+        measure_order_of_grabens(first_x);
+    }
+
+    /// When a collapse graben first appears, when there first are two, and whether the one before
+    /// is then the outer one.
+    template <class FirstX> void measure_order_of_grabens(FirstX&& first_x) {
+        constexpr double apart = 2e3; // what is nearer together is one graben
+        std::optional<double> alone;  // place of the only one, less the extension
         for (const Past& p : past_) {
-            std::optional<double> outermost;
+            const double e = p.places.extension;
+            std::vector<double> grabens;
             for (const Depocentre& b : p.basins)
-                if (b.x > first_x(p.basins))
-                    outermost = std::max(outermost.value_or(b.x), b.x);
-            if (!outermost || p.places.extension <= 0.0)
+                if (b.x > first_x(p.basins) && e > 0.0)
+                    grabens.push_back(b.x - e);
+            if (grabens.empty())
                 continue;
-            put("first_graben_at_m", p.places.extension);
-            if (grabens > 0)
-                put("graben_step_m", *outermost - p.places.extension - innermost);
-            break;
+            const auto [inner, outer] = std::ranges::minmax(grabens);
+            if (!alone)
+                put("first_graben_at_m", e);
+            if (outer - inner >= apart) {
+                put("second_graben_at_m", e);
+                if (alone)
+                    put("outer_graben_first", std::abs(outer - *alone) < std::abs(inner - *alone));
+                return;
+            }
+            alone = outer;
         }
     }
 
@@ -251,8 +313,8 @@ private:
             const bool is_early = end > 0.1 * extension_ && end < 0.42 * extension_;
             if (!is_early && end < 0.78 * extension_)
                 continue;
-            if (const auto x = hinge(
-                    only_present(shear_field(past_[k].places, past_[k + 1].places, least_age()))))
+            if (const auto x = hinge(only_present(
+                    shear_field(past_[k].places, past_[k + 1].places, least_age(scene_)))))
                 (is_early ? early : late).push_back(*x);
         }
         if (early.empty() || late.empty())
@@ -313,14 +375,21 @@ private:
                 traced += f.trace.length();
         put("kink_reverse_trace_m", traced);
 
-        double upper = 0.0, lower = 0.0;
+        // Beyond the kink the most prominent basin is the syncline's, the next a collapse graben.
+        double upper = 0.0, syncline = 0.0, lower = 0.0;
         const std::vector<Depocentre> basins = find_basins(profile_);
-        for (const Depocentre& b : basins)
-            if (b.x > std::ranges::min(basins, {}, &Depocentre::x).x) {
-                double& graben = b.x < kink + 3e3 ? upper : lower;
-                graben = std::max(graben, b.prominence);
-            }
+        for (const Depocentre& b : basins) {
+            if (b.x <= std::ranges::min(basins, {}, &Depocentre::x).x)
+                continue;
+            if (b.x < kink + 3e3)
+                upper = std::max(upper, b.prominence);
+            else if (b.prominence > syncline)
+                lower = std::exchange(syncline, b.prominence);
+            else
+                lower = std::max(lower, b.prominence);
+        }
         put("upper_graben_prominence_m", upper);
+        put("syncline_basin_prominence_m", syncline);
         put("lower_graben_prominence_m", lower);
         measure_rollovers();
         measure_lower_block(*parts);
@@ -410,6 +479,7 @@ private:
     }
 
     const Scene& scene_;
+    const RigidBase& base_;
     const State& now_;
     const FaultReport& faults_;
     const Measures& measures_;
@@ -466,7 +536,11 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
         if (!past.empty() &&
             now.clock.extension - past.back().places.extension < 0.75 * run.scene.output.interval)
             continue;
-        past.push_back({DiscPlaces(now), find_basins(measure_profile(run.scene, now, run.base))});
+        Past next{DiscPlaces(now), find_basins(measure_profile(run.scene, now, run.base)), {}};
+        if (!past.empty())
+            next.throw_correlations =
+                throw_age_correlations(run.scene, run.base, now, past.back().places);
+        past.push_back(std::move(next));
         places.push_back(past.back().places);
     }
     return found;
@@ -487,6 +561,20 @@ std::optional<double> throw_age_correlation(const std::map<int, double>& throws)
         squares += difference * difference;
     }
     return 1.0 - 6.0 * squares / (n * (n * n - 1.0));
+}
+
+std::vector<double> throw_age_correlations(const Scene& scene, const RigidBase& base,
+                                           const State& now, const DiscPlaces& before) {
+    std::vector<double> correlations;
+    const ShearField field = shear_field(before, DiscPlaces(now), least_age(scene));
+    for (const FaultTrace& trace : trace_faults(field, base.surfaces.front().chain)) {
+        const bool falls_right = trace.points.back().x > trace.points.front().x;
+        if ((median(trace.slip) > 0.0) != falls_right || dip_of(trace.points) < 30.0)
+            continue;
+        if (const auto r = throw_age_correlation(fault_throws(now, trace.points)))
+            correlations.push_back(*r);
+    }
+    return correlations;
 }
 
 ShearPlane shear_plane(const ShearField& field, std::size_t k) {

@@ -19,7 +19,8 @@ using NamedNumbers = std::vector<std::pair<std::string, double>>;
 /// What a moment's structure needs of an earlier one.
 struct Past {
     DiscPlaces places;
-    std::vector<Depocentre> basins; ///< see find_basins
+    std::vector<Depocentre> basins;         ///< see find_basins
+    std::vector<double> throw_correlations; ///< of the faults of the window that ends here
 };
 
 /// Local maxima of the pre-rift top's depth with a prominence of 250 m or more, the deepest first.
@@ -39,6 +40,10 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const std::filesystem::
 /// Rank correlation of a fault's throws with the strata's numbers (Spearman), -1 where throw falls
 /// from each stratum to the next younger. None for fewer than five strata.
 std::optional<double> throw_age_correlation(const std::map<int, double>& throws);
+
+/// The same for every normal fault steeper than 30 degrees that slid between two states.
+std::vector<double> throw_age_correlations(const Scene& scene, const RigidBase& base,
+                                           const State& now, const DiscPlaces& before);
 
 /// The plane on which a disc's surroundings shear, if they shear on one: of the two planes of
 /// largest shear, the one whose simple shear turns the way the displacement field does.

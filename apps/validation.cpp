@@ -122,8 +122,12 @@ public:
           beside_(document_.parent_path() / document_.stem()) {
         check();
         fs::create_directories(beside_);
-        if (!request.remeasure)
+        try {
             store_ = read_store(beside_ / "measures.csv");
+        } catch (const StorageError&) {
+            if (!request.remeasure)
+                throw;
+        }
     }
 
     bool carry_out() {
@@ -196,9 +200,11 @@ private:
 
     /// The runs that are there, by seed.
     void measure_runs(const ValidationRun& run) {
+        bool measured = false;
         for (int seed = 1; seed <= seeds_of(run); ++seed) {
             const std::string hash = hash_of(run, seed);
-            const bool known = std::ranges::all_of(run.at, [&](double at) {
+            const bool anew = request_.remeasure && !renewed_.contains(run.name);
+            const bool known = !anew && std::ranges::all_of(run.at, [&](double at) {
                 const auto m = store_.find({run.name, seed, at});
                 return m != store_.end() && m->second.hash == hash;
             });
@@ -207,8 +213,10 @@ private:
             say(fmt::format("measuring {}", folder_of(run, seed).string()));
             for (auto& [at, numbers] : examine_run(folder_of(run, seed), run.at))
                 store_[{run.name, seed, at}] = {hash, {numbers.begin(), numbers.end()}};
-            renewed_.insert(run.name);
+            measured = true;
         }
+        if (measured)
+            renewed_.insert(run.name);
     }
 
     /// The value of each seed that has run; an empty one where the measure has no meaning.
@@ -296,13 +304,13 @@ private:
     // ------------------------------------------------------------------------------- document
 
     std::string head() const {
-        std::vector<std::string> lines;
-        int there = 0, wanted = 0;
+        std::set<std::string> wanted, there; // experiments may share runs
         for (const ValidationExperiment& x : chosen_)
             for (const std::string& name : x.runs)
                 for (int seed = 1; seed <= seeds_of(plan_.run(name)); ++seed) {
-                    ++wanted;
-                    there += !hash_of(plan_.run(name), seed).empty();
+                    wanted.insert(fmt::format("{}-{}", name, seed));
+                    if (!hash_of(plan_.run(name), seed).empty())
+                        there.insert(fmt::format("{}-{}", name, seed));
                 }
         std::string text = fmt::format(
             "# Validation\n\n"
@@ -310,7 +318,8 @@ private:
             "seeds each; do not edit. What is expected, and by whom, is in "
             "`apps/validation.toml`; [measures.md](measures.md) defines the measures; "
             "[measures.csv]({}/measures.csv) has every number.\n\n",
-            there, wanted, request_.accuracy, request_.seeds, document_.stem().string());
+            there.size(), wanted.size(), request_.accuracy, request_.seeds,
+            document_.stem().string());
         text += "A value is the mean over the seeds ± its standard deviation (smallest to "
                 "largest). *Met* says how many seeds fulfil the expectation; where it asks for "
                 "most seeds or for the mean, that decides. Rows of kind *kinematics* check the "

@@ -312,7 +312,11 @@ TEST(FaultHistory, TranslatedWithoutRotation) {
     EXPECT_NEAR(f.rate, 250.0 / 5e4 * 1e3, 0.5); // mm/a
     EXPECT_NEAR(f.width, std::hypot(3.0, 2.4), 0.5);
     ASSERT_TRUE(report.antithetic_foot.has_value());
-    EXPECT_NEAR(*report.antithetic_foot, f.foot.x - 1500.0, 1e-6);
+    // The foot of the line traced at birth, three windows ago. Here it is the line's end, which is
+    // known to four diameters along it.
+    EXPECT_EQ(f.traced_since, 1500.0);
+    EXPECT_NEAR(*report.antithetic_foot, f.foot.x - 1500.0, 2.0 * d);
+    EXPECT_NEAR(*report.antithetic_foot, f.foot_at_birth.x, 1e-6);
     EXPECT_NEAR(f.foot.x, f.trace.points.back().x, d); // the detachment is far below
     EXPECT_FALSE(report.main_synthetic.has_value());
 }

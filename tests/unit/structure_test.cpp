@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 namespace listric {
 namespace {
@@ -56,7 +57,7 @@ TEST(ThrowAgeCorrelation, FallingAndRisingAndTooFew) {
 /// Layers cut by a fault that falls right by 60 degrees; the right side has slid 20 diameters down
 /// along it, far more than the discs beside the trace reach, and the footwall has turned.
 TEST(PreRiftThrow, OfSidesThatHavePartedAndTurned) {
-    for (double turn : {0.0, 20.0}) {
+    for (double turn : {0.0, 8.0}) {
         std::vector<Disc> discs = cloud(110, 100, r, 5);
         for (Disc& disc : discs)
             disc.y -= 99.0 * std::sqrt(3.0) * r;
@@ -87,7 +88,8 @@ TEST(PreRiftThrow, OfSidesThatHavePartedAndTurned) {
         const double sine = std::sin(60.0 * degree), turned = std::sin((120.0 - turn) * degree);
         const double layer = 0.5 * ((20.0 - 18.0) * sine + 18.0 * turned) * d;
         EXPECT_NEAR(*found, 20.0 * d * sine + layer * (sine / turned - 1.0), 0.3 * d) << turn;
-        std::ranges::for_each(c.stratum, [](std::int32_t& n) { n = 1; });
+        for (std::int32_t& stratum : c.stratum)
+            stratum = 1;
         EXPECT_FALSE(pre_rift_throw(state, trace).has_value());
     }
 }
@@ -129,11 +131,37 @@ TEST(Compaction, PorosityBesideThatOfTheDepth) {
     scene.compaction.emplace();
     RigidBase base;
     base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
-    for (const auto& [name, value] : measure_structure(scene, base, state, {}, {}, {})) {
-        if (name == "porosity_error")
-            EXPECT_NEAR(value, 0.1 * (1.0 - std::exp(-0.4)), 1e-12);
-        if (name == "porosity_off_fraction")
-            EXPECT_NEAR(value, 0.1, 1e-12);
+    const NamedNumbers found = measure_structure(scene, base, state, {}, {}, {});
+    const std::map<std::string, double> numbers(found.begin(), found.end());
+    EXPECT_NEAR(numbers.at("porosity_error"), 0.1 * (1.0 - std::exp(-0.4)), 1e-12);
+    EXPECT_NEAR(numbers.at("porosity_off_fraction"), 0.1, 1e-12);
+}
+
+/// Collapse grabens beyond a basin at 5 km: one of them is there alone, then both. They have moved
+/// with the right wall since.
+TEST(Grabens, TheOneThatIsThereFirst) {
+    for (double alone : {30e3, 20e3}) {
+        Scene scene;
+        scene.hanging_wall.emplace();
+        RigidBase base;
+        base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
+        State state = make_state(row(20, r));
+        const auto past = [&](double extension, std::vector<double> grabens) {
+            state.clock.extension = extension;
+            Past p{DiscPlaces(state), {{5e3, 4e3, 4e3}}, {}};
+            for (double x : grabens)
+                p.basins.push_back({x + extension, 1e3, 500.0});
+            return p;
+        };
+        // In the second moment two maxima of one graben.
+        const std::vector<Past> story{past(0.0, {}), past(1e3, {alone, alone + 1e3}),
+                                      past(2e3, {alone}), past(3e3, {20e3, 30e3})};
+        state.clock.extension = 4e3;
+        const NamedNumbers found = measure_structure(scene, base, state, {}, {}, story);
+        const std::map<std::string, double> numbers(found.begin(), found.end());
+        EXPECT_EQ(numbers.at("first_graben_at_m"), 1e3);
+        EXPECT_EQ(numbers.at("second_graben_at_m"), 3e3);
+        EXPECT_EQ(numbers.at("outer_graben_first"), alone == 30e3 ? 1.0 : 0.0);
     }
 }
 
