@@ -2,6 +2,7 @@
 
 #include "dem/events/bond_healing.hpp"
 #include "dem/events/compaction.hpp"
+#include "dem/events/energy_account.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"
 #include "dem/genesis.hpp"
@@ -104,6 +105,7 @@ struct Scene {
     std::optional<BondHealingParameters> bond_healing;
     std::optional<SedimentationParameters> sedimentation;
     std::optional<CompactionParameters> compaction;
+    std::optional<EnergyParameters> energy;
     std::optional<ElasticBaseParameters> elastic_base;
     std::optional<FlexureParameters> flexure;
 
