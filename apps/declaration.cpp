@@ -183,6 +183,8 @@ std::vector<Parameter> parameters(CompactionParameters& p) {
     };
 }
 
+std::vector<Parameter> parameters(EnergyParameters&) { return {}; }
+
 std::vector<Parameter> parameters(ElasticBaseParameters& p) {
     return {
         {"elastic_thickness_m", &p.elastic_thickness, "m", {.from = 100, .to = 2e5}, "",
@@ -361,6 +363,8 @@ std::vector<SceneTable> scene_tables(Scene& scene) {
         effect("bond_healing", "intelligent crack management (ICM)", scene.bond_healing),
         sedimentation,
         effect("compaction", "sediment loses pore space with burial", scene.compaction),
+        effect("energy", "account of where the work goes; then the cycle takes one thread and three times as long",
+               scene.energy),
         effect("elastic_base", "footwall and basement bend and float", scene.elastic_base),
         effect("lower_crust_thinning", "the lower crust stretches, mantle rises: isostasy lowers the base",
                scene.lower_crust_thinning),

@@ -2,6 +2,7 @@
 
 #include "dem/events/bond_healing.hpp"
 #include "dem/events/compaction.hpp"
+#include "dem/events/energy_account.hpp"
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/property_update.hpp"
@@ -35,6 +36,13 @@ std::vector<std::unique_ptr<Event>> make_events(const Scene& s) {
     if (s.sedimentation)
         events.push_back(
             std::make_unique<Sedimentation>(*s.sedimentation, s.hanging_wall->radius_ratio, rate));
+    if (s.energy) {
+        std::vector<std::string> names;
+        for (const auto& event : events)
+            if (event->name() != "equilibrium") // which only looks
+                names.push_back(event->name());
+        events.push_back(std::make_unique<EnergyAccount>(gravity, names));
+    }
     // Last, so that a window starts with the discs that were deposited at its start.
     events.push_back(std::make_unique<Strain>(strain_window, rate));
     return events;
@@ -112,6 +120,8 @@ std::vector<std::string> effect_names(const Scene& s) {
         names.push_back("sedimentation");
     if (s.compaction)
         names.push_back("compaction");
+    if (s.energy)
+        names.push_back("energy");
     if (s.elastic_base)
         names.push_back("elastic_base");
     if (s.lower_crust_thinning)

@@ -92,7 +92,8 @@ std::string explain(const Scene& scene) {
     if (scene.flexure)
         return explain_flexure(scene);
     const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    const double rate = measure_rate(estimated_discs(scene), threads, 0.7);
+    const double rate =
+        measure_rate(estimated_discs(scene), threads, 0.7, scene.energy.has_value());
     const Prediction p = predict(scene, rate);
     std::string text;
     const auto add = [&](auto format, const auto&... values) {

@@ -468,6 +468,11 @@ Measures measure(const Scene& scene, const State& state, const RigidBase& base,
         m.unbalanced_ratio_mean = t.get<double>("mean_ratio_sum")[0] / t.get<double>("samples")[0];
         m.unbalanced_ratio_max = t.get<double>("max_ratio")[0];
     }
+    if (scene.gravity)
+        m.quasi_static = m.unbalanced_ratio_mean <= greatest_unbalanced_ratio &&
+                         m.inertial_number <= greatest_inertial_number;
+    if (const auto* account = dynamic_cast<const EnergyAccount*>(find_event(events, "energy")))
+        m.energy = account->balance(state, base);
     return m;
 }
 

@@ -3,6 +3,7 @@
 #include "apps/scene.hpp"
 #include "dem/base.hpp"
 #include "dem/event.hpp"
+#include "dem/events/energy_account.hpp"
 #include "dem/state.hpp"
 
 #include <memory>
@@ -40,6 +41,9 @@ struct Measures {
     double mass_error_fraction = 0.0;
     double unbalanced_ratio_mean = 0.0, unbalanced_ratio_max = 0.0;
     double inertial_number = 0.0; ///< of the tenth of the area strained most
+    /// Whether motion is slow enough not to matter; absent without gravity, where nothing rests.
+    std::optional<bool> quasi_static;
+    std::optional<EnergyBalance> energy;
     std::optional<std::vector<Depocentre>> depocentres;
     /// Where the halfgraben ends and the collapse graben begins, with the share of the basin's area
     /// on the halfgraben's side.
@@ -56,6 +60,9 @@ struct Measures {
     std::optional<double> predicted_halfgraben_area_share;
     std::optional<double> old_sediment_bonded_fraction;
 };
+
+/// Beyond these a run is not quasi-static: inertia carries part of the load.
+inline constexpr double greatest_unbalanced_ratio = 1e-2, greatest_inertial_number = 2e-3;
 
 /// Where a detachment that descends to a flat and then further has its parts, m along the chain.
 struct RampFlatRamp {

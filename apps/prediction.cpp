@@ -19,7 +19,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 } // namespace
 
-double measure_rate(std::size_t discs, int threads, double seconds) {
+double measure_rate(std::size_t discs, int threads, double seconds, bool accounted) {
     // Hexagonal lattice on a floor, as many neighbours per disc as a settled packing has on average
     // once every third contact is left out by a gap.
     const double radius = 100.0;
@@ -50,7 +50,8 @@ double measure_rate(std::size_t discs, int threads, double seconds) {
     }
     // Long enough that packing the state for the fast cycle does not count.
     const auto batch = std::max<std::int64_t>(5, 4'000'000 / static_cast<std::int64_t>(discs));
-    const Execution execution{threads};
+    EnergyFlows flows;
+    const Execution execution{threads, Cycle::best, accounted ? &flows : nullptr};
     advance(state, base, {}, batch / 4 + 1, execution);
     const auto start = std::chrono::steady_clock::now();
     double cycles = 0.0;

@@ -20,7 +20,7 @@ struct Prediction {
 Prediction predict(const Scene& scene, double disc_steps_per_second);
 
 /// Speed of the cycle on this machine, disc-steps per second: a bonded lattice of the scene's size
-/// is cycled for about `seconds`.
-double measure_rate(std::size_t discs, int threads, double seconds);
+/// is cycled for about `seconds`, with or without the account of energy.
+double measure_rate(std::size_t discs, int threads, double seconds, bool accounted);
 
 } // namespace listric

@@ -13,6 +13,7 @@
 #include "apps/version.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
+#include "dem/events/energy_account.hpp"
 #include "dem/genesis.hpp"
 
 #include <fmt/format.h>
@@ -52,12 +53,14 @@ struct Run {
     std::vector<std::unique_ptr<Event>> events;
     std::unique_ptr<FootwallCoupling> footwall; ///< none: the base does not respond
     std::unique_ptr<BaseMotion> base_motion;    ///< none: it is not prescribed
+    EnergyAccount* energy = nullptr;            ///< one of the events, if it is on
     State state;
     RunRecord record;
     SteadyClock::time_point started = SteadyClock::now();
     double seconds_before = 0.0; ///< wall time of the sessions that this one resumes
     fs::path kept;               ///< snapshot of the present state, if there is one
     double drawn_at = -1.0;      ///< extension of the last figures, m
+    bool warned = false;         ///< that the run is too fast
 
     explicit Run(const Scene& s, const RunOptions& o)
         : scene(s), options(o),
@@ -68,6 +71,9 @@ struct Run {
         if (s.base_motion)
             base_motion =
                 std::make_unique<BaseMotion>(*s.base_motion, base.motion, s.extension.rate);
+        for (const auto& event : events)
+            if (auto* account = dynamic_cast<EnergyAccount*>(event.get()))
+                energy = account;
     }
 
     double wall_seconds() const { return seconds_before + seconds_since(started); }
@@ -154,6 +160,7 @@ fs::path cache_path(const Scene& scene) {
     start.lower_crust_thinning.reset();
     start.footwall_erosion.reset();
     start.base_motion.reset();
+    start.energy.reset();
     std::uint64_t key = 1469598103934665603u; // FNV-1a
     const auto stir = [&](std::string_view text) {
         for (char letter : text)
@@ -267,6 +274,8 @@ void begin(Run& run, Voice& voice) {
     for (auto& event : run.events)
         event->begin(run.state);
     find_contacts(run.state, run.base);
+    if (run.energy)
+        run.energy->open(run.state, run.base);
     voice.say(fmt::format("hanging wall: {} discs", run.state.discs.rows()));
 }
 
@@ -302,18 +311,35 @@ double next_due(const Run& run) {
 }
 
 void apply_due_events(Run& run) {
-    bool search = false;
+    bool search_due = false;
+    const auto search = [&] {
+        const Stopwatch watch(run.record, "rebuild");
+        find_contacts(run.state, run.base);
+        search_due = false;
+    };
+    const auto account = [&](auto&& book) {
+        if (!run.energy)
+            return;
+        if (search_due)
+            search(); // contacts that an event has made hold energy
+        const Stopwatch watch(run.record, run.energy->name());
+        book(*run.energy);
+    };
+    account([&](EnergyAccount& energy) { energy.book_cycles(run.state, run.base); });
     for (auto& event : run.events)
         if (static_cast<double>(event->applied + 1) * event->schedule().spacing() <=
             run.state.clock.extension + run.tolerance()) {
-            const Stopwatch watch(run.record, event->name());
-            search |= event->apply(run.state, run.base);
-            ++event->applied;
+            {
+                const Stopwatch watch(run.record, event->name());
+                search_due |= event->apply(run.state, run.base);
+                ++event->applied;
+            }
+            account([&](EnergyAccount& energy) {
+                energy.book_event(event->name(), run.state, run.base);
+            });
         }
-    if (search) {
-        const Stopwatch watch(run.record, "rebuild");
-        find_contacts(run.state, run.base);
-    }
+    if (search_due)
+        search();
 }
 
 /// Cycles toward the given extension for a fraction of a second.
@@ -327,7 +353,15 @@ void cycle_toward(Run& run, double extension) {
     ElasticBase* const base = run.footwall ? &run.footwall->base() : nullptr;
     const double before = base ? base->seconds : 0.0;
     BaseResponse* const response = base ? static_cast<BaseResponse*>(base) : run.base_motion.get();
-    advance(run.state, run.base, run.physics, batch, execution(run), response);
+    Execution how = execution(run);
+    EnergyFlows flows;
+    if (run.energy) {
+        flows = run.energy->flows();
+        how.energy = &flows;
+    }
+    advance(run.state, run.base, run.physics, batch, how, response);
+    if (run.energy)
+        run.energy->put(flows);
     if (base) {
         run.record.seconds_by_part["base"] += base->seconds - before;
         run.record.seconds_by_part["cycle"] -= base->seconds - before;
@@ -335,8 +369,24 @@ void cycle_toward(Run& run, double extension) {
     run.record.disc_steps += discs * static_cast<double>(batch);
 }
 
-void append_history(Run& run) {
-    auto row = history_row(run.state, measure(run.scene, run.state, run.base, run.events));
+/// Says once what makes the results doubtful, when a whole window of strain is known or at the end.
+void warn_of_haste(Run& run, const Measures& measures, Voice& voice) {
+    const double known = std::min(strain_window, run.target()) - run.tolerance();
+    if (run.warned || measures.quasi_static.value_or(true) || run.state.clock.extension < known)
+        return;
+    run.warned = true;
+    voice.say(fmt::format(
+        "warning: too fast to be quasi-static: unbalanced forces are {:.2g} of contact forces "
+        "(at most {:g}), the inertial number is {:.2g} (at most {:g}); a smaller "
+        "extension.speed_m_per_s than {:g} is needed, or more discs",
+        measures.unbalanced_ratio_mean, greatest_unbalanced_ratio, measures.inertial_number,
+        greatest_inertial_number, run.scene.extension.speed));
+}
+
+void append_history(Run& run, Voice& voice) {
+    const Measures measures = measure(run.scene, run.state, run.base, run.events);
+    warn_of_haste(run, measures, voice);
+    auto row = history_row(run.state, measures);
     if (run.footwall)
         std::ranges::move(run.footwall->end_window(run.state, run.base), std::back_inserter(row));
     Table& history = run.record.history;
@@ -461,7 +511,7 @@ void march(Run& run, Voice& voice) {
         next_window += window;
         {
             const Stopwatch watch(run.record, "measures");
-            append_history(run);
+            append_history(run, voice);
         }
         if (near_any(run.scene.output.figures, state.clock.extension, 0.5 * window)) {
             draw(run, voice);
@@ -630,9 +680,11 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
             write_text(output / "scene.toml", text);
             run.record.scene = text;
             run.record.predicted_seconds =
-                predict(scene, measure_rate(estimated_discs(scene), options.threads, 0.2)).seconds;
+                predict(scene, measure_rate(estimated_discs(scene), options.threads, 0.2,
+                                            scene.energy.has_value()))
+                    .seconds;
             begin(run, voice);
-            append_history(run);
+            append_history(run, voice);
             save(run);
         }
         march(run, voice);
@@ -642,6 +694,7 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
             save(run);
         draw_sheet(run, voice);
         const Measures measures = measure(scene, run.state, run.base, run.events);
+        warn_of_haste(run, measures, voice);
         const FaultReport faults = report_faults(run);
         check_base(run, voice);
         write_text(output / "summary.json",

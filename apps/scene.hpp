@@ -6,6 +6,7 @@
 #include "dem/base_motion.hpp"
 #include "dem/events/bond_healing.hpp"
 #include "dem/events/compaction.hpp"
+#include "dem/events/energy_account.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"
 #include "dem/genesis.hpp"
@@ -132,6 +133,7 @@ struct Scene {
     std::optional<BondHealingParameters> bond_healing;
     std::optional<SedimentationParameters> sedimentation;
     std::optional<CompactionParameters> compaction;
+    std::optional<EnergyParameters> energy;
     std::optional<ElasticBaseParameters> elastic_base;
     std::optional<LowerCrustThinningParameters> lower_crust_thinning;
     std::optional<FootwallErosionParameters> footwall_erosion;

@@ -50,6 +50,24 @@ template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
     visit("unbalanced_ratio_mean", std::optional(m.unbalanced_ratio_mean));
     visit("unbalanced_ratio_max", std::optional(m.unbalanced_ratio_max));
     visit("inertial_number", std::optional(m.inertial_number));
+    if (!m.energy)
+        return;
+    const EnergyBalance& e = *m.energy;
+    const double work = e.boundary_work + e.gravity_work;
+    for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
+             {"energy_boundary_work_j_per_m", e.boundary_work},
+             {"energy_gravity_work_j_per_m", e.gravity_work},
+             {"energy_events_j_per_m", e.events},
+             {"energy_kinetic_j_per_m", e.stored.kinetic},
+             {"energy_strain_normal_j_per_m", e.stored.normal_strain},
+             {"energy_strain_shear_j_per_m", e.stored.shear_strain},
+             {"energy_stored_change_j_per_m", e.stored_change},
+             {"energy_friction_j_per_m", e.friction},
+             {"energy_damping_j_per_m", e.damping},
+             {"energy_bond_breaking_j_per_m", e.bond_breaking},
+             {"energy_stepping_j_per_m", e.stepping}})
+        visit(name, std::optional(value));
+    visit("energy_residual", work != 0.0 ? std::optional(e.residual() / work) : std::nullopt);
 }
 
 /// The faults, and what they have in common.
@@ -158,6 +176,13 @@ std::string summary_json(const Scene& scene, int threads, const State& state,
         json["base_elements_difference"] = *record.base_elements_difference;
     if (record.base_resolved_difference)
         json["base_resolved_difference"] = *record.base_resolved_difference;
+    if (m.quasi_static)
+        json["quasi_static"] = *m.quasi_static;
+    if (m.energy) {
+        auto& list = json["energy_by_event_j_per_m"] = nlohmann::ordered_json::object();
+        for (const auto& [event, work] : m.energy->by_event)
+            list[event] = work;
+    }
     json["effects"] = effect_names(scene);
     double named = 0.0;
     auto& parts = json["time_by_part_s"] = nlohmann::ordered_json::object();

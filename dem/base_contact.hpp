@@ -19,14 +19,19 @@ struct BaseContactForce {
     double x, y, moment;
 };
 
+/// Speed at which a disc slips past the closest point of a surface, m/s.
+inline double slip_rate_on(const Foot& foot, Point wall_velocity, const BaseContactDisc& disc) {
+    return (disc.vy - wall_velocity.y) * foot.normal.x -
+           (disc.vx - wall_velocity.x) * foot.normal.y - disc.spin * foot.distance;
+}
+
 /// Force on a disc whose closest point of a surface is known and moves with `wall_velocity`, m/s.
 /// Updates the shear force.
 inline BaseContactForce surface_force(const Foot& foot, Point wall_velocity, double friction,
                                       const BaseContactDisc& disc, ContactParameters parameters,
                                       double& shear_force) {
     const double nx = foot.normal.x, ny = foot.normal.y;
-    const double slip_rate = (disc.vy - wall_velocity.y) * nx - (disc.vx - wall_velocity.x) * ny -
-                             disc.spin * foot.distance;
+    const double slip_rate = slip_rate_on(foot, wall_velocity, disc);
     parameters.friction = static_cast<float>(friction);
     std::uint8_t bonded = 0;
     const double normal = contact_force(disc.radius - foot.distance, slip_rate, parameters, 0.0f,
@@ -43,6 +48,23 @@ inline Point surface_velocity(const Surface& surface, double extension, double s
     if (surface.stretched_length > 0.0)
         along += x / (surface.stretched_length + extension);
     return {speed * along, speed * (surface.translation.y - surface.conveyor * normal.x)};
+}
+
+/// Where a rigid surface and a disc meet and how they move past each other.
+struct BaseContactMotion {
+    Foot foot;
+    double slip_rate; ///< m/s
+};
+
+/// None where the surface has ended. `speed` (m/s) and `extension` (m) are the base's.
+inline std::optional<BaseContactMotion> base_contact_motion(const Surface& surface,
+                                                            double extension, double speed,
+                                                            const BaseContactDisc& disc) {
+    const auto foot = nearest(surface, extension, {disc.x, disc.y});
+    if (!foot)
+        return std::nullopt;
+    const Point velocity = surface_velocity(surface, extension, speed, disc.x, foot->normal);
+    return BaseContactMotion{*foot, slip_rate_on(*foot, velocity, disc)};
 }
 
 /// Force of one rigid surface on one disc; both cycles use it. `speed` (m/s) and `extension` (m)

@@ -3,6 +3,7 @@
 #include "dem/base_contact.hpp"
 #include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
+#include "dem/energy.hpp"
 #include "dem/fast_cycle.hpp"
 #include "dem/law.hpp"
 
@@ -20,8 +21,43 @@ struct Force {
     double x, y, moment; ///< N, N, N m
 };
 
+// The cycle is compiled with and without an account of energy, `flows`.
+
+/// Enters what a base contact, whose shear force goes from `before` to `after`, loses in a cycle,
+/// and the work of the base.
+void enter_base_flows(const Surface& surface, const Motion& base, const Clock& clock,
+                      const BaseContactDisc& disc, const ContactParameters& p,
+                      const BaseContactForce& force, double before, double after,
+                      EnergyFlows& flows) {
+    const double dt = clock.time_step, time = clock.time();
+    const double speed = base.speed_at(time);
+    const auto motion = base_contact_motion(surface, clock.extension, speed, disc);
+    if (!motion) {
+        flows.friction += slip_loss(before, before, after, p, dt);
+        return;
+    }
+    const double trial =
+        before - static_cast<double>(p.shear_stiffness_times_step) * motion->slip_rate;
+    flows.friction += slip_loss(before, trial, after, p, dt);
+
+    // The step before this force and the one after it. Slip knows the speed of the base a step
+    // later.
+    const double last_speed = clock.cycle == 0 ? 0.0 : base.speed_at(time - dt);
+    const Point n = motion->foot.normal, moves = surface.translation;
+    const double now = disc.radius - motion->foot.distance;
+    const double overlap_before = now + dt * ((disc.vx - last_speed * moves.x) * n.x +
+                                              (disc.vy - last_speed * moves.y) * n.y);
+    flows.stepping +=
+        normal_loss(std::max(overlap_before, 0.0), overlap_before, std::max(now, 0.0), now, p);
+    flows.boundary_work +=
+        0.5 * dt *
+        ((last_speed + speed) * (force.x * moves.x + force.y * moves.y) +
+         (speed + base.speed_at(time + dt)) * surface.conveyor * (force.x * n.y - force.y * n.x));
+}
+
 /// Forces of the base on the discs, which also starts their sum.
-void base_forces(State& state, const RigidBase& base, std::span<Force> force) {
+template <bool accounted>
+void base_forces(State& state, const RigidBase& base, std::span<Force> force, EnergyFlows* flows) {
     const DiscColumns d = disc_columns(state);
     const BaseContactColumns c = base_contact_columns(state);
     std::ranges::fill(force, Force{0.0, 0.0, 0.0});
@@ -34,18 +70,20 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force) {
         const auto i = static_cast<std::size_t>(c.disc[k]);
         const Surface& surface = base.surfaces[static_cast<std::size_t>(c.surface[k])];
         const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
-        const ContactParameters parameters =
+        const ContactParameters p =
             contact_parameters(base.material, state.materials[d.material[i]], clock.time_step);
         BaseContactForce f;
         if (deforms && surface.follows != Follows::nothing) {
-            const NodeContactForce on_nodes =
-                node_contact_force(surface, nodes, clock.extension, speed, disc, parameters,
-                                   c.shear_force[k], places[k]);
+            const NodeContactForce on_nodes = node_contact_force(
+                surface, nodes, clock.extension, speed, disc, p, c.shear_force[k], places[k]);
             add_load(nodes, on_nodes, surface.degree);
             f = on_nodes.force;
         } else {
-            f = base_contact_force(surface, clock.extension, speed, disc, parameters,
-                                   c.shear_force[k]);
+            [[maybe_unused]] const double before = c.shear_force[k];
+            f = base_contact_force(surface, clock.extension, speed, disc, p, c.shear_force[k]);
+            if constexpr (accounted)
+                enter_base_flows(surface, base.motion, clock, disc, p, f, before, c.shear_force[k],
+                                 *flows);
         }
         force[i].x += f.x;
         force[i].y += f.y;
@@ -53,7 +91,60 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force) {
     }
 }
 
-void contact_forces(State& state, const PairParameters& pairs, std::span<Force> force) {
+/// How two discs lie and move past each other.
+struct Pair {
+    double nx, ny;       ///< from the first to the second
+    double overlap;      ///< m
+    double arm_i, arm_j; ///< m
+    double slip_rate;    ///< m/s
+};
+
+Pair pair_of(const DiscColumns& d, std::size_t i, std::size_t j, double dx, double dy,
+             double square) {
+    const double distance = std::sqrt(square);
+    const double inverse = 1.0 / distance;
+    const double nx = dx * inverse, ny = dy * inverse;
+    const double overlap = d.radius[i] + d.radius[j] - distance;
+    const double half = 0.5 * overlap;
+    const double arm_i = d.radius[i] - half, arm_j = d.radius[j] - half;
+    const double slip_rate = (d.vy[j] - d.vy[i]) * nx - (d.vx[j] - d.vx[i]) * ny -
+                             (arm_i * d.spin[i] + arm_j * d.spin[j]);
+    return {nx, ny, overlap, arm_i, arm_j, slip_rate};
+}
+
+/// What contact k loses in a cycle in which its shear force goes from `before` to what it is.
+void enter_losses(const DiscColumns& d, const ContactColumns& c, std::size_t k,
+                  const ContactParameters& p, bool was_bonded, double before, double time_step,
+                  EnergyFlows& flows) {
+    const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
+    const double reach = d.radius[i] + d.radius[j];
+    const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+    const double square = dx * dx + dy * dy;
+    if (!c.bonded[k]) {
+        const double dx_before = dx - (d.vx[j] - d.vx[i]) * time_step;
+        const double dy_before = dy - (d.vy[j] - d.vy[i]) * time_step;
+        const double square_before = dx_before * dx_before + dy_before * dy_before;
+        const bool pressed = square < reach * reach, was_pressed = square_before < reach * reach;
+        if (pressed != was_pressed || (was_bonded && !pressed)) {
+            const double now = reach - std::sqrt(square);
+            const double overlap_before = reach - std::sqrt(square_before);
+            (was_bonded && !was_pressed ? flows.bond_breaking : flows.stepping) +=
+                normal_loss(was_bonded ? overlap_before : std::max(overlap_before, 0.0),
+                            overlap_before, std::max(now, 0.0), now, p);
+        }
+    }
+    const double after = c.shear_force[k];
+    if (before == 0.0 && after == 0.0)
+        return;
+    const double slip_rate = pair_of(d, i, j, dx, dy, square).slip_rate;
+    const double trial = before - static_cast<double>(p.shear_stiffness_times_step) * slip_rate;
+    (was_bonded && !c.bonded[k] ? flows.bond_breaking : flows.friction) +=
+        slip_loss(before, trial, after, p, time_step);
+}
+
+template <bool accounted>
+void contact_forces(State& state, const PairParameters& pairs, std::span<Force> force,
+                    EnergyFlows* flows) {
     const DiscColumns d = disc_columns(state);
     const ContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
@@ -62,29 +153,28 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
         const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
         const double reach = d.radius[i] + d.radius[j];
         const double square = dx * dx + dy * dy;
+        [[maybe_unused]] const double before = c.shear_force[k];
+        [[maybe_unused]] const bool was_bonded = c.bonded[k];
         if (square >= reach * reach && !c.bonded[k]) {
             c.shear_force[k] = 0.0;
-            continue;
+        } else {
+            const Pair pair = pair_of(d, i, j, dx, dy, square);
+            const double normal = contact_force(
+                pair.overlap, pair.slip_rate, pairs(d.material[i], d.material[j]),
+                c.tensile_strength[k], c.shear_strength[k], c.shear_force[k], c.bonded[k]);
+            const double shear = c.shear_force[k];
+            const double fx = normal * pair.nx - shear * pair.ny;
+            const double fy = normal * pair.ny + shear * pair.nx;
+            force[i].x -= fx;
+            force[i].y -= fy;
+            force[i].moment -= pair.arm_i * shear;
+            force[j].x += fx;
+            force[j].y += fy;
+            force[j].moment -= pair.arm_j * shear;
         }
-        const double distance = std::sqrt(square);
-        const double inverse = 1.0 / distance;
-        const double nx = dx * inverse, ny = dy * inverse;
-        const double overlap = reach - distance;
-        const double half = 0.5 * overlap;
-        const double arm_i = d.radius[i] - half, arm_j = d.radius[j] - half;
-        const double slip_rate = (d.vy[j] - d.vy[i]) * nx - (d.vx[j] - d.vx[i]) * ny -
-                                 (arm_i * d.spin[i] + arm_j * d.spin[j]);
-        const double normal = contact_force(overlap, slip_rate, pairs(d.material[i], d.material[j]),
-                                            c.tensile_strength[k], c.shear_strength[k],
-                                            c.shear_force[k], c.bonded[k]);
-        const double shear = c.shear_force[k];
-        const double fx = normal * nx - shear * ny, fy = normal * ny + shear * nx;
-        force[i].x -= fx;
-        force[i].y -= fy;
-        force[i].moment -= arm_i * shear;
-        force[j].x += fx;
-        force[j].y += fy;
-        force[j].moment -= arm_j * shear;
+        if constexpr (accounted)
+            enter_losses(d, c, k, pairs(d.material[i], d.material[j]), was_bonded, before,
+                         state.clock.time_step, *flows);
     }
 }
 
@@ -95,8 +185,9 @@ double damped(double force, double velocity, double damping) {
 
 /// Newton's law for every disc; `stretch_rate` is the base's du_x/dx, 1/s. Returns the largest
 /// component of a velocity, m/s.
+template <bool accounted>
 double move_discs(State& state, const CyclePhysics& physics, double stretch_rate,
-                  std::span<const Force> force) {
+                  std::span<const Force> force, EnergyFlows* flows) {
     const DiscColumns d = disc_columns(state);
     const double dt = state.clock.time_step;
     const bool relative = physics.averaging_time > 0.0;
@@ -109,12 +200,22 @@ double move_discs(State& state, const CyclePhysics& physics, double stretch_rate
         const double acceleration_per_force = dt / inertia;
         const double spin_up = acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i]));
         const double fy = force[i].y - d.mass[i] * physics.gravity;
-        const double departs_x =
-            d.vx[i] - (relative ? mean_vx[i] : stretch_rate > 0.0 ? stretch_rate * d.x[i] : 0.0);
+        const double departs_x = d.vx[i] - (relative             ? mean_vx[i]
+                                            : stretch_rate > 0.0 ? stretch_rate * d.x[i]
+                                                                 : 0.0);
         const double departs_y = relative ? d.vy[i] - mean_vy[i] : d.vy[i];
-        d.vx[i] += damped(force[i].x, departs_x, physics.damping) * acceleration_per_force;
-        d.vy[i] += damped(fy, departs_y, physics.damping) * acceleration_per_force;
-        d.spin[i] += damped(force[i].moment, d.spin[i], physics.damping) * spin_up;
+        const Force net{damped(force[i].x, departs_x, physics.damping),
+                        damped(fy, departs_y, physics.damping),
+                        damped(force[i].moment, d.spin[i], physics.damping)};
+        const double vx = d.vx[i], vy = d.vy[i], spin = d.spin[i];
+        d.vx[i] += net.x * acceleration_per_force;
+        d.vy[i] += net.y * acceleration_per_force;
+        d.spin[i] += net.moment * spin_up;
+        if constexpr (accounted)
+            flows->damping +=
+                0.5 * dt *
+                ((force[i].x - net.x) * (vx + d.vx[i]) + (fy - net.y) * (vy + d.vy[i]) +
+                 (force[i].moment - net.moment) * (spin + d.spin[i]));
         d.x[i] += d.vx[i] * dt;
         d.y[i] += d.vy[i] * dt;
         d.rotation[i] += d.spin[i] * dt;
@@ -151,23 +252,25 @@ double move_base(State& state, const Clock& clock, BaseResponse* response) {
 }
 
 /// One plain cycle. It is written to be read.
+template <bool accounted>
 void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
-                   const PairParameters& pairs, std::span<Force> force, BaseResponse* response) {
+                   const PairParameters& pairs, std::span<Force> force, BaseResponse* response,
+                   EnergyFlows* flows) {
     Clock& clock = state.clock;
     const double speed = base.motion.speed_at(clock.time());
-    base_forces(state, base, force);
-    contact_forces(state, pairs, force);
+    base_forces<accounted>(state, base, force, flows);
+    contact_forces<accounted>(state, pairs, force, flows);
     const double stretch_rate = stretching(base, clock.extension) * speed;
-    const double fastest = std::max({move_discs(state, physics, stretch_rate, force),
-                                     greatest_translation(base) * speed,
-                                     move_base(state, clock, response)});
+    const double fastest =
+        std::max({move_discs<accounted>(state, physics, stretch_rate, force, flows),
+                  greatest_translation(base) * speed, move_base(state, clock, response)});
     state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
     clock.extension += speed * clock.time_step;
     ++clock.cycle;
 }
 
 void advance_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
-                     std::int64_t cycles, BaseResponse* response) {
+                     std::int64_t cycles, BaseResponse* response, EnergyFlows* total) {
     std::vector<Force> force(state.discs.rows());
     const PairParameters pairs(state.materials, state.clock.time_step);
     for (; cycles > 0; --cycles) {
@@ -177,7 +280,18 @@ void advance_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
             if (is_update_due(state.displacement_bound, state.skin))
                 update_contacts(state, base);
         }
-        cycle_plainly(state, base, physics, pairs, force, response);
+        if (!total) {
+            cycle_plainly<false>(state, base, physics, pairs, force, response, nullptr);
+            continue;
+        }
+        // Sums of their own for every cycle, so that it does not matter how calls are cut.
+        EnergyFlows flows;
+        cycle_plainly<true>(state, base, physics, pairs, force, response, &flows);
+        total->boundary_work += flows.boundary_work;
+        total->friction += flows.friction;
+        total->damping += flows.damping;
+        total->bond_breaking += flows.bond_breaking;
+        total->stepping += flows.stepping;
     }
 }
 
@@ -206,10 +320,10 @@ void add_mean_velocities(State& state) {
 
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
              const Execution& execution, BaseResponse* response) {
-    const bool plain =
-        execution.cycle == Cycle::plain || (execution.cycle == Cycle::best && !has_wide_registers);
+    const bool plain = execution.energy || execution.cycle == Cycle::plain ||
+                       (execution.cycle == Cycle::best && !has_wide_registers);
     if (plain)
-        advance_plainly(state, base, physics, cycles, response);
+        advance_plainly(state, base, physics, cycles, response, execution.energy);
     else
         advance_fast(state, base, physics, cycles, execution.threads, response);
 }

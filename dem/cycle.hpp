@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base.hpp"
+#include "dem/energy.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>
@@ -50,6 +51,8 @@ enum class Cycle { best, plain, fast };
 struct Execution {
     int threads = 1;
     Cycle cycle = Cycle::best;
+    /// Adds up energies, if given: then the cycle is the plain one, on one thread.
+    EnergyFlows* energy = nullptr;
 };
 
 /// Advances by `cycles` cycles, searching neighbours whenever discs may have come closer than the

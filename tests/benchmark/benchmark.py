@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 """Measures this machine and appends to the CSV files in docs/benchmarks.
 
-Usage: tests/benchmark/benchmark.py [cycle|neighbours|runs|instructions ...]
+Usage: tests/benchmark/benchmark.py [cycle|neighbours|runs|instructions|effects ...]
 
   cycle         disc-steps per second by build (vector width), discs and threads
   neighbours    neighbour search and packing, ns per disc
   runs          whole runs of lis1 at draft: wall time and where it goes
   instructions  instructions per disc-step (valgrind, AVX2 build), which are repeatable
+  effects       instructions of a scene with gravity and friction alone, in this build and in one
+                without the sources of the effects; and what each effect adds
 
 Rates are medians of several repeats. Compare lines of one session only: machines are noisy.
 """
@@ -17,6 +19,7 @@ import os
 import pathlib
 import platform
 import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -115,17 +118,20 @@ def measure_runs():
     record("runs", rows)
 
 
+def instructions(*command):
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out",
+                        *(str(word) for word in command)], check=True, capture_output=True)
+        totals = pathlib.Path(folder, "out").read_text()
+    return int(re.search(r"^(?:summary|totals): (\d+)", totals, re.M)[1])
+
+
 def measure_instructions():
     # valgrind knows no AVX-512.
     program = build("x86-64-v3")
 
     def count(steps, *kind):
-        with tempfile.TemporaryDirectory() as folder:
-            subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out",
-                            program, "bench", "--discs", "5000", "--steps", str(steps), *kind],
-                           check=True, capture_output=True)
-            totals = pathlib.Path(folder, "out").read_text()
-        return int(re.search(r"^(?:summary|totals): (\d+)", totals, re.M)[1])
+        return instructions(program, "bench", "--discs", "5000", "--steps", steps, *kind)
 
     discs = json.loads(call(program, "bench", "--discs", 5000, "--steps", 1))["discs"]
     record("instructions", [circumstances() | {
@@ -135,8 +141,101 @@ def measure_instructions():
         for kind in ("", "--unbonded", "--plain")])
 
 
+# What takes the place of an effect's source: the same symbols, which a scene without it never calls.
+STUBS = {
+    "bond_healing": """BondHealing::BondHealing(const BondHealingParameters& p, const BondStrength& s,
+    double rate) : Event("", {p.interval, rate}), parameters_(p), strength_(s) {}
+void BondHealing::begin(State&) { std::abort(); }
+bool BondHealing::apply(State&, const RigidBase&) { std::abort(); }""",
+    "fault_weakening": """FaultWeakening::FaultWeakening(const FaultWeakeningParameters& p, double rate,
+    double, double) : Event("", {p.interval, rate}), parameters_(p) {}
+void FaultWeakening::begin(State&) { std::abort(); }
+bool FaultWeakening::apply(State&, const RigidBase&) { std::abort(); }""",
+    "property_update": """PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& p, double rate,
+    double, double) : Event("", {p.update_interval, rate}), parameters_(p) {}
+bool PropertyUpdate::apply(State&, const RigidBase&) { std::abort(); }
+double weakened_volume_change(const State&, const RigidBase&) { std::abort(); }""",
+    "sedimentation": """Sedimentation::Sedimentation(const SedimentationParameters& p, double ratio,
+    double rate) : Event("", {p.interval, rate}), target_(p.level, p.target), radius_ratio_(ratio) {}
+bool Sedimentation::apply(State&, const RigidBase&) { std::abort(); }""",
+    "compaction": """Compaction::Compaction(const CompactionParameters& p, double porosity,
+    Target surface, double rate) : Event("", {p.interval, rate}), surface_porosity_(porosity),
+    surface_(std::move(surface)) {}
+void Compaction::begin(State&) { std::abort(); }
+bool Compaction::apply(State&, const RigidBase&) { std::abort(); }""",
+    "energy_account": """EnergyAccount::EnergyAccount(double, std::span<const std::string>)
+    : Event("", {1.0, 1.0}) {}
+void EnergyAccount::open(const State&, const RigidBase&) { std::abort(); }
+EnergyFlows EnergyAccount::flows() const { std::abort(); }
+void EnergyAccount::put(const EnergyFlows&) { std::abort(); }
+void EnergyAccount::book_cycles(const State&, const RigidBase&) { std::abort(); }
+void EnergyAccount::book_event(const std::string&, const State&, const RigidBase&) { std::abort(); }
+EnergyBalance EnergyAccount::balance(const State&, const RigidBase&) const { std::abort(); }""",
+}
+
+
+def build_without_effects(preset, tree):
+    """Builds the program in a copy of the sources in which the effects have none."""
+    shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns("build", "out", ".git", "*.png"))
+    for name, text in STUBS.items():
+        (tree / "dem/events" / f"{name}.cpp").write_text(
+            f'#include "dem/events/{name}.hpp"\n#include <cstdlib>\nnamespace listric {{\n{text}\n}}\n')
+    (tree / "dem/energy.cpp").unlink()
+    cycle = tree / "dem/cycle.cpp"
+    text, found = re.subn(r"cycle_plainly<true>\(.*?\);", "std::abort();", cycle.read_text(), flags=re.S)
+    assert found == 1
+    cycle.write_text(text.replace("#include <cmath>", "#include <cmath>\n#include <cstdlib>", 1))
+    for command in (("--preset", preset, "-D", "LISTRIC_FEM=OFF"), ("--build", "--preset", preset,
+                                                                   "--target", "listric")):
+        subprocess.run(["cmake", *command], check=True, cwd=tree, capture_output=True)
+    return tree / "build" / preset / "listric"
+
+
+def measure_effects():
+    scene = ROOT / "tests" / "scenes" / "every-effect.toml"
+    alone = ["bonds", "fault_weakening", "bond_healing", "sedimentation", "compaction"]
+
+    def count(program, effects, folder):
+        """Instructions and disc-steps from 50 to 100 m of extension. A resumed run neither makes a
+        hanging wall nor measures this machine, which would not be repeatable."""
+        words = [scene, "--output", folder / "run", "--threads", "1", "--quiet",
+                 "--set", "extension.speed_m_per_s=1"]
+        for effect in alone:
+            words += [] if effect in effects else ["--without", effect]
+        words += ["--set", "energy={}"] if "energy" in effects else []
+        call(program, "run", *words, "--until", "50m", "--force")
+        before = json.loads((folder / "run/summary.json").read_text())
+        counted = instructions(program, "run", *words, "--resume", "--until", "100m")
+        after = json.loads((folder / "run/summary.json").read_text())
+        steps = (after["cycles"] - before["cycles"]) * (after["discs"] + before["discs"]) / 2
+        return counted, steps
+
+    program = build("x86-64-v3")
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        # Pictures are made by a child, of which nothing is counted; a NumPy that ends it saves time.
+        (folder / "python").mkdir()
+        (folder / "python/numpy.py").write_text("import os\nos._exit(1)\n")
+        os.environ["PYTHONPATH"] = str(folder / "python")
+        os.environ["XDG_CACHE_HOME"] = str(folder / "cache")
+
+        def add(which, of, effects):
+            counted, steps = count(of, effects, folder)
+            rows.append(circumstances() | {
+                "build": which, "effects": " ".join(["gravity", *effects]),
+                "instructions": counted, "disc_steps": round(steps),
+                "instructions_per_disc_step": f"{counted / steps:.1f}"})
+
+        add("without effects", build_without_effects("x86-64-v3", folder / "tree"), [])
+        for effects in ([], ["bonds"], ["bonds", "bond_healing"], ["fault_weakening"],
+                        ["sedimentation"], ["sedimentation", "compaction"], ["energy"], alone):
+            add("all", program, effects)
+    record("effects", rows)
+
+
 MEASUREMENTS = {"cycle": measure_cycle, "neighbours": measure_neighbours, "runs": measure_runs,
-                "instructions": measure_instructions}
+                "instructions": measure_instructions, "effects": measure_effects}
 
 if __name__ == "__main__":
     wanted = sys.argv[1:] or list(MEASUREMENTS)

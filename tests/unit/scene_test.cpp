@@ -318,7 +318,7 @@ TEST_F(SceneTest, NamesLikeNoOtherAreAnsweredWithAllNames) {
         error(minimal + "[magnetism]\n"),
         AllOf(StartsWith("scene.toml:4: magnetism: unknown table, allowed: name, description, "),
               HasSubstr("hanging_wall, detachment"),
-              EndsWith("compaction, elastic_base, flexure")));
+              EndsWith("compaction, energy, elastic_base, flexure")));
 }
 
 TEST_F(SceneTest, TypesAreChecked) {

@@ -1,0 +1,83 @@
+#include "dem/energy.hpp"
+
+#include "dem/base_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+namespace {
+
+/// Of a normal spring whose overlap was `before` at the last force and is `now`.
+double normal_energy(double before, double now, bool bonded, const ContactParameters& p) {
+    const double pressed = bonded ? before : std::max(before, 0.0);
+    return 0.5 * static_cast<double>(p.normal_stiffness) * pressed * now;
+}
+
+/// Of a shear spring that the next slip would bring from `force` elsewhere, N.
+double shear_energy(double force, double slip_rate, const ContactParameters& p, double time_step) {
+    if (force == 0.0)
+        return 0.0;
+    const double stiffness_times_step = static_cast<double>(p.shear_stiffness_times_step);
+    return 0.5 * force * (force - stiffness_times_step * slip_rate) * time_step /
+           stiffness_times_step;
+}
+
+} // namespace
+
+StoredEnergy stored_energy(const State& state, const RigidBase& base, double gravity) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const ConstBaseContactColumns b = base_contact_columns(state);
+    const Clock& clock = state.clock;
+    const double dt = clock.time_step;
+    StoredEnergy energy;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
+        const double surface = d.radius[i] * d.spin[i];
+        energy.kinetic +=
+            0.5 * inertia * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i] + 0.5 * surface * surface);
+        energy.potential += d.mass[i] * gravity * (d.y[i] - 0.5 * dt * d.vy[i]);
+    }
+
+    const PairParameters pairs(state.materials, dt);
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
+        const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+        const double dvx = d.vx[j] - d.vx[i], dvy = d.vy[j] - d.vy[i];
+        const double reach = d.radius[i] + d.radius[j];
+        const double distance = std::sqrt(dx * dx + dy * dy);
+        const double before = reach - std::hypot(dx - dvx * dt, dy - dvy * dt);
+        const double now = reach - distance;
+        const ContactParameters& p = pairs(d.material[i], d.material[j]);
+        energy.normal_strain += normal_energy(before, now, c.bonded[k], p);
+        const double slip_rate = (dvy * dx - dvx * dy) / distance -
+                                 (d.radius[i] - 0.5 * now) * d.spin[i] -
+                                 (d.radius[j] - 0.5 * now) * d.spin[j];
+        energy.shear_strain += shear_energy(c.shear_force[k], slip_rate, p, dt);
+    }
+
+    const double speed = base.motion.speed_at(clock.time());
+    const double speed_before = base.motion.speed_at(std::max(0.0, clock.time() - dt));
+    for (std::size_t k = 0; k < b.disc.size(); ++k) {
+        const auto i = static_cast<std::size_t>(b.disc[k]);
+        const Surface& surface = base.surfaces[static_cast<std::size_t>(b.surface[k])];
+        const ContactParameters p =
+            contact_parameters(base.material, state.materials[d.material[i]], dt);
+        const auto motion =
+            base_contact_motion(surface, clock.extension, speed,
+                                {d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]});
+        const auto foot_before = nearest(surface, clock.extension - speed_before * dt,
+                                         {d.x[i] - d.vx[i] * dt, d.y[i] - d.vy[i] * dt});
+        if (motion && foot_before)
+            energy.normal_strain += normal_energy(d.radius[i] - foot_before->distance,
+                                                  d.radius[i] - motion->foot.distance, false, p);
+        energy.shear_strain +=
+            shear_energy(b.shear_force[k], motion ? motion->slip_rate : 0.0, p, dt);
+    }
+    return energy;
+}
+
+} // namespace listric

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/law.hpp"
+#include "dem/state.hpp"
+
+#include <algorithm>
+
+namespace listric {
+
+// Where the work goes, J per metre of thickness:
+//   boundary and gravity work + work of events
+//     = change of kinetic and strain energy + losses by friction, damping, breaking bonds and
+//     steps.
+//
+// Leapfrog knows positions x_n at whole steps and velocities v_{n+1/2} between them. A force F_n
+// changes m v^2 / 2 by exactly F_n (v_{n-1/2} + v_{n+1/2}) / 2 dt, so that is its work. Summed over
+// the steps, the work of a spring F = -K x is the change of K x_n x_{n+1} / 2, not of K x_n^2 / 2;
+// that of gravity the change of m g (y_n + y_{n+1}) / 2. With strain energy and potential defined
+// so, at the moment between x_n and x_{n+1} at which the velocities are known, the account of
+// linear springs, slip, damping and bonds that break closes to round-off for any time step.
+//
+// A contact that closes or opens within a step is the one real error of the steps: with overlaps
+// U_{n-1} and U_n of different sign and forces N = K max(U, 0), (N_{n-1} U_n - N_n U_{n-1}) / 2 is
+// lost, or won where it opens. As damped discs part more slowly than they met, more is lost than
+// won; it is entered as what it is. What remains as residual are normals that turn within a step,
+// of third order, and round-off.
+
+/// What cycles add up.
+struct EnergyFlows {
+    double boundary_work = 0.0; ///< of base and walls on the discs, J/m
+    double friction = 0.0;      ///< lost by slip, J/m
+    double damping = 0.0;       ///< lost by local damping, J/m
+    double bond_breaking = 0.0; ///< what springs lost of what they held when bonds broke, J/m
+    double stepping = 0.0;      ///< lost by contacts that close or open within a step, J/m
+};
+
+/// What a state holds.
+struct StoredEnergy {
+    double kinetic = 0.0;                           ///< J/m
+    double normal_strain = 0.0, shear_strain = 0.0; ///< of contacts, J/m
+    double potential = 0.0;                         ///< of the discs' weight, against y = 0, J/m
+
+    double motion_and_strain() const { return kinetic + normal_strain + shear_strain; }
+};
+
+/// Loss by a normal spring over a step: overlaps, m, and those that its force stands for, which
+/// differ across a gap. Zero where force and overlap stay in proportion.
+inline double normal_loss(double pressed_before, double before, double pressed, double now,
+                          const ContactParameters& p) {
+    return 0.5 * static_cast<double>(p.normal_stiffness) *
+           (pressed_before * now - pressed * before);
+}
+
+/// Energies between the last cycle and the next. `gravity` in m/s^2.
+StoredEnergy stored_energy(const State& state, const RigidBase& base, double gravity);
+
+/// Loss of a shear spring of stiffness K_s that slip has brought from `before` not to `trial`, but
+/// to `after`, N.
+inline double slip_loss(double before, double trial, double after, const ContactParameters& p,
+                        double time_step) {
+    if (trial == after)
+        return 0.0;
+    return 0.5 * (before + after) * (trial - after) * time_step /
+           static_cast<double>(p.shear_stiffness_times_step);
+}
+
+} // namespace listric

@@ -1,0 +1,78 @@
+#include "dem/events/energy_account.hpp"
+
+#include <limits>
+
+namespace listric {
+
+namespace {
+
+const std::string prefix = "event_";
+
+} // namespace
+
+EnergyAccount::EnergyAccount(double gravity, std::span<const std::string> events)
+    : Event("energy", {std::numeric_limits<double>::infinity(), 1.0}), gravity_(gravity) {
+    for (const char* name : {"initial", "stored", "potential", "boundary_work", "gravity_work",
+                             "friction", "damping", "bond_breaking", "stepping"})
+        memory.add<double>(name, "J/m", 0.0);
+    for (const std::string& event : events)
+        memory.add<double>(prefix + event, "J/m", 0.0);
+    memory.resize(1);
+}
+
+void EnergyAccount::open(const State& state, const RigidBase& base) {
+    const StoredEnergy now = stored_energy(state, base, gravity_);
+    value("initial") = value("stored") = now.motion_and_strain();
+    value("potential") = now.potential;
+}
+
+EnergyFlows EnergyAccount::flows() const {
+    return {value("boundary_work"), value("friction"), value("damping"), value("bond_breaking"),
+            value("stepping")};
+}
+
+void EnergyAccount::put(const EnergyFlows& flows) {
+    value("boundary_work") = flows.boundary_work;
+    value("friction") = flows.friction;
+    value("damping") = flows.damping;
+    value("bond_breaking") = flows.bond_breaking;
+    value("stepping") = flows.stepping;
+}
+
+void EnergyAccount::book_cycles(const State& state, const RigidBase& base) {
+    const StoredEnergy now = stored_energy(state, base, gravity_);
+    value("gravity_work") += value("potential") - now.potential;
+    value("potential") = now.potential;
+    value("stored") = now.motion_and_strain();
+}
+
+void EnergyAccount::book_event(const std::string& name, const State& state, const RigidBase& base) {
+    if (!memory.has(prefix + name))
+        return;
+    const StoredEnergy now = stored_energy(state, base, gravity_);
+    value(prefix + name) += now.motion_and_strain() - value("stored");
+    value("potential") = now.potential;
+    value("stored") = now.motion_and_strain();
+}
+
+EnergyBalance EnergyAccount::balance(const State& state, const RigidBase& base) const {
+    const StoredEnergy now = stored_energy(state, base, gravity_);
+    EnergyBalance b{value("boundary_work"),
+                    value("gravity_work") + value("potential") - now.potential,
+                    now,
+                    now.motion_and_strain() - value("initial"),
+                    value("friction"),
+                    value("damping"),
+                    value("bond_breaking"),
+                    value("stepping"),
+                    0.0,
+                    {}};
+    for (const Column& column : memory.columns())
+        if (column.name.starts_with(prefix)) {
+            b.by_event.emplace_back(column.name.substr(prefix.size()), value(column.name));
+            b.events += value(column.name);
+        }
+    return b;
+}
+
+} // namespace listric

@@ -1,0 +1,110 @@
+// What a whole run does about trouble: a boundary that moves too fast is said and flagged, and a
+// run that goes wrong stops, names what and where, and leaves a state from which it can go on.
+
+#include "apps/effects.hpp"
+#include "dem/cycle.hpp"
+#include "tests/scene_runs.hpp"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <sys/wait.h>
+
+namespace listric {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace support;
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+class HardRun : public SceneRuns {
+protected:
+    /// Writes the newest snapshot of a run anew with another state.
+    static void change_newest(const fs::path& output, const std::function<void(State&)>& change) {
+        const fs::path file = list_snapshots(output).back();
+        Snapshot snapshot = read_snapshot(file);
+        change(snapshot.state);
+        const Scene scene = load_scene({.scene = (output / "scene.toml").string()});
+        auto events = make_events(scene);
+        for (auto& event : events) {
+            event->memory = snapshot.event_memory.at(event->name());
+            event->applied = snapshot.event_applied.at(event->name());
+        }
+        write_snapshot(file, snapshot.state, events, snapshot.record);
+    }
+};
+
+TEST_F(HardRun, HasteIsSaidAndFlagged) {
+    // Quasi-static limits: 1e-2 of contact forces unbalanced, inertial number 2e-3. At 0.25 m/s
+    // this small hanging wall has a third of both; at 40 m/s ten times as much.
+    const auto run_at = [&](const char* speed) {
+        const Scene scene =
+            load_scene({.scene = test_scene("every-effect.toml"),
+                        .set = {std::string("extension.speed_m_per_s=") + speed},
+                        .without = {"fault_weakening", "sedimentation", "compaction"}});
+        return run(scene, options(speed));
+    };
+    const nlohmann::json slow = run_at("0.25"), fast = run_at("40");
+    EXPECT_EQ(slow["quasi_static"], true)
+        << slow["unbalanced_ratio_mean"] << slow["inertial_number"];
+    EXPECT_THAT(contents(folder / "0.25/log.txt"), Not(HasSubstr("quasi-static")));
+    EXPECT_EQ(fast["quasi_static"], false);
+    EXPECT_THAT(contents(folder / "40/log.txt"),
+                AllOf(HasSubstr("warning: too fast to be quasi-static"),
+                      HasSubstr("extension.speed_m_per_s")));
+}
+
+TEST_F(HardRun, ARunGoneWrongIsNamedAndGoesOnFromItsLastState) {
+    const Scene scene = load_scene({.scene = test_scene("every-effect.toml")});
+    const nlohmann::json whole = run(scene, options("whole"));
+    RunOptions o = options("run");
+    o.until = 100.0;
+    run(scene, o);
+    const auto snapshots = list_snapshots(o.output);
+    double time_step = 0.0;
+    change_newest(o.output, [&](State& state) {
+        time_step = state.clock.time_step;
+        state.clock.time_step *= 10.0;
+    });
+    o.until.reset();
+    o.resume = true;
+    try {
+        run_scene(scene, o);
+        FAIL() << "an unstable run went on";
+    } catch (const NumericalFailure& failure) {
+        EXPECT_THAT(failure.what(),
+                    AllOf(ContainsRegex("disc [0-9]+ ran away at x = .*, y = .* m"),
+                          HasSubstr(snapshots.back().string()), HasSubstr("--resume")));
+    }
+    EXPECT_EQ(list_snapshots(o.output), snapshots);
+    EXPECT_FALSE(fs::exists(o.output / "summary.json"));
+    const std::string call =
+        fmt::format("'{}' run '{}' --output '{}' --resume --quiet 2>/dev/null", LISTRIC_PROGRAM,
+                    (o.output / "scene.toml").string(), o.output.string());
+    EXPECT_EQ(WEXITSTATUS(std::system(call.c_str())), 3);
+    // With the time step that it should have had, it ends as if nothing had been.
+    change_newest(o.output, [&](State& state) { state.clock.time_step = time_step; });
+    EXPECT_EQ(run(scene, o)["state_hash"], whole["state_hash"]);
+}
+
+TEST_F(HardRun, AnEventThatCannotBeDoneIsNamedToo) {
+    const Scene scene = load_scene(
+        {.scene = test_scene("every-effect.toml"),
+         .set = {"sedimentation.target=[{time_a=0, points=[[0, 0]]}, "
+                 "{time_a=1e4, points=[[0, 0]]}, {time_a=1.2e4, points=[[0, -2000]]}]"}});
+    const RunOptions o = options("run");
+    try {
+        run_scene(scene, o);
+        FAIL() << "all rock was eroded";
+    } catch (const NumericalFailure& failure) {
+        EXPECT_THAT(failure.what(), AllOf(HasSubstr("below the whole hanging wall"),
+                                          ContainsRegex("extension-000(99|100)[.].*h5")));
+    }
+    EXPECT_TRUE(all_finite(read_snapshot(list_snapshots(o.output).back()).state.discs));
+}
+
+} // namespace
+} // namespace listric
