@@ -35,17 +35,17 @@ enum Choice {
 constexpr std::array<const char*, 7> effects{
     "gravity", "bonds", "fault_weakening", "bond_healing", "sedimentation", "compaction", "energy"};
 
-using Run = unsigned; // bit k: choice k
+using Chosen = unsigned; // bit k: choice k
 
-bool has(Run run, int choice) { return run >> choice & 1u; }
+bool has(Chosen run, int choice) { return run >> choice & 1u; }
 
-bool allowed(Run run) {
+bool allowed(Chosen run) {
     return (!has(run, bond_healing) || has(run, bonds)) &&
            (!has(run, compaction) || has(run, sedimentation));
 }
 
 /// Pairs of two choices taken or left, as numbers.
-std::set<int> pairs(Run run) {
+std::set<int> pairs(Chosen run) {
     std::set<int> found;
     for (int a = 0; a < count; ++a)
         for (int b = 0; b < a; ++b)
@@ -54,12 +54,12 @@ std::set<int> pairs(Run run) {
 }
 
 /// Greedily: the run that adds most pairs, until none adds any.
-std::vector<Run> covering_array() {
-    std::vector<Run> chosen;
+std::vector<Chosen> covering_array() {
+    std::vector<Chosen> chosen;
     for (std::set<int> covered;;) {
-        Run best = 0;
+        Chosen best = 0;
         std::size_t most = 0;
-        for (Run run = 0; run < 1u << count; ++run) {
+        for (Chosen run = 0; run < 1u << count; ++run) {
             if (!allowed(run))
                 continue;
             const std::set<int> all = pairs(run);
@@ -79,7 +79,7 @@ std::vector<Run> covering_array() {
 
 class Combination : public SceneRuns {
 protected:
-    static SceneRequest request(Run run) {
+    static SceneRequest request(Chosen run) {
         SceneRequest r{.scene = test_scene("every-effect.toml")};
         for (int k = 0; k < energy; ++k)
             if (!has(run, k))
@@ -95,9 +95,9 @@ protected:
 };
 
 TEST_F(Combination, EveryPairRuns) {
-    const std::vector<Run> array = covering_array();
+    const std::vector<Chosen> array = covering_array();
     std::set<int> covered;
-    for (const Run choice : array) {
+    for (const Chosen choice : array) {
         covered.merge(pairs(choice));
         std::vector<std::string> on;
         for (int k = 0; k <= energy; ++k)

@@ -201,18 +201,5 @@ TEST(EnergyAccount, DoesNotDependOnHowCallsAreCut) {
     EXPECT_EQ(whole.flows.bond_breaking, parts.flows.bond_breaking);
 }
 
-TEST(EnergyAccount, ClosesForAHeap) {
-    // Contacts close, open, slip and break, at a third of the limit of the step.
-    Accounted a = heap();
-    a.pass(static_cast<std::int64_t>(4.0 / a.state.clock.time_step));
-    const double all = a.start.motion_and_strain() + a.flows.boundary_work + a.gravity_work();
-    EXPECT_GT(a.flows.bond_breaking, 0.0);
-    EXPECT_GT(a.flows.friction, 0.1 * all);
-    EXPECT_GT(a.flows.damping, 0.1 * all);
-    std::printf("residual %g stepping %g breaking %g all %g\n", a.residual(), a.flows.stepping,
-                a.flows.bond_breaking, all);
-    EXPECT_NEAR(a.residual(), 0.0, 1e-4 * all);
-}
-
 } // namespace
 } // namespace listric

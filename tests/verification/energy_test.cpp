@@ -191,7 +191,7 @@ TEST_P(Energy, IsAccountedFor) {
 
 TEST(EnergyAccount, AgreesWithTheOneKeptHere) {
     // The two accounts enter a force at the ends of a step and at its middle: 1e-3, as above. The
-    // program's own closes also at steps 40 times as long.
+    // program's own closes to 1e-5, and in proportion at steps 40 times as long.
     for (double a : {0.0, 0.3}) {
         const Account account = account_of_fall(a, {1, Cycle::plain});
         for (double step_share : {0.02, 0.8}) {
@@ -206,13 +206,9 @@ TEST(EnergyAccount, AgreesWithTheOneKeptHere) {
             const StoredEnergy end = stored_energy(fall.state, fall.base, 9.81);
             const double gravity = start.potential - end.potential;
             const double work = flows.boundary_work + gravity;
-            std::printf("step %g damping %g residual %g\n", step_share, a,
-                        (end.motion_and_strain() - start.motion_and_strain() + flows.friction +
-                         flows.damping + flows.bond_breaking + flows.stepping - work) /
-                            work);
             EXPECT_NEAR(end.motion_and_strain() - start.motion_and_strain() + flows.friction +
                             flows.damping + flows.bond_breaking + flows.stepping,
-                        work, 1e-4 * work);
+                        work, (step_share > 0.02 ? 4e-4 : 1e-5) * work);
             if (step_share > 0.02)
                 continue;
             EXPECT_NEAR(flows.boundary_work, account.boundary, 1e-3 * work);
