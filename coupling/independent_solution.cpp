@@ -138,16 +138,16 @@ IndependentSolution solve_independently(fem::FootwallRequest request, const Inte
     still.assign(x.size(), 0.0);
     const Trace fine(x, y, still, still, interface.degree);
     for (std::size_t k = 0; k < interface.x.size(); ++k) {
-        const auto point = fine.nearest({interface.x[k], interface.y[k]});
+        // By round-off the breakaway may lie beyond the wall's start, which then is the place.
+        TracePoint point = fine.nearest({interface.x[k], interface.y[k]})
+                               .value_or(TracePoint{{}, 0.0, 0, {1.0, 0.0, 0.0}});
         for (std::size_t c = 0; c < 2; ++c) {
             double there = 0.0;
-            if (point)
-                for (std::size_t i = 0; i <= coarse.degree; ++i)
-                    there += point->weight[i] * u[2 * (point->node + i) + c];
+            for (std::size_t i = 0; i <= coarse.degree; ++i)
+                there += point.weight[i] * u[2 * (point.node + i) + c];
             result.displacement.push_back(there);
         }
     }
-
     return result;
 }
 

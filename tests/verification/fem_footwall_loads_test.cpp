@@ -2,7 +2,7 @@
 
 #include "coupling/footwall_loads.hpp"
 #include "coupling/independent_solution.hpp"
-#include "dem/random.hpp"
+#include "tests/support.hpp"
 #include "tests/verification/footwalls.hpp"
 
 #include <gtest/gtest.h>
