@@ -235,8 +235,8 @@ std::vector<Parameter> parameters(ElasticBaseParameters& p) {
          "modal mass over (stiffness + contact stiffness) times the squared update interval"},
         {"disc_damping", one_of({"relative", "absolute"}, p.relative_damping), "", {}, "",
          "against the discs' mean motion, or as PFC does, which holds sinking rock up"},
-        {"damping_averaging_time_s", &p.averaging_time, "s", {.above = 0, .to = 1e9}, "",
-         "model time over which the mean motion of a disc is taken"},
+        {"averaging_time_s", &p.averaging_time, "s", {.above = 0, .to = 1e9}, "",
+         "model time over which the mean motion of a disc is taken, for relative damping"},
     };
 }
 
