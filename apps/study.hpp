@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace listric {
 
 /// A call of `listric study`: what accuracy costs in time.
@@ -63,13 +65,23 @@ StudyResult study_precision(const StudyRequest& request);
 
 // Studies of the elastic base.
 StudyResult study_footwall(const StudyRequest& request);
+StudyResult study_coupling(const StudyRequest& request);
+
+/// Uplift and deflection against the effective elastic thickness, beside the thin plate under the
+/// same net load; leaves isostasy.csv and isostasy.png, too.
+StudyResult study_isostasy(const StudyRequest& request);
 
 /// A run of a scene with changes, by one seed.
 struct StudyRun {
     std::string parameter;        ///< "name=value"; names the run's folder
     std::vector<std::string> set; ///< changes of the scene
     std::optional<std::string> accuracy = {};
+    std::vector<std::string> without = {}; ///< effects that are off
 };
+
+/// The summary of a run by one seed, which is made unless it is there; none if the numerics failed.
+std::optional<nlohmann::json> summary_of_run(const StudyRequest& request, const StudyRun& run,
+                                             std::int64_t seed);
 
 /// What errors are measured in.
 struct StudyQuantity {

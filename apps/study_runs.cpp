@@ -45,31 +45,6 @@ std::optional<Values> value_of(const Json& summary, const std::string& quantity)
     return Values{found->get<double>()};
 }
 
-/// Runs a scene, or finds it run.
-std::optional<Json> run_once(const StudyRequest& request, const StudyRun& run, std::int64_t seed) {
-    SceneRequest scene_request;
-    scene_request.scene = request.scene;
-    scene_request.set = run.set;
-    scene_request.set.insert(scene_request.set.end(), request.set.begin(), request.set.end());
-    scene_request.seed = seed;
-    scene_request.accuracy = run.accuracy;
-    const Scene scene = load_scene(scene_request);
-    RunOptions options;
-    options.output = request.output / "runs" / fmt::format("{}-seed={}", run.parameter, seed);
-    options.threads = request.threads;
-    options.resume = true;
-    options.quiet = request.quiet;
-    try {
-        if (run_scene(scene, options) == RunOutcome::interrupted)
-            throw UsageError("interrupted; the same call goes on from here");
-    } catch (const NumericalFailure& failure) {
-        std::fputs(fmt::format("listric: {}: {}\n", run.parameter, failure.what()).c_str(), stderr);
-        return std::nullopt;
-    }
-    std::ifstream in(options.output / "summary.json");
-    return Json::parse(in);
-}
-
 double distance(const Values& a, const Values& b) {
     double sum = 0.0;
     for (std::size_t k = 0; k < a.size(); ++k)
@@ -117,6 +92,32 @@ double root_mean_square(const std::vector<Values>& values, const Values& referen
 
 } // namespace
 
+std::optional<Json> summary_of_run(const StudyRequest& request, const StudyRun& run,
+                                   std::int64_t seed) {
+    SceneRequest scene_request;
+    scene_request.scene = request.scene;
+    scene_request.set = run.set;
+    scene_request.set.insert(scene_request.set.end(), request.set.begin(), request.set.end());
+    scene_request.seed = seed;
+    scene_request.accuracy = run.accuracy;
+    scene_request.without = run.without;
+    const Scene scene = load_scene(scene_request);
+    RunOptions options;
+    options.output = request.output / "runs" / fmt::format("{}-seed={}", run.parameter, seed);
+    options.threads = request.threads;
+    options.resume = true;
+    options.quiet = request.quiet;
+    try {
+        if (run_scene(scene, options) == RunOutcome::interrupted)
+            throw UsageError("interrupted; the same call goes on from here");
+    } catch (const NumericalFailure& failure) {
+        std::fputs(fmt::format("listric: {}: {}\n", run.parameter, failure.what()).c_str(), stderr);
+        return std::nullopt;
+    }
+    std::ifstream in(options.output / "summary.json");
+    return Json::parse(in);
+}
+
 void sweep_runs(const StudyRequest& request, const std::string& method,
                 const std::vector<StudyRun>& runs, std::size_t reference,
                 const std::vector<StudyQuantity>& quantities, StudyResult& result) {
@@ -124,7 +125,7 @@ void sweep_runs(const StudyRequest& request, const std::string& method,
     for (const StudyRun& run : runs) {
         summaries.emplace_back();
         for (int k = 0; k < request.seeds; ++k)
-            summaries.back().push_back(run_once(request, run, request.seed + k));
+            summaries.back().push_back(summary_of_run(request, run, request.seed + k));
     }
     for (const StudyQuantity& quantity : quantities) {
         const std::vector<Values> best = values_of(summaries[reference], quantity.name);
@@ -198,6 +199,36 @@ StudyResult study_resolution(const StudyRequest& asked) {
     result.title =
         fmt::format("Resolution: {} against mean radius {:g} m", request.scene, radii.back());
     sweep_runs(request, request.scene, runs, runs.size() - 1, basin_quantities(scene), result);
+    return result;
+}
+
+StudyResult study_coupling(const StudyRequest& asked) {
+    const StudyRequest request = with_scene(asked, "lis1-elastic");
+    StudyResult result;
+    result.title =
+        fmt::format("Coupling: {} to 3 km against all modes at every cycle", request.scene);
+    const std::vector<StudyQuantity> quantities{{"footwall_uplift_m"},
+                                                {"base_deflection_max_m"},
+                                                {"rollover_tilt_deg"},
+                                                {"base_reaction_error", 0.0, true}};
+    const auto sweep = [&](const std::string& method, const std::string& parameter,
+                           const std::string& scheme, const std::vector<std::string>& values) {
+        std::vector<StudyRun> runs;
+        for (const std::string& value : values)
+            runs.push_back({fmt::format("{}-{}={}", scheme, parameter, value),
+                            {fmt::format("elastic_base.scheme={}", scheme),
+                             fmt::format("elastic_base.{}={}", parameter, value),
+                             "extension.distance_m=3000.0"},
+                            "draft"});
+        runs.push_back({"converged=1",
+                        {"elastic_base.update_interval_cycles=1", "extension.distance_m=3000.0"},
+                        "draft"});
+        sweep_runs(request, method, runs, runs.size() - 1, quantities, result);
+    };
+    sweep("modal update interval: runs", "update_interval_cycles", "modal",
+          {"50", "20", "10", "5", "2"});
+    sweep("modal number of modes: runs", "modes", "modal", {"5", "10", "20", "50", "100"});
+    sweep("lumped update interval: runs", "update_interval_cycles", "lumped", {"20", "5", "1"});
     return result;
 }
 

@@ -1,0 +1,91 @@
+// How the flank rises with the elastic thickness of the footwall.
+
+#include "apps/study.hpp"
+
+#include "apps/figures.hpp"
+#include "apps/run.hpp"
+#include "apps/snapshot.hpp"
+#include "fem/plate.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace listric {
+
+StudyResult study_isostasy(const StudyRequest& asked) {
+    StudyRequest request = asked;
+    if (request.scene.empty())
+        request.scene = "lis1-elastic";
+    SceneRequest scene_request;
+    scene_request.scene = request.scene;
+    scene_request.set = request.set;
+    const Scene scene = load_scene(scene_request);
+    if (!scene.elastic_base || !scene.hanging_wall)
+        throw UsageError(fmt::format("study isostasy: {} has no discs on an [elastic_base]; "
+                                     "allowed: scenes such as lis1-elastic",
+                                     request.scene));
+    std::vector<double> thicknesses =
+        request.values.empty() ? std::vector{2e3, 5e3, 10e3, 15e3, 30e3} : request.values;
+    std::ranges::sort(thicknesses);
+    struct Fill {
+        const char* name;
+        std::vector<std::string> without;
+    };
+    const std::vector<Fill> fills{{"sediment", {}}, {"empty", {"sedimentation", "compaction"}}};
+
+    StudyResult result;
+    result.title =
+        fmt::format("Isostasy: flank uplift of {} against the thin plate", request.scene);
+    std::string table = "fill,elastic_thickness_m,seed,uplift_m,deflection_max_m,"
+                        "net_load_n_per_m,net_load_error,continuous_plate_m,broken_plate_m,"
+                        "strong_rock_strain,relaxed_rock_strain\n";
+    for (const Fill& fill : fills)
+        for (double thickness : thicknesses)
+            for (int k = 0; k < request.seeds; ++k) {
+                const StudyRun run{fmt::format("{}-elastic_thickness_m={:g}", fill.name, thickness),
+                                   {fmt::format("elastic_base.elastic_thickness_m={}", thickness)},
+                                   "draft",
+                                   fill.without};
+                const std::string parameter = fmt::format("elastic_thickness_m={:g}", thickness);
+                const auto summary = summary_of_run(request, run, request.seed + k);
+                if (!summary) { // the guard of linear elasticity
+                    result.points.push_back({fmt::format("{} fill: runs", fill.name), parameter,
+                                             "uplift", std::numeric_limits<double>::infinity(), 0.0,
+                                             0.0});
+                    continue;
+                }
+                const auto value = [&](const char* name) {
+                    return summary->at(name).get<double>();
+                };
+                const ElasticBaseParameters& base = *scene.elastic_base;
+                const double gravity = scene.gravity->acceleration;
+                const fem::Plate plate{base.young_modulus, base.poisson_ratio, thickness,
+                                       (base.mantle_density - base.infill_density) * gravity};
+                const double load = value("net_wall_load_n_per_m"),
+                             uplift = value("footwall_uplift_m");
+                // Broken: the whole load on the end of a half plate.
+                const double continuous = plate.line(0.0, load), broken = plate.broken(0.0, load);
+                table += fmt::format(
+                    "{},{:g},{},{:.1f},{:.1f},{:.4g},{:.3g},{:.1f},{:.1f},{:.3g},{:.3g}\n",
+                    fill.name, thickness, request.seed + k, uplift, value("base_deflection_max_m"),
+                    load, value("net_wall_load_error"), continuous, broken,
+                    value("strong_rock_strain_max"), value("relaxed_rock_strain_max"));
+                const double wall = value("wall_s");
+                result.points.push_back(
+                    {fmt::format("{} fill: from the continuous plate", fill.name), parameter,
+                     "uplift", std::abs(uplift / continuous - 1.0), wall,
+                     wall * value("disc_steps_per_s")});
+            }
+    write_text(request.output / "isostasy.csv", table);
+    if (const std::string problem = run_drawing_script("isostasy.py", {request.output.string()});
+        !problem.empty())
+        std::fputs(fmt::format("listric: warning: no figure: {}\n", problem).c_str(), stderr);
+    return result;
+}
+
+} // namespace listric
