@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -277,9 +278,12 @@ private:
         for (const auto& row : picture.rows) {
             const ValidationRun& run = plan_.run(row.run);
             const int seeds = row.seeds > 0 ? std::min(row.seeds, seeds_of(run)) : seeds_of(run);
+            const std::size_t before = frames.size();
             for (int seed = 1; seed <= seeds; ++seed)
                 if (!hash_of(run, seed).empty())
                     frames.emplace_back(row.run, seed, row.at);
+            if (frames.size() == before)
+                return; // half of a comparison shows nothing
             renewed |= renewed_.contains(row.run);
         }
         if (frames.empty() || !renewed)
@@ -303,15 +307,26 @@ private:
 
     // ------------------------------------------------------------------------------- document
 
+    /// Names of an experiment's runs: those that are there, and all.
+    std::pair<std::set<std::string>, std::set<std::string>>
+    runs_of(const ValidationExperiment& x) const {
+        std::set<std::string> present, all;
+        for (const std::string& name : x.runs)
+            for (int seed = 1; seed <= seeds_of(plan_.run(name)); ++seed) {
+                all.insert(fmt::format("{}-{}", name, seed));
+                if (!hash_of(plan_.run(name), seed).empty())
+                    present.insert(fmt::format("{}-{}", name, seed));
+            }
+        return {present, all};
+    }
+
     std::string head() const {
         std::set<std::string> wanted, there; // experiments may share runs
-        for (const ValidationExperiment& x : chosen_)
-            for (const std::string& name : x.runs)
-                for (int seed = 1; seed <= seeds_of(plan_.run(name)); ++seed) {
-                    wanted.insert(fmt::format("{}-{}", name, seed));
-                    if (!hash_of(plan_.run(name), seed).empty())
-                        there.insert(fmt::format("{}-{}", name, seed));
-                }
+        for (const ValidationExperiment& x : chosen_) {
+            auto [present, all] = runs_of(x);
+            there.merge(present);
+            wanted.merge(all);
+        }
         std::string text = fmt::format(
             "# Validation\n\n"
             "Made by `listric validate` from the files of {} of {} runs at accuracy {}, up to {} "
@@ -327,9 +342,11 @@ private:
                 "material, faults or none, so meeting them says nothing about faults. Rows of "
                 "kind *faults* are what the paper is about. Rows of kind *conservation* are "
                 "bookkeeping.\n\n";
-        text += "| experiment | kinematics | faults | conservation |\n|---|---|---|---|\n";
+        text += "| experiment | runs | kinematics | faults | conservation |\n"
+                "|---|---|---|---|---|\n";
         for (const ValidationExperiment& x : chosen_) {
-            text += fmt::format("| {} |", x.title);
+            const auto [present, all] = runs_of(x);
+            text += fmt::format("| {} | {} of {} |", x.title, present.size(), all.size());
             for (auto kind : {Expectation::Kind::kinematics, Expectation::Kind::faults,
                               Expectation::Kind::conservation}) {
                 int met = 0, judged = 0;
@@ -384,11 +401,9 @@ private:
                                         picture.caption);
             if (!x.seen.empty() && request_.accuracy == "standard")
                 text += x.seen + "\n\n";
+            const auto [present, all] = runs_of(x);
             std::vector<std::string> missing;
-            for (const std::string& name : x.runs)
-                for (int seed = 1; seed <= seeds_of(plan_.run(name)); ++seed)
-                    if (hash_of(plan_.run(name), seed).empty())
-                        missing.push_back(fmt::format("{}-{}", name, seed));
+            std::ranges::set_difference(all, present, std::back_inserter(missing));
             if (!missing.empty())
                 text += fmt::format("Runs that were not there: {}.\n\n", fmt::join(missing, ", "));
         }

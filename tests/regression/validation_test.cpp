@@ -111,7 +111,7 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
     EXPECT_THAT(document(), HasSubstr("| 200 ± 1 | scene | 200 ± 0 (200 to 200) | met (2 of 2) |"));
     EXPECT_THAT(document(), HasSubstr("| 150 ± 1 | nobody | 100 ± 0 (100 to 100) | missed (0 of "));
     EXPECT_THAT(document(), HasSubstr("| at least 0.50 | nobody | no value | missed (0 of 1) |"));
-    EXPECT_THAT(document(), HasSubstr("| First | 1 of 2 | 0 of 1 | 1 of 1 |"));
+    EXPECT_THAT(document(), HasSubstr("| First | 3 of 3 | 1 of 2 | 0 of 1 | 1 of 1 |"));
     EXPECT_TRUE(fs::exists(folder / "doc/report/all.png"));
     const auto hash = [&](const char* run) {
         return nlohmann::json::parse(contents(folder / "runs" / run / "summary.json"))["state_hash"]
