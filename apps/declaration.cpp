@@ -363,7 +363,7 @@ std::vector<SceneTable> scene_tables(Scene& scene) {
         effect("bond_healing", "intelligent crack management (ICM)", scene.bond_healing),
         sedimentation,
         effect("compaction", "sediment loses pore space with burial", scene.compaction),
-        effect("energy", "account of where the work goes; then the cycle takes one thread and three times as long",
+        effect("energy", "account of where the work goes; then the cycle takes one thread and five times as long",
                scene.energy),
         effect("elastic_base", "footwall and basement bend and float", scene.elastic_base),
         effect("lower_crust_thinning", "the lower crust stretches, mantle rises: isostasy lowers the base",

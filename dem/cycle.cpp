@@ -99,8 +99,8 @@ struct Pair {
     double slip_rate;    ///< m/s
 };
 
-Pair pair_of(const DiscColumns& d, std::size_t i, std::size_t j, double dx, double dy,
-             double square) {
+inline Pair pair_of(const DiscColumns& d, std::size_t i, std::size_t j, double dx, double dy,
+                    double square) {
     const double distance = std::sqrt(square);
     const double inverse = 1.0 / distance;
     const double nx = dx * inverse, ny = dy * inverse;

@@ -199,7 +199,7 @@ def measure_effects():
         """Instructions and disc-steps from 50 to 100 m of extension. A resumed run neither makes a
         hanging wall nor measures this machine, which would not be repeatable."""
         words = [scene, "--output", folder / "run", "--threads", "1", "--quiet",
-                 "--set", "extension.speed_m_per_s=1"]
+                 "--set", "extension.speed_m_per_s=2"]
         for effect in alone:
             words += [] if effect in effects else ["--without", effect]
         words += ["--set", "energy={}"] if "energy" in effects else []
