@@ -225,10 +225,10 @@ std::vector<Parameter> parameters(ElasticBaseParameters& p) {
          "softest modes of the base that move; 0: all"},
         {"mass_factor", &p.mass_factor, "", {.from = 0.6, .to = 1e6, .reason = "below, contacts and base are unstable"}, "",
          "modal mass over (stiffness + contact stiffness) times the squared update interval"},
-        {"damping", one_of({"relative", "absolute"}, p.relative_damping), "", {}, "",
-         "of discs: against their mean motion, or as PFC does, which holds sinking rock up"},
-        {"damping_averaging_time_s", &p.averaging_time, "s", {.above = 0, .to = 1e9}, "",
-         "model time over which the mean motion of a disc is taken"},
+        {"disc_damping", one_of({"relative", "absolute"}, p.relative_damping), "", {}, "",
+         "against the discs' mean motion, or as PFC does, which holds sinking rock up"},
+        {"averaging_time_s", &p.averaging_time, "s", {.above = 0, .to = 1e9}, "",
+         "model time over which the mean motion of a disc is taken, for relative damping"},
     };
 }
 

@@ -73,20 +73,12 @@ TEST_F(CoupledRun, HasTheRecordedUpliftAndKeepsTheLoad) {
     EXPECT_LT(one["interface_force_error"].get<double>(), 1e-12);
     EXPECT_LT(one["interface_moment_error"].get<double>(), 1e-12);
     EXPECT_LT(one["interface_work_error"].get<double>(), 1e-12);
-    EXPECT_GT(one["footwall_uplift_m"].get<double>(), 0.0);
+    // Recorded: 21.60 m. Another machine's linear algebra rounds otherwise, and the discs take
+    // another path. The tenth is an allowance for that; its spread over seeds is not measured yet.
+    EXPECT_NEAR(one["footwall_uplift_m"].get<double>(), 21.60, 2.2);
     run("two", 2, 110.0);
     const nlohmann::json two = run("two", 1, {}, true);
     EXPECT_EQ(one["state_hash"], two["state_hash"]);
-}
-
-TEST_F(CoupledRun, SchemesAgree) {
-    const double modal = run("modal", 2)["footwall_uplift_m"];
-    const double lumped =
-        run("lumped", 2, {}, false, {"elastic_base.scheme=lumped"})["footwall_uplift_m"];
-    const double often =
-        run("often", 2, {}, false, {"elastic_base.update_interval_cycles=1"})["footwall_uplift_m"];
-    EXPECT_NEAR(lumped, modal, 0.1 * modal);
-    EXPECT_NEAR(often, modal, 0.1 * modal);
 }
 
 TEST_F(CoupledRun, RefusesToBlowUp) {

@@ -769,8 +769,7 @@ TEST_F(SceneTest, FlexureHasNoDiscs) {
     EXPECT_THAT(error(flexure + "[materials]\n"),
                 StartsWith("scene.toml:3: materials: needs discs"));
     EXPECT_THAT(error("[flexure]\n"), StartsWith("scene.toml:1: flexure: needs [elastic_base]"));
-    EXPECT_THAT(error(minimal + "[elastic_base]\n"),
-                HasSubstr("elastic_base: is not coupled to discs yet"));
+    EXPECT_THAT(error(minimal + "[elastic_base]\n"), HasSubstr("elastic_base: needs [gravity]"));
 }
 
 TEST_F(SceneTest, UnitsThatAreNotSiReadBackTheSame) {
