@@ -153,9 +153,9 @@ TEST_F(ElasticBaseRun, ASecondMeshGivesTheSameBase) {
     std::printf("mesh twice as fine: elements %.4f, base %.4f\n",
                 s["base_elements_difference"].get<double>(),
                 s["base_resolved_difference"].get<double>());
-    EXPECT_LT(s["base_elements_difference"].get<double>(), 0.01);
-    // Discs push the base about while it deflects by metres only.
-    EXPECT_LT(s["base_resolved_difference"].get<double>(), 0.5);
+    // Four elements along the arc: 3 %. The base keeps up with its load to some percent.
+    EXPECT_LT(s["base_elements_difference"].get<double>(), 0.05);
+    EXPECT_LT(s["base_resolved_difference"].get<double>(), 0.08);
 }
 
 TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {

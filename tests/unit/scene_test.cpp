@@ -120,6 +120,14 @@ std::string bits(Scene scene) {
             }
             return items;
         }
+        std::string operator()(const std::vector<fem::Layer>* x) const {
+            std::string items;
+            for (const fem::Layer& layer : *x)
+                for (const double* value :
+                     {&layer.top_depth, &layer.young_modulus, &layer.poisson_ratio, &layer.density})
+                    items += operator()(value) + " ";
+            return items;
+        }
         std::string operator()(const std::vector<DetachmentSegment>* x) const {
             std::string items;
             for (const DetachmentSegment& s : *x)
