@@ -171,8 +171,8 @@ TEST_F(MaterialFileTest, WrongValuesAreNamed) {
 }
 
 TEST_F(MaterialFileTest, MissingFilesAreAnsweredWithWhatThereIs) {
-    const std::string shipped =
-        "(materials: mat18-b, mat18-b-calibrated, mat18-w, mat18-w-calibrated, sediment)";
+    const std::string shipped = "(materials: mat18-b, mat18-b-byerlee, mat18-b-calibrated, "
+                                "mat18-w, mat18-w-calibrated, sediment)";
     const auto missing = [&](const std::string& name) {
         return error_of([&] { load_material(name); });
     };
