@@ -150,7 +150,7 @@ TEST_F(BaseMotionRun, RefusesWhatMakesNoSense) {
     EXPECT_THAT(refusal(std::string(even_uplift) + "[elastic_base]\n"),
                 HasSubstr("base_motion: beside [elastic_base]"));
     EXPECT_THAT(refusal(even_uplift, {"extension.rate_m_per_a=0.0001"}),
-                HasSubstr("moves 50 times as fast as extension, allowed: at most 5"));
+                HasSubstr("moves 100 times as fast as extension, allowed: at most 5"));
     EXPECT_THAT(refusal("[base_motion]\ncsv = \"none.csv\"\n"), HasSubstr("no such file"));
     std::ofstream(folder_ / "bad.csv") << "time_a,x_m\n0,0\n";
     EXPECT_THAT(refusal("[base_motion]\ncsv = \"bad.csv\"\n"),

@@ -997,7 +997,7 @@ TEST_F(RunTest, TheTimeIsAccountedFor) {
 TEST_F(RunTest, FiguresAreDrawnAndRedrawn) {
     unsetenv("PYTHONPATH");
     const fs::path output = run(scene(), "run", {.until = 130.0});
-    EXPECT_THAT(contents(output / "log.txt"), Not(HasSubstr("warning")));
+    EXPECT_THAT(contents(output / "log.txt"), Not(HasSubstr("warning: no figures")));
     const auto drawn = names_ending(output / "figures", ".png");
     EXPECT_THAT(drawn, Contains(StartsWith("overview-")));
     fs::remove_all(output / "figures");

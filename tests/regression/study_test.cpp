@@ -92,23 +92,23 @@ double error_of(const std::vector<StudyPoint>& all, const std::string& method,
 TEST(Study, OfRunsMeasuresAgainstTheFinest) {
     const Folder folder;
     StudyRequest request = small("resolution", folder);
-    request.values = {90.0, 150.0};
+    request.values = {90.0, 115.0};
     run_study(request);
     const auto all = points(request.output);
     ASSERT_FALSE(all.empty());
     for (const StudyPoint& p : all) {
         if (p.quantity == "unbalanced_ratio_mean" || p.quantity == "inertial_number")
             continue; // errors by themselves, of the finest, too
-        EXPECT_EQ(p.parameter, "mean_radius_m=150") << p.quantity;
+        EXPECT_EQ(p.parameter, "mean_radius_m=115") << p.quantity;
         EXPECT_GT(p.disc_steps, 0.0);
     }
-    EXPECT_GT(error_of(all, request.scene, "mean_radius_m=150"), 0.0);
+    EXPECT_GT(error_of(all, request.scene, "mean_radius_m=115"), 0.0);
     EXPECT_TRUE(fs::exists(request.output / "study.png"));
     std::ifstream in(request.output / "study.json");
     EXPECT_GT(nlohmann::json::parse(in).at("floors").at("area_balance"), 0.0);
 
     // What is there is not made again.
-    const fs::path run = request.output / "runs" / "mean_radius_m=150-seed=2" / "summary.json";
+    const fs::path run = request.output / "runs" / "mean_radius_m=115-seed=2" / "summary.json";
     const auto made = fs::last_write_time(run);
     run_study(request);
     EXPECT_EQ(fs::last_write_time(run), made);
@@ -118,7 +118,7 @@ TEST(Study, OfTheTimeStepShowsOrderAndLimit) {
     const Folder folder;
     StudyRequest request = small("time-step", folder);
     request.seeds = 1;
-    request.set = {"extension.distance_m=5.0", "hanging_wall.mean_radius_m=150.0"};
+    request.set = {"extension.distance_m=5.0", "hanging_wall.mean_radius_m=115.0"};
     run_study(request);
     const auto all = points(request.output);
     const std::string wave = "wave in a chain: time step";

@@ -85,8 +85,8 @@ protected:
 };
 
 TEST_F(MaterialFileTest, ShippedMaterials) {
-    EXPECT_THAT(materials.names(), ElementsAre("mat18-b", "mat18-b-calibrated", "mat18-w",
-                                               "mat18-w-calibrated", "sediment"));
+    EXPECT_THAT(materials.names(), ElementsAre("mat18-b", "mat18-b-byerlee", "mat18-b-calibrated",
+                                               "mat18-w", "mat18-w-calibrated", "sediment"));
     for (const std::string& name : materials.names()) {
         const RockMaterial rock = load_material(name);
         EXPECT_EQ(rock.name, name);
