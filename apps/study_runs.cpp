@@ -30,8 +30,11 @@ std::optional<Values> value_of(const Json& summary, const std::string& quantity)
     if (quantity == "cutoff")
         return Values{summary.at("cutoff_x_m"), summary.at("cutoff_z_m")};
     if (quantity == "depocentre") {
+        const auto found = summary.find("depocentres");
+        if (found == summary.end())
+            return std::nullopt;
         const Json* best = nullptr;
-        for (const Json& place : summary.at("depocentres"))
+        for (const Json& place : *found)
             if (place.at("x_m") > graben_from &&
                 (!best || place.at("prominence_m") > best->at("prominence_m")))
                 best = &place;
