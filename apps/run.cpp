@@ -1,5 +1,6 @@
 #include "apps/run.hpp"
 
+#include "apps/base_figure.hpp"
 #include "apps/effects.hpp"
 #include "apps/fault_history.hpp"
 #include "apps/figures.hpp"
@@ -439,6 +440,8 @@ void draw_sheet(Run& run, Voice& voice) {
         return;
     const Stopwatch watch(run.record, "figures");
     try {
+        if (run.footwall || run.base_motion)
+            draw_base(run.options.output);
         draw_experiment(run.options.output);
     } catch (const std::exception& error) {
         voice.say(std::string("warning: no sheet of figures: ") + error.what());
@@ -589,7 +592,7 @@ void remove_run(const fs::path& output) {
     std::error_code error;
     for (const char* file :
          {"summary.json", "history.csv", "paraview.pvd", "log.txt", "scene.toml", "deflection.csv",
-          "footwall.pvd", "footwall.vtu", "figures/flexure.png"})
+          "base.csv", "figures/base.png", "footwall.pvd", "footwall.vtu", "figures/flexure.png"})
         fs::remove(output / file, error);
 }
 
@@ -767,6 +770,8 @@ void draw_run(const fs::path& output) {
     frames.draw("sections");
     if (chosen.size() > 1)
         frames.draw("experiment");
+    if (drawing.scene.elastic_base || drawing.scene.base_motion)
+        draw_base(output);
 }
 
 void draw_experiment(const fs::path& output) {
