@@ -106,7 +106,7 @@ std::string explain(const Scene& scene) {
     add("effects");
     for (const SceneTable& table : tables)
         if (table.is_effect)
-            add("  {:<4} {:<16} {}", table.in_scene ? "on" : "off", table.name, table.doc);
+            add("  {:<4} {:<20} {}", table.in_scene ? "on" : "off", table.name, table.doc);
     add("");
     add("size");
     add("  {} discs at the start, about {} at the end, mean radius {} m", p.discs_at_start,
