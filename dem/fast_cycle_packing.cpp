@@ -240,7 +240,7 @@ void FastCycle::pack_gathers(const State& state) {
                 const std::size_t start = strip.gathers.size();
                 strip.gathers.resize(start + group_discs * most, 0);
                 for (std::size_t m = 0; m < group_discs; ++m) {
-                    std::uint32_t* to = &strip.gathers[start + m];
+                    std::uint32_t* to = strip.gathers.data() + start + m;
                     for (std::uint32_t k = begin[disc + m]; k < begin[disc + m + 1];
                          ++k, to += group_discs)
                         *to = slots[k];
