@@ -11,15 +11,8 @@ import csv
 import os
 import sys
 
-try:
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import colormaps
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-except ImportError as failure:
-    sys.stderr.write(f"base.py: cannot import {failure.name or failure}\n")
-    sys.exit(1)
+sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
+from plot import colormaps, new_figure, run, save, without_frame
 
 EXAGGERATION = 10.0
 
@@ -42,8 +35,7 @@ def shown(extensions):
 
 
 def draw(moments):
-    figure = Figure(figsize=(11, 10.5), dpi=120)
-    FigureCanvasAgg(figure)
+    figure = new_figure(11, 10.5, 120)
     profile, section, history = figure.subplots(3, 1, height_ratios=(1.1, 1.3, 0.8))
     extensions = list(moments)
     colours = colormaps["viridis_r"]
@@ -78,32 +70,14 @@ def draw(moments):
     history.set_xlabel("extension, km")
     history.set_ylabel("uplift, m")
     history.legend(frameon=False, fontsize=8.5, loc="center left", bbox_to_anchor=(1.0, 0.5))
-    for axes in (profile, section, history):
-        for side in ("top", "right"):
-            axes.spines[side].set_visible(False)
+    without_frame(profile, section, history)
     figure.tight_layout()
     return figure
 
 
-def main(arguments):
-    if len(arguments) != 2:
-        raise ValueError("usage: base.py RUN_DIR FIGURES_DIR")
-    folder, figures = arguments
-    figure = draw(load(folder))
-    os.makedirs(figures, exist_ok=True)
-    temporary = os.path.join(figures, f".base-{os.getpid()}.tmp")
-    try:
-        figure.savefig(temporary, format="png")
-        os.replace(temporary, os.path.join(figures, "base.png"))
-    finally:
-        if os.path.exists(temporary):
-            os.remove(temporary)
+def main(folder, figures):
+    save(draw(load(folder)), figures, "base")
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except Exception as failure:  # one line, no traceback
-        text = " ".join(f"{type(failure).__name__}: {failure}".split())
-        sys.stderr.write(f"base.py: {text}\n")
-        sys.exit(1)
+    run(main, "base.py RUN_DIR FIGURES_DIR")

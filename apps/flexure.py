@@ -11,14 +11,8 @@ import json
 import os
 import sys
 
-try:
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-except ImportError as failure:
-    sys.stderr.write(f"flexure.py: cannot import {failure.name or failure}\n")
-    sys.exit(1)
+sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
+from plot import new_figure, run, save, without_frame
 
 TITLES = {"line": "Line load on a continuous plate", "broken": "Load on the end of a broken plate",
           "strip": "Strip load", "sinusoid": "Sinusoidal load"}
@@ -34,8 +28,7 @@ def load(folder):
 
 
 def draw(summary, columns):
-    figure = Figure(figsize=(10, 6), dpi=150)
-    FigureCanvasAgg(figure)
+    figure = new_figure(10, 6, 150)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1.2))
     x = [value / 1e3 for value in columns["x_m"]]
     deflection = columns["deflection_m"]
@@ -76,32 +69,14 @@ def draw(summary, columns):
     lower.set_xlabel("distance from the load, km" if summary["load"] != "sinusoid"
                      else "distance from a crest of the load, km")
     lower.legend(frameon=False, fontsize=9)
-    for axes in (upper, lower):
-        for side in ("top", "right"):
-            axes.spines[side].set_visible(False)
+    without_frame(upper, lower)
     figure.tight_layout()
     return figure
 
 
-def main(arguments):
-    if len(arguments) != 2:
-        raise ValueError("usage: flexure.py RUN_DIR FIGURES_DIR")
-    folder, figures = arguments
-    figure = draw(*load(folder))
-    os.makedirs(figures, exist_ok=True)
-    temporary = os.path.join(figures, f".flexure-{os.getpid()}.tmp")
-    try:
-        figure.savefig(temporary, format="png")
-        os.replace(temporary, os.path.join(figures, "flexure.png"))
-    finally:
-        if os.path.exists(temporary):
-            os.remove(temporary)
+def main(folder, figures):
+    save(draw(*load(folder)), figures, "flexure")
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except Exception as failure:  # one line, no traceback
-        text = " ".join(f"{type(failure).__name__}: {failure}".split())
-        sys.stderr.write(f"flexure.py: {text}\n")
-        sys.exit(1)
+    run(main, "flexure.py RUN_DIR FIGURES_DIR")

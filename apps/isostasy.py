@@ -10,14 +10,8 @@ import csv
 import os
 import sys
 
-try:
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-except ImportError as failure:
-    sys.stderr.write(f"isostasy.py: cannot import {failure.name or failure}\n")
-    sys.exit(1)
+sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
+from plot import new_figure, run, save, without_frame
 
 COLOURS = {"sediment": "#b8860b", "water": "#1f6fb4", "empty": "#525252"}
 
@@ -27,8 +21,7 @@ def mean(values):
 
 
 def draw(rows):
-    figure = Figure(figsize=(12, 5), dpi=130)
-    FigureCanvasAgg(figure)
+    figure = new_figure(12, 5, 130)
     left, right = figure.subplots(1, 2)
     for fill in dict.fromkeys(row["fill"] for row in rows):
         colour = COLOURS.get(fill, "#6a51a3")
@@ -56,35 +49,20 @@ def draw(rows):
         axes.set_ylim(bottom=0.0)
         axes.grid(True, lw=0.4, color="#d0d0d0")
         axes.legend(frameon=False, fontsize=8)
-        for side in ("top", "right"):
-            axes.spines[side].set_visible(False)
+        without_frame(axes)
     left.set_ylabel("uplift of the breakaway, m")
     right.set_ylabel("displacement, m")
     figure.tight_layout()
     return figure
 
 
-def main(arguments):
-    if len(arguments) != 1:
-        raise ValueError("usage: isostasy.py DIR")
-    with open(os.path.join(arguments[0], "isostasy.csv"), encoding="utf-8") as file:
+def main(folder):
+    with open(os.path.join(folder, "isostasy.csv"), encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     if not rows:
         raise ValueError("isostasy.csv has no finished run")
-    figure = draw(rows)
-    temporary = os.path.join(arguments[0], f".isostasy-{os.getpid()}.tmp")
-    try:
-        figure.savefig(temporary, format="png")
-        os.replace(temporary, os.path.join(arguments[0], "isostasy.png"))
-    finally:
-        if os.path.exists(temporary):
-            os.remove(temporary)
+    save(draw(rows), folder, "isostasy")
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except Exception as failure:  # one line, no traceback
-        text = " ".join(f"{type(failure).__name__}: {failure}".split())
-        sys.stderr.write(f"isostasy.py: {text}\n")
-        sys.exit(1)
+    run(main, "isostasy.py DIR")

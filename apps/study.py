@@ -14,14 +14,8 @@ import math
 import os
 import sys
 
-try:
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-except ImportError as failure:
-    sys.stderr.write(f"study.py: cannot import {failure.name or failure}\n")
-    sys.exit(1)
+sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
+from plot import new_figure, run, save, without_frame
 
 COLOURS = ("#1f6fb4", "#d7301f", "#238b45", "#6a51a3", "#d95f0e", "#525252", "#c51b8a", "#0f8b8d",
            "#8c6d31")
@@ -85,14 +79,12 @@ def draw_panel(pair, panel, curves, floors):
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.grid(True, which="major", lw=0.4, color="#d0d0d0")
-        for side in ("top", "right"):
-            axes.spines[side].set_visible(False)
+        without_frame(axes)
     pair[1].legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
 
 
 def draw(facts, panels):
-    figure = Figure(figsize=(13, 0.9 + 4.2 * len(panels)), dpi=120)
-    FigureCanvasAgg(figure)
+    figure = new_figure(13, 0.9 + 4.2 * len(panels), 120)
     grid = figure.subplots(len(panels), 2, squeeze=False, sharey="row")
     for pair, (panel, curves) in zip(grid, panels.items()):
         draw_panel(pair, panel, curves, facts["floors"])
@@ -108,23 +100,9 @@ def draw(facts, panels):
     return figure
 
 
-def main(arguments):
-    if len(arguments) != 1:
-        raise ValueError("usage: study.py DIR")
-    figure = draw(*load(arguments[0]))
-    temporary = os.path.join(arguments[0], f".study-{os.getpid()}.tmp")
-    try:
-        figure.savefig(temporary, format="png")
-        os.replace(temporary, os.path.join(arguments[0], "study.png"))
-    finally:
-        if os.path.exists(temporary):
-            os.remove(temporary)
+def main(folder):
+    save(draw(*load(folder)), folder, "study")
 
 
 if __name__ == "__main__":
-    try:
-        main(sys.argv[1:])
-    except Exception as failure:  # one line, no traceback
-        text = " ".join(f"{type(failure).__name__}: {failure}".split())
-        sys.stderr.write(f"study.py: {text}\n")
-        sys.exit(1)
+    run(main, "study.py DIR")
