@@ -189,9 +189,9 @@ Scene load(const StudyRequest& request) {
 StudyResult study_resolution(const StudyRequest& asked) {
     const StudyRequest request = with_scene(asked, "lis1");
     const Scene scene = load(request);
-    // 3,000, 4,200, 8,300, 16,700, 33,000 and 75,000 discs of lis1.
+    // 3,000, 4,200, 8,300, 16,700, 33,000 and 67,000 discs of lis1 before sediment.
     Values radii =
-        request.values.empty() ? Values{220.0, 186.2, 132.0, 93.1, 66.0, 44.0} : request.values;
+        request.values.empty() ? Values{220.0, 186.2, 132.0, 93.1, 66.0, 46.55} : request.values;
     std::ranges::sort(radii, std::greater{});
     std::vector<StudyRun> runs;
     for (double radius : radii)

@@ -1,6 +1,7 @@
 #include "dem/events/fault_weakening.hpp"
 
 #include "dem/cells.hpp"
+#include "dem/contacts.hpp"
 #include "dem/events/property_update.hpp"
 #include "dem/power_cell.hpp"
 #include "dem/units.hpp"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace listric {
 
@@ -26,12 +28,29 @@ struct Sample {
     std::vector<double> x, y, ux, uy; ///< m
 };
 
+/// Whether a disc is part of a rock: bonded to at least half of the discs that it touches.
+std::vector<bool> cemented(State& state) {
+    const ConstContactColumns c = contact_columns(std::as_const(state));
+    const std::vector<bool> touches = touching(state);
+    std::vector<int> bonded(state.discs.rows(), 0), unbonded(state.discs.rows(), 0);
+    for (std::size_t k = 0; k < c.first.size(); ++k)
+        if (touches[k])
+            for (const std::int32_t disc : {c.first[k], c.second[k]})
+                ++(c.bonded[k] ? bonded : unbonded)[static_cast<std::size_t>(disc)];
+    std::vector<bool> result(bonded.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] = bonded[i] > 0 && bonded[i] >= unbonded[i];
+    return result;
+}
+
 Sample displacements(State& state, double youngest) {
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
+    const std::vector<bool> rock = cemented(state);
     Sample s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (state.clock.extension - d.start_extension[i] < youngest && d.stratum[i] > 0)
+        if (d.stratum[i] > 0 && d.material[i] != weak &&
+            (!rock[i] || state.clock.extension - d.start_extension[i] < youngest))
             continue;
         s.row.push_back(static_cast<std::int32_t>(i));
         s.x.push_back(d.x[i]);
