@@ -58,7 +58,10 @@ double node_stiffness(const Material& base, std::span<const Material> discs, dou
 ElasticBase::ElasticBase(Interface interface, const CouplingParameters& parameters)
     : interface_(std::move(interface)), parameters_(parameters),
       modes_(find_modes(interface_.compliance, interface_.unknowns(),
-                        static_cast<std::size_t>(parameters.modes))),
+                        // Nodes that move one by one need all stiffness.
+                        parameters.scheme == CouplingScheme::modal
+                            ? static_cast<std::size_t>(parameters.modes)
+                            : 0)),
       load_(interface_.unknowns()), modal_load_(modes_.count()), modal_velocity_(modes_.count()),
       velocity_(interface_.unknowns()) {
     interval = parameters.interval;

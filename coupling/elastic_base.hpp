@@ -21,7 +21,7 @@ enum class CouplingScheme {
 struct CouplingParameters {
     CouplingScheme scheme = CouplingScheme::modal;
     int interval = 5;         ///< cycles between updates of the base
-    int modes = 0;            ///< softest modes that move; 0: all
+    int modes = 0;            ///< softest modes that scheme modal moves; 0: all
     double mass_factor = 0.6; ///< modal mass over (stiffness + contact stiffness) (interval dt)^2
     double damping = 0.7;     ///< local, of every mode
     double contact_stiffness = 0.0; ///< of the discs on a node, N/m: see node_stiffness()
