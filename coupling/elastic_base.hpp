@@ -82,7 +82,8 @@ public:
 
     /// Means of the window: forces of the discs relative to the reference with the virtual ones,
     /// and displacement.
-    /// Columns force, N, and displacement, m, of the unknowns.
+    /// Columns force, N, and displacement, m, of the unknowns; effects, N, where loads of effects
+    /// act beside the discs.
     Table window_means(const State& state) const;
 
     WindowBalance window(const State& state) const;
