@@ -230,7 +230,7 @@ std::vector<Parameter> parameters(ElasticBaseParameters& p) {
         {"update_interval_cycles", &p.update_interval, "", {.from = 1, .to = 1e6}, "",
          "cycles between updates of the base"},
         {"modes", &p.modes, "", {.from = 0, .to = 1e5}, "",
-         "softest modes of the base that move; 0: all"},
+         "softest modes of the base that move in scheme modal; 0: all"},
         {"mass_factor", &p.mass_factor, "", {.from = 0.6, .to = 1e6, .reason = "below, contacts and base are unstable"}, "",
          "modal mass over (stiffness + contact stiffness) times the squared update interval"},
         {"disc_damping", one_of({"relative", "absolute"}, p.relative_damping), "", {}, "",

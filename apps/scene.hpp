@@ -87,7 +87,7 @@ struct ElasticBaseParameters {
     int refinements = 0; ///< times that all elements are halved
     CouplingScheme scheme = CouplingScheme::modal;
     int update_interval = 5;       ///< cycles
-    int modes = 0;                 ///< 0: all
+    int modes = 100;               ///< 0: all
     double mass_factor = 0.6;      ///< of the modes
     bool relative_damping = true;  ///< of the discs, against their mean motion
     double averaging_time = 150.0; ///< of that mean, model s

@@ -58,7 +58,10 @@ double node_stiffness(const Material& base, std::span<const Material> discs, dou
 ElasticBase::ElasticBase(Interface interface, const CouplingParameters& parameters)
     : interface_(std::move(interface)), parameters_(parameters),
       modes_(find_modes(interface_.compliance, interface_.unknowns(),
-                        static_cast<std::size_t>(parameters.modes))),
+                        // Nodes that move one by one need all stiffness.
+                        parameters.scheme == CouplingScheme::modal
+                            ? static_cast<std::size_t>(parameters.modes)
+                            : 0)),
       load_(interface_.unknowns()), modal_load_(modes_.count()), modal_velocity_(modes_.count()),
       velocity_(interface_.unknowns()) {
     interval = parameters.interval;
@@ -218,6 +221,13 @@ void ElasticBase::respond(State& state, const Clock& clock) {
     }
 
     add_footwall_loads(state, load_);
+    if (state.base_memory.contains("footwall_loads")) {
+        const auto effects = means.add<double>("effects", "N", 0.0);
+        std::vector<double> loads(load_.size(), 0.0);
+        add_footwall_loads(state, loads);
+        for (std::size_t k = 0; k < loads.size(); ++k)
+            effects[k] += cycles * loads[k];
+    }
     const double step = cycles * clock.time_step;
     switch (parameters_.scheme) {
     case CouplingScheme::modal:
@@ -296,9 +306,10 @@ WindowBalance ElasticBase::window(const State& state) const {
 Table ElasticBase::window_means(const State& state) const {
     Table means = state.base_memory.at("window_means");
     const double cycles = std::max(1.0, window(state).cycles);
-    for (const char* name : {"force", "displacement"})
-        for (double& sum : means.get<double>(name))
-            sum /= cycles;
+    for (const char* name : {"force", "displacement", "effects"})
+        if (means.has(name))
+            for (double& sum : means.get<double>(name))
+                sum /= cycles;
     return means;
 }
 

@@ -21,7 +21,7 @@ enum class CouplingScheme {
 struct CouplingParameters {
     CouplingScheme scheme = CouplingScheme::modal;
     int interval = 5;         ///< cycles between updates of the base
-    int modes = 0;            ///< softest modes that move; 0: all
+    int modes = 0;            ///< softest modes that scheme modal moves; 0: all
     double mass_factor = 0.6; ///< modal mass over (stiffness + contact stiffness) (interval dt)^2
     double damping = 0.7;     ///< local, of every mode
     double contact_stiffness = 0.0; ///< of the discs on a node, N/m: see node_stiffness()
@@ -82,7 +82,8 @@ public:
 
     /// Means of the window: forces of the discs relative to the reference with the virtual ones,
     /// and displacement.
-    /// Columns force, N, and displacement, m, of the unknowns.
+    /// Columns force, N, and displacement, m, of the unknowns; effects, N, where loads of effects
+    /// act beside the discs.
     Table window_means(const State& state) const;
 
     WindowBalance window(const State& state) const;

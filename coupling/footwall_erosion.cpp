@@ -51,6 +51,7 @@ fem::Load surface_load(std::vector<double> knots, std::vector<double> pressure) 
             boundary == fem::Boundary::surface && p.x >= points.front().x && p.x <= points.back().x;
         return fem::Vector{0.0, is_loaded ? -line.height(p.x) : 0.0};
     };
+    load.jumps = std::move(knots); // bends there
     return load;
 }
 

@@ -76,15 +76,10 @@ FootwallResponses solve_footwall_loads(fem::Footwall& footwall, std::size_t unkn
         for (std::size_t j = 0; j < knots; ++j)
             surface.uplift.push_back(uplift(k, j));
     for (std::size_t row = knots; row < loads.size(); ++row) {
-        const double sum = thinning ? contrast * thinning->thickness * distance *
-                                          static_cast<double>(row - knots) /
-                                          static_cast<double>(crust_steps)
-                                    : 0.0;
-        const double found = -solved.sums[row].y, ratio = found > 0.0 ? sum / found : 0.0;
         for (std::size_t i = 0; i < unknowns; ++i)
-            result.crust.interface.push_back(ratio * solved.interface[row * all + i]);
+            result.crust.interface.push_back(solved.interface[row * all + i]);
         for (std::size_t j = 0; j < knots; ++j)
-            result.crust.uplift.push_back(ratio * uplift(row, j));
+            result.crust.uplift.push_back(uplift(row, j));
     }
     return result;
 }

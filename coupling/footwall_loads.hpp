@@ -32,8 +32,7 @@ struct FootwallResponses {
     LowerCrustResponse crust; ///< without rows where the lower crust is
 };
 
-/// Solves for the loads of the effects that are there. Rows of the lower crust are scaled to the
-/// load's exact sum, which quadrature misses where it ends inside an element.
+/// Solves for the loads of the effects that are there.
 /// @param unknowns  of the interface that is kept, which may end before the footwall's
 /// @param contrast  of mantle and crust, times gravity, Pa/m
 /// @param left      side of the footwall, m

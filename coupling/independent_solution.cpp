@@ -109,6 +109,7 @@ IndependentSolution solve_independently(fem::FootwallRequest request, const Inte
     std::vector<double> still(interface.x.size(), 0.0);
     const Trace trace(interface.x, interface.y, still, still, interface.degree);
     fem::Load load;
+    load.jumps = other.jumps;
     load.traction = [&](fem::Vector place, fem::Vector normal, fem::Boundary boundary) {
         fem::Vector t;
         if (other.traction)

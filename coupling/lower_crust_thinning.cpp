@@ -26,6 +26,7 @@ fem::Load lower_crust_load(const LowerCrustThinningParameters& p, double contras
         const bool is_loaded = boundary == fem::Boundary::base && place.x > left && place.x < right;
         return fem::Vector{0.0, is_loaded ? -pressure : 0.0};
     };
+    load.jumps = {left, right};
     return load;
 }
 

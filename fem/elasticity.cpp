@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 
 namespace listric::fem {
@@ -49,6 +50,33 @@ void must(PetscErrorCode code, const char* what) {
 }
 
 Vector plain(const Point<2>& p) { return {p[0], p[1]}; }
+
+/// Where loads jump along a straight face: from 0 at its first vertex to 1, sorted.
+template <class Face>
+std::vector<double> jumps_within(const Face& face, const std::vector<double>& jumps) {
+    std::vector<double> result;
+    const double start = face.vertex(0)[0], end = face.vertex(1)[0];
+    for (const double x : jumps)
+        if ((x - start) * (x - end) < 0.0)
+            result.push_back((x - start) / (end - start));
+    std::ranges::sort(result);
+    return result;
+}
+
+/// The same points once in every part of a face.
+dealii::Quadrature<1> in_parts(const dealii::Quadrature<1>& points, std::vector<double> ends) {
+    ends.insert(ends.begin(), 0.0);
+    ends.push_back(1.0);
+    std::vector<Point<1>> place;
+    std::vector<double> weight;
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+        for (unsigned q = 0; q < points.size(); ++q) {
+            const double length = ends[k + 1] - ends[k];
+            place.emplace_back(ends[k] + length * points.point(q)[0]);
+            weight.push_back(length * points.weight(q));
+        }
+    return {place, weight};
+}
 
 /// Stress, elastic moduli and density at the points of output.
 class StressOutput : public dealii::DataPostprocessor<2> {
@@ -617,11 +645,11 @@ std::vector<double> ElasticFootwall::unit_solutions() {
 std::pair<GlobalVector, Vector> ElasticFootwall::forces_of(const Load& load) const {
     GlobalVector forces(owned_, processes);
     const dealii::QGauss<2> points(static_cast<unsigned>(request_.degree) + 2);
-    // Points enough for loads that end or bend inside an element.
-    const dealii::QIterated<1> face_points(
-        dealii::QGauss<1>(static_cast<unsigned>(request_.degree) + 3), 4);
+    // Points enough for loads that bend inside an element, or end there unannounced.
+    const dealii::QGauss<1> gauss(static_cast<unsigned>(request_.degree) + 3);
     dealii::FEValues<2> values(mapping_, element_, points, volume_flags);
-    dealii::FEFaceValues<2> face_values(mapping_, element_, face_points, face_flags);
+    dealii::FEFaceValues<2> whole_face(mapping_, element_, dealii::QIterated<1>(gauss, 4),
+                                       face_flags);
     const unsigned n = element_.n_dofs_per_cell();
     dealii::Vector<double> local(n);
     std::vector<Index> indices(n);
@@ -647,8 +675,14 @@ std::pair<GlobalVector, Vector> ElasticFootwall::forces_of(const Load& load) con
                 if (!load.traction || !cell->face(f)->at_boundary())
                     continue;
                 is_loaded = true;
+                std::unique_ptr<dealii::FEFaceValues<2>> parts;
+                if (const std::vector<double> at = jumps_within(*cell->face(f), load.jumps);
+                    !at.empty())
+                    parts = std::make_unique<dealii::FEFaceValues<2>>(
+                        mapping_, element_, in_parts(gauss, at), face_flags);
+                dealii::FEFaceValues<2>& face_values = parts ? *parts : whole_face;
                 face_values.reinit(cell, f);
-                for (unsigned q = 0; q < face_points.size(); ++q) {
+                for (unsigned q = 0; q < face_values.n_quadrature_points; ++q) {
                     const auto normal = face_values.normal_vector(q);
                     const Vector t = load.traction(
                         plain(face_values.quadrature_point(q)), {normal[0], normal[1]},

@@ -99,6 +99,9 @@ struct Load {
     std::function<Vector(Vector place)> body;                                      ///< N/m^3
     std::function<Vector(Vector place, Vector outward_normal, Boundary)> traction; ///< Pa
     std::vector<double> interface; ///< forces on the nodes: x, y of the first, ...; N per m
+    /// x where the traction jumps, m: straight faces are integrated in parts there, so that the
+    /// load keeps its sum and its moment on any mesh.
+    std::vector<double> jumps;
 };
 
 /// What m loads, each alone, do to the footwall.

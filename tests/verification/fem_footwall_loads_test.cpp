@@ -44,19 +44,17 @@ TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
                              &thinning, contrast, distance);
     const std::size_t unknowns = 2 * footwall->interface().size();
     ASSERT_EQ(found.crust.interface.size(), (found.crust.steps + 1) * unknowns);
-    // Thinner by h e / (b + e); of the load no more than the model's width is there, so that the
-    // sum by which rows are scaled is undone here.
+    // Thinner by h e / (b + e).
     const double thinner = 20e3 * distance / 2010e3;
     EXPECT_DOUBLE_EQ(lower_crust_thinning(thinning, distance), thinner);
-    const double outside = 2010e3 / (request.right - request.left);
     // Springs at both ends of an elastic column that is pulled at its base.
     const double top = request.surface_spring, base = request.base_spring;
     const double subsidence =
         contrast * thinner / (top + base + top * base / column_stiffness(request));
     for (std::size_t i = 0; i < unknowns; i += 2) {
         const std::size_t last = found.crust.steps * unknowns + i;
-        EXPECT_NEAR(found.crust.interface[last], 0.0, round_off * subsidence * outside);
-        EXPECT_NEAR(found.crust.interface[last + 1] / outside, -subsidence, round_off * subsidence);
+        EXPECT_NEAR(found.crust.interface[last], 0.0, round_off * subsidence);
+        EXPECT_NEAR(found.crust.interface[last + 1], -subsidence, round_off * subsidence);
     }
     // Airy's, but for what the column gives: 0.2 %.
     EXPECT_NEAR(subsidence / (thinner * (mantle - crust) / mantle), 1.0, 3e-3);
@@ -71,6 +69,18 @@ TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
     const FootwallResponses found =
         solve_footwall_loads(*footwall, 2 * footwall->interface().size(), nullptr, request.left,
                              &thinning, contrast, 10e3);
+    // The load ends inside elements; neither its sum nor its moment depends on where.
+    for (const double e : {0.7e3, 3e3, 10e3}) {
+        fem::Load load = lower_crust_load(thinning, contrast, e);
+        footwall->solve(load);
+        const double sum = -contrast * 20e3 * e, to = 65e3 + e, from = -35e3;
+        EXPECT_NEAR(footwall->total_load().y / sum, 1.0, 1e-12);
+        load.traction = [=, vertical = load.traction](fem::Vector p, fem::Vector n, fem::Boundary b) {
+            return fem::Vector{p.x * vertical(p, n, b).y, 0.0};
+        };
+        footwall->solve(load);
+        EXPECT_NEAR(footwall->total_load().x / (0.5 * (from + to) * sum), 1.0, 1e-12);
+    }
     // The interface of a flat layer is its surface: what the springs there hold and those at the
     // base, with the layer rigid enough to move as one over 400 km, is the load. Held by the
     // exact mean: integrate the surface's displacement; the base differs by the layer's own
