@@ -132,7 +132,7 @@ std::vector<Parameter> parameters(FaultWeakeningParameters& p) {
         {"angles", &p.angles, "", {.from = 2, .to = 360}, "",
          "fault angles tried at each sampling point"},
         {"youngest_sediment_a", &p.youngest_sediment, "a", {.from = 0, .to = 1e9}, "",
-         "sediment younger than this is left alone"},
+         "sediment younger than this is left alone, as loose sediment is"},
         {"normal_stiffness_pa", &p.material.normal_stiffness, "Pa", stiffness, "k_n",
          "normal stiffness of one weakened disc"},
         {"shear_stiffness_pa", &p.material.shear_stiffness, "Pa", stiffness, "k_s",

@@ -26,7 +26,8 @@ struct FaultWeakeningParameters {
 };
 
 /// Scans the hanging wall with a measure circle for planes whose two sides slid past each other,
-/// and weakens the discs along the most active ones.
+/// and weakens the discs along the most active ones. Loose sediment is not looked at: it deforms
+/// everywhere [paper, Fig. 5], and its base would be taken for a fault.
 ///
 /// Its memory lists the fault segments found: centre x_m, y_m, dip direction angle_rad, slip_m of
 /// the interval (> 0: the upper side of the plane moved along its direction), found_at_m.

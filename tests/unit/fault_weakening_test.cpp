@@ -199,5 +199,26 @@ TEST(FaultWeakening, YoungSedimentIsLeftAlone) {
         }
 }
 
+TEST(FaultWeakening, LooseSedimentIsLeftAlone) {
+    for (const bool loose : {true, false}) {
+        Block b;
+        b.state.clock.extension = 5000.0;
+        const DiscColumns d = disc_columns(b.state);
+        for (std::size_t i = 0; i < d.x.size(); ++i)
+            d.stratum[i] = d.y[i] > b.middle.y ? 1 : 0;
+        const ContactColumns c = contact_columns(b.state);
+        for (std::size_t k = 0; k < c.first.size(); ++k)
+            if (loose && (d.stratum[static_cast<std::size_t>(c.first[k])] > 0 ||
+                          d.stratum[static_cast<std::size_t>(c.second[k])] > 0))
+                c.bonded[k] = 0;
+        b.slide(0.0, 1.2 * b.threshold); // sediment on the basin's floor
+        b.apply();
+        if (loose)
+            EXPECT_EQ(b.weak_discs(), 0);
+        else
+            EXPECT_GT(b.weak_discs(), 50);
+    }
+}
+
 } // namespace
 } // namespace listric
