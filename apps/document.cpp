@@ -71,6 +71,8 @@ void fail_type(const Entry& entry, std::string_view allowed) {
 }
 
 std::string advice(std::string_view name, const std::vector<std::string_view>& allowed) {
+    if (allowed.empty())
+        return "none is allowed";
     const auto meant = nearest(name, allowed);
     return meant ? fmt::format("did you mean {}?", *meant)
                  : fmt::format("allowed: {}", fmt::join(allowed, ", "));

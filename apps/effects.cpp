@@ -41,7 +41,8 @@ std::vector<std::unique_ptr<Event>> make_events(const Scene& s) {
         for (const auto& event : events)
             if (event->name() != "equilibrium") // which only looks
                 names.push_back(event->name());
-        events.push_back(std::make_unique<EnergyAccount>(gravity, names));
+        events.push_back(
+            std::make_unique<EnergyAccount>(gravity, s.elastic_base || s.base_motion, names));
     }
     // Last, so that a window starts with the discs that were deposited at its start.
     events.push_back(std::make_unique<Strain>(strain_window, rate));

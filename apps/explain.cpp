@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 namespace listric {
 
@@ -88,13 +87,13 @@ std::string explain_elastic_base(const Scene& scene) {
                               scene.lower_crust_thinning ? "" : "thinning of the lower crust, ");
 }
 
-std::string explain(const Scene& scene) {
+std::string explain(const Scene& scene, int threads) {
     if (scene.flexure)
         return explain_flexure(scene);
-    const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    const double rate =
-        measure_rate(estimated_discs(scene), threads, 0.7, scene.energy.has_value());
-    const Prediction p = predict(scene, rate);
+    const CycleSpeed speed =
+        measure_speed(estimated_discs(scene), threads, 1.0, scene.energy.has_value());
+    const double rate = speed.disc_steps_per_second;
+    const Prediction p = predict(scene, rate, threads);
     std::string text;
     const auto add = [&](auto format, const auto&... values) {
         text += fmt::format(fmt::runtime(format), values...) + "\n";
@@ -122,18 +121,22 @@ std::string explain(const Scene& scene) {
     if (scene.base_motion)
         add("the detachment moves as prescribed, at up to {:.2g} of the speed of extension\n",
             greatest_base_speed(*scene.base_motion, scene.extension.rate));
-    add("on this machine, {} threads ({:.0f} million disc-steps per second)", threads, rate / 1e6);
+    add("on this machine when nothing else runs, {} {} ({:.0f} million disc-steps per second)",
+        threads, threads == 1 ? "thread" : "threads", rate / 1e6);
     add("  {:<10} {:>10} {:>9} {:>12} {:>9}", "accuracy", "radius, m", "discs", "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {
         Scene other = scene;
         other.hanging_wall->mean_radius = level.mean_radius;
         other.extension.speed = level.speed;
-        const Prediction q = predict(other, rate);
+        const Prediction q = predict(other, rate, threads);
         add("  {:<10} {:>10.4g} {:>9} {:>12} {:>9}{}", level.name, level.mean_radius,
             q.discs_at_start, q.cycles, duration(q.seconds),
             level.mean_radius == scene.hanging_wall->mean_radius ? "   <- this call" : "");
     }
-    add("  this call: {}", duration(p.seconds));
+    add("  this call: {}{}", duration(p.seconds),
+        speed.busy > 1.15
+            ? fmt::format("; {} while other programs run as now", duration(speed.busy * p.seconds))
+            : "");
     add("");
     add("accuracy, from runs of lis1: rotation, cutoff and basin area are right at draft (1 %);");
     add("faults are as narrow as three discs, so their number and place want standard or finer.");

@@ -7,6 +7,6 @@
 namespace listric {
 
 /// What would be simulated and what it costs on this machine, as text.
-std::string explain(const Scene& scene);
+std::string explain(const Scene& scene, int threads);
 
 } // namespace listric

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace listric {
 
@@ -19,7 +20,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 } // namespace
 
-double measure_rate(std::size_t discs, int threads, double seconds, bool accounted) {
+CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted) {
     // Hexagonal lattice on a floor, as many neighbours per disc as a settled packing has on average
     // once every third contact is left out by a gap.
     const double radius = 100.0;
@@ -54,15 +55,65 @@ double measure_rate(std::size_t discs, int threads, double seconds, bool account
     const Execution execution{threads, Cycle::best, accounted ? &flows : nullptr};
     advance(state, base, {}, batch / 4 + 1, execution);
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu_start = std::clock(); // of all threads
     double cycles = 0.0;
     do {
         advance(state, base, {}, batch, execution);
         cycles += static_cast<double>(batch);
     } while (seconds_since(start) < seconds);
-    return cycles * static_cast<double>(discs) / seconds_since(start);
+    const double wall = seconds_since(start);
+    const double quiet = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC /
+                         (accounted ? 1.0 : static_cast<double>(threads));
+    return {cycles * static_cast<double>(discs) / quiet, std::max(1.0, wall / quiet)};
 }
 
-Prediction predict(const Scene& scene, double rate) {
+namespace {
+
+// Prices in disc-steps of the bare cycle, so that they follow the machine's speed. Measured on
+// lis1, rfr and lis1-elastic at draft and standard.
+
+/// Contacts of a moving packing are listed anew more often than those of the lattice.
+constexpr double cycle_price = 1.25;
+
+/// Making the hanging wall. Settling takes as many cycles as waves need to cross it.
+double price_of_genesis(const HangingWallParameters& h, double discs) {
+    return discs * (30000.0 + 30.0 * h.thickness / h.mean_radius);
+}
+
+/// Events, and windows of history and snapshots.
+double price_of_events(const Scene& s, double discs) {
+    const double years = s.extension.distance / s.extension.rate;
+    const double windows = s.extension.distance / s.output.interval;
+    double price = windows * (1.1e7 + 600.0 * discs) + years / 2500.0 * 10.0 * discs;
+    if (s.fault_weakening)
+        price += years / s.fault_weakening->interval * 330.0 * discs +
+                 years / s.fault_weakening->update_interval * 25.0 * discs;
+    if (s.bond_healing)
+        price += years / s.bond_healing->interval * 5.0 * discs;
+    if (s.sedimentation)
+        price += years / s.sedimentation->interval * (8e6 + 640.0 * discs);
+    if (s.compaction)
+        price += years / s.compaction->interval * 0.5 * discs;
+    return price;
+}
+
+/// Pictures at the moments asked for and at the end, and the sheet with all moments.
+double price_of_figures(const Scene& s, double discs) {
+    const double end = s.extension.distance;
+    const auto before_end = static_cast<double>(std::ranges::count_if(
+        s.output.figures, [&](double at) { return at < end - 0.5 * s.output.interval; }));
+    const bool of_base = s.elastic_base || s.base_motion;
+    return (before_end + 1.0) * (2.6e8 + 3000.0 * discs) + (of_base ? 6e8 : 3e8);
+}
+
+/// Set-up, settling of the discs, and an answer every few cycles.
+double price_of_elastic_base(const ElasticBaseParameters& b, double discs, double cycles) {
+    return 5e7 + 1.2e4 * discs + 1350.0 * cycles / b.update_interval;
+}
+
+} // namespace
+
+Prediction predict(const Scene& scene, double rate, int threads) {
     const HangingWallParameters& h = *scene.hanging_wall;
     const double density = h.rock_density / (1.0 - 0.166);
     const double mean_mass = density * pi * h.mean_radius * h.mean_radius;
@@ -84,11 +135,15 @@ Prediction predict(const Scene& scene, double rate) {
     p.cycles = static_cast<std::int64_t>(time / p.time_step);
     p.disc_steps = 0.5 * static_cast<double>(p.discs_at_start + p.discs_at_end) *
                    static_cast<double>(p.cycles);
-    // Settling takes about 70 crossings of the packing, see make_hanging_wall.
-    const double genesis =
-        static_cast<double>(p.discs_at_start) * (3500.0 + 70.0 * h.thickness / h.mean_radius);
-    // Neighbour searches, events, snapshots and figures take about a tenth on top of the cycle.
-    p.seconds = 1.1 * (p.disc_steps + genesis) / rate + 8.0;
+    const auto start = static_cast<double>(p.discs_at_start);
+    const double mean_discs = 0.5 * (start + static_cast<double>(p.discs_at_end));
+    // All but the cycle takes one thread.
+    double serial = price_of_genesis(h, start) + price_of_events(scene, mean_discs) +
+                    price_of_figures(scene, mean_discs);
+    if (scene.elastic_base)
+        serial += price_of_elastic_base(*scene.elastic_base, start, static_cast<double>(p.cycles));
+    const double cycling_threads = scene.energy ? 1.0 : threads;
+    p.seconds = (cycle_price * p.disc_steps + serial * cycling_threads) / rate;
     // Columns of a disc, three contacts each, and the neighbour search's copies.
     p.memory = 20e6 + static_cast<double>(p.discs_at_end) * (25 * 8.0 + 3 * 29.0 * 2.0 + 100.0);
     return p;

@@ -204,6 +204,8 @@ int dispatch(int argc, char** argv) {
         app.add_subcommand("explain", "Say what a scene would simulate and cost; run nothing");
     add_scene_options(*explain_command, request);
     explain_command->get_option("SCENE")->required(false);
+    explain_command->add_option("--threads", options.threads, "Processor cores to use")
+        ->check(CLI::Range(1, 1024));
     explain_command->add_flag("--parameters", parameters, "Reference of all parameters");
 
     CLI::App* figures_command = app.add_subcommand("figures", "Draw the figures of a run");
@@ -275,7 +277,7 @@ int dispatch(int argc, char** argv) {
         else if (request.scene.empty())
             throw UsageError("explain: a scene is needed, or --parameters");
         else
-            std::cout << explain(load_scene(request));
+            std::cout << explain(load_scene(request), options.threads);
     } else if (*figures_command) {
         animation ? animate_run(folder) : draw_run(folder);
     } else if (*validate_command) {

@@ -682,10 +682,10 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
             const std::string text = to_toml(scene);
             write_text(output / "scene.toml", text);
             run.record.scene = text;
+            const CycleSpeed speed = measure_speed(estimated_discs(scene), options.threads, 0.3,
+                                                   scene.energy.has_value());
             run.record.predicted_seconds =
-                predict(scene, measure_rate(estimated_discs(scene), options.threads, 0.2,
-                                            scene.energy.has_value()))
-                    .seconds;
+                speed.busy * predict(scene, speed.disc_steps_per_second, options.threads).seconds;
             begin(run, voice);
             append_history(run, voice);
             save(run);

@@ -384,12 +384,6 @@ void check(const Scene& scene, const toml::table& document) {
           scene.elastic_base.has_value());
     if (scene.base_motion)
         check_base_motion(scene, document);
-    for (const auto& [table, present] : {std::pair{"elastic_base", scene.elastic_base.has_value()},
-                                         std::pair{"base_motion", scene.base_motion.has_value()},
-                                         std::pair{"stretching", scene.stretching.has_value()}})
-        if (scene.energy && present)
-            fail(entry_at(document, "energy"),
-                 fmt::format("does not know the work of [{}] yet; leave out one of the two", table));
     needs("bond_healing", scene.bond_healing.has_value(), "bonds", scene.bonds.has_value());
     needs("compaction", scene.compaction.has_value(), "sedimentation",
           scene.sedimentation.has_value());

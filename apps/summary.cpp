@@ -67,6 +67,7 @@ template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
              {"energy_bond_breaking_j_per_m", e.bond_breaking},
              {"energy_stepping_j_per_m", e.stepping}})
         visit(name, std::optional(value));
+    visit("energy_base_work_j_per_m", e.base_work);
     visit("energy_residual", work != 0.0 ? std::optional(e.residual() / work) : std::nullopt);
 }
 

@@ -89,42 +89,68 @@ struct NodeContactForce {
     std::array<double, 3> weight = {}; ///< of its nodes; all 0: the force goes to none
 };
 
-/// The same for a surface that deforms. `place` is the contact's place on it, found anew from
-/// there. What presses on the backstop goes to no node: it stands for nothing that bends.
+/// Where a surface that deforms is closest to a disc, and how that point moves with the nodes.
+struct NodeContactMotion {
+    std::optional<Foot> foot;
+    std::size_t node = 0;              ///< first of the face
+    std::array<double, 3> weight = {}; ///< of its nodes; all 0: the force goes to none
+    Point velocity;                    ///< of the nodes there, m/s
+};
+
+/// `place` is the contact's place on the surface, found anew from there. What presses on the
+/// backstop goes to no node: it stands for nothing that bends.
+template <class NodeColumns>
+NodeContactMotion node_contact_motion(const Surface& surface, const NodeColumns& nodes,
+                                      double extension, const BaseContactDisc& disc,
+                                      double& place) {
+    const BasePlace base{extension, nodes.x, nodes.y, nodes.ux, nodes.uy};
+    NodeContactMotion motion;
+    if (surface.follows == Follows::breakaway) {
+        motion.foot = nearest(surface, base, {disc.x, disc.y});
+        motion.velocity = {nodes.vx[0], nodes.vy[0]};
+    } else if (const auto point = base.trace(surface).nearest({disc.x, disc.y}, place)) {
+        motion.foot = point->foot;
+        place = point->place;
+        motion.node = point->node;
+        motion.weight = point->weight;
+        for (std::size_t k = 0; k <= static_cast<std::size_t>(surface.degree); ++k) {
+            motion.velocity.x += motion.weight[k] * nodes.vx[motion.node + k];
+            motion.velocity.y += motion.weight[k] * nodes.vy[motion.node + k];
+        }
+    } else {
+        place = -1.0;
+    }
+    return motion;
+}
+
+/// How the disc moves past it; none where the surface has ended.
+inline std::optional<BaseContactMotion> surface_motion(const Surface& surface,
+                                                       const NodeContactMotion& motion,
+                                                       double extension, double speed,
+                                                       const BaseContactDisc& disc) {
+    if (!motion.foot)
+        return std::nullopt;
+    const Point runs = surface_velocity(surface, extension, speed, disc.x, motion.foot->normal);
+    const Point velocity{motion.velocity.x + runs.x, motion.velocity.y + runs.y};
+    return BaseContactMotion{*motion.foot, slip_rate_on(*motion.foot, velocity, disc)};
+}
+
+/// The force of a surface that deforms; updates shear force and place.
 inline NodeContactForce node_contact_force(const Surface& surface, const BaseNodeColumns& nodes,
                                            double extension, double speed,
                                            const BaseContactDisc& disc,
                                            ContactParameters parameters, double& shear_force,
                                            double& place) {
-    const BasePlace base{extension, nodes.x, nodes.y, nodes.ux, nodes.uy};
-    NodeContactForce result;
-    std::optional<Foot> foot;
-    Point velocity;
-    if (surface.follows == Follows::breakaway) {
-        foot = nearest(surface, base, {disc.x, disc.y});
-        velocity = {nodes.vx[0], nodes.vy[0]};
-    } else if (const auto point = base.trace(surface).nearest({disc.x, disc.y}, place)) {
-        foot = point->foot;
-        place = point->place;
-        if (foot->distance < disc.radius) {
-            result.node = point->node;
-            result.weight = point->weight;
-            for (std::size_t k = 0; k <= static_cast<std::size_t>(surface.degree); ++k) {
-                velocity.x += result.weight[k] * nodes.vx[result.node + k];
-                velocity.y += result.weight[k] * nodes.vy[result.node + k];
-            }
-        }
-    } else {
-        place = -1.0;
-    }
-    if (!foot || foot->distance >= disc.radius) {
+    const NodeContactMotion motion = node_contact_motion(surface, nodes, extension, disc, place);
+    if (!motion.foot || motion.foot->distance >= disc.radius) {
         shear_force = 0.0;
-        return result;
+        return {};
     }
-    const Point runs = surface_velocity(surface, extension, speed, disc.x, foot->normal);
-    result.force = surface_force(*foot, {velocity.x + runs.x, velocity.y + runs.y},
-                                 surface.friction, disc, parameters, shear_force);
-    return result;
+    const Point runs = surface_velocity(surface, extension, speed, disc.x, motion.foot->normal);
+    const BaseContactForce force =
+        surface_force(*motion.foot, {motion.velocity.x + runs.x, motion.velocity.y + runs.y},
+                      surface.friction, disc, parameters, shear_force);
+    return {force, motion.node, motion.weight};
 }
 
 /// Adds what a disc does to the wall to the loads of the nodes.

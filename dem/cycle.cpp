@@ -21,17 +21,23 @@ struct Force {
     double x, y, moment; ///< N, N, N m
 };
 
-// The cycle is compiled with and without an account of energy, `flows`.
+// The cycle is compiled with and without an account of energy.
+
+struct Account {
+    EnergyFlows flows;           ///< of a cycle
+    std::vector<Point> of_nodes; ///< force of each node of the base on discs in it, N
+};
 
 /// Enters what a base contact, whose shear force goes from `before` to `after`, loses in a cycle,
-/// and the work of the base.
+/// and the work of the prescribed motion of base and walls.
+/// @param node_velocity  of the base's nodes there, m/s; 0 where it is rigid
 void enter_base_flows(const Surface& surface, const Motion& base, const Clock& clock,
                       const BaseContactDisc& disc, const ContactParameters& p,
+                      const std::optional<BaseContactMotion>& motion, Point node_velocity,
                       const BaseContactForce& force, double before, double after,
                       EnergyFlows& flows) {
     const double dt = clock.time_step, time = clock.time();
-    const double speed = base.speed_at(time);
-    const auto motion = base_contact_motion(surface, clock.extension, speed, disc);
+    const double speed = base.speed_at(time), next_speed = base.speed_at(time + dt);
     if (!motion) {
         flows.friction += slip_loss(before, before, after, p, dt);
         return;
@@ -45,19 +51,56 @@ void enter_base_flows(const Surface& surface, const Motion& base, const Clock& c
     const double last_speed = clock.cycle == 0 ? 0.0 : base.speed_at(time - dt);
     const Point n = motion->foot.normal, moves = surface.translation;
     const double now = disc.radius - motion->foot.distance;
-    const double overlap_before = now + dt * ((disc.vx - last_speed * moves.x) * n.x +
-                                              (disc.vy - last_speed * moves.y) * n.y);
+    const double overlap_before =
+        now + dt * ((disc.vx - node_velocity.x - last_speed * moves.x) * n.x +
+                    (disc.vy - node_velocity.y - last_speed * moves.y) * n.y);
     flows.stepping +=
         normal_loss(std::max(overlap_before, 0.0), overlap_before, std::max(now, 0.0), now, p);
     flows.boundary_work +=
         0.5 * dt *
         ((last_speed + speed) * (force.x * moves.x + force.y * moves.y) +
-         (speed + base.speed_at(time + dt)) * surface.conveyor * (force.x * n.y - force.y * n.x));
+         (speed + next_speed) * surface.conveyor * (force.x * n.y - force.y * n.x));
+    if (surface.stretched_length > 0.0) {
+        const double length = surface.stretched_length + clock.extension;
+        flows.boundary_work += 0.5 * dt * force.x *
+                               (speed * disc.x / length +
+                                next_speed * (disc.x + dt * disc.vx) / (length + dt * speed));
+    }
+}
+
+/// Work of the nodes' present velocities in half a step, J/m: they change in the middle of it.
+double half_step_work(const BaseNodeColumns& nodes, std::span<const Point> of_nodes, double dt) {
+    double power = 0.0;
+    for (std::size_t k = 0; k < of_nodes.size(); ++k)
+        power += of_nodes[k].x * nodes.vx[k] + of_nodes[k].y * nodes.vy[k];
+    return 0.5 * dt * power;
+}
+
+/// The same for a surface that deforms, whose contact has the force `f`; and the force for the work
+/// of its nodes.
+void enter_node_flows(const Surface& surface, const Motion& base, const BaseNodeColumns& nodes,
+                      const Clock& clock, const BaseContactDisc& disc, const ContactParameters& p,
+                      double place, const NodeContactForce& f, double before, double after,
+                      Account& account) {
+    const NodeContactMotion at = node_contact_motion(surface, nodes, clock.extension, disc, place);
+    enter_base_flows(
+        surface, base, clock, disc, p,
+        surface_motion(surface, at, clock.extension, base.speed_at(clock.time()), disc),
+        at.velocity, f.force, before, after, account.flows);
+    if (surface.follows == Follows::breakaway) {
+        account.of_nodes[0].x += f.force.x;
+        account.of_nodes[0].y += f.force.y;
+    } else {
+        for (std::size_t k = 0; k <= static_cast<std::size_t>(surface.degree); ++k) {
+            account.of_nodes[f.node + k].x += f.weight[k] * f.force.x;
+            account.of_nodes[f.node + k].y += f.weight[k] * f.force.y;
+        }
+    }
 }
 
 /// Forces of the base on the discs, which also starts their sum.
 template <bool accounted>
-void base_forces(State& state, const RigidBase& base, std::span<Force> force, EnergyFlows* flows) {
+void base_forces(State& state, const RigidBase& base, std::span<Force> force, Account* account) {
     const DiscColumns d = disc_columns(state);
     const BaseContactColumns c = base_contact_columns(state);
     std::ranges::fill(force, Force{0.0, 0.0, 0.0});
@@ -72,18 +115,22 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, En
         const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
         const ContactParameters p =
             contact_parameters(base.material, state.materials[d.material[i]], clock.time_step);
+        const double before = c.shear_force[k];
         BaseContactForce f;
         if (deforms && surface.follows != Follows::nothing) {
             const NodeContactForce on_nodes = node_contact_force(
                 surface, nodes, clock.extension, speed, disc, p, c.shear_force[k], places[k]);
             add_load(nodes, on_nodes, surface.degree);
             f = on_nodes.force;
+            if constexpr (accounted)
+                enter_node_flows(surface, base.motion, nodes, clock, disc, p, places[k], on_nodes,
+                                 before, c.shear_force[k], *account);
         } else {
-            [[maybe_unused]] const double before = c.shear_force[k];
             f = base_contact_force(surface, clock.extension, speed, disc, p, c.shear_force[k]);
             if constexpr (accounted)
-                enter_base_flows(surface, base.motion, clock, disc, p, f, before, c.shear_force[k],
-                                 *flows);
+                enter_base_flows(surface, base.motion, clock, disc, p,
+                                 base_contact_motion(surface, clock.extension, speed, disc), {}, f,
+                                 before, c.shear_force[k], account->flows);
         }
         force[i].x += f.x;
         force[i].y += f.y;
@@ -144,7 +191,7 @@ void enter_losses(const DiscColumns& d, const ContactColumns& c, std::size_t k,
 
 template <bool accounted>
 void contact_forces(State& state, const PairParameters& pairs, std::span<Force> force,
-                    EnergyFlows* flows) {
+                    Account* account) {
     const DiscColumns d = disc_columns(state);
     const ContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
@@ -174,7 +221,7 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
         }
         if constexpr (accounted)
             enter_losses(d, c, k, pairs(d.material[i], d.material[j]), was_bonded, before,
-                         state.clock.time_step, *flows);
+                         state.clock.time_step, account->flows);
     }
 }
 
@@ -187,7 +234,7 @@ double damped(double force, double velocity, double damping) {
 /// component of a velocity, m/s.
 template <bool accounted>
 double move_discs(State& state, const CyclePhysics& physics, double stretch_rate,
-                  std::span<const Force> force, EnergyFlows* flows) {
+                  std::span<const Force> force, Account* account) {
     const DiscColumns d = disc_columns(state);
     const double dt = state.clock.time_step;
     const bool relative = physics.averaging_time > 0.0;
@@ -212,7 +259,7 @@ double move_discs(State& state, const CyclePhysics& physics, double stretch_rate
         d.vy[i] += net.y * acceleration_per_force;
         d.spin[i] += net.moment * spin_up;
         if constexpr (accounted)
-            flows->damping +=
+            account->flows.damping +=
                 0.5 * dt *
                 ((force[i].x - net.x) * (vx + d.vx[i]) + (fy - net.y) * (vy + d.vy[i]) +
                  (force[i].moment - net.moment) * (spin + d.spin[i]));
@@ -255,15 +302,23 @@ double move_base(State& state, const Clock& clock, BaseResponse* response) {
 template <bool accounted>
 void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
                    const PairParameters& pairs, std::span<Force> force, BaseResponse* response,
-                   EnergyFlows* flows) {
+                   Account* account) {
     Clock& clock = state.clock;
     const double speed = base.motion.speed_at(clock.time());
-    base_forces<accounted>(state, base, force, flows);
-    contact_forces<accounted>(state, pairs, force, flows);
+    if constexpr (accounted)
+        *account = {{}, std::vector<Point>(state.base_nodes.rows())};
+    base_forces<accounted>(state, base, force, account);
+    contact_forces<accounted>(state, pairs, force, account);
     const double stretch_rate = stretching(base, clock.extension) * speed;
-    const double fastest =
-        std::max({move_discs<accounted>(state, physics, stretch_rate, force, flows),
-                  greatest_translation(base) * speed, move_base(state, clock, response)});
+    const double disc_speed = move_discs<accounted>(state, physics, stretch_rate, force, account);
+    if constexpr (accounted)
+        account->flows.base_work +=
+            half_step_work(base_node_columns(state), account->of_nodes, clock.time_step);
+    const double fastest = std::max(
+        {disc_speed, greatest_translation(base) * speed, move_base(state, clock, response)});
+    if constexpr (accounted)
+        account->flows.base_work +=
+            half_step_work(base_node_columns(state), account->of_nodes, clock.time_step);
     state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
     clock.extension += speed * clock.time_step;
     ++clock.cycle;
@@ -285,9 +340,11 @@ void advance_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
             continue;
         }
         // Sums of their own for every cycle, so that it does not matter how calls are cut.
-        EnergyFlows flows;
-        cycle_plainly<true>(state, base, physics, pairs, force, response, &flows);
+        Account account;
+        cycle_plainly<true>(state, base, physics, pairs, force, response, &account);
+        const EnergyFlows& flows = account.flows;
         total->boundary_work += flows.boundary_work;
+        total->base_work += flows.base_work;
         total->friction += flows.friction;
         total->damping += flows.damping;
         total->bond_breaking += flows.bond_breaking;

@@ -61,16 +61,31 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
 
     const double speed = base.motion.speed_at(clock.time());
     const double speed_before = base.motion.speed_at(std::max(0.0, clock.time() - dt));
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    std::vector<double> ux_before(nodes.x.size()), uy_before(nodes.x.size());
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        ux_before[k] = nodes.ux[k] - nodes.vx[k] * dt;
+        uy_before[k] = nodes.uy[k] - nodes.vy[k] * dt;
+    }
     for (std::size_t k = 0; k < b.disc.size(); ++k) {
         const auto i = static_cast<std::size_t>(b.disc[k]);
         const Surface& surface = base.surfaces[static_cast<std::size_t>(b.surface[k])];
         const ContactParameters p =
             contact_parameters(base.material, state.materials[d.material[i]], dt);
-        const auto motion =
-            base_contact_motion(surface, clock.extension, speed,
-                                {d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]});
-        const auto foot_before = nearest(surface, clock.extension - speed_before * dt,
-                                         {d.x[i] - d.vx[i] * dt, d.y[i] - d.vy[i] * dt});
+        const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
+        const BasePlace before{clock.extension - speed_before * dt, nodes.x, nodes.y, ux_before,
+                               uy_before};
+        std::optional<BaseContactMotion> motion;
+        if (before.deforms(surface)) {
+            double place = state.base_contacts.get<double>("place")[k];
+            motion = surface_motion(
+                surface, node_contact_motion(surface, nodes, clock.extension, disc, place),
+                clock.extension, speed, disc);
+        } else {
+            motion = base_contact_motion(surface, clock.extension, speed, disc);
+        }
+        const auto foot_before =
+            nearest(surface, before, {d.x[i] - d.vx[i] * dt, d.y[i] - d.vy[i] * dt});
         if (motion && foot_before)
             energy.normal_strain += normal_energy(d.radius[i] - foot_before->distance,
                                                   d.radius[i] - motion->foot.distance, false, p);

@@ -9,7 +9,7 @@
 namespace listric {
 
 // Where the work goes, J per metre of thickness:
-//   boundary and gravity work + work of events
+//   boundary, base and gravity work + work of events
 //     = change of kinetic and strain energy + losses by friction, damping, breaking bonds and
 //     steps.
 //
@@ -25,10 +25,14 @@ namespace listric {
 // lost, or won where it opens. As damped discs part more slowly than they met, more is lost than
 // won; it is entered as what it is. What remains as residual are normals that turn within a step,
 // of third order, and round-off.
+//
+// A base that deforms has an account of its own: elastic energy, virtual and reference loads. What
+// passes between the two is the work of the contact forces on the moving nodes, base_work.
 
 /// What cycles add up.
 struct EnergyFlows {
     double boundary_work = 0.0; ///< of base and walls on the discs, J/m
+    double base_work = 0.0;     ///< of a base that deforms, by the motion of its nodes, J/m
     double friction = 0.0;      ///< lost by slip, J/m
     double damping = 0.0;       ///< lost by local damping, J/m
     double bond_breaking = 0.0; ///< what springs lost of what they held when bonds broke, J/m

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -20,6 +21,12 @@ inline void prefetch(const void* start, std::size_t bytes) {
         __builtin_prefetch(static_cast<const char*>(start) + offset);
 }
 
+Double4 load_slot(const double* from) {
+    Double4 slot;
+    std::memcpy(&slot, from, sizeof slot);
+    return slot;
+}
+
 /// Element `k`, or the end.
 template <class Vector> const auto* ahead(const Vector& vector, std::size_t k) {
     return vector.data() + std::min(k, vector.size());
@@ -28,21 +35,26 @@ template <class Vector> const auto* ahead(const Vector& vector, std::size_t k) {
 } // namespace
 
 /// The contact law of law.hpp and cycle.cpp, as many contacts at a time as there are lanes.
-template <bool bonded, bool frictional> void FastCycle::compute(Block& block) {
+template <bool bonded, bool frictional>
+[[gnu::always_inline]] inline void FastCycle::compute(Block& block, const double* discs,
+                                                      Slot* slots) {
     constexpr bool shears = bonded || frictional;
     for (int start = 0; start < 8; start += lane_count) {
-        Double4 near_rows[lane_count], rate_rows[shears ? lane_count : 1];
-        for (int k = 0; k < lane_count; ++k) {
-            const Disc& i = discs_[static_cast<std::size_t>(block.first[start + k])];
-            const Disc& j = discs_[static_cast<std::size_t>(block.second[start + k])];
-            const Double4 radii = __builtin_shufflevector(i.place, j.place, 1, 5, 3, 7);
-            near_rows[k] = __builtin_shufflevector(j.place - i.place, radii, 0, 1, 6, 7);
+        // A row a contact: from its first disc to its second, and what it needs of each.
+        const std::uint32_t* const first = block.first + start;
+        const std::uint32_t* const second = block.second + start;
+        Lanes near[4], rates[4];
+        for (int k = 0; k < 4; ++k) {
+            const Lanes place_i = load_rows(discs, first, k), place_j = load_rows(discs, second, k);
+            near[k] = first_and_second_half(place_j - place_i, odd_numbers(place_i, place_j));
             if constexpr (shears) {
-                const Double4 spins = __builtin_shufflevector(i.velocity, j.velocity, 0, 4, 2, 6);
-                rate_rows[k] = __builtin_shufflevector(j.velocity - i.velocity, spins, 0, 1, 6, 7);
+                const Lanes motion_i = load_rows(discs + 4, first, k);
+                const Lanes motion_j = load_rows(discs + 4, second, k);
+                rates[k] =
+                    first_and_second_half(motion_j - motion_i, even_numbers(motion_i, motion_j));
             }
         }
-        const auto [dx, dy, radius_i, radius_j] = transpose(near_rows);
+        const auto [dx, dy, radius_i, radius_j] = transpose({near[0], near[1], near[2], near[3]});
 
         const Lanes reach = radius_i + radius_j;
         const Lanes square = dx * dx + dy * dy;
@@ -59,7 +71,8 @@ template <bool bonded, bool frictional> void FastCycle::compute(Block& block) {
         Mask holds = {}; // the bond
         Lanes shear = zero;
         if constexpr (shears) {
-            const auto [dvx, dvy, spin_i, spin_j] = transpose(rate_rows);
+            const auto [dvx, dvy, spin_i, spin_j] =
+                transpose({rates[0], rates[1], rates[2], rates[3]});
             const Lanes slip_rate = dvy * nx - dvx * ny - (arm_i * spin_i + arm_j * spin_j);
             const Lanes stuck = load(block.shear_force + start) -
                                 load(block.shear_stiffness_times_step + start) * slip_rate;
@@ -84,12 +97,26 @@ template <bool bonded, bool frictional> void FastCycle::compute(Block& block) {
         const Lanes normal = (holds | pressed) ? elastic : zero;
         store(block.shear_force + start, shear);
 
-        Double4 rows[lane_count];
-        transpose(
-            {normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear, -(arm_j * shear)},
-            rows);
-        for (int k = 0; k < lane_count; ++k)
-            slots_[block.slot + static_cast<std::uint32_t>(start + k)] = rows[k];
+        const auto [a, b, c, d] = transpose(
+            {normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear, -(arm_j * shear)});
+        double* const to = reinterpret_cast<double*>(slots + block.slot + start);
+        store(to, a);
+        store(to + lane_count, b);
+        store(to + 2 * lane_count, c);
+        store(to + 3 * lane_count, d);
+    }
+}
+
+/// Computes contacts whose slots nothing else reads or writes meanwhile.
+template <bool bonded, bool frictional>
+void FastCycle::compute_blocks(Blocks& blocks, std::size_t begin, std::size_t end) {
+    const double* const discs = reinterpret_cast<const double*>(discs_.data());
+    Slot* const slots = slots_.data();
+    Block* const last = blocks.blocks.data() + end;
+    for (Block* block = blocks.blocks.data() + begin; block != last; ++block) {
+        // It does no harm to ask for memory beyond the end.
+        prefetch(block + 16, sizeof(Block));
+        compute<bonded, frictional>(*block, discs, slots);
     }
 }
 
@@ -130,8 +157,7 @@ double FastCycle::move_base(State& state, const BaseNodeColumns& nodes, const Cl
 }
 
 template <bool bonded, bool frictional> void FastCycle::compute_boundary(Strip& strip) {
-    for (Block& block : strip.boundary.blocks)
-        compute<bonded, frictional>(block);
+    compute_blocks<bonded, frictional>(strip.boundary, 0, strip.boundary.blocks.size());
 }
 
 template <bool bonded, bool frictional, DampedAgainst motion>
@@ -148,14 +174,12 @@ double FastCycle::sweep(Strip& strip, double stretch_rate) {
         motion == DampedAgainst::mean_motion ? time_step_ / physics_.averaging_time : 0.0;
     const Double4 shares = {share, share, 0.0, 0.0};
     Double4 fastest = no_force;
-    const Slot* const slots = slots_.data();
+    const double* const slots = reinterpret_cast<const double*>(slots_.data());
     const std::uint32_t* list = strip.gathers.data();
     std::size_t block = 0, group = strip.first_disc / group_discs;
     for (const Tile& tile : strip.tiles) {
-        for (; block < tile.end_block; ++block) {
-            prefetch(ahead(strip.inner.blocks, block + 16), sizeof(Block));
-            compute<bonded, frictional>(strip.inner.blocks[block]);
-        }
+        compute_blocks<bonded, frictional>(strip.inner, block, tile.end_block);
+        block = tile.end_block;
         for (; group < tile.end_group; ++group) {
             const std::size_t first = group * group_discs;
             prefetch(ahead(discs_, first + strip.look_ahead), group_discs * sizeof(Disc));
@@ -170,13 +194,13 @@ double FastCycle::sweep(Strip& strip, double stretch_rate) {
             list += 2;
             for (std::uint32_t k = 0; k < in; ++k, list += group_discs)
                 for (std::size_t m = 0; m < group_discs; ++m)
-                    force[m] += slots[list[m]];
+                    force[m] += load_slot(slots + list[m]);
             // From the moment on the second disc to that on the first.
             for (Double4& f : force)
                 f = __builtin_shufflevector(f, f, 0, 1, 3, 2);
             for (std::uint32_t k = 0; k < out; ++k, list += group_discs)
                 for (std::size_t m = 0; m < group_discs; ++m)
-                    force[m] -= slots[list[m]];
+                    force[m] -= load_slot(slots + list[m]);
             for (std::size_t m = 0; m < group_discs; ++m) {
                 Disc& disc = discs_[group * group_discs + m];
                 const DiscConstants c = constants_[group * group_discs + m];

@@ -23,8 +23,9 @@ namespace listric {
 // Why it is fast:
 // - A contact's force goes to a slot of its own, and a disc gathers its slots. Scattering with
 //   eight lanes would collide.
-// - A disc is one record of 64 bytes, a cache line. Eight pairs of records are loaded whole and
-//   transposed; gathers of single numbers take longer.
+// - A disc is one record of 64 bytes, a cache line. Eight pairs of records are loaded whole, two
+//   halves to a register, and transposed; gathers of single numbers take longer. Discs and slots
+//   are listed by their first number, which the processor's addressing takes as it is.
 // - Force and motion are one sweep. Contacts are sorted by their first disc, which comes before
 //   the second, so once a tile's contacts are done, all forces on its discs are known and no later
 //   contact reads them: the discs move at once, while they are in the cache. Slots are then free
@@ -71,8 +72,8 @@ private:
         float tensile_strength[8]; ///< minus infinity: not bonded
         float shear_strength[8];
         float normal_stiffness[8], shear_stiffness_times_step[8], friction[8];
-        std::int32_t first[8], second[8];
-        std::uint32_t slot; ///< of the first contact; the others follow
+        std::uint32_t first[8], second[8]; ///< discs, as their places among the numbers of discs_
+        std::uint32_t slot;                ///< of the first contact; the others follow
     };
 
     struct BaseContact {
@@ -133,7 +134,10 @@ private:
 
     /// The cycle is compiled for contacts with and without bonds and friction, and chosen when
     /// contacts are packed: bonds never form within a cycle.
-    template <bool bonded, bool frictional> void compute(Block& block);
+    template <bool bonded, bool frictional>
+    void compute(Block& block, const double* discs, Slot* slots);
+    template <bool bonded, bool frictional>
+    void compute_blocks(Blocks& blocks, std::size_t begin, std::size_t end);
     template <bool bonded, bool frictional> void compute_boundary(Strip& strip);
     /// Discs are compiled with damping against each of the motions.
     template <bool bonded, bool frictional, DampedAgainst motion>
@@ -152,6 +156,8 @@ private:
 
     static constexpr std::size_t tile_discs = 128; ///< a tile's records and slots fit the cache
     static constexpr std::size_t group_discs = 4;  ///< discs that gather together
+    /// Discs and slots are addressed by their first number: the processor scales by 8, not by more.
+    static constexpr std::size_t disc_numbers = sizeof(Disc) / 8, slot_numbers = sizeof(Slot) / 8;
     static constexpr float not_bonded = -std::numeric_limits<float>::infinity();
 
     const RigidBase& base_;

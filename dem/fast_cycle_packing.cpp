@@ -95,14 +95,17 @@ std::size_t FastCycle::pack_blocks(const State& state, std::size_t row, Strip& s
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
     const PairParameters pairs(state.materials, time_step_);
-    const auto idle = static_cast<std::int32_t>(discs_.size() - 2);
+    const auto numbers = [](auto disc) {
+        return static_cast<std::uint32_t>(disc_numbers * static_cast<std::size_t>(disc));
+    };
+    const std::size_t idle = discs_.size() - 2;
     std::int32_t furthest = 0; // second disc from the first
     const auto append = [&](Blocks& to, std::size_t& lane) {
         if (lane == 0) {
             Block& block = to.blocks.emplace_back(); // zeros
             std::ranges::fill(block.tensile_strength, not_bonded);
-            std::ranges::fill(block.first, idle);
-            std::ranges::fill(block.second, idle + 1);
+            std::ranges::fill(block.first, numbers(idle));
+            std::ranges::fill(block.second, numbers(idle + 1));
             to.rows.resize(to.rows.size() + 8, -1);
         }
         Block& block = to.blocks.back();
@@ -117,8 +120,8 @@ std::size_t FastCycle::pack_blocks(const State& state, std::size_t row, Strip& s
         furthest = std::max(furthest, c.second[row] - c.first[row]);
         bonded_ |= c.bonded[row] != 0;
         frictional_ |= p.friction > 0.0f;
-        block.first[lane] = c.first[row];
-        block.second[lane] = c.second[row];
+        block.first[lane] = numbers(c.first[row]);
+        block.second[lane] = numbers(c.second[row]);
         to.rows[to.rows.size() - 8 + lane] = static_cast<std::int32_t>(row);
         lane = (lane + 1) % 8;
     };
@@ -149,16 +152,16 @@ std::size_t FastCycle::assign_slots(std::size_t slot, Strip& strip) {
         for (std::size_t lane = 0; lane < 8; ++lane)
             if (const std::int32_t row = to.rows[8 * k + lane]; row >= 0)
                 slot_of_[static_cast<std::size_t>(row)] =
-                    static_cast<std::uint32_t>(first_slot + lane);
+                    static_cast<std::uint32_t>(first_slot + stored_row(lane));
     };
     // The ring: a slot may be written again once the last disc that gathers it has moved.
     std::size_t furthest = 1, block = 0;
     for (const Tile& tile : strip.tiles)
         for (; block < tile.end_block; ++block) {
             std::size_t last_disc = 0;
-            for (const std::int32_t second : strip.inner.blocks[block].second)
-                if (static_cast<std::size_t>(second) < strip.end_disc)
-                    last_disc = std::max(last_disc, static_cast<std::size_t>(second));
+            for (const std::uint32_t second : strip.inner.blocks[block].second)
+                if (second / disc_numbers < strip.end_disc)
+                    last_disc = std::max(last_disc, second / disc_numbers);
             const Tile& gathers = strip.tiles[(last_disc - strip.first_disc) / tile_discs];
             furthest = std::max(furthest, gathers.end_block - block);
         }
@@ -243,7 +246,7 @@ void FastCycle::pack_gathers(const State& state) {
                     std::uint32_t* to = strip.gathers.data() + start + m;
                     for (std::uint32_t k = begin[disc + m]; k < begin[disc + m + 1];
                          ++k, to += group_discs)
-                        *to = slots[k];
+                        *to = static_cast<std::uint32_t>(slot_numbers * slots[k]);
                 }
                 return most;
             };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -46,9 +47,13 @@ inline Lanes load(const double* from) {
 }
 
 inline Lanes load(const float* from) {
+#if defined __AVX512F__
+    return reinterpret_cast<Lanes>(_mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from)));
+#else
     FloatLanes v;
     std::memcpy(&v, from, sizeof v);
     return __builtin_convertvector(v, Lanes);
+#endif
 }
 
 inline void store(double* to, Lanes v) { std::memcpy(to, &v, sizeof v); }
@@ -91,67 +96,79 @@ inline Double4 magnitude(Double4 v) {
                                      std::numeric_limits<std::int64_t>::max());
 }
 
-/// Rows of four numbers, one row a lane, as four vectors of lanes.
-struct Columns4 {
-    Lanes a, b, c, d;
-};
+// Rows of four numbers, one row a lane, and columns of lanes. Where eight lanes are one register,
+// rows k and k + 4 share one, so that nothing moves between its halves; where four are, it holds
+// row k.
+
+/// Where the row of a lane lies among those of eight lanes, stored register by register.
+inline constexpr std::size_t stored_row(std::size_t lane) {
+    return lane_count == 8 ? 2 * (lane % 4) + lane / 4 : lane;
+}
 
 #if defined __AVX512F__
 
-/// Rows k and k + 4 share a vector, so that what follows stays within 256 bits.
-inline Columns4 transpose(const Double4 (&row)[8]) {
-    const auto join = [&](int k) {
-        return __builtin_shufflevector(row[k], row[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
-    };
-    const Double8 r0 = join(0), r1 = join(1), r2 = join(2), r3 = join(3);
-    const Double8 even01 = __builtin_shufflevector(r0, r1, 0, 8, 2, 10, 4, 12, 6, 14);
-    const Double8 odd01 = __builtin_shufflevector(r0, r1, 1, 9, 3, 11, 5, 13, 7, 15);
-    const Double8 even23 = __builtin_shufflevector(r2, r3, 0, 8, 2, 10, 4, 12, 6, 14);
-    const Double8 odd23 = __builtin_shufflevector(r2, r3, 1, 9, 3, 11, 5, 13, 7, 15);
-    return {__builtin_shufflevector(even01, even23, 0, 1, 8, 9, 4, 5, 12, 13),
-            __builtin_shufflevector(odd01, odd23, 0, 1, 8, 9, 4, 5, 12, 13),
-            __builtin_shufflevector(even01, even23, 2, 3, 10, 11, 6, 7, 14, 15),
-            __builtin_shufflevector(odd01, odd23, 2, 3, 10, 11, 6, 7, 14, 15)};
+/// Register k of the rows at numbers + places[lane]. The compiler would load two rows and shuffle.
+inline Double8 load_rows(const double* numbers, const std::uint32_t* places, int k) {
+    return reinterpret_cast<Double8>(
+        _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_loadu_pd(numbers + places[k])),
+                                 _mm256_loadu_pd(numbers + places[k + 4]), 1));
 }
 
-inline void transpose(const Columns4& columns, Double4 (&row)[8]) {
-    const auto [a, b, c, d] = columns;
-    const Double8 low_ab = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-    const Double8 high_ab = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-    const Double8 low_cd = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
-    const Double8 high_cd = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
-    const auto part = [&](int first, Double8 v) {
-        row[first] = __builtin_shufflevector(v, v, 0, 1, 2, 3);
-        row[first + 4] = __builtin_shufflevector(v, v, 4, 5, 6, 7);
-    };
-    part(0, __builtin_shufflevector(low_ab, low_cd, 0, 1, 8, 9, 4, 5, 12, 13));
-    part(1, __builtin_shufflevector(high_ab, high_cd, 0, 1, 8, 9, 4, 5, 12, 13));
-    part(2, __builtin_shufflevector(low_ab, low_cd, 2, 3, 10, 11, 6, 7, 14, 15));
-    part(3, __builtin_shufflevector(high_ab, high_cd, 2, 3, 10, 11, 6, 7, 14, 15));
+/// (a0, b0, a2, b2) of every row.
+inline Double8 even_numbers(Double8 a, Double8 b) {
+    return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+}
+/// (a1, b1, a3, b3)
+inline Double8 odd_numbers(Double8 a, Double8 b) {
+    return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+}
+/// (a0, a1, b0, b1)
+inline Double8 first_halves(Double8 a, Double8 b) {
+    return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+}
+/// (a2, a3, b2, b3)
+inline Double8 second_halves(Double8 a, Double8 b) {
+    return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+/// (a0, a1, b2, b3)
+inline Double8 first_and_second_half(Double8 a, Double8 b) {
+    return __builtin_shufflevector(a, b, 0, 1, 10, 11, 4, 5, 14, 15);
 }
 
 #else
 
-inline Columns4 transpose(const Double4 (&row)[4]) {
-    const Double4 even01 = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
-    const Double4 odd01 = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
-    const Double4 even23 = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6);
-    const Double4 odd23 = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
-    return {__builtin_shufflevector(even01, even23, 0, 1, 4, 5),
-            __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5),
-            __builtin_shufflevector(even01, even23, 2, 3, 6, 7),
-            __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7)};
+inline Double4 load_rows(const double* numbers, const std::uint32_t* places, int k) {
+    return load(numbers + places[k]);
 }
 
-inline void transpose(const Columns4& columns, Double4 (&row)[4]) {
-    const Double4 lines[4] = {columns.a, columns.b, columns.c, columns.d};
-    const Columns4 rows = transpose(lines);
-    row[0] = rows.a;
-    row[1] = rows.b;
-    row[2] = rows.c;
-    row[3] = rows.d;
+inline Double4 even_numbers(Double4 a, Double4 b) {
+    return __builtin_shufflevector(a, b, 0, 4, 2, 6);
+}
+inline Double4 odd_numbers(Double4 a, Double4 b) {
+    return __builtin_shufflevector(a, b, 1, 5, 3, 7);
+}
+inline Double4 first_halves(Double4 a, Double4 b) {
+    return __builtin_shufflevector(a, b, 0, 1, 4, 5);
+}
+inline Double4 second_halves(Double4 a, Double4 b) {
+    return __builtin_shufflevector(a, b, 2, 3, 6, 7);
+}
+inline Double4 first_and_second_half(Double4 a, Double4 b) {
+    return __builtin_shufflevector(a, b, 0, 1, 6, 7);
 }
 
 #endif
+
+struct Lanes4 {
+    Lanes a, b, c, d;
+};
+
+/// From rows to columns, or from columns to rows.
+inline Lanes4 transpose(const Lanes4& r) {
+    const Lanes even_ab = even_numbers(r.a, r.b), odd_ab = odd_numbers(r.a, r.b);
+    const Lanes even_cd = even_numbers(r.c, r.d), odd_cd = odd_numbers(r.c, r.d);
+    return {first_halves(even_ab, even_cd), first_halves(odd_ab, odd_cd),
+            second_halves(even_ab, even_cd), second_halves(odd_ab, odd_cd)};
+}
 
 } // namespace listric

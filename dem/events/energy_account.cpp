@@ -10,11 +10,13 @@ const std::string prefix = "event_";
 
 } // namespace
 
-EnergyAccount::EnergyAccount(double gravity, std::span<const std::string> events)
+EnergyAccount::EnergyAccount(double gravity, bool base_deforms, std::span<const std::string> events)
     : Event("energy", {std::numeric_limits<double>::infinity(), 1.0}), gravity_(gravity) {
     for (const char* name : {"initial", "stored", "potential", "boundary_work", "gravity_work",
                              "friction", "damping", "bond_breaking", "stepping"})
         memory.add<double>(name, "J/m", 0.0);
+    if (base_deforms)
+        memory.add<double>("base_work", "J/m", 0.0);
     for (const std::string& event : events)
         memory.add<double>(prefix + event, "J/m", 0.0);
     memory.resize(1);
@@ -27,12 +29,18 @@ void EnergyAccount::open(const State& state, const RigidBase& base) {
 }
 
 EnergyFlows EnergyAccount::flows() const {
-    return {value("boundary_work"), value("friction"), value("damping"), value("bond_breaking"),
-            value("stepping")};
+    return {.boundary_work = value("boundary_work"),
+            .base_work = memory.has("base_work") ? value("base_work") : 0.0,
+            .friction = value("friction"),
+            .damping = value("damping"),
+            .bond_breaking = value("bond_breaking"),
+            .stepping = value("stepping")};
 }
 
 void EnergyAccount::put(const EnergyFlows& flows) {
     value("boundary_work") = flows.boundary_work;
+    if (memory.has("base_work"))
+        value("base_work") = flows.base_work;
     value("friction") = flows.friction;
     value("damping") = flows.damping;
     value("bond_breaking") = flows.bond_breaking;
@@ -59,6 +67,7 @@ EnergyBalance EnergyAccount::balance(const State& state, const RigidBase& base) 
     const StoredEnergy now = stored_energy(state, base, gravity_);
     EnergyBalance b{value("boundary_work"),
                     value("gravity_work") + value("potential") - now.potential,
+                    memory.has("base_work") ? std::optional(value("base_work")) : std::nullopt,
                     now,
                     now.motion_and_strain() - value("initial"),
                     value("friction"),

@@ -3,6 +3,7 @@
 #include "dem/energy.hpp"
 #include "dem/event.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,15 +17,16 @@ struct EnergyParameters {};
 /// What an account comes to, J per metre of thickness, since extension began.
 struct EnergyBalance {
     double boundary_work, gravity_work;
-    StoredEnergy stored;  ///< now
-    double stored_change; ///< of kinetic and strain energy
+    std::optional<double> base_work; ///< of a base that deforms
+    StoredEnergy stored;             ///< now
+    double stored_change;            ///< of kinetic and strain energy
     double friction, damping, bond_breaking, stepping;
     double events;                                        ///< work of all events
     std::vector<std::pair<std::string, double>> by_event; ///< and of each
 
     double residual() const {
         return stored_change + friction + damping + bond_breaking + stepping - boundary_work -
-               gravity_work - events;
+               base_work.value_or(0.0) - gravity_work - events;
     }
 };
 
@@ -33,11 +35,12 @@ struct EnergyBalance {
 /// and go) is the change of kinetic and strain energy over it.
 ///
 /// Its memory has one row: initial, stored, potential, boundary_work, gravity_work, friction,
-/// damping, bond_breaking, stepping and, for each event, event_NAME.
+/// damping, bond_breaking, stepping, base_work of a base that deforms and, for each event,
+/// event_NAME.
 class EnergyAccount : public Event {
 public:
     /// @param events  names of those that change the state
-    EnergyAccount(double gravity, std::span<const std::string> events);
+    EnergyAccount(double gravity, bool base_deforms, std::span<const std::string> events);
 
     /// Starts the account with a state that has its contacts.
     void open(const State& state, const RigidBase& base);

@@ -163,7 +163,7 @@ bool Sedimentation::apply(State&, const RigidBase&) { std::abort(); }""",
     surface_(std::move(surface)) {}
 void Compaction::begin(State&) { std::abort(); }
 bool Compaction::apply(State&, const RigidBase&) { std::abort(); }""",
-    "energy_account": """EnergyAccount::EnergyAccount(double, std::span<const std::string>)
+    "energy_account": """EnergyAccount::EnergyAccount(double, bool, std::span<const std::string>)
     : Event("", {1.0, 1.0}) {}
 void EnergyAccount::open(const State&, const RigidBase&) { std::abort(); }
 EnergyFlows EnergyAccount::flows() const { std::abort(); }

@@ -159,7 +159,7 @@ TEST_F(ElasticBaseRun, ASecondMeshGivesTheSameBase) {
 }
 
 TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {
-    const std::string with = explain(load(loads)), without = explain(load());
+    const std::string with = explain(load(loads), 1), without = explain(load(), 1);
     EXPECT_THAT(with, AllOf(HasSubstr("lower crust: 20 km over 15 km thins by 80 m"),
                             HasSubstr("footwall: over 20 km to its target every 1000 a"),
                             HasSubstr("not in the model: water")));
