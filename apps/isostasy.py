@@ -7,6 +7,7 @@ Reads DIR/isostasy.csv, writes DIR/isostasy.png under a temporary name and renam
 one line on stderr, exit status 1.
 """
 import csv
+import math
 import os
 import sys
 
@@ -32,14 +33,17 @@ def draw(rows):
             return [mean([float(row[name]) for row in mine
                           if float(row["elastic_thickness_m"]) == t]) / unit for t in thicknesses]
 
-        nominal, fitted = [t / 1e3 for t in thicknesses], at("fitted_thickness_m", 1e3)
+        nominal = [t / 1e3 for t in thicknesses]
+        least, most = at("fitted_continuous_thickness_m", 1e3), at("fitted_thickness_m", 1e3)
+        between = [math.sqrt(a * b) for a, b in zip(least, most)]
+        left.plot(between, at("uplift_m"), "o-", color=colour, lw=1.6, label=f"{fill}: breakaway")
+        left.hlines(at("uplift_m"), least, most, color=colour, lw=4, alpha=0.3)
+        for t, x, y in zip(nominal, most, at("uplift_m")):
+            left.annotate(f"{t:g} km", (x, y), xytext=(6, 0), textcoords="offset points", va="center",
+                          fontsize=8, color=colour)
         for row in mine:
-            left.plot(float(row["fitted_thickness_m"]) / 1e3, float(row["uplift_m"]), "o",
-                      color=colour, ms=3.5, alpha=0.45, mew=0)
-        left.plot(fitted, at("uplift_m"), "o-", color=colour, lw=1.6, label=f"{fill}: breakaway")
-        for t, x, y in zip(nominal, fitted, at("uplift_m")):
-            left.annotate(f"{t:g} km", (x, y), xytext=(5, 5), textcoords="offset points",
-                          fontsize=7.5, color=colour)
+            right.plot(float(row["elastic_thickness_m"]) / 1e3, float(row["uplift_m"]), "o",
+                       color=colour, ms=3.5, alpha=0.45, mew=0)
         right.plot(nominal, at("uplift_m"), "o-", color=colour, lw=1.6, label=f"{fill}: breakaway")
         right.plot(nominal, at("continuous_plate_m"), ":", color=colour, lw=1.2,
                    label=f"{fill}: continuous plate")
@@ -47,7 +51,7 @@ def draw(rows):
                    label=f"{fill}: plate broken at the breakaway")
     left.set_title("Against the thickness fitted to the detachment's deflection", fontsize=10,
                    loc="left")
-    left.set_xlabel("effective elastic thickness of the fitted broken plate, km (nominal beside it)")
+    left.set_xlabel("fitted elastic thickness, km: bar from continuous to broken plate; nominal beside it")
     right.set_title("Beside thin plates under the same spread loads", fontsize=10, loc="left")
     right.set_xlabel("nominal elastic thickness, km")
     for axes in (left, right):
