@@ -225,7 +225,7 @@ std::vector<Parameter> parameters(ElasticBaseParameters& p) {
          "the same of the other far side"},
         {"solver", one_of({"mumps", "boomeramg", "gamg"}, p.solver), "", {}, "",
          "factors, which a base under discs needs, or multigrid for large ones without discs"},
-        {"scheme", one_of({"modal", "lumped", "staggered"}, p.scheme), "", {}, "",
+        {"scheme", one_of({"modal", "lumped", "staggered", "strong"}, p.scheme), "", {}, "",
          "how base and discs advance together"},
         {"update_interval_cycles", &p.update_interval, "", {.from = 1, .to = 1e6}, "",
          "cycles between updates of the base"},

@@ -49,7 +49,7 @@ std::string explain_flexure(const Scene& scene) {
 /// What the footwall feels and what it does not.
 std::string explain_elastic_base(const Scene& scene) {
     const ElasticBaseParameters& base = *scene.elastic_base;
-    constexpr const char* schemes[] = {"modal", "lumped", "staggered"};
+    constexpr const char* schemes[] = {"modal", "lumped", "staggered", "strong"};
     std::string text = fmt::format(
         "elastic base\n"
         "  Te {:g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Flank uplift and deflection against the effective elastic thickness.
+"""Flank uplift against the effective elastic thickness, nominal and fitted, and beside thin plates.
 
 Usage: isostasy.py DIR
 
@@ -7,6 +7,7 @@ Reads DIR/isostasy.csv, writes DIR/isostasy.png under a temporary name and renam
 one line on stderr, exit status 1.
 """
 import csv
+import math
 import os
 import sys
 
@@ -21,37 +22,47 @@ def mean(values):
 
 
 def draw(rows):
-    figure = new_figure(12, 5, 130)
+    figure = new_figure(12, 5.2, 130)
     left, right = figure.subplots(1, 2)
     for fill in dict.fromkeys(row["fill"] for row in rows):
         colour = COLOURS.get(fill, "#6a51a3")
         mine = [row for row in rows if row["fill"] == fill]
         thicknesses = sorted({float(row["elastic_thickness_m"]) for row in mine})
 
-        def at(name):
+        def at(name, unit=1.0):
             return [mean([float(row[name]) for row in mine
-                          if float(row["elastic_thickness_m"]) == t]) for t in thicknesses]
+                          if float(row["elastic_thickness_m"]) == t]) / unit for t in thicknesses]
 
-        x = [t / 1e3 for t in thicknesses]
+        nominal = [t / 1e3 for t in thicknesses]
+        least, most = at("fitted_continuous_thickness_m", 1e3), at("fitted_thickness_m", 1e3)
+        between = [math.sqrt(a * b) for a, b in zip(least, most)]
+        left.plot(between, at("uplift_m"), "o-", color=colour, lw=1.6, label=f"{fill}: breakaway")
+        left.hlines(at("uplift_m"), least, most, color=colour, lw=4, alpha=0.3)
+        for t, x, y in zip(nominal, most, at("uplift_m")):
+            left.annotate(f"{t:g} km", (x, y), xytext=(6, 0), textcoords="offset points", va="center",
+                          fontsize=8, color=colour)
         for row in mine:
-            left.plot(float(row["elastic_thickness_m"]) / 1e3, float(row["uplift_m"]), "o",
-                      color=colour, ms=4, alpha=0.5)
-        left.plot(x, at("uplift_m"), "o-", color=colour, lw=1.6, label=f"{fill}: breakaway")
-        left.fill_between(x, at("continuous_plate_m"), at("broken_plate_m"), color=colour, alpha=0.12,
-                          lw=0, label=f"{fill}: plate under the same net load, continuous to broken")
-        right.plot(x, at("deflection_max_m"), "s-", color=colour, lw=1.6,
-                   label=f"{fill}: largest displacement of the detachment")
+            right.plot(float(row["elastic_thickness_m"]) / 1e3, float(row["uplift_m"]), "o",
+                       color=colour, ms=3.5, alpha=0.45, mew=0)
+        right.plot(nominal, at("uplift_m"), "o-", color=colour, lw=1.6, label=f"{fill}: breakaway")
+        right.plot(nominal, at("continuous_plate_m"), ":", color=colour, lw=1.2,
+                   label=f"{fill}: continuous plate")
+        right.plot(nominal, at("broken_plate_m"), "--", color=colour, lw=1.2,
+                   label=f"{fill}: plate broken at the breakaway")
+    left.set_title("Against the thickness fitted to the detachment's deflection", fontsize=10,
+                   loc="left")
+    left.set_xlabel("fitted elastic thickness, km: bar from continuous to broken plate; nominal beside it")
+    right.set_title("Beside thin plates under the same spread loads", fontsize=10, loc="left")
+    right.set_xlabel("nominal elastic thickness, km")
     for axes in (left, right):
-        axes.set_xlabel("effective elastic thickness, km")
         axes.set_xscale("log")
-        axes.set_xticks([2, 5, 10, 15, 30], labels=["2", "5", "10", "15", "30"])
+        axes.set_xticks([2, 5, 10, 15, 20, 30], labels=["2", "5", "10", "15", "20", "30"])
         axes.minorticks_off()
         axes.set_ylim(bottom=0.0)
+        axes.set_ylabel("uplift of the breakaway, m")
         axes.grid(True, lw=0.4, color="#d0d0d0")
         axes.legend(frameon=False, fontsize=8)
         without_frame(axes)
-    left.set_ylabel("uplift of the breakaway, m")
-    right.set_ylabel("displacement, m")
     figure.tight_layout()
     return figure
 

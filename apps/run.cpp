@@ -360,7 +360,10 @@ void cycle_toward(Run& run, double extension) {
         flows = run.energy->flows();
         how.energy = &flows;
     }
-    advance(run.state, run.base, run.physics, batch, how, response);
+    if (base && base->is_iterated())
+        base->advance_iterated(run.state, run.base, run.physics, batch, how);
+    else
+        advance(run.state, run.base, run.physics, batch, how, response);
     if (run.energy)
         run.energy->put(flows);
     if (base) {

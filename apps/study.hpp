@@ -79,6 +79,10 @@ struct StudyRun {
     std::vector<std::string> without = {}; ///< effects that are off
 };
 
+/// Where the run by one seed is.
+std::filesystem::path folder_of_run(const StudyRequest& request, const StudyRun& run,
+                                    std::int64_t seed);
+
 /// The summary of a run by one seed, which is made unless it is there; none if the numerics failed.
 std::optional<nlohmann::json> summary_of_run(const StudyRequest& request, const StudyRun& run,
                                              std::int64_t seed);

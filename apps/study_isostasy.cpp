@@ -17,6 +17,29 @@
 
 namespace listric {
 
+namespace {
+
+/// Means of a run's last window, upward: the net loads on the detachment and how it has moved.
+struct LastWindow {
+    fem::LineLoads loads;
+    std::vector<double> uplift; ///< at the loads' x, m
+};
+
+LastWindow last_window(const std::filesystem::path& run) {
+    const State state = read_snapshot(list_snapshots(run).back()).state;
+    const Table& means = state.base_memory.at("last_window");
+    LastWindow result;
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        result.loads.x.push_back(nodes.x[k]);
+        result.loads.load.push_back(means.get<double>("force")[2 * k + 1]);
+        result.uplift.push_back(means.get<double>("displacement")[2 * k + 1]);
+    }
+    return result;
+}
+
+} // namespace
+
 StudyResult study_isostasy(const StudyRequest& asked) {
     StudyRequest request = asked;
     if (request.scene.empty())
@@ -43,7 +66,8 @@ StudyResult study_isostasy(const StudyRequest& asked) {
         fmt::format("Isostasy: flank uplift of {} against the thin plate", request.scene);
     std::string table = "fill,elastic_thickness_m,seed,uplift_m,deflection_max_m,"
                         "net_load_n_per_m,net_load_error,continuous_plate_m,broken_plate_m,"
-                        "strong_rock_strain,relaxed_rock_strain\n";
+                        "fitted_thickness_m,fit_misfit,fitted_continuous_thickness_m,"
+                        "continuous_fit_misfit,strong_rock_strain,relaxed_rock_strain\n";
     for (const Fill& fill : fills)
         for (double thickness : thicknesses)
             for (int k = 0; k < request.seeds; ++k) {
@@ -68,17 +92,26 @@ StudyResult study_isostasy(const StudyRequest& asked) {
                                        (base.mantle_density - base.infill_density) * gravity};
                 const double load = value("net_wall_load_n_per_m"),
                              uplift = value("footwall_uplift_m");
-                // Broken: the whole load on the end of a half plate.
-                const double continuous = plate.line(0.0, load), broken = plate.broken(0.0, load);
+                // Under the loads as they are spread, where the breakaway is.
+                const LastWindow last = last_window(folder_of_run(request, run, request.seed + k));
+                using enum fem::PlateKind;
+                const double at_breakaway = plate.deflection(0.0, last.loads, continuous),
+                             when_broken = plate.deflection(0.0, last.loads, broken);
+                const fem::PlateFit fit = fem::fit_thickness(plate, last.loads, broken,
+                                                             last.loads.x, last.uplift),
+                                    whole = fem::fit_thickness(plate, last.loads, continuous,
+                                                               last.loads.x, last.uplift);
                 table += fmt::format(
-                    "{},{:g},{},{:.1f},{:.1f},{:.4g},{:.3g},{:.1f},{:.1f},{:.3g},{:.3g}\n",
+                    "{},{:g},{},{:.1f},{:.1f},{:.4g},{:.3g},{:.1f},{:.1f},{:.0f},{:.3f},{:.0f},"
+                    "{:.3f},{:.3g},{:.3g}\n",
                     fill.name, thickness, request.seed + k, uplift, value("base_deflection_max_m"),
-                    load, value("net_wall_load_error"), continuous, broken,
-                    value("strong_rock_strain_max"), value("relaxed_rock_strain_max"));
+                    load, value("net_wall_load_error"), at_breakaway, when_broken, fit.thickness,
+                    fit.misfit, whole.thickness, whole.misfit, value("strong_rock_strain_max"),
+                    value("relaxed_rock_strain_max"));
                 const double wall = value("wall_s");
                 result.points.push_back(
                     {fmt::format("{} fill: from the continuous plate", fill.name), parameter,
-                     "uplift", std::abs(uplift / continuous - 1.0), wall,
+                     "uplift", std::abs(uplift / at_breakaway - 1.0), wall,
                      wall * value("disc_steps_per_s")});
             }
     write_text(request.output / "isostasy.csv", table);

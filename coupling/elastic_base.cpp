@@ -181,13 +181,13 @@ std::vector<double> ElasticBase::forces_for(std::span<const double> displacement
     return forces;
 }
 
-void ElasticBase::respond(State& state, const Clock& clock) {
-    const auto start = SteadyClock::now();
+/// Takes the mean loads of the last cycles from the nodes, less the reference and with what is
+/// virtual. Returns the upward reaction, N.
+double ElasticBase::collect(State& state, double cycles, double extension) {
     const BaseNodeColumns nodes = base_node_columns(state);
     const auto reference_x = state.base_nodes.get<double>("reference_load_x");
     const auto reference_y = state.base_nodes.get<double>("reference_load_y");
     const double pressure = state.base_memory["reference"].get<double>("virtual_pressure")[0];
-    const double cycles = interval;
     double reaction = 0.0;
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
         reaction -= nodes.load_y[k] / cycles;
@@ -197,16 +197,22 @@ void ElasticBase::respond(State& state, const Clock& clock) {
     }
     // The rock right of the wall, which has left room to the discs.
     const std::vector<double> left =
-        pressure_forces(interface_, parameters_.wall_x, parameters_.wall_x + clock.extension);
+        pressure_forces(interface_, parameters_.wall_x, parameters_.wall_x + extension);
     for (std::size_t k = 0; k < left.size(); ++k)
         load_[2 * k + 1] += pressure * left[k];
+    return reaction;
+}
 
+/// Adds the loads and the displacement to the window's means, then the loads of the effects.
+void ElasticBase::book(State& state, double cycles, double extension, double reaction) {
+    const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
+    const double pressure = state.base_memory["reference"].get<double>("virtual_pressure")[0];
     Table& sums = state.base_memory["window"];
     const double weight = parameters_.gravity * mass(state.ledger);
     double net = 0.0;
     for (std::size_t k = 1; k < load_.size(); k += 2)
         net += load_[k];
-    const double change = pressure * clock.extension +
+    const double change = pressure * extension +
                           parameters_.gravity * (state.ledger.removed - state.ledger.deposited);
     sums.get<double>("cycles")[0] += cycles;
     sums.get<double>("reaction_error")[0] += cycles * (reaction / weight - 1.0);
@@ -228,6 +234,12 @@ void ElasticBase::respond(State& state, const Clock& clock) {
         for (std::size_t k = 0; k < loads.size(); ++k)
             effects[k] += cycles * loads[k];
     }
+}
+
+void ElasticBase::respond(State& state, const Clock& clock) {
+    const auto start = SteadyClock::now();
+    const double cycles = interval;
+    book(state, cycles, clock.extension, collect(state, cycles, clock.extension));
     const double step = cycles * clock.time_step;
     switch (parameters_.scheme) {
     case CouplingScheme::modal:
@@ -238,6 +250,8 @@ void ElasticBase::respond(State& state, const Clock& clock) {
         break;
     case CouplingScheme::staggered:
         move_staggered(state, step);
+        break;
+    case CouplingScheme::strong: // see advance_iterated()
         break;
     }
     seconds += std::chrono::duration<double>(SteadyClock::now() - start).count();
@@ -293,6 +307,99 @@ void ElasticBase::move_staggered(State& state, double step) {
         nodes.vx[k] = (u[2 * k] - nodes.ux[k]) / step;
         nodes.vy[k] = (u[2 * k + 1] - nodes.uy[k]) / step;
     }
+}
+
+double ElasticBase::advance_iterated(State& state, const RigidBase& base,
+                                     const CyclePhysics& physics, std::int64_t cycles,
+                                     const Execution& execution) {
+    constexpr int most = 60, patience = 10;
+    constexpr double allowed = 1e-3; // m
+    const std::size_t n = interface_.unknowns();
+    Execution how = execution;
+    EnergyFlows flows;
+    double computed = 0.0, windows = 0.0;
+    // What a residual load moves: (S + K)^-1, K at first that of all contacts, then as found.
+    // (Broyden 1965, the good update)
+    std::vector<double> at_first(n * n), scaled(n), row(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t k = 0; k < n; ++k)
+            scaled[k] = modes_.by_unknown[i * n + k] /
+                        (1.0 / modes_.compliance[k] + parameters_.contact_stiffness / 3.0);
+        add_rows(modes_.by_mode, scaled, row);
+        std::ranges::copy(row, at_first.begin() + static_cast<std::ptrdiff_t>(i * n));
+    }
+    std::vector<double> gives = at_first;
+    const auto times = [&](std::span<const double> v, bool transposed) {
+        std::vector<double> result(n, 0.0);
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t k = 0; k < n; ++k)
+                result[transposed ? k : i] += gives[i * n + k] * v[transposed ? i : k];
+        return result;
+    };
+    while (cycles > 0) {
+        const std::int64_t window = std::min(cycles, interval - state.clock.cycle % interval);
+        const double time = static_cast<double>(window) * state.clock.time_step;
+        const State start = state;
+        std::vector<double> velocity(n), before, step;
+        const ConstBaseNodeColumns first = base_node_columns(start);
+        for (std::size_t k = 0; k < first.x.size(); ++k) {
+            velocity[2 * k] = first.vx[k];
+            velocity[2 * k + 1] = first.vy[k];
+        }
+        double moved = 0.0, reaction = 0.0;
+        for (int n_computed = 1;; ++n_computed) {
+            if (execution.energy) {
+                flows = *execution.energy;
+                how.energy = &flows;
+            }
+            advance(state, base, physics, window, how);
+            ++computed;
+            reaction = collect(state, static_cast<double>(window), state.clock.extension);
+            std::vector<double> residual = load_;
+            add_footwall_loads(state, residual);
+            std::ranges::transform(residual, holding_forces(state), residual.begin(), std::minus());
+            if (!step.empty()) {
+                std::vector<double> change(n);
+                std::ranges::transform(residual, before, change.begin(), std::minus());
+                std::vector<double> found = times(change, false);
+                const std::vector<double> left = times(step, true);
+                const double scale = std::inner_product(found.begin(), found.end(), step.begin(), 0.0);
+                std::ranges::transform(found, step, found.begin(), std::plus());
+                if (scale != 0.0)
+                    for (std::size_t i = 0; i < n; ++i)
+                        for (std::size_t k = 0; k < n; ++k)
+                            gives[i * n + k] -= found[i] * left[k] / scale;
+            }
+            if (n_computed % patience == 0) // contacts have opened and closed: what was found is old
+                gives = at_first;
+            step = times(residual, false);
+            before = residual;
+            moved = 0.0;
+            for (const double u : step)
+                moved = std::max(moved, std::abs(u));
+            if (moved < allowed)
+                break;
+            if (n_computed == most || !std::isfinite(moved))
+                throw NumericalFailure(
+                    "elastic_base.scheme strong: no place of the base balances the loads of " +
+                    std::to_string(window) + " cycles, the last step is " + std::to_string(moved) +
+                    " m (allowed: 0.001); scheme modal needs no iteration");
+            state = start;
+            const BaseNodeColumns nodes = base_node_columns(state);
+            for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+                velocity[2 * k] += step[2 * k] / time;
+                velocity[2 * k + 1] += step[2 * k + 1] / time;
+                nodes.vx[k] = velocity[2 * k];
+                nodes.vy[k] = velocity[2 * k + 1];
+            }
+        }
+        if (execution.energy)
+            *execution.energy = flows;
+        book(state, static_cast<double>(window), state.clock.extension, reaction);
+        ++windows;
+        cycles -= window;
+    }
+    return computed / std::max(1.0, windows);
 }
 
 WindowBalance ElasticBase::window(const State& state) const {

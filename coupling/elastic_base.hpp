@@ -13,9 +13,10 @@ namespace listric {
 
 /// How base and discs advance together.
 enum class CouplingScheme {
-    modal,    ///< the base's modes have a mass and move with the discs
-    lumped,   ///< its nodes have
-    staggered ///< the base goes where the last interval's loads want it, whatever discs do then
+    modal,     ///< the base's modes have a mass and move with the discs
+    lumped,    ///< its nodes have
+    staggered, ///< the base goes where the last interval's loads want it, whatever discs do then
+    strong     ///< an interval is repeated until the base is where its own loads want it
 };
 
 struct CouplingParameters {
@@ -71,6 +72,14 @@ public:
 
     void respond(State& state, const Clock& clock) override;
 
+    bool is_iterated() const { return parameters_.scheme == CouplingScheme::strong; }
+
+    /// Advances discs and base by scheme strong: the base has no mass, and rests at the end of every
+    /// interval under the interval's mean loads, to 1 mm. Returns how often an interval was computed,
+    /// in the mean. Throws NumericalFailure if that is not found.
+    double advance_iterated(State& state, const RigidBase& base, const CyclePhysics& physics,
+                            std::int64_t cycles, const Execution& execution);
+
     /// Static displacement of the interface under forces on its unknowns.
     std::vector<double> displacement(std::span<const double> forces) const;
 
@@ -92,6 +101,8 @@ public:
     double seconds = 0.0; ///< wall time spent responding
 
 private:
+    double collect(State& state, double cycles, double extension);
+    void book(State& state, double cycles, double extension, double reaction);
     void move_modes(State& state, double step);
     void move_lumped(State& state, double step);
     void move_staggered(State& state, double step);

@@ -184,6 +184,52 @@ TEST_P(Thickness, StripLoad) {
 
 INSTANTIATE_TEST_SUITE_P(Flexure, Thickness, testing::Values(5e3, 10e3, 20e3));
 
+TEST(Plate, LoadsAnywhereAndCut) {
+    const fem::Plate thin = plate(10e3);
+    using enum fem::PlateKind;
+    // At the cut: the textbook's two plates, each with half the load.
+    const fem::LineLoads end{{0.0}, {1e12}};
+    for (const double x : {0.0, 7e3, 50e3}) {
+        EXPECT_NEAR(thin.deflection(x, end, continuous), thin.line(x, 1e12), 1e-9);
+        EXPECT_NEAR(thin.deflection(x, end, broken), thin.broken(x, 1e12), 1e-9);
+        EXPECT_NEAR(thin.deflection(-x, end, broken), thin.broken(x, 1e12), 1e-9);
+    }
+    // Betti: what a load elsewhere does to the cut, one at the cut does there.
+    const fem::LineLoads beside{{20e3}, {1e12}};
+    EXPECT_NEAR(thin.deflection(0.0, beside, broken), thin.broken(20e3, 1e12), 1e-9);
+    // No moment at the cut, and the whole load is carried.
+    const double h = 10.0;
+    const auto w = [&](double x) { return thin.deflection(x, beside, broken); };
+    const double curvature = (w(2 * h) - 2.0 * w(h) + w(0.0)) / (h * h);
+    EXPECT_LT(std::abs(curvature * thin.rigidity()), 2e-3 * 1e12 * thin.alpha());
+    double carried = 0.0;
+    for (double x = -1000e3 + 50.0; x < 1000e3; x += 100.0)
+        carried += 100.0 * thin.restoring * w(x);
+    EXPECT_NEAR(carried / 1e12, 1.0, 1e-6);
+    // A strip is many lines.
+    fem::LineLoads strip;
+    for (double x = -20e3 + 50.0; x < 20e3; x += 100.0) {
+        strip.x.push_back(x);
+        strip.load.push_back(100.0 * 5e7);
+    }
+    EXPECT_NEAR(thin.deflection(3e3, strip, continuous) / thin.strip(3e3, 5e7, 20e3), 1.0, 1e-5);
+}
+
+TEST(Plate, ThicknessIsFoundFromTheDeflection) {
+    const fem::LineLoads loads{{3e3, 12e3, 30e3}, {8e11, 5e11, -2e11}};
+    for (const double te : {2e3, 10e3, 40e3})
+        for (const fem::PlateKind kind : {fem::PlateKind::continuous, fem::PlateKind::broken}) {
+            std::vector<double> x, w;
+            for (double at = 0.0; at < 60e3; at += 1e3) {
+                x.push_back(at);
+                w.push_back(plate(te).deflection(at, loads, kind));
+            }
+            const fem::PlateFit fit = fem::fit_thickness(plate(5e3), loads, kind, x, w);
+            EXPECT_NEAR(fit.thickness / te, 1.0, 1e-6);
+            EXPECT_LT(fit.misfit, 1e-6);
+        }
+}
+
 TEST(Flexure, NearlyIncompressibleRockBends) {
     fem::FootwallRequest request = layer(10e3, 0.0, 1.0, 2500.0);
     request.layers[0].poisson_ratio = 0.4999;
