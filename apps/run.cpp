@@ -599,25 +599,46 @@ void remove_run(const fs::path& output) {
         fs::remove(output / file, error);
 }
 
-/// A resumed run must be the same run.
+/// A line of a scene without its comment.
+std::string_view without_comment(std::string_view line) {
+    char quote = 0;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        const char c = line[k];
+        if (quote == '"' && c == '\\')
+            ++k;
+        else if (quote)
+            quote = c == quote ? 0 : quote;
+        else if (c == '"' || c == '\'')
+            quote = c;
+        else if (c == '#') {
+            line = line.substr(0, k);
+            break;
+        }
+    }
+    return line.substr(0, line.find_last_not_of(' ') + 1);
+}
+
+/// A resumed run must be the same run; comments may have changed with the program.
 void check_same_scene(const Scene& scene, const fs::path& file) {
     std::ifstream in(file);
     const std::string before(std::istreambuf_iterator<char>(in), {});
     const std::string now = to_toml(scene);
-    if (before.empty() || before == now)
+    if (before.empty())
         return;
     std::string_view a = before, b = now;
     const auto next_line = [](std::string_view& text) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = text.substr(0, end);
         text.remove_prefix(std::min(end + 1, text.size()));
-        return line;
+        return without_comment(line);
     };
     std::string_view line_a, line_b;
     while (line_a == line_b && (!a.empty() || !b.empty())) {
         line_a = next_line(a);
         line_b = next_line(b);
     }
+    if (line_a == line_b)
+        return;
     throw UsageError(fmt::format("{}: the run to resume has other parameters: it has \"{}\", this "
                                  "call \"{}\"; resume it with "
                                  "the parameters that it began with, or start anew with --force",

@@ -488,6 +488,14 @@ TEST_F(RunTest, ResumeOfAFinishedRunWithOtherParametersIsRefusedToo) {
     EXPECT_THAT(ended.err, HasSubstr("damping"));
 }
 
+TEST_F(RunTest, ResumeDoesNotMindOtherComments) {
+    const fs::path output = run(scene(), "run", {.until = 60.0});
+    std::string text = contents(output / "scene.toml");
+    text.replace(text.find("# local non-viscous"), 19, "# words of yesterday, \"or so\"");
+    write(output / "scene.toml", text);
+    EXPECT_EQ(call_run(output, {"--resume", "--until", "60"}).code, 0);
+}
+
 // -------------------------------------------------------------------------------------- damaged
 
 /// Ways to damage a file that leave no good snapshot of it.
