@@ -473,10 +473,25 @@ void check_base(Run& run, Voice& voice) {
     }
 }
 
-std::string resume_hint(const fs::path& output) {
+/// How to run the scene of a folder.
+std::string call_for(const fs::path& output) {
     const char* call = std::getenv("LISTRIC_CALL"); // how the launcher was called
-    return fmt::format("resume with: {} run {} --output {} --resume", call ? call : "listric",
-                       quoted((output / "scene.toml").string()), quoted(output.string()));
+    return fmt::format("{} run {}", call ? call : "listric",
+                       quoted((output / "scene.toml").string()));
+}
+
+std::string resume_hint(const fs::path& output) {
+    return fmt::format("resume with: {} --output {} --resume", call_for(output),
+                       quoted(output.string()));
+}
+
+/// A run repeats itself to the last bit, so it would fail again: it needs another step, or speed.
+std::string retry_hint(const Scene& scene, const fs::path& output) {
+    return fmt::format("resumed it would end the same way; a smaller time step or speed may help, "
+                       "in a new run: {} --set cycle.time_step_safety={:g} --output {}; if not, "
+                       "--set extension.speed_m_per_s={:g}",
+                       call_for(output), 0.5 * scene.cycle.time_step_safety,
+                       quoted(output.string() + "-2"), 0.5 * scene.extension.speed);
 }
 
 void report(Run& run, Voice& voice) {
@@ -738,13 +753,10 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     } catch (const NumericalFailure& failure) {
         const auto snapshots = list_snapshots(output);
         if (snapshots.empty())
-            throw NumericalFailure(std::string(failure.what()) +
-                                   "\nit happened before the first snapshot; a smaller "
-                                   "cycle.time_step_safety may help");
-        throw NumericalFailure(fmt::format(
-            "{}\nthe last good state is {}; a smaller cycle.time_step_safety or "
-            "extension.speed_m_per_s in a new run may help; to go on from that state, {}",
-            failure.what(), snapshots.back().string(), resume_hint(output)));
+            throw NumericalFailure(fmt::format("{}\nit happened before the first snapshot; {}",
+                                               failure.what(), retry_hint(scene, output)));
+        throw NumericalFailure(fmt::format("{}\nthe last good state is {}; {}", failure.what(),
+                                           snapshots.back().string(), retry_hint(scene, output)));
     }
 }
 

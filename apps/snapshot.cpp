@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <fstream>
 #include <unistd.h>
 
 namespace listric {
@@ -182,7 +183,8 @@ template <class AnyState, class Visit> void for_each_number(AnyState& s, Visit&&
     visit("displacement_bound", s.displacement_bound);
 }
 
-constexpr const char* format = "listric snapshot 3";
+constexpr std::string_view format = "listric snapshot 4";
+constexpr std::string_view format_without_checksum = "listric snapshot 3";
 
 /// Hash of all that a snapshot holds, so that a damaged file is not taken for another state.
 std::uint64_t content_hash(const Snapshot& snapshot) {
@@ -221,7 +223,7 @@ std::vector<std::byte> file_image(const State& state,
     check(H5Pset_fapl_core(in_memory, 1 << 20, false), "core driver");
     const Handle file(H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose,
                       "cannot create the file");
-    write_attribute(file, "format", format);
+    write_attribute(file, "format", std::string(format));
     write_attribute(file, "version", std::string(version));
     write_attribute_value(file, "seed", static_cast<std::int64_t>(state.seed));
     for_each_number(state, [&](const char* name, const auto& value) {
@@ -272,6 +274,52 @@ std::vector<std::byte> file_image(const State& state,
     return image;
 }
 
+// The file ends with a mark and a sum of all bytes before it. HDF5 does not look there. Snapshots
+// of earlier versions of the program have none.
+constexpr std::string_view checksum_mark = "listric checksum"; // 16 bytes, 8 more are the sum
+constexpr std::size_t checksum_bytes = checksum_mark.size() + sizeof(std::uint64_t);
+
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+    std::uint64_t sum = bytes.size();
+    for (; !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), sizeof sum))) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data(), std::min(bytes.size(), sizeof word));
+        sum = std::rotl(sum ^ word, 29) * 0x9e3779b97f4a7c15u; // one to one for every word
+    }
+    return sum;
+}
+
+void append_checksum(std::vector<std::byte>& bytes) {
+    const std::uint64_t sum = checksum(bytes);
+    const auto* mark = reinterpret_cast<const std::byte*>(checksum_mark.data());
+    const auto* word = reinterpret_cast<const std::byte*>(&sum);
+    bytes.insert(bytes.end(), mark, mark + checksum_mark.size());
+    bytes.insert(bytes.end(), word, word + sizeof sum);
+}
+
+/// False if the file has no checksum. Throws if it has one that is not its own: HDF5 must not see
+/// such a file, for it reads beyond what is damaged.
+bool verify_checksum(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    if (error || !in)
+        throw StorageError("cannot be read");
+    std::vector<std::byte> bytes(size);
+    if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
+        throw StorageError("cannot be read");
+    if (size < checksum_bytes)
+        throw StorageError("is not a snapshot");
+    const std::span content(bytes.data(), size - checksum_bytes);
+    if (std::memcmp(content.data() + content.size(), checksum_mark.data(), checksum_mark.size()))
+        return false;
+    std::uint64_t sum = 0;
+    std::memcpy(&sum, bytes.data() + size - sizeof sum, sizeof sum);
+    if (sum != checksum(content))
+        throw StorageError("is damaged (its bytes do not match their checksum)");
+    return true;
+}
+
 /// Writes bytes to a temporary name, to the disk, and renames. The file of the final name is
 /// complete or the old one, whenever the program or the machine stops.
 void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
@@ -317,16 +365,22 @@ void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 void write_snapshot(const fs::path& path, const State& state,
                     std::span<const std::unique_ptr<Event>> events, const RunRecord& record) {
     silence_hdf5();
-    write_bytes(path, file_image(state, events, record));
+    std::vector<std::byte> bytes = file_image(state, events, record);
+    append_checksum(bytes);
+    write_bytes(path, bytes);
 }
 
 Snapshot read_snapshot(const fs::path& path) {
     silence_hdf5();
     try {
+        const bool verified = verify_checksum(path);
         const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
                           "cannot be opened as HDF5");
-        if (read_attribute(file, "format") != format)
+        const std::string found = read_attribute(file, "format");
+        if (found != format && found != format_without_checksum)
             throw StorageError("is not a snapshot of this version of the program");
+        if (found == format && !verified)
+            throw StorageError("is damaged (it lacks its checksum)");
         Snapshot snapshot;
         State& state = snapshot.state;
         state.seed = static_cast<std::uint64_t>(read_attribute_value<std::int64_t>(file, "seed"));

@@ -567,6 +567,34 @@ TEST_F(RunTest, ADamagedSnapshotIsNeverTakenForAnotherState) {
     EXPECT_EQ(wrong, 0) << "of 200 snapshots with one flipped bit";
 }
 
+TEST_F(RunTest, DamageIsNoticedBeforeHdf5ReadsTheFile) {
+    const fs::path output = run(scene(), "run", {.until = 60.0});
+    const fs::path file = list_snapshots(output).back();
+    const std::string bytes = contents(file);
+    constexpr std::size_t mark = 24; // with the sum
+    for (std::size_t at = 0; at < bytes.size() - mark; at += 1 + bytes.size() / 100) {
+        std::string damaged = bytes;
+        damaged[at] ^= 4;
+        write(file, damaged);
+        try {
+            read_snapshot(file);
+            ADD_FAILURE() << "byte " << at;
+        } catch (const StorageError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("checksum"));
+        }
+    }
+    // A snapshot of an earlier version of the program has an earlier format and no mark.
+    write(file, bytes);
+    const auto with = run_hash(read_snapshot(file));
+    std::string earlier = bytes.substr(0, bytes.size() - mark);
+    write(file, earlier);
+    EXPECT_THROW(read_snapshot(file), StorageError);
+    const std::string format = "listric snapshot ";
+    earlier[earlier.find(format) + format.size()] = '3';
+    write(file, earlier);
+    EXPECT_EQ(run_hash(read_snapshot(file)), with);
+}
+
 TEST_F(RunTest, ADamagedLastSnapshotIsReplacedInTheEnd) {
     const fs::path output = run(scene(), "run", {.until = 133.7});
     fs::remove(output / "summary.json");
@@ -842,8 +870,8 @@ TEST_F(RunTest, EffectsThatAreOffCostNothing) {
     }
     EXPECT_FALSE(snapshot.event_memory.contains("energy"));
     EXPECT_THAT(contents(output / "history.csv"), Not(HasSubstr("energy")));
-    for (const char* name : {"weak_fraction", "volume_error_fraction", "depocentres", "quasi_static",
-                             "energy_residual", "energy_by_event_j_per_m",
+    for (const char* name : {"weak_fraction", "volume_error_fraction", "depocentres",
+                             "quasi_static", "energy_residual", "energy_by_event_j_per_m",
                              "sediment_weak_off_fault_fraction", "basement_unbonded_fraction"})
         EXPECT_FALSE(result.contains(name)) << name;
 

@@ -303,6 +303,8 @@ TEST_F(SceneTest, UnknownNamesAreAnsweredWithTheOnesMeant) {
               "did you mean acceleration_m_per_s2?");
     EXPECT_EQ(error(minimal + "[cycle]\nDamping = 0.5\n"),
               "scene.toml:5: cycle.Damping: unknown key, did you mean damping?");
+    EXPECT_EQ(error(minimal + "[energy]\ndamping = true\n"),
+              "scene.toml:5: energy.damping: unknown key, none is allowed");
     EXPECT_EQ(set_error("cycle.skni=0.2"),
               "--set cycle.skni=0.2: cycle.skni: unknown key, did you mean skin?");
     EXPECT_EQ(set_error("hangingwall.length_m=4e4"),
