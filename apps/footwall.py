@@ -64,6 +64,8 @@ def draw_section(figure, axes, patches, discs, uplift, factor):
     axes.axhline(0.0, color="#6b6b6b", lw=0.6, ls=(0, (6, 4)))
     axes.text(axes.get_xlim()[0] + 1.0, 0.3, "original surface", fontsize=8, color="#6b6b6b",
               va="bottom")
+    axes.text(-30.0, axes.get_ylim()[0] + 8.0, "relaxed rock", fontsize=9, color="#8c7a5a",
+              ha="center")
     axes.set_ylabel("height, km")
     bar = figure.colorbar(rock, ax=axes, pad=0.01, fraction=0.025, extend="max")
     bar.set_label("largest shear stress, MPa\n(change since the start)", fontsize=9)

@@ -76,8 +76,9 @@ public:
 
     /// Advances discs and base by scheme strong: the base has no mass, and rests at the end of every
     /// interval under the interval's mean loads, to a thousandth of its displacement or a
-    /// ten-thousandth of the discs' mean radius. Returns how often an interval was computed, in the
-    /// mean. Throws NumericalFailure if that is not found.
+    /// ten-thousandth of the discs' mean radius; to a thousandth of that where contacts that open
+    /// and close allow no better. Returns how often an interval was computed, in the mean. Throws
+    /// NumericalFailure if that is not found.
     double advance_iterated(State& state, const RigidBase& base, const CyclePhysics& physics,
                             std::int64_t cycles, const Execution& execution);
 
