@@ -4,8 +4,10 @@
 
 namespace listric {
 
-/// Writes base.csv, the displacement of the detachment at every snapshot of a run on an elastic
-/// base, and draws it. Throws StorageError if it cannot.
+/// Writes base.csv, the displacement of the detachment at every snapshot of a run whose base moves,
+/// and draws it; of an elastic base also footwall.csv, the uplift of its surface and of the
+/// detachment at a fifth, half and the whole of the extension, and the stress at the end. Throws
+/// StorageError if it cannot.
 void draw_base(const std::filesystem::path& output);
 
 } // namespace listric

@@ -190,29 +190,31 @@ std::string run_drawing_script(const std::string& script,
                            "; it needs /usr/bin/python3 with matplotlib)";
 }
 
-FigureFrames::FigureFrames(const fs::path& folder) : folder_(folder) {
-    fs::create_directories(folder);
-    std::string pattern = (folder / ".data-XXXXXX").string();
+TemporaryFolder::TemporaryFolder(const fs::path& where) {
+    fs::create_directories(where);
+    std::string pattern = (where / ".data-XXXXXX").string();
     if (!mkdtemp(pattern.data()))
-        throw StorageError("cannot make a folder in " + folder.string());
-    data_ = pattern;
+        throw StorageError("cannot make a folder in " + where.string());
+    path = pattern;
 }
 
-FigureFrames::~FigureFrames() {
+TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
-    fs::remove_all(data_, ignored);
+    fs::remove_all(path, ignored);
 }
+
+FigureFrames::FigureFrames(const fs::path& folder) : folder_(folder), data_(folder) {}
 
 void FigureFrames::add(const Scene& scene, const State& state, const RigidBase& base,
                        std::span<const std::unique_ptr<Event>> events, const FaultReport& faults) {
-    const fs::path frame = data_ / fmt::format("{:06d}", frames_++);
+    const fs::path frame = data_.path / fmt::format("{:06d}", frames_++);
     fs::create_directories(frame);
     export_frame(scene, state, base, events, faults, frame);
 }
 
 void FigureFrames::draw(const std::string& kind) const {
     const std::string problem =
-        run_drawing_script("figures.py", {kind, data_.string(), folder_.string()});
+        run_drawing_script("figures.py", {kind, data_.path.string(), folder_.string()});
     if (!problem.empty())
         throw StorageError(problem);
 }

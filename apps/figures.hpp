@@ -20,15 +20,23 @@ std::string draw_figures(const Scene& scene, const State& state, const RigidBase
                          std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
                          const std::filesystem::path& folder);
 
+/// A folder for the arrays that a drawing script reads, which vanishes with this object.
+struct TemporaryFolder {
+    /// Throws StorageError if none can be made there.
+    explicit TemporaryFolder(const std::filesystem::path& where);
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::filesystem::path path;
+};
+
 /// Pictures of several moments of a run: the arrays that the drawing script reads, in a folder that
 /// vanishes with this object.
 class FigureFrames {
 public:
     /// @param folder  where the pictures go
     explicit FigureFrames(const std::filesystem::path& folder);
-    ~FigureFrames();
-    FigureFrames(const FigureFrames&) = delete;
-    FigureFrames& operator=(const FigureFrames&) = delete;
 
     void add(const Scene& scene, const State& state, const RigidBase& base,
              std::span<const std::unique_ptr<Event>> events, const FaultReport& faults);
@@ -39,7 +47,8 @@ public:
     void draw(const std::string& kind) const;
 
 private:
-    std::filesystem::path folder_, data_;
+    std::filesystem::path folder_;
+    TemporaryFolder data_;
     int frames_ = 0;
 };
 

@@ -140,11 +140,12 @@ fem::Load FootwallCoupling::other_loads(const State& state) const {
     return sum;
 }
 
-void FootwallCoupling::recover(const State& state) {
+const fem::Footwall& FootwallCoupling::recover(const State& state) {
     fem::Load load = other_loads(state);
     load.interface = disc_forces(*base_, state);
     load.interface.resize(2 * footwall_->interface().size(), 0.0);
     footwall_->solve(load);
+    return *footwall_;
 }
 
 std::optional<FootwallCoupling::Check> FootwallCoupling::check(const State& state) const {

@@ -47,12 +47,14 @@ public:
     /// rock is strained beyond what linear elasticity can mean.
     std::vector<std::pair<std::string, double>> end_window(State& state, const RigidBase& rigid);
 
+    /// The field of the whole footwall at that moment.
+    const fem::Footwall& recover(const State& state);
+
     /// Writes the field below the discs, as it was recovered last, for ParaView: a file per moment
     /// in `output`/paraview and footwall.pvd.
     void write(const std::filesystem::path& output, const State& state) const;
 
 private:
-    void recover(const State& state);
     double share_of_extension(const State& state) const;
     fem::Load other_loads(const State& state) const;
 

@@ -49,6 +49,7 @@ def draw(rows):
                    label=f"{fill}: continuous plate")
         right.plot(nominal, at("broken_plate_m"), "--", color=colour, lw=1.2,
                    label=f"{fill}: plate broken at the breakaway")
+    left.set_xlim(4.0, 55.0)
     left.set_title("Against the thickness fitted to the detachment's deflection", fontsize=10,
                    loc="left")
     left.set_xlabel("fitted elastic thickness, km: bar from continuous to broken plate; nominal beside it")

@@ -37,7 +37,7 @@ def load(folder):
         work = float(row["disc_steps"])
         name, _, value = row["parameter"].partition("=")
         point = {"error": max(error, ZERO), "wall": float(row["wall_s"]),
-                 "work": work or float(value), "label": value, "parameter": name,
+                 "work": work or float(value), "label": value, "value": float(value), "parameter": name,
                  "failed": not math.isfinite(error), "in_discs": work > 0.0}
         panels.setdefault(panel, {}).setdefault((curve, row["quantity"]), []).append(point)
     return facts, panels
@@ -51,13 +51,23 @@ def curve_name(curve, quantity, curves):
     return ", ".join(words) or quantity
 
 
+def costs_the_same(curves):
+    work = [p["work"] for points in curves.values() for p in points if not p["failed"]]
+    return work and min(work) > 0.0 and max(work) < 1.1 * min(work)
+
+
 def draw_panel(pair, panel, curves, floors):
+    # Where all take as many disc-steps, what is varied tells more; the reference has no value of it.
+    right = "value" if costs_the_same(curves) else "work"
+    if right == "value":
+        name = next(iter(curves.values()))[0]["parameter"]
+        curves = {key: [p for p in points if p["parameter"] == name] for key, points in curves.items()}
     top = max((p["error"] for points in curves.values() for p in points if not p["failed"]),
               default=1.0)
     for k, ((curve, quantity), points) in enumerate(curves.items()):
         colour = COLOURS[k % len(COLOURS)]
         good = [p for p in points if not p["failed"]]
-        for axes, key in zip(pair, ("wall", "work")):
+        for axes, key in zip(pair, ("wall", right)):
             axes.plot([p[key] for p in good], [p["error"] for p in good], color=colour, lw=1.3,
                       marker=MARKERS[k % len(MARKERS)], ms=5, label=curve_name(curve, quantity, curves))
             axes.plot([p[key] for p in points if p["failed"]],
@@ -66,11 +76,12 @@ def draw_panel(pair, panel, curves, floors):
                 axes.axhline(floors[quantity], color=colour, lw=0.8, ls=(0, (4, 4)))
         if k == 0:  # what the parameter was, beside one curve
             for p in good:
-                pair[1].annotate(p["label"], (p["work"], p["error"]), xytext=(4, 4),
+                pair[1].annotate(p["label"], (p[right], p["error"]), xytext=(4, 4),
                                  textcoords="offset points", fontsize=7.5, color="#6b6b6b")
     first = next(iter(curves.values()))[0]
     pair[0].set_xlabel("wall time, s")
-    pair[1].set_xlabel("disc-steps" if first["in_discs"] else "unknowns")
+    pair[1].set_xlabel(first["parameter"] if right == "value" else
+                       "disc-steps" if first["in_discs"] else "unknowns")
     pair[0].set_ylabel("relative error")
     pair[0].set_title(panel or f"varied: {first['parameter']}", fontsize=10, loc="left")
     if panel:

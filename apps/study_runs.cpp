@@ -242,7 +242,6 @@ StudyResult study_coupling(const StudyRequest& asked) {
     };
     intervals("modal", {20, 10, 5, 2});
     intervals("lumped", {5, 1});
-    intervals("strong", {20});
     std::vector<StudyRun> runs;
     for (const int value : {10, 20, 50, 100})
         runs.push_back(run("modal", 5, value, fmt::format("modal-modes={}", value)));

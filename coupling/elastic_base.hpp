@@ -75,8 +75,10 @@ public:
     bool is_iterated() const { return parameters_.scheme == CouplingScheme::strong; }
 
     /// Advances discs and base by scheme strong: the base has no mass, and rests at the end of every
-    /// interval under the interval's mean loads, to 1 mm. Returns how often an interval was computed,
-    /// in the mean. Throws NumericalFailure if that is not found.
+    /// interval under the interval's mean loads, to a thousandth of its displacement or a
+    /// ten-thousandth of the discs' mean radius; to a thousandth of that where contacts that open
+    /// and close allow no better. Returns how often an interval was computed, in the mean. Throws
+    /// NumericalFailure if that is not found.
     double advance_iterated(State& state, const RigidBase& base, const CyclePhysics& physics,
                             std::int64_t cycles, const Execution& execution);
 

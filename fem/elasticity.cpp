@@ -148,6 +148,7 @@ public:
     Responses responses(std::span<const Load> loads) override;
     std::vector<double> interface_displacement() const override;
     Field field() const override;
+    std::vector<StressPatch> stress() const override;
     FieldError error(const ExactField& exact) const override;
     Vector reaction() const override;
     Guard guard() const override;
@@ -847,6 +848,45 @@ FieldError ElasticFootwall::error(const ExactField& exact) const {
     for (double& sum : sums)
         sum = dealii::Utilities::MPI::sum(sum, processes);
     return {std::sqrt(sums[0] / sums[1]), std::sqrt(sums[2] / sums[3])};
+}
+
+std::vector<StressPatch> ElasticFootwall::stress() const {
+    require_solution();
+    // The corners of the quarters, three in a row, then their middles.
+    std::vector<Point<2>> places;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            places.emplace_back(0.5 * column, 0.5 * row);
+    for (int row = 0; row < 2; ++row)
+        for (int column = 0; column < 2; ++column)
+            places.emplace_back(0.25 + 0.5 * column, 0.25 + 0.5 * row);
+    dealii::FEValues<2> values(mapping_, element_, dealii::Quadrature<2>(places), volume_flags);
+    const dealii::FEValuesExtractors::Vector u(0);
+    std::vector<Tensor<1, 2>> moved(places.size());
+    std::vector<Tensor<2, 2>> slopes(places.size());
+    std::vector<StressPatch> result;
+    for_each_own_cell([&](const auto& cell) {
+        values.reinit(cell);
+        values[u].get_function_values(displacement_, moved);
+        values[u].get_function_gradients(displacement_, slopes);
+        for (unsigned quarter = 0; quarter < 4; ++quarter) {
+            StressPatch patch;
+            const unsigned first = quarter / 2 * 3 + quarter % 2;
+            const unsigned around[4] = {first, first + 1, first + 4, first + 3};
+            for (unsigned k = 0; k < 4; ++k) {
+                patch.corner[k] = plain(values.quadrature_point(around[k]));
+                patch.displacement[k] = {moved[around[k]][0], moved[around[k]][1]};
+            }
+            const auto& g = slopes[9 + quarter];
+            const Rock rock = material_.at(plain(values.quadrature_point(9 + quarter)));
+            const double trace = rock.lambda * (g[0][0] + g[1][1]);
+            patch.xx = trace + 2.0 * rock.mu * g[0][0];
+            patch.yy = trace + 2.0 * rock.mu * g[1][1];
+            patch.xy = rock.mu * (g[0][1] + g[1][0]);
+            result.push_back(patch);
+        }
+    });
+    return result;
 }
 
 Vector ElasticFootwall::reaction() const {

@@ -124,6 +124,12 @@ struct Field {
     std::vector<Vector> place, displacement; ///< m
 };
 
+/// A quarter of an element, and the stress in its middle.
+struct StressPatch {
+    std::array<Vector, 4> corner, displacement; ///< around it, m
+    double xx = 0.0, yy = 0.0, xy = 0.0;        ///< Pa; tension positive
+};
+
 struct ExactField {
     std::function<Vector(Vector place)> displacement;
     std::function<std::array<double, 4>(Vector place)>
@@ -175,6 +181,7 @@ public:
     virtual int iterations() const = 0; ///< of the last solve; 1 for factors
     virtual std::vector<double> interface_displacement() const = 0;
     virtual Field field() const = 0;
+    virtual std::vector<StressPatch> stress() const = 0; ///< of this process's elements
     virtual FieldError error(const ExactField& exact) const = 0;
     virtual Vector reaction() const = 0;   ///< force of springs and sides on the rock, N/m
     virtual Vector total_load() const = 0; ///< sum of the last load, N/m

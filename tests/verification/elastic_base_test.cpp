@@ -2,12 +2,8 @@
 // the transfer keeps force, moment and work, that the rigid base is the limit, that the schemes are
 // stable and that neither threads nor the kind of cycle change a bit.
 
-#include "coupling/elastic_base.hpp"
-#include "dem/base_place.hpp"
-#include "dem/contacts.hpp"
-#include "dem/genesis.hpp"
 #include "dem/monitor.hpp"
-#include "tests/support.hpp"
+#include "tests/coupled_discs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,104 +14,6 @@ namespace listric {
 namespace {
 
 using namespace support;
-
-constexpr double radius = 1500.0, length = 4000.0, gravity = 9.81;
-
-RigidBase make_listric_base() {
-    RigidBase base = listric_base(radius, length);
-    base.surfaces[0].friction = 0.5;
-    base.surfaces[0].follows = Follows::nodes;
-    base.surfaces[1].follows = Follows::breakaway;
-    return base;
-}
-
-/// A settled hanging wall of some 400 discs, made once.
-const State& hanging_wall() {
-    static const State state = [] {
-        GenesisRequest request;
-        request.hanging_wall.length = length;
-        request.hanging_wall.thickness = radius;
-        request.hanging_wall.mean_radius = 60.0;
-        request.base = make_listric_base();
-        request.materials = {Material{}, Material{}, Material{}};
-        request.bonds = BondStrength{};
-        request.physics = {0.7, gravity};
-        return make_hanging_wall(request, [](std::string_view, double) {});
-    }();
-    return state;
-}
-
-/// Nodes every 98 m, and a base that gives way over a distance of 1 km: C = c exp(-|s - t| / 1 km)
-/// in x and in y, which is positive definite.
-Interface make_interface(double compliance) {
-    const Chain chain = listric_chain(radius, 2.0 * length);
-    constexpr std::size_t nodes = 61;
-    constexpr double spacing = 0.5 * pi * radius / 24.0; // a face ends where the arc does
-    Interface interface;
-    for (std::size_t k = 0; k < nodes; ++k) {
-        const Point p = point_at(chain, spacing * static_cast<double>(k));
-        interface.x.push_back(p.x);
-        interface.y.push_back(p.y);
-    }
-    interface.compliance.assign(4 * nodes * nodes, 0.0);
-    for (std::size_t i = 0; i < nodes; ++i)
-        for (std::size_t k = 0; k < nodes; ++k)
-            for (std::size_t c = 0; c < 2; ++c)
-                interface.compliance[(2 * i + c) * 2 * nodes + 2 * k + c] =
-                    compliance *
-                    std::exp(-spacing * std::abs(static_cast<double>(i) - static_cast<double>(k)) /
-                             1e3);
-    return interface;
-}
-
-/// 1e-11 m per N/m: the weight of the hanging wall, 1.4e11 N/m, would bend it by about 1 m.
-constexpr double soft = 1e-11;
-
-struct Coupled {
-    RigidBase base = make_listric_base();
-    CyclePhysics physics{0.7, gravity};
-    State state = hanging_wall();
-    ElasticBase elastic;
-
-    explicit Coupled(double compliance, CouplingParameters p = {})
-        : elastic(make_interface(compliance), complete(p)) {
-        elastic.attach(state);
-        find_contacts(state, base);
-    }
-
-    static CouplingParameters complete(CouplingParameters p) {
-        p.wall_x = length;
-        p.gravity = gravity;
-        const std::vector<Material> discs{Material{}};
-        p.contact_stiffness = node_stiffness(Material{}, discs, 100.0, 60.0);
-        return p;
-    }
-
-    void settle() {
-        elastic.settle(state, base, physics, {1}, [](std::string_view, double) {});
-        physics.averaging_time = 50.0;
-        add_mean_velocities(state);
-    }
-    void go(std::int64_t cycles, const Execution& execution = {}) {
-        advance(state, base, physics, cycles, execution, &elastic);
-    }
-    double greatest_displacement() const { return greatest_node_displacement(base_place(state)); }
-};
-
-/// A base that was settled on, so that tests need not wait for it again.
-Coupled settled(double compliance, CouplingParameters p = {}) {
-    static const State state = [] {
-        Coupled first(soft);
-        first.settle();
-        return first.state;
-    }();
-    Coupled coupled(compliance, p);
-    coupled.state = state;
-    // Of all modes: memory is as large as the modes that are kept.
-    coupled.state.base_memory["modes"].resize(coupled.elastic.modes().count());
-    coupled.physics.averaging_time = 50.0;
-    return coupled;
-}
 
 TEST(ElasticBase, TransferKeepsForceMomentAndWork) {
     Coupled coupled = settled(soft);
