@@ -77,6 +77,7 @@ struct StudyRun {
     std::vector<std::string> set; ///< changes of the scene
     std::optional<std::string> accuracy = {};
     std::vector<std::string> without = {}; ///< effects that are off
+    int most_seeds = 1000;                 ///< of a run that is too dear to be repeated
 };
 
 /// Where the run by one seed is.

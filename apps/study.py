@@ -87,7 +87,9 @@ def draw_panel(pair, panel, curves, floors):
     if panel:
         pair[1].set_title(f"varied: {first['parameter']}", fontsize=9, loc="left", color="#6b6b6b")
     for axes in pair:
-        axes.set_xscale("log")
+        left, right_end = axes.get_xlim()
+        if right_end > 3 * max(left, ZERO):  # a narrow range has no decades to mark
+            axes.set_xscale("log")
         axes.set_yscale("log")
         axes.grid(True, which="major", lw=0.4, color="#d0d0d0")
         without_frame(axes)
