@@ -83,26 +83,17 @@ TEST_F(CoupledRun, HasTheRecordedUpliftAndKeepsTheLoad) {
     EXPECT_EQ(one["state_hash"], two["state_hash"]);
 }
 
-TEST_F(CoupledRun, OtherSchemesComeToTheSame) {
+TEST_F(CoupledRun, LumpedMassesComeToTheSame) {
     // Lumped masses slow the soft modes, too: with an update every 5 cycles the base is half behind
-    // its load, with one every cycle it follows.
-    const json modal = run("modal", 1);
-    const json lumped = run("lumped", 1, {}, false,
-                            {"elastic_base.scheme=lumped", "elastic_base.update_interval_cycles=1"});
-    const json strong = run("strong", 1, {}, false,
-                            {"elastic_base.scheme=strong", "elastic_base.update_interval_cycles=10"});
+    // its load, with one every cycle it follows. Uplift differs by the path that discs take.
+    const nlohmann::json modal = run("modal", 1);
+    const nlohmann::json lumped =
+        run("lumped", 1, {}, false,
+            {"elastic_base.scheme=lumped", "elastic_base.update_interval_cycles=1"});
     const double uplift = modal["footwall_uplift_m"];
-    std::printf("modal %.2f m, lumped %.2f m, strong %.2f m; behind the load: %.3f, %.3f, %.3f\n",
-                uplift, lumped["footwall_uplift_m"].get<double>(),
-                strong["footwall_uplift_m"].get<double>(),
-                modal["base_resolved_difference"].get<double>(),
-                lumped["base_resolved_difference"].get<double>(),
-                strong["base_resolved_difference"].get<double>());
-    for (const json& other : {lumped, strong})
-        EXPECT_NEAR(other["footwall_uplift_m"].get<double>(), uplift, 0.15 * uplift); // the path
+    EXPECT_NEAR(lumped["footwall_uplift_m"].get<double>(), uplift, 0.15 * uplift);
     EXPECT_LT(modal["base_resolved_difference"].get<double>(), 0.06);
     EXPECT_LT(lumped["base_resolved_difference"].get<double>(), 0.08);
-    EXPECT_LT(strong["base_resolved_difference"].get<double>(), 0.01);
 }
 
 TEST_F(CoupledRun, NearlyIncompressibleRockCarriesDiscs) {
