@@ -133,6 +133,27 @@ TEST_F(Combination, EveryPairRuns) {
     EXPECT_LT(array.size(), 20u);
 }
 
+TEST_F(Combination, PrescribedMotionGoesWithEachOfThem) {
+    const std::string motion = "base_motion.uplift=[{time_a=0.0, points=[[0.0, 0.0]]},"
+                               "{time_a=20000.0, points=[[0.0, 40.0], [4000.0, 0.0]]}]";
+    for (const Chosen choice : {((1u << count) - 1u) & ~(1u << plain), (1u << gravity) | (1u << plain)}) {
+        SceneRequest r = request(choice);
+        r.set.push_back(motion);
+        RunOptions o = options("moved");
+        o.force = true;
+        o.threads = has(choice, threads) ? 3 : 1;
+        o.plain = has(choice, plain);
+        const nlohmann::json summary = run(load_scene(r), o);
+        EXPECT_EQ(summary["finished"], true);
+        EXPECT_THAT(summary["effects"], testing::Contains("base_motion"));
+        EXPECT_LT(summary["mass_error_fraction"].get<double>(), 1e-13);
+        const Snapshot last = read_snapshot(list_snapshots(o.output).back());
+        for (const Table* table :
+             {&last.state.discs, &last.state.contacts, &last.state.base_contacts})
+            EXPECT_TRUE(all_finite(*table));
+    }
+}
+
 TEST_F(Combination, PairsThatDoNotGoTogetherAreRefused) {
     const auto refusal = [](std::vector<std::string> without) -> std::string {
         try {
