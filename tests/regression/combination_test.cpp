@@ -136,7 +136,8 @@ TEST_F(Combination, EveryPairRuns) {
 TEST_F(Combination, PrescribedMotionGoesWithEachOfThem) {
     const std::string motion = "base_motion.uplift=[{time_a=0.0, points=[[0.0, 0.0]]},"
                                "{time_a=20000.0, points=[[0.0, 40.0], [4000.0, 0.0]]}]";
-    for (const Chosen choice : {((1u << count) - 1u) & ~(1u << plain), (1u << gravity) | (1u << plain)}) {
+    const Chosen all = (1u << count) - 1u;
+    for (const Chosen choice : {all & ~(1u << plain), (1u << gravity) | (1u << plain)}) {
         SceneRequest r = request(choice);
         r.set.push_back(motion);
         RunOptions o = options("moved");
