@@ -45,15 +45,23 @@ double parse_length(const std::string& text) {
     return unit == "km" ? 1e3 * value : value;
 }
 
+/// An option that may be given several times, with one word each time.
+void add_words(CLI::App& command, const char* option, std::vector<std::string>& words,
+               const char* what) {
+    command.add_option(option, words, what)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_threads(CLI::App& command, int& threads) {
+    command.add_option("--threads", threads, "Processor cores to use")->check(CLI::Range(1, 1024));
+}
+
 void add_scene_options(CLI::App& command, SceneRequest& request) {
     command.add_option("SCENE", request.scene, "Name of a scene (listric scenes) or a path")
         ->required();
-    command.add_option("--set", request.set, "table.key=value; repeatable")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--without", request.without, "Switch off the effect TABLE; repeatable")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_words(command, "--set", request.set, "table.key=value; repeatable");
+    add_words(command, "--without", request.without, "Switch off the effect TABLE; repeatable");
     command.add_option("--accuracy", request.accuracy, "draft, standard, fine or sandbox");
     command.add_option("--seed", request.seed, "Of the packing and everything random");
 }
@@ -62,14 +70,11 @@ void add_laboratory_options(CLI::App& command, LaboratoryRequest& request) {
     command.add_option("TEST", request.test, "uniaxial, biaxial, shear-box or pure-shear")
         ->required();
     command.add_option("MATERIAL", request.material, "Name of a material or a path")->required();
-    command.add_option("--set", request.set, "table.key=value of the material; repeatable")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_words(command, "--set", request.set, "table.key=value of the material; repeatable");
     command.add_option("--discs", request.discs, "Discs per sample; the paper's has 239");
     command.add_option("--seed", request.seed, "Of the first sample");
     command.add_option("--seeds", request.seeds, "Number of samples");
-    command.add_option("--threads", request.threads, "Processor cores to use")
-        ->check(CLI::Range(1, 1024));
+    add_threads(command, request.threads);
     command.add_option("--output", request.output, "Folder of results (out/TEST-MATERIAL)");
     command.add_option("--strength-is", request.reading, "Reading of bond strengths")
         ->check(CLI::IsMember({"stress", "force"}));
@@ -115,8 +120,7 @@ void add_calibration_options(CLI::App& command, CalibrationRequest& request) {
     command.add_option("--discs", request.discs, "Discs per sample");
     command.add_option("--seed", request.seed, "Of the first sample");
     command.add_option("--seeds", request.seeds, "Samples for the fit, as many for validation");
-    command.add_option("--threads", request.threads, "Processor cores to use")
-        ->check(CLI::Range(1, 1024));
+    add_threads(command, request.threads);
     command.add_option("--output", request.output, "Folder of results (out/calibrate-NAME)");
     command.add_flag("--resume", request.resume, "Go on with the measurements made so far");
 }
@@ -127,16 +131,13 @@ void add_study_options(CLI::App& command, StudyRequest& request) {
         names += fmt::format("\n{:<12} {}", study.name, study.doc);
     command.add_option("NAME", request.name, "One of:" + names)->required();
     command.add_option("--scene", request.scene, "Of studies made of runs (lis1)");
-    command.add_option("--set", request.set, "table.key=value, for every run; repeatable")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_words(command, "--set", request.set, "table.key=value, for every run; repeatable");
     command.add_option("--values", request.values, "Of the parameter that is varied")
         ->delimiter(',')
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--seed", request.seed, "Of the first run");
     command.add_option("--seeds", request.seeds, "Runs for each value");
-    command.add_option("--threads", request.threads, "Processor cores to use")
-        ->check(CLI::Range(1, 1024));
+    add_threads(command, request.threads);
     command.add_option("--output", request.output, "Folder of results (out/study-NAME)");
     command.add_flag("--quiet", request.quiet, "No progress");
 }
@@ -149,8 +150,7 @@ void add_validation_options(CLI::App& command, ValidationRequest& request) {
                        "Document (docs/validation.md; not at standard: beside the runs)");
     command.add_option("--only", request.only, "One experiment");
     command.add_option("--plan", request.plan, "Runs and expectations (apps/validation.toml)");
-    command.add_option("--threads", request.threads, "Processor cores to use")
-        ->check(CLI::Range(1, 1024));
+    add_threads(command, request.threads);
     command.add_flag("--remeasure", request.remeasure, "Measure all runs anew");
     command.add_flag("--without-runs", request.without_runs, "Take the runs that are there");
 }
@@ -189,8 +189,7 @@ int dispatch(int argc, char** argv) {
 
     CLI::App* run_command = app.add_subcommand("run", "Run a scene");
     add_scene_options(*run_command, request);
-    run_command->add_option("--threads", options.threads, "Processor cores to use")
-        ->check(CLI::Range(1, 1024));
+    add_threads(*run_command, options.threads);
     run_command->add_flag("--plain", options.plain, "The scalar cycle: same bits, slower");
     run_command->add_option("--output", output, "Folder of results (default: out/SCENE)");
     run_command->add_option("--until", until, "End at this extension, such as 5km");
@@ -204,8 +203,7 @@ int dispatch(int argc, char** argv) {
         app.add_subcommand("explain", "Say what a scene would simulate and cost; run nothing");
     add_scene_options(*explain_command, request);
     explain_command->get_option("SCENE")->required(false);
-    explain_command->add_option("--threads", options.threads, "Processor cores to use")
-        ->check(CLI::Range(1, 1024));
+    add_threads(*explain_command, options.threads);
     explain_command->add_flag("--parameters", parameters, "Reference of all parameters");
 
     CLI::App* figures_command = app.add_subcommand("figures", "Draw the figures of a run");
@@ -219,8 +217,7 @@ int dispatch(int argc, char** argv) {
         ->check(CLI::Range(1, 100'000'000));
     bench_command->add_option("--steps", bench_request.steps, "Cycles to time")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}));
-    bench_command->add_option("--threads", bench_request.threads, "Processor cores to use")
-        ->check(CLI::Range(1, 1024));
+    add_threads(*bench_command, bench_request.threads);
     bench_command->add_flag("--plain", bench_request.plain, "The scalar cycle");
     bench_command->add_flag("--unbonded", unbonded, "No contact bonds");
 

@@ -92,8 +92,9 @@ TEST_F(Plan, TheOneThatIsShippedCanBeRead) {
         EXPECT_THAT(scenes, testing::Contains(run.scene)) << run.name;
     for (const ValidationExperiment& x : plan.experiments)
         for (const Expectation& e : x.expectations)
-            if (e.at)
+            if (e.at) {
                 EXPECT_THAT(plan.run(e.run).at, testing::Contains(*e.at)) << e.what;
+            }
 }
 
 TEST_F(Plan, ErrorsNameLineKeyAndCure) {

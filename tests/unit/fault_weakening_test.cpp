@@ -213,10 +213,11 @@ TEST(FaultWeakening, LooseSedimentIsLeftAlone) {
                 c.bonded[k] = 0;
         b.slide(0.0, 1.2 * b.threshold); // sediment on the basin's floor
         b.apply();
-        if (loose)
+        if (loose) {
             EXPECT_EQ(b.weak_discs(), 0);
-        else
+        } else {
             EXPECT_GT(b.weak_discs(), 50);
+        }
     }
 }
 
