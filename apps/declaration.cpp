@@ -233,6 +233,8 @@ std::vector<Parameter> parameters(ElasticBaseParameters& p) {
          "softest modes of the base that move in scheme modal; 0: all"},
         {"mass_factor", &p.mass_factor, "", {.from = 0.6, .to = 1e6, .reason = "below, contacts and base are unstable"}, "",
          "modal mass over (stiffness + contact stiffness) times the squared update interval"},
+        {"swing_damping", &p.swing_damping, "", {.from = 0, .to = 10}, "",
+         "of the modes of scheme modal with the discs they carry, over critical damping"},
         {"disc_damping", one_of({"relative", "absolute"}, p.relative_damping), "", {}, "",
          "against the discs' mean motion, or as PFC does, which holds sinking rock up"},
         {"averaging_time_s", &p.averaging_time, "s", {.above = 0, .to = 1e9}, "",

@@ -51,6 +51,7 @@ CouplingParameters make_coupling_parameters(const Scene& scene, double node_spac
     p.interval = base.update_interval;
     p.modes = base.modes;
     p.mass_factor = base.mass_factor;
+    p.swing_damping = base.swing_damping;
     p.damping = scene.cycle.damping;
     p.contact_stiffness = node_stiffness(scene.basement, make_materials(scene), node_spacing,
                                          scene.hanging_wall->mean_radius);

@@ -266,19 +266,34 @@ void ElasticBase::respond(State& state, const Clock& clock) {
     seconds += std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
+/// Mean mass of the settled discs on a node, kg per metre. Modes are orthonormal, so that each
+/// carries about as much.
+double ElasticBase::carried_mass(const State& state) const {
+    const auto weight = state.base_nodes.get<double>("reference_load_y");
+    return -std::accumulate(weight.begin(), weight.end(), 0.0) /
+           (parameters_.gravity * static_cast<double>(weight.size()));
+}
+
 /// Newton's law for every mode, with the mass that makes its step `step` stable whatever its
-/// stiffness and that of the contacts on it.
+/// stiffness and that of the contacts on it. On soft springs it is the discs' mass that swings, too
+/// slowly for their damping against their mean motion; a dashpot ends that, c = 2 zeta sqrt(k m). A
+/// base that sinks steadily lags behind its load by 2 zeta sqrt(m / k) s. The dashpot's force is
+/// taken at the step's end, which is stable for any c.
 void ElasticBase::move_modes(State& state, double step) {
     Table& memory = state.base_memory["modes"];
     const auto displacement = memory.get<double>("displacement");
     const auto velocity = memory.get<double>("velocity");
     add_rows(modes_.by_unknown, load_, modal_load_);
+    const double carried = carried_mass(state);
     for (std::size_t k = 0; k < displacement.size(); ++k) {
         const double stiffness = 1.0 / modes_.compliance[k];
         const double mass =
             parameters_.mass_factor * (stiffness + parameters_.contact_stiffness) * step * step;
-        const double force = modal_load_[k] - stiffness * displacement[k];
-        velocity[k] += damped(force, velocity[k], parameters_.damping) / mass * step;
+        const double dashpot =
+            2.0 * parameters_.swing_damping * std::sqrt(stiffness * (mass + carried));
+        const double force = modal_load_[k] - stiffness * displacement[k] - dashpot * velocity[k];
+        velocity[k] +=
+            damped(force, velocity[k], parameters_.damping) / (mass + dashpot * step) * step;
         displacement[k] += velocity[k] * step;
     }
     add_rows(modes_.by_mode, velocity, velocity_);
@@ -375,15 +390,16 @@ double ElasticBase::advance_iterated(State& state, const RigidBase& base,
                 std::ranges::transform(residual, before, change.begin(), std::minus());
                 std::vector<double> found = times(change, false);
                 const std::vector<double> left = times(step, true);
-                const double scale = std::inner_product(found.begin(), found.end(), step.begin(), 0.0);
+                const double scale =
+                    std::inner_product(found.begin(), found.end(), step.begin(), 0.0);
                 std::ranges::transform(found, step, found.begin(), std::plus());
                 if (scale != 0.0)
                     for (std::size_t i = 0; i < n; ++i)
                         for (std::size_t k = 0; k < n; ++k)
                             gives[i * n + k] -= found[i] * left[k] / scale;
             }
-            if (n_computed % patience == 0) // contacts have opened and closed: what was found is old
-                gives = at_first;
+            if (n_computed % patience == 0)
+                gives = at_first; // contacts have opened and closed: what was found is old
             // How far the base is from where these loads alone would hold it.
             const double off = largest(displacement(residual));
             const BaseNodeColumns tried = base_node_columns(state);

@@ -21,10 +21,11 @@ enum class CouplingScheme {
 
 struct CouplingParameters {
     CouplingScheme scheme = CouplingScheme::modal;
-    int interval = 5;         ///< cycles between updates of the base
-    int modes = 0;            ///< softest modes that scheme modal moves; 0: all
-    double mass_factor = 0.6; ///< modal mass over (stiffness + contact stiffness) (interval dt)^2
-    double damping = 0.7;     ///< local, of every mode
+    int interval = 5;           ///< cycles between updates of the base
+    int modes = 0;              ///< softest modes that scheme modal moves; 0: all
+    double mass_factor = 0.6;   ///< modal mass over (stiffness + contact stiffness) (interval dt)^2
+    double damping = 0.7;       ///< local, of every mode
+    double swing_damping = 0.1; ///< share of the critical damping of a mode that carries the discs
     double contact_stiffness = 0.0; ///< of the discs on a node, N/m: see node_stiffness()
     double gravity = 9.81;          ///< m/s^2
     double wall_x = 0.0; ///< of the right wall before extension, m; beyond, the load is virtual
@@ -74,8 +75,8 @@ public:
 
     bool is_iterated() const { return parameters_.scheme == CouplingScheme::strong; }
 
-    /// Advances discs and base by scheme strong: the base has no mass, and rests at the end of every
-    /// interval under the interval's mean loads, to a thousandth of its displacement or a
+    /// Advances discs and base by scheme strong: the base has no mass, and rests at the end of
+    /// every interval under the interval's mean loads, to a thousandth of its displacement or a
     /// ten-thousandth of the discs' mean radius; to a thousandth of that where contacts that open
     /// and close allow no better. Returns how often an interval was computed, in the mean. Throws
     /// NumericalFailure if that is not found.
@@ -105,6 +106,7 @@ public:
 private:
     double collect(State& state, double cycles, double extension);
     void book(State& state, double cycles, double extension, double reaction);
+    double carried_mass(const State& state) const;
     void move_modes(State& state, double step);
     void move_lumped(State& state, double step);
     void move_staggered(State& state, double step);
