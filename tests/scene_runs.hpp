@@ -4,6 +4,7 @@
 
 #include "apps/run.hpp"
 #include "apps/snapshot.hpp"
+#include "tests/small_halfgraben.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -23,11 +25,6 @@ namespace listric::support {
 /// A scene that the tests ship, in tests/scenes.
 inline std::string test_scene(const std::string& name) {
     return (std::filesystem::path(LISTRIC_SOURCE_DIR) / "tests/scenes" / name).string();
-}
-
-inline std::string contents(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 inline bool all_finite(const Table& table) {
@@ -54,6 +51,13 @@ protected:
         unsetenv("PYTHONPATH");
     }
 
+    /// A scene from its text, in small.toml.
+    Scene load(const std::string& text, const std::vector<std::string>& set = {}) const {
+        const std::filesystem::path file = folder / "small.toml";
+        std::ofstream(file) << text;
+        return load_scene({.scene = file.string(), .set = set});
+    }
+
     RunOptions options(const std::string& name) const {
         RunOptions options;
         options.output = folder / name;
@@ -65,6 +69,18 @@ protected:
     static nlohmann::json run(const Scene& scene, const RunOptions& options) {
         EXPECT_EQ(run_scene(scene, options), RunOutcome::finished);
         return nlohmann::json::parse(contents(options.output / "summary.json"));
+    }
+
+    /// The same in the folder `name`, from the beginning, to `until`, or on from there.
+    nlohmann::json run(const Scene& scene, const std::string& name,
+                       std::optional<double> until = {}, bool resume = false,
+                       int threads = 1) const {
+        RunOptions o = options(name);
+        o.until = until;
+        o.resume = resume;
+        o.force = !resume;
+        o.threads = threads;
+        return run(scene, o);
     }
 
     const std::filesystem::path folder =

@@ -1,35 +1,21 @@
 // A detachment that moves as prescribed, from the scene to the discs.
 
-#include "apps/run.hpp"
-#include "apps/snapshot.hpp"
 #include "dem/base_motion.hpp"
 #include "dem/base_place.hpp"
+#include "tests/scene_runs.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <unistd.h>
 
 namespace listric {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using namespace support;
 using testing::HasSubstr;
 
-const std::string scene = R"([hanging_wall]
-length_m = 4000.0
-thickness_m = 1500.0
-mean_radius_m = 60.0
-[detachment]
-segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
-[extension]
+const std::string scene = small_halfgraben() + R"([extension]
 distance_m = 20.0
 [output]
 interval_m = 10.0
@@ -39,26 +25,10 @@ series = "none"
 [bonds]
 )";
 
-class BaseMotionRun : public testing::Test {
+class BaseMotionRun : public SceneRuns {
 protected:
-    fs::path folder_ = fs::temp_directory_path() / ("listric-motion-" + std::to_string(getpid()));
-
-    BaseMotionRun() {
-        fs::create_directories(folder_ / "python"); // no pictures
-        std::ofstream(folder_ / "python/numpy.py") << "import os\nos._exit(1)\n";
-        setenv("PYTHONPATH", (folder_ / "python").c_str(), 1);
-    }
-    ~BaseMotionRun() override {
-        unsetenv("PYTHONPATH");
-        fs::remove_all(folder_);
-    }
-
     Scene load(const std::string& more, const std::vector<std::string>& set = {}) const {
-        std::ofstream(folder_ / "small.toml") << scene << more;
-        SceneRequest request;
-        request.scene = (folder_ / "small.toml").string();
-        request.set = set;
-        return load_scene(request);
+        return SceneRuns::load(scene + more, set);
     }
 
     std::string refusal(const std::string& more, const std::vector<std::string>& set = {}) const {
@@ -70,24 +40,8 @@ protected:
         return "";
     }
 
-    fs::path run(const Scene& s, const std::string& name, std::optional<double> until = {},
-                 bool resume = false, int threads = 1) const {
-        RunOptions options;
-        options.output = folder_ / name;
-        options.quiet = true;
-        options.until = until;
-        options.resume = resume;
-        options.force = !resume;
-        options.threads = threads;
-        EXPECT_EQ(run_scene(s, options), RunOutcome::finished);
-        return options.output;
-    }
-
-    static State last_state(const fs::path& output) {
-        return read_snapshot(list_snapshots(output).back()).state;
-    }
-    static json summary(const fs::path& output) {
-        return json::parse(std::ifstream(output / "summary.json"));
+    State last_state(const std::string& name) const {
+        return read_snapshot(list_snapshots(folder / name).back()).state;
     }
 };
 
@@ -96,8 +50,9 @@ uplift = [{time_a = 0.0, points = [[0.0, 7.0]]}, {time_a = 1000.0, points = [[0.
 )";
 
 TEST_F(BaseMotionRun, EvenUpliftMovesAllDiscs) {
-    const State rigid = last_state(run(load(""), "rigid"));
-    const State moved = last_state(run(load(even_uplift), "moved"));
+    run(load(""), "rigid");
+    run(load(even_uplift), "moved");
+    const State rigid = last_state("rigid"), moved = last_state("moved");
     const ConstDiscColumns a = disc_columns(rigid), b = disc_columns(moved);
     std::map<std::int64_t, double> before;
     for (std::size_t i = 0; i < a.id.size(); ++i)
@@ -127,19 +82,19 @@ TEST_F(BaseMotionRun, EvenUpliftMovesAllDiscs) {
 }
 
 TEST_F(BaseMotionRun, EndsInTheSameBitsAfterAResumeAndWithTwoThreads) {
-    std::ofstream(folder_ / "motion.csv") << "time_a,x_m,dx_m,dy_m\n0,0,0,0\n0,4000,0,0\n"
-                                             "2000,0,2,-8\n2000,4000,1,6\n";
+    std::ofstream(folder / "motion.csv") << "time_a,x_m,dx_m,dy_m\n0,0,0,0\n0,4000,0,0\n"
+                                            "2000,0,2,-8\n2000,4000,1,6\n";
     const Scene s = load("[base_motion]\ncsv = \"motion.csv\"\n");
-    const auto whole = summary(run(s, "whole"));
+    const auto whole = run(s, "whole");
     run(s, "parts", 10.0);
-    const auto parts = summary(run(s, "parts", {}, true));
+    const auto parts = run(s, "parts", {}, true);
     EXPECT_EQ(parts["state_hash"], whole["state_hash"]);
-    EXPECT_EQ(summary(run(s, "threads", {}, false, 2))["state_hash"], whole["state_hash"]);
+    EXPECT_EQ(run(s, "threads", {}, false, 2)["state_hash"], whole["state_hash"]);
     EXPECT_THAT(whole["effects"], testing::Contains("base_motion"));
     // What was written reads back without the file.
-    fs::remove(folder_ / "motion.csv");
+    fs::remove(folder / "motion.csv");
     SceneRequest request;
-    request.scene = (folder_ / "whole/scene.toml").string();
+    request.scene = (folder / "whole/scene.toml").string();
     const Scene again = load_scene(request);
     EXPECT_EQ(again.base_motion->uplift.size(), 2u);
     EXPECT_EQ(again.base_motion->shift.size(), 2u);
@@ -152,7 +107,7 @@ TEST_F(BaseMotionRun, RefusesWhatMakesNoSense) {
     EXPECT_THAT(refusal(even_uplift, {"extension.rate_m_per_a=0.0001"}),
                 HasSubstr("moves 100 times as fast as extension, allowed: at most 5"));
     EXPECT_THAT(refusal("[base_motion]\ncsv = \"none.csv\"\n"), HasSubstr("no such file"));
-    std::ofstream(folder_ / "bad.csv") << "time_a,x_m\n0,0\n";
+    std::ofstream(folder / "bad.csv") << "time_a,x_m\n0,0\n";
     EXPECT_THAT(refusal("[base_motion]\ncsv = \"bad.csv\"\n"),
                 HasSubstr("bad.csv:1: has no column uplift_m"));
 }

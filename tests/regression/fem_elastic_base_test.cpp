@@ -2,39 +2,26 @@
 
 #include "apps/explain.hpp"
 #include "apps/footwall_request.hpp"
-#include "apps/run.hpp"
-#include "apps/snapshot.hpp"
+#include "tests/scene_runs.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace listric {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using namespace support;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
 /// 400 discs on a crust of 5 km, so slow that the base keeps up with its load (it takes 75 s to
 /// follow); loads so large that they show in 60 m of extension.
-const std::string scene = R"([hanging_wall]
-length_m = 4000.0
-thickness_m = 1500.0
-mean_radius_m = 60.0
-[detachment]
-segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
-[extension]
+const std::string scene = small_halfgraben() + R"([extension]
 distance_m = 60.0
 speed_m_per_s = 0.1
 [output]
@@ -60,36 +47,16 @@ interval_a = 1000.0
 width_m = 20000.0
 )";
 
-class ElasticBaseRun : public testing::Test {
+class ElasticBaseRun : public SceneRuns {
 protected:
-    fs::path folder_ = fs::temp_directory_path() / ("listric-elastic-" + std::to_string(getpid()));
-
-    ElasticBaseRun() {
-        fs::create_directories(folder_ / "python"); // no pictures
-        std::ofstream(folder_ / "python/numpy.py") << "import os\nos._exit(1)\n";
-        setenv("PYTHONPATH", (folder_ / "python").c_str(), 1);
-    }
-    ~ElasticBaseRun() override {
-        unsetenv("PYTHONPATH");
-        fs::remove_all(folder_);
-    }
-
-    std::string file(const std::string& more = "") const {
-        const fs::path path = folder_ / "small.toml";
-        std::ofstream(path) << scene << more;
-        return path.string();
-    }
     Scene load(const std::string& more = "", const std::vector<std::string>& set = {}) const {
-        SceneRequest request;
-        request.scene = file(more);
-        request.set = set;
-        return load_scene(request);
+        return SceneRuns::load(scene + more, set);
     }
     std::string refusal(const std::vector<std::string>& set, const std::string& more = "") const {
         try {
             const Scene s = load(more, set);
             RunOptions options;
-            options.output = folder_ / "refused";
+            options.output = folder / "refused";
             options.quiet = options.force = true;
             run_scene(s, options);
         } catch (const SceneError& error) {
@@ -98,18 +65,6 @@ protected:
             return error.what();
         }
         return "";
-    }
-    json run(const Scene& s, const std::string& name, std::optional<double> until = {},
-             bool resume = false, int threads = 1) const {
-        RunOptions options;
-        options.output = folder_ / name;
-        options.quiet = true;
-        options.until = until;
-        options.resume = resume;
-        options.force = !resume;
-        options.threads = threads;
-        EXPECT_EQ(run_scene(s, options), RunOutcome::finished);
-        return json::parse(std::ifstream(options.output / "summary.json"));
     }
 };
 
@@ -208,7 +163,7 @@ TEST_F(ElasticBaseRun, RefusesBadInput) {
 
 TEST_F(ElasticBaseRun, RefusesAnInvertedMesh) {
     std::ifstream in(LISTRIC_SOURCE_DIR "/meshes/lis1-footwall.msh");
-    std::ofstream out(folder_ / "inverted.msh");
+    std::ofstream out(folder / "inverted.msh");
     bool turned = false;
     for (std::string line; std::getline(in, line); out << line << '\n') {
         std::istringstream words(line);
@@ -221,7 +176,7 @@ TEST_F(ElasticBaseRun, RefusesAnInvertedMesh) {
     }
     out.close();
     ASSERT_TRUE(turned);
-    EXPECT_THAT(refusal({"elastic_base.mesh_file=" + (folder_ / "inverted.msh").string()}),
+    EXPECT_THAT(refusal({"elastic_base.mesh_file=" + (folder / "inverted.msh").string()}),
                 HasSubstr("is inverted or folded"));
 }
 
@@ -229,9 +184,9 @@ TEST_F(ElasticBaseRun, LayersAndSidesAreWrittenAndReadBack) {
     const Scene s = load("", {"elastic_base.layers=[{top_depth_m=0.0, young_modulus_pa=5e10},"
                               "{top_depth_m=2000.0, poisson_ratio=0.3}]",
                               "elastic_base.left_side=elastic", "elastic_base.refinements=1"});
-    std::ofstream(folder_ / "again.toml") << to_toml(s);
+    std::ofstream(folder / "again.toml") << to_toml(s);
     SceneRequest request;
-    request.scene = (folder_ / "again.toml").string();
+    request.scene = (folder / "again.toml").string();
     const Scene again = load_scene(request);
     ASSERT_EQ(again.elastic_base->layers.size(), 2u);
     EXPECT_EQ(again.elastic_base->layers[0].young_modulus, 5e10);
@@ -243,9 +198,11 @@ TEST_F(ElasticBaseRun, LayersAndSidesAreWrittenAndReadBack) {
 }
 
 TEST_F(ElasticBaseRun, AMissingPluginIsNamedWithWhatToInstall) {
-    const std::string call = fmt::format("LISTRIC_FEM_PLUGIN=/nowhere/none.so {} run {} --output "
-                                         "{}/out --quiet 2>&1",
-                                         LISTRIC_PROGRAM, file(), folder_.string());
+    load(); // leaves its file
+    const std::string call =
+        fmt::format("LISTRIC_FEM_PLUGIN=/nowhere/none.so {0} run {1}/small.toml "
+                    "--output {1}/out --quiet 2>&1",
+                    LISTRIC_PROGRAM, folder.string());
     FILE* pipe = popen(call.c_str(), "r");
     ASSERT_TRUE(pipe);
     std::string said;

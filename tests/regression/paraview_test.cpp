@@ -5,6 +5,7 @@
 #include "dem/contacts.hpp"
 #include "dem/monitor.hpp"
 #include "dem/units.hpp"
+#include "tests/small_halfgraben.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -25,16 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using support::contents;
 using testing::HasSubstr;
 
 // 565 discs; sediment, weak discs and broken bonds in 300 m of extension.
-const std::string small_scene = R"([hanging_wall]
-length_m = 4000.0
-thickness_m = 1500.0
-mean_radius_m = 50.0
-[detachment]
-segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
-[extension]
+const std::string small_scene = support::small_halfgraben("50.0") + R"([extension]
 distance_m = 300.0
 speed_m_per_s = 4.0
 ramp_s = 2.0
@@ -53,11 +49,6 @@ interval_a = 6000.0
 
 /// Largest relative error of a double that is stored as a float.
 constexpr double single_precision = 6e-8;
-
-std::string contents(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Replaces the first occurrence in a file by words of the same length.
 void replace(const fs::path& file, const std::string& what, const std::string& with) {

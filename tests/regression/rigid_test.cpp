@@ -1,6 +1,8 @@
 // A rigid scene costs nothing of what an elastic base needs: the program neither links nor loads
 // finite elements, linear algebra or MPI.
 
+#include "tests/small_halfgraben.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,13 +23,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-const char* scene = R"([hanging_wall]
-length_m = 4000.0
-thickness_m = 1500.0
-mean_radius_m = 50.0
-[detachment]
-segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
-[extension]
+const std::string scene = support::small_halfgraben("50.0") + R"([extension]
 distance_m = 300.0
 [output]
 interval_m = 1.0

@@ -4,6 +4,7 @@
 #include "apps/effects.hpp"
 #include "apps/run.hpp"
 #include "dem/cycle.hpp"
+#include "tests/small_halfgraben.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,6 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using support::contents;
 using testing::AllOf;
 using testing::Contains;
 using testing::Each;
@@ -41,13 +43,7 @@ using testing::SizeIs;
 using testing::StartsWith;
 
 // 565 discs, every effect, each at least twice in 300 m of extension.
-const std::string small_scene = R"([hanging_wall]
-length_m = 4000.0
-thickness_m = 1500.0
-mean_radius_m = 50.0
-[detachment]
-segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
-[extension]
+const std::string small_scene = support::small_halfgraben("50.0") + R"([extension]
 distance_m = 300.0
 speed_m_per_s = 4.0
 ramp_s = 2.0
@@ -67,11 +63,6 @@ interval_a = 6000.0
 
 /// Long enough to be caught in the middle.
 const std::string slowly = "extension.speed_m_per_s=0.5";
-
-std::string contents(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void write(const fs::path& file, const std::string& text) {
     fs::create_directories(file.parent_path());

@@ -1,6 +1,8 @@
 // `listric validate` on a scene of a few hundred discs: it makes the runs, resumes where it was
 // stopped, measures and writes.
 
+#include "tests/small_halfgraben.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,17 +16,12 @@
 namespace {
 
 namespace fs = std::filesystem;
+using listric::support::contents;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string scene = R"([hanging_wall]
-length_m = 4000.0
-thickness_m = 1500.0
-mean_radius_m = 60.0
-[detachment]
-segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
-[extension]
+const std::string scene = listric::support::small_halfgraben() + R"([extension]
 distance_m = 200.0
 speed_m_per_s = 4.0
 ramp_s = 2.0
@@ -70,11 +67,6 @@ title = "Second"
 runs = "plain"
 expect = [{measure = "extension_m", what = "reached", least = 1, source = "scene"}]
 )";
-
-std::string contents(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 class ValidationTest : public testing::Test {
 protected:
