@@ -41,9 +41,9 @@ TEST_F(CoupledRun, HasTheRecordedUpliftAndKeepsTheLoad) {
     EXPECT_LT(one["interface_force_error"].get<double>(), 1e-12);
     EXPECT_LT(one["interface_moment_error"].get<double>(), 1e-12);
     EXPECT_LT(one["interface_work_error"].get<double>(), 1e-12);
-    // Recorded: 21.60 m. Another machine's linear algebra rounds otherwise, and the discs take
-    // another path. The tenth is an allowance for that; its spread over seeds is not measured yet.
-    EXPECT_NEAR(one["footwall_uplift_m"].get<double>(), 21.60, 2.2);
+    // Seeds 1 to 3: 23.4, 20.3, 21.5 m, their mean is recorded. Another machine's linear algebra
+    // rounds otherwise, and the discs take another path: as far apart as another seed's.
+    EXPECT_NEAR(one["footwall_uplift_m"].get<double>(), 21.7, 2.2);
     run("two", 2, 110.0);
     const json two = run("two", 1, {}, true);
     EXPECT_EQ(one["state_hash"], two["state_hash"]);
