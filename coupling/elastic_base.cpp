@@ -1,6 +1,7 @@
 #include "coupling/elastic_base.hpp"
 
 #include "coupling/footwall_loads.hpp"
+#include "dem/damping.hpp"
 #include "dem/law.hpp"
 
 #include <algorithm>
@@ -14,11 +15,6 @@ namespace listric {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-/// The force less local damping, as of the discs.
-double damped(double force, double velocity, double damping) {
-    return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
-}
 
 double norm(std::span<const double> v) {
     return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));

@@ -3,6 +3,7 @@
 #include "dem/base_contact.hpp"
 #include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
+#include "dem/damping.hpp"
 #include "dem/energy.hpp"
 #include "dem/fast_cycle.hpp"
 #include "dem/law.hpp"
@@ -223,11 +224,6 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
             enter_losses(d, c, k, pairs(d.material[i], d.material[j]), was_bonded, before,
                          state.clock.time_step, account->flows);
     }
-}
-
-/// The force less local damping; what is at rest is not damped.
-double damped(double force, double velocity, double damping) {
-    return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
 }
 
 /// Newton's law for every disc; `stretch_rate` is the base's du_x/dx, 1/s. Returns the largest

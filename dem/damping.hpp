@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cmath>
+
+namespace listric {
+
+/// The force less local damping: a share of its size that opposes the velocity, so that steady
+/// motion is free [Itasca 1999, as cited by the paper]. What is at rest is not damped.
+inline double damped(double force, double velocity, double damping) {
+    return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
+}
+
+} // namespace listric
