@@ -775,7 +775,15 @@ TEST_F(SceneTest, ElasticBasesReadBackTheSame) {
     for (int trial = 0; trial < 50; ++trial) {
         Scene scene = load_scene({.scene = "flexure"});
         const double x = std::uniform_real_distribution(0.0, 0.5)(random);
-        *scene.elastic_base = {1e4 * (1 + x), 1e11 * x + 1e6, x, 2700 + x, 3300 + x, x, 7, 1};
+        ElasticBaseParameters& base = *scene.elastic_base;
+        base.elastic_thickness = 1e4 * (1 + x);
+        base.young_modulus = 1e11 * x + 1e6;
+        base.poisson_ratio = x;
+        base.crust_density = 2700 + x;
+        base.mantle_density = 3300 + x;
+        base.infill_density = x;
+        base.cells = 7;
+        base.degree = 1;
         *scene.flexure = {FlexureLoad::strip, 1e12 * (1 + x), 1e7 * (1 + x), 1e4 * (1 + x),
                           1e5 + x};
         ASSERT_EQ(bits(load(to_toml(scene))), bits(scene));
