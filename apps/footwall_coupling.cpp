@@ -42,6 +42,15 @@ std::vector<double> equivalent_forces(const ElasticBase& base, std::span<const d
     return forces;
 }
 
+/// The largest size of a value; windows without one do not count.
+double largest(std::span<const double> values) {
+    double most = 0.0;
+    for (const double value : values)
+        if (std::abs(value) > most)
+            most = std::abs(value);
+    return most;
+}
+
 /// Name of the table of the mean forces and displacements of the window that ended last.
 constexpr const char* last_window = "last_window";
 
@@ -183,9 +192,6 @@ std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& 
     const InterfaceBalance balance = interface_balance(state, rigid);
     recover(state);
     const fem::Guard guard = footwall_->guard();
-    double deflection = 0.0;
-    for (const double u : nodes.uy)
-        deflection = std::max(deflection, std::abs(u));
     if (window.cycles > 0.0)
         state.base_memory[last_window] = base_->window_means(state);
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -193,7 +199,7 @@ std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& 
     std::vector<std::pair<std::string, double>> row = {
         {"footwall_uplift_m", nodes.uy[0]},
         {"breakaway_shift_m", nodes.ux[0]},
-        {"base_deflection_max_m", deflection},
+        {"base_deflection_max_m", largest(nodes.uy)},
         {"interface_force_error", balance.force_error},
         {"interface_moment_error", balance.moment_error},
         {"interface_work_error", balance.work_error},
@@ -246,34 +252,32 @@ void FootwallCoupling::write(const fs::path& output, const State& state) const {
     }
 }
 
-std::vector<std::pair<std::string, double>> footwall_summary(const Table& history) {
+std::vector<std::pair<std::string, double>> footwall_summary(const Table& history,
+                                                             const State& state) {
     if (!history.has("footwall_uplift_m"))
         return {};
     const auto column = [&](const char* name) { return history.get<double>(name); };
-    const auto largest = [&](const char* name) {
-        double most = 0.0;
-        for (const double value : column(name))
-            if (std::abs(value) > most)
-                most = std::abs(value);
-        return most;
-    };
     double sum = 0.0, windows = 0.0;
     for (const double error : column("base_reaction_error"))
         if (!std::isnan(error)) {
             sum += error;
             ++windows;
         }
-    std::vector<std::pair<std::string, double>> measures;
-    for (const char* name : {"footwall_uplift_m", "breakaway_shift_m", "base_deflection_max_m"})
-        measures.emplace_back(name, column(name).back());
+    // Where the base is now: the run may have been ended within a window.
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    std::vector<std::pair<std::string, double>> measures = {
+        {"footwall_uplift_m", nodes.uy[0]},
+        {"breakaway_shift_m", nodes.ux[0]},
+        {"base_deflection_max_m", largest(nodes.uy)},
+    };
     for (const char* name :
          {"interface_force_error", "interface_moment_error", "interface_work_error"})
-        measures.emplace_back(name, largest(name));
+        measures.emplace_back(name, largest(column(name)));
     measures.emplace_back("base_reaction_error", windows > 0.0 ? sum / windows : 0.0);
     for (const char* name : {"net_wall_load_n_per_m", "net_wall_load_error"})
         measures.emplace_back(name, column(name).back());
     for (const char* name : {"strong_rock_strain_max", "relaxed_rock_strain_max"})
-        measures.emplace_back(name, largest(name));
+        measures.emplace_back(name, largest(column(name)));
     for (const char* name :
          {"lower_crust_thinning_m", "footwall_eroded_m2", "footwall_deposited_m2"})
         if (history.has(name))

@@ -65,7 +65,8 @@ private:
     std::unique_ptr<ElasticBase> base_;
 };
 
-/// The footwall's measures over a run for summary.json, from its history.
-std::vector<std::pair<std::string, double>> footwall_summary(const Table& history);
+/// The footwall's measures over a run for summary.json, from its history and its end.
+std::vector<std::pair<std::string, double>> footwall_summary(const Table& history,
+                                                             const State& state);
 
 } // namespace listric

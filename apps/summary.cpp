@@ -170,7 +170,7 @@ std::string summary_json(const Scene& scene, int threads, const State& state,
         if (value && std::isfinite(*value))
             json[name] = *value;
     });
-    for (const auto& [name, value] : footwall_summary(record.history))
+    for (const auto& [name, value] : footwall_summary(record.history, state))
         if (std::isfinite(value))
             json[name] = value;
     if (record.base_elements_difference)
