@@ -757,6 +757,13 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
                                                failure.what(), retry_hint(scene, output)));
         throw NumericalFailure(fmt::format("{}\nthe last good state is {}; {}", failure.what(),
                                            snapshots.back().string(), retry_hint(scene, output)));
+    } catch (const StorageError& failure) {
+        const auto snapshots = list_snapshots(output);
+        if (snapshots.empty())
+            throw;
+        throw StorageError(
+            fmt::format("{}\nthe last good state is {}; once files can be written, {}",
+                        failure.what(), snapshots.back().string(), resume_hint(output)));
     }
 }
 

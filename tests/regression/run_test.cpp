@@ -669,7 +669,9 @@ TEST_F(RunTest, AFullDiskKeepsTheLastGoodSnapshot) {
         });
         EXPECT_EQ(ended.code, 4) << ended.err;
         EXPECT_THAT(ended.err,
-                    AllOf(HasSubstr((output / "snapshots").string()), HasSubstr("too large")));
+                    AllOf(HasSubstr((output / "snapshots").string()), HasSubstr("too large"),
+                          HasSubstr("last good state is " + before.back().string()),
+                          HasSubstr("resume with: ")));
         EXPECT_EQ(list_snapshots(output), before);
         EXPECT_THAT(names_ending(output, ".part"), IsEmpty());
         expect_whole_files(output);
