@@ -3,6 +3,7 @@
 #include "apps/footwall_request.hpp"
 #include "apps/run.hpp"
 #include "apps/snapshot.hpp"
+#include "dem/units.hpp"
 
 #include <fmt/format.h>
 
@@ -16,9 +17,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The strain at which linear elasticity ends: rock that carries bending breaks beyond 2 %; what is
-// relaxed flows, and only its bulk is still meant.
-constexpr double relaxed_strain_allowed = 0.10;
+// Where linear elasticity ends: rock that carries bending breaks beyond 2 %; what is relaxed flows,
+// and only its bulk is still meant. A rotation by r is a strain of r^2 / 2 that is overlooked.
+constexpr double strain_allowed = 0.10;
+constexpr double rotation_allowed = 0.20;
 
 /// Of mantle and crust, times gravity, Pa/m.
 double mantle_contrast(const Scene& scene) {
@@ -191,7 +193,8 @@ std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& 
     const WindowBalance window = base_->window(state);
     const InterfaceBalance balance = interface_balance(state, rigid);
     recover(state);
-    const fem::Guard guard = footwall_->guard();
+    const fem::Guard guard =
+        footwall_->guard(scene_.elastic_base->crust_density * scene_.gravity->acceleration);
     if (window.cycles > 0.0)
         state.base_memory[last_window] = base_->window_means(state);
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -207,8 +210,10 @@ std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& 
         {"net_wall_load_n_per_m", window.cycles > 0.0 ? window.net_load : nan},
         {"weight_change_n_per_m", window.cycles > 0.0 ? window.weight_change : nan},
         {"net_wall_load_error", loaded ? window.net_load / window.weight_change - 1.0 : nan},
-        {"strong_rock_strain_max", guard.strong_gradient},
-        {"relaxed_rock_strain_max", guard.relaxed_gradient},
+        {"strong_rock_strain_max", guard.strong_strain},
+        {"relaxed_rock_strain_max", guard.relaxed_strain},
+        {"rock_rotation_max_deg", guard.rotation * 180.0 / pi},
+        {"beyond_byerlee_m2", guard.beyond_byerlee},
     };
     if (scene_.lower_crust_thinning)
         row.emplace_back("lower_crust_thinning_m",
@@ -219,14 +224,15 @@ std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& 
         row.emplace_back("footwall_deposited_m2", deposited);
     }
     base_->begin_window(state);
-    if (!(guard.relaxed_gradient <= relaxed_strain_allowed) ||
-        !std::isfinite(guard.strong_gradient))
-        throw NumericalFailure(fmt::format(
-            "the footwall's relaxed rock is strained by {:.0f} % at {:.0f} m of extension, more "
-            "than the {:.0f} % that linear elasticity can mean; a greater "
-            "elastic_base.elastic_thickness_m or skin_thickness_m, or a smaller relaxation, "
-            "stiffens it",
-            100.0 * guard.relaxed_gradient, state.clock.extension, 100.0 * relaxed_strain_allowed));
+    const double strain = std::max(guard.strong_strain, guard.relaxed_strain);
+    if (strain > strain_allowed || guard.rotation > rotation_allowed)
+        throw BeyondElasticity(fmt::format(
+            "the footwall is strained by {:.1f} % and turned by {:.1f} degrees at {:.0f} m of "
+            "extension; linear elasticity means up to {:.0f} % and {:.1f} degrees. A greater "
+            "elastic_base.young_modulus_pa, elastic_thickness_m or skin_thickness_m, or a smaller "
+            "relaxation, stiffens it",
+            100.0 * strain, guard.rotation * 180.0 / pi, state.clock.extension,
+            100.0 * strain_allowed, rotation_allowed * 180.0 / pi));
     return row;
 }
 
@@ -276,7 +282,8 @@ std::vector<std::pair<std::string, double>> footwall_summary(const Table& histor
     measures.emplace_back("base_reaction_error", windows > 0.0 ? sum / windows : 0.0);
     for (const char* name : {"net_wall_load_n_per_m", "net_wall_load_error"})
         measures.emplace_back(name, column(name).back());
-    for (const char* name : {"strong_rock_strain_max", "relaxed_rock_strain_max"})
+    for (const char* name : {"strong_rock_strain_max", "relaxed_rock_strain_max",
+                             "rock_rotation_max_deg", "beyond_byerlee_m2"})
         measures.emplace_back(name, largest(column(name)));
     for (const char* name :
          {"lower_crust_thinning_m", "footwall_eroded_m2", "footwall_deposited_m2"})

@@ -5,6 +5,7 @@
 #include "coupling/footwall_loads.hpp"
 #include "coupling/independent_solution.hpp"
 #include "dem/base.hpp"
+#include "dem/cycle.hpp"
 #include "dem/state.hpp"
 #include "fem/footwall.hpp"
 
@@ -17,6 +18,11 @@
 #include <vector>
 
 namespace listric {
+
+/// The footwall is strained or turned by more than linear elasticity can mean.
+struct BeyondElasticity : NumericalFailure {
+    using NumericalFailure::NumericalFailure;
+};
 
 /// The elastic footwall of a run: made from the scene when the run starts or resumes. All that it
 /// remembers is in the state.
@@ -43,8 +49,7 @@ public:
     std::vector<std::string> description() const;
 
     /// The measures of the window that ends, as columns of history.csv, and begins the next window.
-    /// Recovers the field of the whole footwall for the strains. Throws NumericalFailure if relaxed
-    /// rock is strained beyond what linear elasticity can mean.
+    /// Recovers the field of the whole footwall for the strains. Throws BeyondElasticity.
     std::vector<std::pair<std::string, double>> end_window(State& state, const RigidBase& rigid);
 
     /// The field of the whole footwall at that moment.

@@ -485,6 +485,12 @@ std::string resume_hint(const fs::path& output) {
                        quoted(output.string()));
 }
 
+std::string last_good(const fs::path& output) {
+    const auto snapshots = list_snapshots(output);
+    return snapshots.empty() ? "it happened before the first snapshot"
+                             : "the last good state is " + snapshots.back().string();
+}
+
 /// A run repeats itself to the last bit, so it would fail again: it needs another step, or speed.
 std::string retry_hint(const Scene& scene, const fs::path& output) {
     return fmt::format("resumed it would end the same way; a smaller time step or speed may help, "
@@ -750,13 +756,11 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
         voice.say("stopped at " + fmt::format("{:.2f}", run.state.clock.extension) +
                   " m of extension; " + resume_hint(output));
         return RunOutcome::interrupted;
+    } catch (const BeyondElasticity& limit) {
+        throw NumericalFailure(fmt::format("{}\n{}, and valid", limit.what(), last_good(output)));
     } catch (const NumericalFailure& failure) {
-        const auto snapshots = list_snapshots(output);
-        if (snapshots.empty())
-            throw NumericalFailure(fmt::format("{}\nit happened before the first snapshot; {}",
-                                               failure.what(), retry_hint(scene, output)));
-        throw NumericalFailure(fmt::format("{}\nthe last good state is {}; {}", failure.what(),
-                                           snapshots.back().string(), retry_hint(scene, output)));
+        throw NumericalFailure(fmt::format("{}\n{}; {}", failure.what(), last_good(output),
+                                           retry_hint(scene, output)));
     } catch (const StorageError& failure) {
         const auto snapshots = list_snapshots(output);
         if (snapshots.empty())

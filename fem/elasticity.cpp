@@ -78,6 +78,15 @@ dealii::Quadrature<1> in_parts(const dealii::Quadrature<1>& points, std::vector<
     return {place, weight};
 }
 
+/// Whether a plane slides under a stress whose Mohr circle has this centre (pressure > 0) and
+/// radius, Pa: its circle crosses one of the two lines of Byerlee's law.
+bool beyond_byerlee(double pressure, double radius) {
+    const auto crosses = [&](double friction, double cohesion) {
+        return radius * std::hypot(1.0, friction) > cohesion + friction * pressure;
+    };
+    return crosses(0.85, 0.0) || crosses(0.6, 60e6);
+}
+
 /// Stress, elastic moduli and density at the points of output.
 class StressOutput : public dealii::DataPostprocessor<2> {
 public:
@@ -151,7 +160,7 @@ public:
     std::vector<StressPatch> stress() const override;
     FieldError error(const ExactField& exact) const override;
     Vector reaction() const override;
-    Guard guard() const override;
+    Guard guard(double rock_weight) const override;
     void refine(double share_of_cells) override;
     void write(const std::string& folder, const std::string& name) const override;
 
@@ -915,7 +924,7 @@ Vector ElasticFootwall::reaction() const {
             dealii::Utilities::MPI::sum(sums[1], processes)};
 }
 
-Guard ElasticFootwall::guard() const {
+Guard ElasticFootwall::guard(double rock_weight) const {
     require_solution();
     const dealii::QGauss<2> points = quadrature();
     dealii::FEValues<2> values(mapping_, element_, points, volume_flags);
@@ -926,14 +935,26 @@ Guard ElasticFootwall::guard() const {
         values.reinit(cell);
         values[u].get_function_gradients(displacement_, slopes);
         for (unsigned q = 0; q < points.size(); ++q) {
-            double& most = material_.at(plain(values.quadrature_point(q))).relaxed
-                               ? guard.relaxed_gradient
-                               : guard.strong_gradient;
-            most = std::max(most, slopes[q].norm());
+            const Vector place = plain(values.quadrature_point(q));
+            const Rock rock = material_.at(place);
+            const Tensor<2, 2>& slope = slopes[q];
+            // Centre and radius of the strain's Mohr circle.
+            const double centre = 0.5 * (slope[0][0] + slope[1][1]);
+            const double radius =
+                0.5 * std::hypot(slope[0][0] - slope[1][1], slope[0][1] + slope[1][0]);
+            double& most = rock.relaxed ? guard.relaxed_strain : guard.strong_strain;
+            most = std::max(most, std::abs(centre) + radius);
+            guard.rotation = std::max(guard.rotation, 0.5 * std::abs(slope[1][0] - slope[0][1]));
+            const double pressure =
+                -rock_weight * place.y - 2.0 * (rock.lambda + rock.mu) * centre;
+            if (!rock.relaxed && beyond_byerlee(pressure, 2.0 * rock.mu * radius))
+                guard.beyond_byerlee += values.JxW(q);
         }
     });
-    return {dealii::Utilities::MPI::max(guard.strong_gradient, processes),
-            dealii::Utilities::MPI::max(guard.relaxed_gradient, processes)};
+    return {dealii::Utilities::MPI::max(guard.strong_strain, processes),
+            dealii::Utilities::MPI::max(guard.relaxed_strain, processes),
+            dealii::Utilities::MPI::max(guard.rotation, processes),
+            dealii::Utilities::MPI::sum(guard.beyond_byerlee, processes)};
 }
 
 void ElasticFootwall::refine(double share_of_cells) {

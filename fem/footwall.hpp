@@ -141,10 +141,15 @@ struct FieldError {
     double l2 = 0.0, h1 = 0.0;
 };
 
-/// Largest strains of the last solution: the guard of linear elasticity.
+/// What tells whether the last solution is one of linear elasticity. Strains are the largest
+/// principal ones of (grad u + grad u^T) / 2, without sign.
 struct Guard {
-    double strong_gradient = 0.0;  ///< largest |grad u| in rock that is not relaxed
-    double relaxed_gradient = 0.0; ///< in relaxed rock
+    double strong_strain = 0.0;  ///< in rock that is not relaxed
+    double relaxed_strain = 0.0; ///< in relaxed rock
+    double rotation = 0.0;       ///< largest in any rock, rad
+    /// Area of rock that is not relaxed where lithostatic pressure and the solution's stress exceed
+    /// Byerlee's law (1978): tau = 0.85 sigma_n, or 60 MPa + 0.6 sigma_n at high pressure; m^2.
+    double beyond_byerlee = 0.0;
 };
 
 /// A footwall that was meshed and whose stiffness is known. Under MPI every call is collective and
@@ -185,7 +190,7 @@ public:
     virtual FieldError error(const ExactField& exact) const = 0;
     virtual Vector reaction() const = 0;   ///< force of springs and sides on the rock, N/m
     virtual Vector total_load() const = 0; ///< sum of the last load, N/m
-    virtual Guard guard() const = 0;
+    virtual Guard guard(double rock_weight) const = 0; ///< weight of rock, N/m^3
 
     /// Refines the cells with the largest jumps of the last solution's gradient (Kelly et al.
     /// 1983). The solution is gone; the interface has no condensed form any more.

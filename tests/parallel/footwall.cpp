@@ -19,7 +19,9 @@ int main() {
     footwall->solve(load);
     std::vector<double> numbers = footwall->interface_displacement();
     numbers.push_back(footwall->reaction().y);
-    numbers.push_back(footwall->guard().strong_gradient);
+    const fem::Guard guard = footwall->guard(2.7e4);
+    for (double number : {guard.strong_strain, guard.rotation, guard.beyond_byerlee})
+        numbers.push_back(number);
     for (const auto& u : footwall->field().displacement)
         numbers.push_back(u.y);
     for (double c : footwall->compliance())

@@ -18,6 +18,7 @@ using namespace support;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 /// 400 discs on a crust of 5 km, so slow that the base keeps up with its load (it takes 75 s to
 /// follow); loads so large that they show in 60 m of extension.
@@ -101,6 +102,22 @@ TEST_F(ElasticBaseRun, ThinningLowersTheBase) {
     EXPECT_GT(with["footwall_deposited_m2"].get<double>(), 15e3 * 5.0);
     EXPECT_FALSE(without.contains("footwall_eroded_m2"));
     EXPECT_FALSE(without.contains("lower_crust_thinning_m"));
+}
+
+TEST_F(ElasticBaseRun, StopsWhereLinearElasticityEnds) {
+    const Scene soft = load(loads.substr(0, loads.find("[footwall")),
+                            {"elastic_base.young_modulus_pa=1e8"});
+    try {
+        run(soft, "soft");
+        FAIL() << "a footwall of clay has carried it";
+    } catch (const NumericalFailure& failure) {
+        // Strained before 60 m; another step or speed would not help, and is not advised.
+        EXPECT_THAT(failure.what(),
+                    AllOf(HasSubstr("linear elasticity means up to 10 % and 11.5 degrees"),
+                          HasSubstr("a smaller relaxation, stiffens it"),
+                          HasSubstr("last good state is"), Not(HasSubstr("time_step_safety"))));
+    }
+    EXPECT_FALSE(list_snapshots(folder / "soft").empty());
 }
 
 TEST_F(ElasticBaseRun, ASecondMeshGivesTheSameBase) {

@@ -109,6 +109,32 @@ TEST_P(Patch, UniformStrainIsExact) {
     EXPECT_LT(error.h1, 1e-10);
 }
 
+/// Strain 2e-3 and -1e-3 with a shear of 3e-4 / 2: Mohr's circle about 5e-4.
+TEST(Guard, OfAUniformStrain) {
+    fem::FootwallRequest request = small_footwall();
+    request.right_side = fem::Side::free;
+    request.cell_size = 1000.0;
+    const auto footwall = fem::make_footwall(request);
+    footwall->solve(load_for(request, linear));
+    const double radius = 0.5 * std::hypot(3e-3, 3e-4);
+    const fem::Guard guard = footwall->guard(2.7e4);
+    EXPECT_NEAR(guard.strong_strain, 5e-4 + radius, 1e-11); // errors of 1e-10 of the solution
+    EXPECT_NEAR(guard.rotation, 1.5e-4, 1e-11);
+    EXPECT_EQ(guard.relaxed_strain, 0.0); // no rock is relaxed
+
+    // 20 GPa of mu and lambda: tension of 40 MPa on lithostatic pressure, shear stress of 40 GPa
+    // times the radius. Byerlee's first line, tau = 0.85 sigma_n, is crossed above a depth d:
+    const double shear = 40e9 * radius;
+    const double d = (shear * std::hypot(1.0, 0.85) / 0.85 + 40e6) / 2.7e4, r = 15e3;
+    const double beside_the_arc =
+        d * (30e3 + r) - 0.5 * (d * std::sqrt(r * r - d * d) + r * r * std::asin(d / r));
+    std::printf("beyond Byerlee %.4g, above %.0f m %.4g m2\n", guard.beyond_byerlee, d,
+                beside_the_arc);
+    // Counted at points that stand for a third of a kilometre's height, of five.
+    EXPECT_NEAR(guard.beyond_byerlee, beside_the_arc, 0.03 * beside_the_arc);
+    EXPECT_EQ(footwall->guard(1e9).beyond_byerlee, 0.0); // rock so heavy that nothing slides
+}
+
 INSTANTIATE_TEST_SUITE_P(Footwall, Patch, testing::Range(0, 4));
 
 class Order : public testing::TestWithParam<int> {};
