@@ -173,6 +173,36 @@ int run(const SceneRequest& request, RunOptions options, const std::optional<std
     return run_scene(scene, options) == RunOutcome::finished ? done : stopped;
 }
 
+void require_known(std::string_view kind, std::string_view word,
+                   const std::vector<std::string>& known) {
+    if (std::ranges::find(known, word) != known.end())
+        return;
+    const auto meant =
+        nearest(word, std::vector<std::string_view>(known.begin(), known.end()));
+    throw UsageError(fmt::format("no {} {}; {}there are {}", kind, word,
+                                 meant ? fmt::format("did you mean {}? ", *meant) : "",
+                                 fmt::join(known, ", ")));
+}
+
+/// Says of a call that could not be understood which word is not known, and what it may mean.
+void refuse_unknown_words(const CLI::App& app, const std::vector<std::string>& words) {
+    const CLI::App* call = &app;
+    if (!words.empty() && !words[0].starts_with("-")) {
+        std::vector<std::string> calls;
+        for (const CLI::App* command : app.get_subcommands({}))
+            calls.push_back(command->get_name());
+        require_known("call", words[0], calls);
+        call = app.get_subcommand(words[0]);
+    }
+    std::vector<std::string> options;
+    for (const CLI::Option* option : call->get_options())
+        for (const std::string& name : option->get_lnames())
+            options.push_back("--" + name);
+    for (const std::string& word : words)
+        if (word.starts_with("--"))
+            require_known("option", word.substr(0, word.find('=')), options);
+}
+
 int dispatch(int argc, char** argv) {
     CLI::App app{"listric: a numerical sandbox for halfgrabens", "listric"};
     app.set_version_flag("--version", std::string(version));
@@ -245,21 +275,11 @@ int dispatch(int argc, char** argv) {
         "validate", "Run the paper's experiments and write what is met and what is missed");
     add_validation_options(*validate_command, validation_request);
 
-    if (argc > 1 && argv[1][0] != '-') {
-        std::vector<std::string_view> calls;
-        for (const CLI::App* command : app.get_subcommands({}))
-            calls.push_back(command->get_name());
-        const std::string_view call = argv[1];
-        if (std::ranges::find(calls, call) == calls.end()) {
-            const auto meant = nearest(call, calls);
-            throw UsageError(fmt::format("no call {}; {}there are {}", call,
-                                         meant ? fmt::format("did you mean {}? ", *meant) : "",
-                                         fmt::join(calls, ", ")));
-        }
-    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0)
+            refuse_unknown_words(app, {argv + 1, argv + argc});
         return app.exit(error) == 0 ? done : bad_call;
     }
 

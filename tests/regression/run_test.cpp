@@ -767,7 +767,7 @@ TEST_F(RunTest, ABadCallIsRefusedBeforeAnythingIsCreated) {
         {{"--until", "-5"}, "--until -5"},
         {{"--until", "nan"}, "--until nan"},
         {{"--until", ""}, "--until"},
-        {{"--untill", "5km"}, "--untill"},
+        {{"--untill", "5km"}, "no option --untill; did you mean --until?"},
         {{"--threads", "0"}, "--threads"},
         {{"--seed", "one"}, "--seed"},
         {{"--seed", "-1"}, "--seed -1"},
@@ -791,6 +791,8 @@ TEST_F(RunTest, ABadCallIsRefusedBeforeAnythingIsCreated) {
     EXPECT_THAT(missing.err, HasSubstr("nowhere.toml: no such file"));
     EXPECT_EQ(call({}).code, 2);
     EXPECT_EQ(call({"rnu"}).code, 2);
+    EXPECT_THAT(call({"rnu"}).err, HasSubstr("did you mean run?"));
+    EXPECT_THAT(call({"--hlep"}).err, HasSubstr("did you mean --help?"));
     EXPECT_EQ(call({"figures", (folder / "nowhere").string()}).code, 2);
 }
 
