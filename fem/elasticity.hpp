@@ -1,0 +1,153 @@
+#pragma once
+
+#include "fem/footwall.hpp"
+#include "fem/material.hpp"
+#include "fem/mesh.hpp"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q_cache.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/petsc_sparse_matrix.h>
+#include <deal.II/lac/petsc_vector.h>
+#include <petscksp.h>
+
+#include <utility>
+
+namespace listric::fem {
+
+using Index = dealii::types::global_dof_index;
+using GlobalVector = dealii::PETScWrappers::MPI::Vector;
+
+inline const MPI_Comm processes = MPI_COMM_WORLD;
+
+inline void must(PetscErrorCode code, const char* what) {
+    if (code)
+        throw FootwallError(std::string("the solver failed: ") + what);
+}
+
+inline Vector plain(const dealii::Point<2>& p) { return {p[0], p[1]}; }
+
+/// Plane-strain elasticity by finite elements of degree 1 or 2: assembled and solved in
+/// elasticity.cpp, condensed to the interface in condensation.cpp, read off in solution.cpp.
+class ElasticFootwall final : public Footwall {
+public:
+    explicit ElasticFootwall(const FootwallRequest& request)
+        : request_(request), mesh_(make_mesh(request, processes)),
+          material_(request, mesh_.detachment),
+          element_(dealii::FE_Q<2>(static_cast<unsigned>(request.degree)), 2),
+          mapping_(static_cast<unsigned>(request.degree)), unknowns_(*mesh_.cells) {
+        set_up();
+    }
+
+    ~ElasticFootwall() override {
+        if (solver_)
+            KSPDestroy(&solver_);
+    }
+
+    MeshFacts mesh() const override { return facts_; }
+    int process() const override {
+        return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(processes));
+    }
+    const std::vector<InterfaceNode>& interface() const override { return nodes_; }
+    const std::vector<InterfaceFace>& interface_faces() const override { return faces_; }
+    int iterations() const override { return iterations_; }
+    Vector total_load() const override { return total_load_; }
+
+    std::vector<double> nodal_forces(std::span<const PointForce> forces) const override;
+    std::vector<double> compliance() override;
+    void solve(const Load& load) override;
+    Responses responses(std::span<const Load> loads) override;
+    std::vector<double> interface_displacement() const override;
+    Field field() const override;
+    std::vector<StressPatch> stress() const override;
+    FieldError error(const ExactField& exact) const override;
+    Vector reaction() const override;
+    Guard guard(double rock_weight) const override;
+    void refine(double share_of_cells) override;
+    void write(const std::string& folder, const std::string& name) const override;
+
+private:
+    static inline const dealii::UpdateFlags volume_flags =
+        dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
+        dealii::update_JxW_values;
+    static inline const dealii::UpdateFlags face_flags =
+        dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values |
+        dealii::update_normal_vectors;
+
+    dealii::QGauss<2> quadrature() const {
+        return dealii::QGauss<2>(static_cast<unsigned>(request_.degree) + 1);
+    }
+    dealii::QGauss<1> face_quadrature() const {
+        return dealii::QGauss<1>(static_cast<unsigned>(request_.degree) + 2);
+    }
+    double spring(int boundary) const {
+        switch (static_cast<Boundary>(boundary)) {
+        case Boundary::surface:
+            return request_.surface_spring;
+        case Boundary::detachment:
+            return request_.detachment_spring;
+        case Boundary::base:
+            return request_.base_spring;
+        default:
+            return 0.0;
+        }
+    }
+    /// Horizontal stiffness of a far side, Pa/m.
+    double side_spring(int boundary, Vector place) const {
+        const Side side = boundary == static_cast<int>(Boundary::left)    ? request_.left_side
+                          : boundary == static_cast<int>(Boundary::right) ? request_.right_side
+                                                                          : Side::free;
+        if (side != Side::elastic)
+            return 0.0;
+        const Rock rock = material_.at(place);
+        return (rock.lambda + 2.0 * rock.mu) / (request_.right - request_.left);
+    }
+
+    void set_up();
+    void measure_mesh();
+    void find_interface();
+    void assemble();
+    void make_solver(bool keep_interface);
+    Mat solver_factors() const;
+    std::pair<GlobalVector, Vector> forces_of(const Load& load) const;
+    GlobalVector displacement_under(const GlobalVector& forces);
+    std::vector<double> at_interface(const GlobalVector& displacement) const;
+    std::vector<double> inverse_of_schur_complement();
+    std::vector<double> unit_solutions();
+    void require_solution() const {
+        if (displacement_.size() == 0)
+            throw FootwallError("the footwall has no solution yet: solve first");
+    }
+    template <class Visit> void for_each_own_cell(Visit&& visit) const {
+        for (const auto& cell : unknowns_.active_cell_iterators())
+            if (cell->is_locally_owned())
+                visit(cell);
+    }
+
+    FootwallRequest request_;
+    Mesh mesh_;
+    Material material_;
+    dealii::FESystem<2> element_;
+    dealii::MappingQCache<2> mapping_;
+    dealii::DoFHandler<2> unknowns_;
+    dealii::IndexSet owned_, relevant_;
+    dealii::AffineConstraints<double> constraints_;
+    dealii::PETScWrappers::MPI::SparseMatrix stiffness_;
+    KSP solver_ = nullptr;
+    GlobalVector displacement_; ///< with ghosts
+    MeshFacts facts_;
+    std::vector<InterfaceNode> nodes_;
+    std::vector<std::array<Index, 2>> node_unknowns_;
+    std::vector<InterfaceFace> faces_;
+    Vector total_load_;
+    int iterations_ = 0;
+    bool refined_ = false;
+    bool keeps_interface_ = false; ///< the factors end at the interface's Schur complement
+};
+
+} // namespace listric::fem

@@ -1,0 +1,251 @@
+// What a solution says: fields, errors, stress, reactions, the guard, files.
+
+#include "fem/elasticity.hpp"
+
+#include <deal.II/numerics/data_out.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric::fem {
+
+using dealii::Point;
+using dealii::Tensor;
+
+namespace {
+
+/// Whether a plane slides under a stress whose Mohr circle has this centre (pressure > 0) and
+/// radius, Pa: its circle crosses one of the two lines of Byerlee's law.
+bool beyond_byerlee(double pressure, double radius) {
+    const auto crosses = [&](double friction, double cohesion) {
+        return radius * std::hypot(1.0, friction) > cohesion + friction * pressure;
+    };
+    return crosses(0.85, 0.0) || crosses(0.6, 60e6);
+}
+
+/// Stress, elastic moduli and density at the points of output.
+class StressOutput : public dealii::DataPostprocessor<2> {
+public:
+    explicit StressOutput(const Material& material) : material_(material) {}
+
+    std::vector<std::string> get_names() const override {
+        return {"stress_xx_pa",     "stress_yy_pa",  "stress_xy_pa",
+                "young_modulus_pa", "poisson_ratio", "density_kg_per_m3"};
+    }
+    std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
+    get_data_component_interpretation() const override {
+        return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
+            6, dealii::DataComponentInterpretation::component_is_scalar);
+    }
+    dealii::UpdateFlags get_needed_update_flags() const override {
+        return dealii::update_gradients | dealii::update_quadrature_points;
+    }
+    void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& in,
+                               std::vector<dealii::Vector<double>>& out) const override {
+        // A cell's rock is that of its middle, lest a layer's edge flicker.
+        Point<2> middle;
+        for (const auto& p : in.evaluation_points)
+            middle += p / static_cast<double>(in.evaluation_points.size());
+        const Rock rock = material_.at(plain(middle));
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            const auto& g = in.solution_gradients[k];
+            const double trace = rock.lambda * (g[0][0] + g[1][1]);
+            out[k](0) = trace + 2.0 * rock.mu * g[0][0];
+            out[k](1) = trace + 2.0 * rock.mu * g[1][1];
+            out[k](2) = rock.mu * (g[0][1] + g[1][0]);
+            out[k](3) = rock.mu * (3.0 * rock.lambda + 2.0 * rock.mu) / (rock.lambda + rock.mu);
+            out[k](4) = 0.5 * rock.lambda / (rock.lambda + rock.mu);
+            out[k](5) = rock.density;
+        }
+    }
+
+private:
+    const Material& material_;
+};
+
+} // namespace
+
+Field ElasticFootwall::field() const {
+    require_solution();
+    const auto units = element_.base_element(0).get_unit_support_points();
+    dealii::FEValues<2> values(mapping_, element_, dealii::Quadrature<2>(units),
+                               dealii::update_quadrature_points);
+    std::vector<Index> indices(element_.n_dofs_per_cell());
+    std::map<Index, std::array<double, 4>> found; // by the x unknown
+    for_each_own_cell([&](const auto& cell) {
+        values.reinit(cell);
+        cell->get_dof_indices(indices);
+        for (unsigned i = 0; i < indices.size(); ++i) {
+            const auto [component, place] = element_.system_to_component_index(i);
+            if (component != 0 || !owned_.is_element(indices[i]))
+                continue;
+            const Point<2> p = values.quadrature_point(place);
+            // The y unknown of a node follows the x unknown.
+            found[indices[i]] = {p[0], p[1], displacement_(indices[i]),
+                                 displacement_(indices[i] + 1)};
+        }
+    });
+    std::vector<std::array<double, 4>> own;
+    for (const auto& [index, row] : found)
+        own.push_back(row);
+    std::vector<std::array<double, 4>> rows;
+    for (const auto& part : dealii::Utilities::MPI::all_gather(processes, own))
+        rows.insert(rows.end(), part.begin(), part.end());
+    // Places of one row of nodes agree to round-off only.
+    const double grain = 1e-6 * request_.cell_size;
+    std::ranges::sort(rows, {}, [grain](const std::array<double, 4>& row) {
+        return std::pair(std::llround(row[1] / grain), row[0]);
+    });
+    Field field;
+    for (const auto& row : rows) {
+        field.place.push_back({row[0], row[1]});
+        field.displacement.push_back({row[2], row[3]});
+    }
+    return field;
+}
+
+FieldError ElasticFootwall::error(const ExactField& exact) const {
+    require_solution();
+    const dealii::QGauss<2> points(static_cast<unsigned>(request_.degree) + 3);
+    dealii::FEValues<2> values(mapping_, element_, points, volume_flags);
+    const dealii::FEValuesExtractors::Vector u(0);
+    std::vector<Tensor<1, 2>> found(points.size());
+    std::vector<Tensor<2, 2>> slopes(points.size());
+    double sums[4] = {0.0, 0.0, 0.0, 0.0};
+    for_each_own_cell([&](const auto& cell) {
+        values.reinit(cell);
+        values[u].get_function_values(displacement_, found);
+        values[u].get_function_gradients(displacement_, slopes);
+        for (unsigned q = 0; q < points.size(); ++q) {
+            const Vector p = plain(values.quadrature_point(q));
+            const Vector e = exact.displacement(p);
+            const std::array<double, 4> g = exact.gradient(p);
+            const double w = values.JxW(q);
+            sums[0] += w * (std::pow(found[q][0] - e.x, 2) + std::pow(found[q][1] - e.y, 2));
+            sums[1] += w * (e.x * e.x + e.y * e.y);
+            for (unsigned k = 0; k < 4; ++k) {
+                sums[2] += w * std::pow(slopes[q][k / 2][k % 2] - g[k], 2);
+                sums[3] += w * g[k] * g[k];
+            }
+        }
+    });
+    for (double& sum : sums)
+        sum = dealii::Utilities::MPI::sum(sum, processes);
+    return {std::sqrt(sums[0] / sums[1]), std::sqrt(sums[2] / sums[3])};
+}
+
+std::vector<StressPatch> ElasticFootwall::stress() const {
+    require_solution();
+    // The corners of the quarters, three in a row, then their middles.
+    std::vector<Point<2>> places;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            places.emplace_back(0.5 * column, 0.5 * row);
+    for (int row = 0; row < 2; ++row)
+        for (int column = 0; column < 2; ++column)
+            places.emplace_back(0.25 + 0.5 * column, 0.25 + 0.5 * row);
+    dealii::FEValues<2> values(mapping_, element_, dealii::Quadrature<2>(places), volume_flags);
+    const dealii::FEValuesExtractors::Vector u(0);
+    std::vector<Tensor<1, 2>> moved(places.size());
+    std::vector<Tensor<2, 2>> slopes(places.size());
+    std::vector<StressPatch> result;
+    for_each_own_cell([&](const auto& cell) {
+        values.reinit(cell);
+        values[u].get_function_values(displacement_, moved);
+        values[u].get_function_gradients(displacement_, slopes);
+        for (unsigned quarter = 0; quarter < 4; ++quarter) {
+            StressPatch patch;
+            const unsigned first = quarter / 2 * 3 + quarter % 2;
+            const unsigned around[4] = {first, first + 1, first + 4, first + 3};
+            for (unsigned k = 0; k < 4; ++k) {
+                patch.corner[k] = plain(values.quadrature_point(around[k]));
+                patch.displacement[k] = {moved[around[k]][0], moved[around[k]][1]};
+            }
+            const auto& g = slopes[9 + quarter];
+            const Rock rock = material_.at(plain(values.quadrature_point(9 + quarter)));
+            const double trace = rock.lambda * (g[0][0] + g[1][1]);
+            patch.xx = trace + 2.0 * rock.mu * g[0][0];
+            patch.yy = trace + 2.0 * rock.mu * g[1][1];
+            patch.xy = rock.mu * (g[0][1] + g[1][0]);
+            result.push_back(patch);
+        }
+    });
+    return result;
+}
+
+Vector ElasticFootwall::reaction() const {
+    require_solution();
+    const dealii::QGauss<1> points = face_quadrature();
+    dealii::FEFaceValues<2> values(mapping_, element_, points, face_flags);
+    const dealii::FEValuesExtractors::Vector u(0);
+    std::vector<Tensor<1, 2>> found(points.size());
+    double sums[2] = {0.0, 0.0};
+    for_each_own_cell([&](const auto& cell) {
+        for (const unsigned f : cell->face_indices()) {
+            if (!cell->face(f)->at_boundary())
+                continue;
+            const int boundary = static_cast<int>(cell->face(f)->boundary_id());
+            values.reinit(cell, f);
+            values[u].get_function_values(displacement_, found);
+            for (unsigned q = 0; q < points.size(); ++q) {
+                sums[0] -= values.JxW(q) * found[q][0] *
+                           side_spring(boundary, plain(values.quadrature_point(q)));
+                sums[1] -= values.JxW(q) * found[q][1] * spring(boundary) *
+                           std::abs(values.normal_vector(q)[1]);
+            }
+        }
+    });
+    return {dealii::Utilities::MPI::sum(sums[0], processes),
+            dealii::Utilities::MPI::sum(sums[1], processes)};
+}
+
+Guard ElasticFootwall::guard(double rock_weight) const {
+    require_solution();
+    const dealii::QGauss<2> points = quadrature();
+    dealii::FEValues<2> values(mapping_, element_, points, volume_flags);
+    const dealii::FEValuesExtractors::Vector u(0);
+    std::vector<Tensor<2, 2>> slopes(points.size());
+    Guard guard;
+    for_each_own_cell([&](const auto& cell) {
+        values.reinit(cell);
+        values[u].get_function_gradients(displacement_, slopes);
+        for (unsigned q = 0; q < points.size(); ++q) {
+            const Vector place = plain(values.quadrature_point(q));
+            const Rock rock = material_.at(place);
+            const Tensor<2, 2>& slope = slopes[q];
+            // Centre and radius of the strain's Mohr circle.
+            const double centre = 0.5 * (slope[0][0] + slope[1][1]);
+            const double radius =
+                0.5 * std::hypot(slope[0][0] - slope[1][1], slope[0][1] + slope[1][0]);
+            double& most = rock.relaxed ? guard.relaxed_strain : guard.strong_strain;
+            most = std::max(most, std::abs(centre) + radius);
+            guard.rotation = std::max(guard.rotation, 0.5 * std::abs(slope[1][0] - slope[0][1]));
+            const double pressure =
+                -rock_weight * place.y - 2.0 * (rock.lambda + rock.mu) * centre;
+            if (!rock.relaxed && beyond_byerlee(pressure, 2.0 * rock.mu * radius))
+                guard.beyond_byerlee += values.JxW(q);
+        }
+    });
+    return {dealii::Utilities::MPI::max(guard.strong_strain, processes),
+            dealii::Utilities::MPI::max(guard.relaxed_strain, processes),
+            dealii::Utilities::MPI::max(guard.rotation, processes),
+            dealii::Utilities::MPI::sum(guard.beyond_byerlee, processes)};
+}
+
+void ElasticFootwall::write(const std::string& folder, const std::string& name) const {
+    require_solution();
+    const StressOutput stress(material_);
+    dealii::DataOut<2> out;
+    out.attach_dof_handler(unknowns_);
+    const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> vector(
+        2, dealii::DataComponentInterpretation::component_is_part_of_vector);
+    out.add_data_vector(displacement_, std::vector<std::string>(2, "displacement_m"),
+                        dealii::DataOut<2>::type_dof_data, vector);
+    out.add_data_vector(displacement_, stress);
+    out.build_patches(mapping_, static_cast<unsigned>(request_.degree),
+                      dealii::DataOut<2>::curved_inner_cells);
+    const std::string file = folder + "/" + name + ".vtu";
+    out.write_vtu_in_parallel(file, processes);
+}
+
+} // namespace listric::fem
