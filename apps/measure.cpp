@@ -147,13 +147,6 @@ void measure_ramp_flat_ramp(Measures& m, const State& state, const Chain& detach
         mean_rotation(state, lower_block(state, detachment, *parts), block_size);
 }
 
-const Event* find_event(std::span<const std::unique_ptr<Event>> events, std::string_view name) {
-    for (const auto& event : events)
-        if (event->name() == name)
-            return event.get();
-    return nullptr;
-}
-
 /// The basin beside what kinematic constructions predict.
 void measure_kinematics(const Scene& scene, const Chain& detachment, double extension,
                         const Profile& profile, double column, Measures& m) {
@@ -187,6 +180,13 @@ void measure_kinematics(const Scene& scene, const Chain& detachment, double exte
 }
 
 } // namespace
+
+const Event* find_event(std::span<const std::unique_ptr<Event>> events, std::string_view name) {
+    for (const auto& event : events)
+        if (event->name() == name)
+            return event.get();
+    return nullptr;
+}
 
 double share_of_densest(std::span<const double> density, std::span<const double> area,
                         double area_share) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace listric {
@@ -71,6 +72,9 @@ struct RampFlatRamp {
     double lower_start = 0.0; ///< the kink ends
     double flat_depth = 0.0;  ///< m
 };
+
+/// The event of that name; null: the scene has none.
+const Event* find_event(std::span<const std::unique_ptr<Event>> events, std::string_view name);
 
 /// None for a detachment that soles out once.
 std::optional<RampFlatRamp> find_ramp_flat_ramp(const Chain& detachment);

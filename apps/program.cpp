@@ -147,7 +147,7 @@ void add_validation_options(CLI::App& command, ValidationRequest& request) {
     command.add_option("--seeds", request.seeds, "Runs per experiment")->check(CLI::Range(1, 1000));
     command.add_option("--runs", request.runs, "Folder of the runs (out/validation-ACCURACY)");
     command.add_option("--output", request.output,
-                       "Document (docs/validation.md; not at standard: beside the runs)");
+                       "Document (docs/validation.md; not at standard or not all: beside the runs)");
     command.add_option("--only", request.only, "One experiment");
     command.add_option("--plan", request.plan, "Runs and expectations (apps/validation.toml)");
     add_threads(command, request.threads);

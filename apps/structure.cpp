@@ -79,8 +79,10 @@ double least_age(const Scene& scene) {
 class Structure {
 public:
     Structure(const Scene& scene, const RigidBase& base, const State& now,
-              const FaultReport& faults, const Measures& measures, std::span<const Past> past)
-        : scene_(scene), base_(base), now_(now), faults_(faults), measures_(measures), past_(past),
+              std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
+              const Measures& measures, std::span<const Past> past)
+        : scene_(scene), base_(base), now_(now), events_(events), faults_(faults),
+          measures_(measures), past_(past),
           detachment_(base.surfaces.front().chain), d_(disc_columns(now)),
           diameter_(2.0 * now.mean_radius), extension_(now.clock.extension),
           profile_(measure_profile(scene, now, base)) {
@@ -119,6 +121,7 @@ private:
             if (a && s && *s > 0.0)
                 put("antithetic_over_synthetic_throw", *a / *s);
         }
+        put("inner_fault_step_m", inner_fault_step(faults_.faults));
         std::vector<double> correlations;
         for (const Past& p : past_)
             correlations.insert(correlations.end(), p.throw_correlations.begin(),
@@ -340,34 +343,79 @@ private:
         return field;
     }
 
+    /// Centres of the segments that fault detection found from one extension to another and that
+    /// slid as reverse faults dipping to the breakaway by 20 to 80 degrees.
+    std::vector<Point> reverse_segments(double from, double to) const {
+        std::vector<Point> centres;
+        const Event* detection = find_event(events_, "fault_weakening");
+        if (!detection)
+            return centres;
+        const Table& found = detection->memory;
+        const auto at = found.get<double>("found_at_m"), slip = found.get<double>("slip_m"),
+                   angle = found.get<double>("angle_rad"), x = found.get<double>("x_m"),
+                   y = found.get<double>("y_m");
+        for (std::size_t k = 0; k < at.size(); ++k)
+            if (const double dip = angle[k] * 180.0 / pi; at[k] > from + 1.0 && at[k] < to + 1.0 &&
+                                                          slip[k] > 0.0 && dip > 20.0 && dip < 80.0)
+                centres.push_back({x[k], y[k]});
+        return centres;
+    }
+
+    /// Since half of the extension: by then the upper block's toe turns back.
+    void measure_above_kink(double kink, double flat_depth) {
+        row_of_ = DiscPlaces(now_).row_of;
+        const DiscPlaces now(now_);
+        const double reach =
+            scene_.fault_weakening
+                ? 0.5 * scene_.fault_weakening->circle_diameters * diameter_
+                : 0.0;
+        double all = 0.0, reverse = 0.0, on_faults = 0.0, shortening = 0.0;
+        for (std::size_t k = 0; k < past_.size(); ++k) {
+            const DiscPlaces& end = k + 1 < past_.size() ? past_[k + 1].places : now;
+            if (end.extension < 0.5 * extension_ + 1.0)
+                continue;
+            const ShearField field =
+                only_present(shear_field(past_[k].places, end, least_age(scene_)));
+            const std::vector<Point> segments =
+                reverse_segments(past_[k].places.extension, end.extension);
+            double sediment = 0.0, stretch = 0.0;
+            for (std::size_t j = 0; j < field.x.size(); ++j) {
+                const Point p{field.x[j], field.y[j]};
+                if (p.y < -flat_depth || p.x < kink - 3e3 || p.x > kink + 6e3)
+                    continue;
+                const auto i =
+                    static_cast<std::size_t>(row_of_[static_cast<std::size_t>(field.id[j])]);
+                const double area = d_.radius[i] * d_.radius[i];
+                if (d_.stratum[i] > 0) {
+                    sediment += area;
+                    stretch += area * field.xx[j];
+                }
+                const ShearPlane plane = shear_plane(field, j);
+                all += area * plane.strain;
+                if (!plane.reverse || plane.falls_right || plane.dip < 20.0 || plane.dip > 80.0)
+                    continue;
+                reverse += area * plane.strain;
+                if (std::ranges::any_of(segments, [&](Point s) {
+                        return std::hypot(s.x - p.x, s.y - p.y) < reach;
+                    }))
+                    on_faults += area * plane.strain;
+            }
+            if (sediment > 0.0)
+                shortening -= stretch / sediment;
+        }
+        if (all > 0.0) {
+            put("kink_reverse_strain_share", reverse / all);
+            put("kink_reverse_fault_share", on_faults / all);
+            put("kink_synrift_shortening", shortening);
+        }
+    }
+
     void measure_ramp_flat_ramp() {
         const auto parts = find_ramp_flat_ramp(detachment_);
         if (!parts || past_.empty())
             return;
         const double kink = point_at(detachment_, parts->flat_end).x;
-        row_of_ = DiscPlaces(now_).row_of;
-
-        double all = 0.0, reverse = 0.0, sediment = 0.0, stretch = 0.0;
-        for (std::size_t k = 0; k < window_.x.size(); ++k) {
-            if (window_.y[k] < -parts->flat_depth || window_.x[k] < kink - 3e3 ||
-                window_.x[k] > kink + 6e3)
-                continue;
-            const auto i =
-                static_cast<std::size_t>(row_of_[static_cast<std::size_t>(window_.id[k])]);
-            const double area = d_.radius[i] * d_.radius[i];
-            if (d_.stratum[i] > 0) {
-                sediment += area;
-                stretch += area * window_.xx[k];
-            }
-            const ShearPlane plane = shear_plane(window_, k);
-            all += area * plane.strain;
-            if (plane.reverse && !plane.falls_right && plane.dip > 20.0 && plane.dip < 80.0)
-                reverse += area * plane.strain;
-        }
-        if (all > 0.0)
-            put("kink_reverse_strain_share", reverse / all);
-        if (sediment > 0.0)
-            put("kink_synrift_shortening", -stretch / sediment);
+        measure_above_kink(kink, parts->flat_depth);
         double traced = 0.0;
         for (const Fault& f : faults_.faults)
             if (const Point middle = f.trace.points[f.trace.points.size() / 2];
@@ -481,6 +529,7 @@ private:
     const Scene& scene_;
     const RigidBase& base_;
     const State& now_;
+    std::span<const std::unique_ptr<Event>> events_;
     const FaultReport& faults_;
     const Measures& measures_;
     std::span<const Past> past_;
@@ -500,9 +549,10 @@ std::vector<Depocentre> find_basins(const Profile& profile) {
 }
 
 NamedNumbers measure_structure(const Scene& scene, const RigidBase& base, const State& now,
+                               std::span<const std::unique_ptr<Event>> events,
                                const FaultReport& faults, const Measures& measures,
                                std::span<const Past> past) {
-    return Structure(scene, base, now, faults, measures, past).numbers();
+    return Structure(scene, base, now, events, faults, measures, past).numbers();
 }
 
 std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
@@ -528,7 +578,7 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
             NamedNumbers numbers = history_row(now, measures);
             std::erase_if(numbers, [](const auto& n) { return std::isnan(n.second); });
             const NamedNumbers more =
-                measure_structure(run.scene, run.base, now, faults, measures, past);
+                measure_structure(run.scene, run.base, now, moment.events, faults, measures, past);
             numbers.insert(numbers.end(), more.begin(), more.end());
             found.emplace_back(wanted[path], std::move(numbers));
         }
@@ -544,6 +594,26 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
         places.push_back(past.back().places);
     }
     return found;
+}
+
+double inner_fault_step(const std::vector<Fault>& faults) {
+    constexpr double steep = 45.0, younger = 2e3;
+    double step = 0.0;
+    for (const Fault& inner : faults) {
+        if (!inner.normal || inner.dip < steep)
+            continue;
+        const Point middle = inner.trace.points[inner.trace.points.size() / 2];
+        std::optional<double> nearest;
+        for (const Fault& older : faults) {
+            if (!older.normal || older.dip < steep || older.born_at > inner.born_at - younger)
+                continue;
+            const Point beside = *std::ranges::min_element(
+                older.trace.points, {}, [&](Point p) { return std::abs(p.y - middle.y); });
+            nearest = std::min(nearest.value_or(beside.x - middle.x), beside.x - middle.x);
+        }
+        step = std::max(step, nearest.value_or(0.0));
+    }
+    return step;
 }
 
 std::optional<double> throw_age_correlation(const std::map<int, double>& throws) {

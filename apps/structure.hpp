@@ -29,6 +29,7 @@ std::vector<Depocentre> find_basins(const Profile& profile);
 /// Structural measures of one moment that need the run's past, its faults, or both.
 /// @param past  earlier states, oldest first
 NamedNumbers measure_structure(const Scene& scene, const RigidBase& base, const State& now,
+                               std::span<const std::unique_ptr<Event>> events,
                                const FaultReport& faults, const Measures& measures,
                                std::span<const Past> past);
 
@@ -36,6 +37,11 @@ NamedNumbers measure_structure(const Scene& scene, const RigidBase& base, const 
 /// recomputed from its snapshots. Throws SceneError, StorageError.
 std::vector<std::pair<double, NamedNumbers>> examine_run(const std::filesystem::path& output,
                                                          std::span<const double> extensions);
+
+/// How far nearer to the breakaway a steep normal fault has come up than those born 2 km of extension
+/// before it, m: distance from the nearest of them, at the height of its middle. Steep: 45 degrees.
+/// 0: none has.
+double inner_fault_step(const std::vector<Fault>& faults);
 
 /// Rank correlation of a fault's throws with the strata's numbers (Spearman), -1 where throw falls
 /// from each stratum to the next younger. None for fewer than five strata.

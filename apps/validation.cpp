@@ -117,9 +117,10 @@ public:
                                          : request.plan)),
           runs_(request.runs.empty() ? fs::path("out/validation-" + request.accuracy)
                                      : request.runs),
-          document_(!request.output.empty()          ? request.output
-                    : request.accuracy == "standard" ? fs::path("docs/validation.md")
-                                                     : runs_ / "validation.md"),
+          document_(!request.output.empty() ? request.output
+                    : request.accuracy == "standard" && !request.only
+                        ? fs::path("docs/validation.md")
+                        : runs_ / "validation.md"),
           beside_(document_.parent_path() / document_.stem()) {
         check();
         fs::create_directories(beside_);

@@ -2,6 +2,7 @@
 
 #include "apps/fault_throw.hpp"
 #include "apps/structure.hpp"
+#include "dem/events/fault_weakening.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -131,10 +132,34 @@ TEST(Compaction, PorosityBesideThatOfTheDepth) {
     scene.compaction.emplace();
     RigidBase base;
     base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
-    const NamedNumbers found = measure_structure(scene, base, state, {}, {}, {});
+    const NamedNumbers found = measure_structure(scene, base, state, {}, {}, {}, {});
     const std::map<std::string, double> numbers(found.begin(), found.end());
     EXPECT_NEAR(numbers.at("porosity_error"), 0.1 * (1.0 - std::exp(-0.4)), 1e-12);
     EXPECT_NEAR(numbers.at("porosity_off_fraction"), 0.1, 1e-12);
+}
+
+/// A fault of 4 km's height that dips by 63 degrees either way from its middle.
+Fault fault_at(double x, double born_at, bool falls_right = true, double run = 0.5) {
+    Fault f;
+    for (int k = 0; k <= 40; ++k)
+        f.trace.points.push_back(
+            {x + (falls_right ? run : -run) * 100.0 * (k - 20), -3e3 - 100.0 * k});
+    f.dip = std::atan(1.0 / run) / degree;
+    f.born_at = born_at;
+    return f;
+}
+
+TEST(InnerFault, StepsTowardTheBreakaway) {
+    const Fault outer = fault_at(31e3, 1e3), antithetic = fault_at(38e3, 1e3, false);
+    EXPECT_EQ(inner_fault_step({}), 0.0);
+    EXPECT_EQ(inner_fault_step({outer, antithetic}), 0.0); // of one age
+    EXPECT_NEAR(inner_fault_step({outer, fault_at(26e3, 9e3), antithetic}), 5e3, 1.0);
+    EXPECT_EQ(inner_fault_step({outer, fault_at(26e3, 2e3)}), 0.0);            // hardly younger
+    EXPECT_EQ(inner_fault_step({outer, fault_at(34e3, 9e3), antithetic}), 0.0); // further out
+    EXPECT_EQ(inner_fault_step({outer, fault_at(26e3, 9e3, true, 2.0)}), 0.0); // not steep
+    Fault reverse = fault_at(26e3, 9e3);
+    reverse.normal = false;
+    EXPECT_EQ(inner_fault_step({outer, reverse}), 0.0);
 }
 
 /// Collapse grabens beyond a basin at 5 km: one of them is there alone, then both. They have moved
@@ -157,12 +182,72 @@ TEST(Grabens, TheOneThatIsThereFirst) {
         const std::vector<Past> story{past(0.0, {}), past(1e3, {alone, alone + 1e3}),
                                       past(2e3, {alone}), past(3e3, {20e3, 30e3})};
         state.clock.extension = 4e3;
-        const NamedNumbers found = measure_structure(scene, base, state, {}, {}, story);
+        const NamedNumbers found = measure_structure(scene, base, state, {}, {}, {}, story);
         const std::map<std::string, double> numbers(found.begin(), found.end());
         EXPECT_EQ(numbers.at("first_graben_at_m"), 1e3);
         EXPECT_EQ(numbers.at("second_graben_at_m"), 3e3);
         EXPECT_EQ(numbers.at("outer_graben_first"), alone == 30e3 ? 1.0 : 0.0);
     }
+}
+
+/// Rock above the kink that shears as one on reverse planes; fault detection knows one of them.
+TEST(ReverseFaults, AboveTheKink) {
+    std::vector<Disc> discs = hexagonal(38, 36, r);
+    for (Disc& disc : discs) {
+        disc.x += 9.3e3;
+        disc.y -= 6.5e3;
+    }
+    State state = make_state(discs);
+    const DiscColumns c = disc_columns(state);
+    for (std::size_t i = 0; i < discs.size(); ++i)
+        c.stratum[i] = c.y[i] > -2e3 ? 1 : 0;
+    state.clock.extension = 5e3;
+    const std::vector<Past> past{{DiscPlaces(state), {}, {}}};
+    const ShearField shear = sheared(50.0, false, true, 0.02);
+    const Point middle{12e3, -3.5e3};
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const double x = c.x[i] - middle.x, y = c.y[i] - middle.y;
+        c.x[i] += shear.xx[0] * x + shear.xy[0] * y;
+        c.y[i] += shear.yx[0] * x + shear.yy[0] * y;
+        near += std::hypot(c.x[i] - middle.x, c.y[i] - middle.y) < 2.5 * d;
+    }
+    state.clock.extension = 10e3;
+
+    Scene scene;
+    scene.hanging_wall.emplace();
+    scene.fault_weakening.emplace();
+    auto detection = std::make_unique<FaultWeakening>(*scene.fault_weakening, 0.01, 9.81, density);
+    const double segments[4][5] = {// x, y, angle, slip, found at
+                                   {middle.x, middle.y, 50.0, 90.0, 8e3},
+                                   {middle.x + 2e3, middle.y, 50.0, -90.0, 8e3},  // normal
+                                   {middle.x - 2e3, middle.y, 130.0, 90.0, 8e3},  // falls right
+                                   {middle.x, middle.y + 2e3, 50.0, 90.0, 4e3}};  // before
+    detection->memory.resize(4);
+    for (std::size_t k = 0; k < 4; ++k) {
+        int column = 0;
+        for (const char* name : {"x_m", "y_m", "angle_rad", "slip_m", "found_at_m"}) {
+            const double value = segments[k][column];
+            detection->memory.get<double>(name)[k] = column == 2 ? value * degree : value;
+            ++column;
+        }
+    }
+    std::vector<std::unique_ptr<Event>> events;
+    events.push_back(std::move(detection));
+    RigidBase base;
+    base.surfaces = {{"detachment",
+                      {arc({0.0, 0.0}, {0.0, -1.0}, 7e3, 90.0 * degree),
+                       line({7e3, -7e3}, {12e3, -7e3}),
+                       arc({12e3, -7e3}, {0.0, -1.0}, 8e3, 90.0 * degree),
+                       line({20e3, -15e3}, {100e3, -15e3})},
+                      0.0}};
+    const NamedNumbers found = measure_structure(scene, base, state, events, {}, {}, past);
+    const std::map<std::string, double> numbers(found.begin(), found.end());
+    EXPECT_NEAR(numbers.at("kink_reverse_strain_share"), 1.0, 1e-9);
+    EXPECT_NEAR(numbers.at("kink_reverse_fault_share"),
+                static_cast<double>(near) / static_cast<double>(discs.size()), 1e-9);
+    EXPECT_NEAR(numbers.at("kink_synrift_shortening"), -shear.xx[0], 1e-6);
+    EXPECT_GT(-shear.xx[0], 0.0); // reverse faults shorten
 }
 
 } // namespace
