@@ -253,6 +253,15 @@ std::vector<Parameter> parameters(LowerCrustThinningParameters& p) {
     };
 }
 
+std::vector<Parameter> parameters(BasinWaterParameters& p) {
+    return {
+        {"level_m", &p.level, "m", {.from = -1e5, .to = 1e5}, "",
+         "of its surface, above the original surface"},
+        {"density_kg_per_m3", &p.density, "kg/m3", density, "", "of the water"},
+        {"interval_a", &p.interval, "a", years, "", "time between adaptations of its depth"},
+    };
+}
+
 std::vector<Parameter> parameters(FootwallErosionParameters& p) {
     return {
         {"interval_a", &p.interval, "a", years, "", "time between adaptations of the surface"},
@@ -370,6 +379,8 @@ std::vector<SceneTable> scene_tables(Scene& scene) {
         effect("elastic_base", "footwall and basement bend and float", scene.elastic_base),
         effect("lower_crust_thinning", "the lower crust stretches, mantle rises: isostasy lowers the base",
                scene.lower_crust_thinning),
+        effect("basin_water", "water fills the basin and weighs on the footwall",
+               scene.basin_water),
         erosion,
         motion,
         table("flexure", "a load on the elastic base alone, without discs", scene.flexure),

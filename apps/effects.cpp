@@ -127,6 +127,8 @@ std::vector<std::string> effect_names(const Scene& s) {
         names.push_back("elastic_base");
     if (s.lower_crust_thinning)
         names.push_back("lower_crust_thinning");
+    if (s.basin_water)
+        names.push_back("basin_water");
     if (s.footwall_erosion)
         names.push_back("footwall_erosion");
     if (s.base_motion)

@@ -75,16 +75,19 @@ std::string explain_elastic_base(const Scene& scene) {
             thinning->thickness / 1e3, thinning->width / 1e3, thinner,
             thinner * (base.mantle_density - base.crust_density) / base.mantle_density);
     }
+    if (const auto& water = scene.basin_water)
+        text += fmt::format("    basin: water of {} kg/m3 up to {:g} m\n", water->density,
+                            water->level);
     if (const auto& erosion = scene.footwall_erosion)
         text += fmt::format("    footwall: over {:g} km to its target every {:g} a; {} kg/m3 go, "
                             "{} kg/m3 come\n",
                             erosion->width / 1e3, erosion->interval, base.crust_density,
                             erosion->sediment_density);
-    return text + fmt::format("  not in the model: {}{}water,\n"
-                              "  friction of the right wall; what leans on the backstop above the "
-                              "breakaway\n",
+    return text + fmt::format("  not in the model: {}{}{}friction of the right wall;\n"
+                              "  what leans on the backstop above the breakaway\n",
                               scene.footwall_erosion ? "" : "erosion of the footwall, ",
-                              scene.lower_crust_thinning ? "" : "thinning of the lower crust, ");
+                              scene.lower_crust_thinning ? "" : "thinning of the lower crust, ",
+                              scene.basin_water ? "" : "water, ");
 }
 
 std::string explain(const Scene& scene, int threads) {

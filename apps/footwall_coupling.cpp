@@ -107,10 +107,14 @@ std::vector<std::unique_ptr<Event>> FootwallCoupling::make_events() {
     if (scene_.lower_crust_thinning)
         events.push_back(std::make_unique<LowerCrustThinning>(
             crust, equivalent_forces(*base_, crust.interface), rate));
+    if (scene_.basin_water)
+        events.push_back(std::make_unique<BasinWater>(
+            base_->interface(), *scene_.basin_water, scene_.gravity->acceleration,
+            4.0 * scene_.hanging_wall->mean_radius, rate));
     if (scene_.footwall_erosion) {
         const SurfaceResponse& surface = responses_.surface;
         const auto uplift = [this, &surface, &crust](const State& state) {
-            std::vector<double> result = surface.uplift_by(disc_forces(*base_, state));
+            std::vector<double> result = surface.uplift_by(interface_forces(*base_, state));
             if (scene_.lower_crust_thinning) {
                 const auto sinks =
                     LowerCrustResponse::at(crust.uplift, crust.steps, share_of_extension(state));
@@ -153,7 +157,7 @@ fem::Load FootwallCoupling::other_loads(const State& state) const {
 
 const fem::Footwall& FootwallCoupling::recover(const State& state) {
     fem::Load load = other_loads(state);
-    load.interface = disc_forces(*base_, state);
+    load.interface = interface_forces(*base_, state);
     load.interface.resize(2 * footwall_->interface().size(), 0.0);
     footwall_->solve(load);
     return *footwall_;
@@ -176,9 +180,13 @@ std::optional<FootwallCoupling::Check> FootwallCoupling::check(const State& stat
     }
     std::vector<double> now = base_->displacement(grown);
     std::ranges::transform(now, displacement, now.begin(), std::plus());
+    std::vector<double> on_interface(force.begin(), force.end());
+    const std::vector<double> water = interface_loads(state);
+    for (std::size_t k = 0; k < water.size(); ++k)
+        on_interface[k] += water[k];
     try {
         const IndependentSolution fine = solve_independently(
-            make_footwall_request(scene_), base_->interface(), force, other_loads(state));
+            make_footwall_request(scene_), base_->interface(), on_interface, other_loads(state));
         return Check{fine.unknowns,
                      relative_difference(base_->displacement(all), fine.displacement),
                      relative_difference(now, fine.displacement)};
@@ -218,6 +226,8 @@ std::vector<std::pair<std::string, double>> FootwallCoupling::end_window(State& 
     if (scene_.lower_crust_thinning)
         row.emplace_back("lower_crust_thinning_m",
                          lower_crust_thinning(*scene_.lower_crust_thinning, state.clock.extension));
+    if (scene_.basin_water)
+        row.emplace_back("basin_water_n_per_m", water_weight(state));
     if (erosion_) {
         const auto [eroded, deposited] = erosion_->areas();
         row.emplace_back("footwall_eroded_m2", eroded);
@@ -286,7 +296,8 @@ std::vector<std::pair<std::string, double>> footwall_summary(const Table& histor
                              "rock_rotation_max_deg", "beyond_byerlee_m2"})
         measures.emplace_back(name, largest(column(name)));
     for (const char* name :
-         {"lower_crust_thinning_m", "footwall_eroded_m2", "footwall_deposited_m2"})
+         {"lower_crust_thinning_m", "basin_water_n_per_m", "footwall_eroded_m2",
+          "footwall_deposited_m2"})
         if (history.has(name))
             measures.emplace_back(name, column(name).back());
     return measures;

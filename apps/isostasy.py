@@ -49,6 +49,7 @@ def draw(rows):
                    label=f"{fill}: continuous plate")
         right.plot(nominal, at("broken_plate_m"), "--", color=colour, lw=1.2,
                    label=f"{fill}: plate broken at the breakaway")
+        right.axhline(mean([float(row["local_m"]) for row in mine]), xmax=0.06, color=colour, lw=2.5)
     left.set_xlim(4.0, 55.0)
     left.set_title("Against the thickness fitted to the detachment's deflection", fontsize=10,
                    loc="left")

@@ -159,6 +159,7 @@ fs::path cache_path(const Scene& scene) {
     start.compaction.reset();
     start.elastic_base.reset();
     start.lower_crust_thinning.reset();
+    start.basin_water.reset();
     start.footwall_erosion.reset();
     start.base_motion.reset();
     start.energy.reset();

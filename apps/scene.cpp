@@ -380,6 +380,8 @@ void check(const Scene& scene, const toml::table& document) {
         check_elastic_base(scene, document);
     needs("lower_crust_thinning", scene.lower_crust_thinning.has_value(), "elastic_base",
           scene.elastic_base.has_value());
+    needs("basin_water", scene.basin_water.has_value(), "elastic_base",
+          scene.elastic_base.has_value());
     needs("footwall_erosion", scene.footwall_erosion.has_value(), "elastic_base",
           scene.elastic_base.has_value());
     if (scene.base_motion)

@@ -2,6 +2,7 @@
 
 #include "coupling/elastic_base.hpp"
 #include "coupling/footwall_erosion.hpp"
+#include "coupling/basin_water.hpp"
 #include "coupling/lower_crust_thinning.hpp"
 #include "dem/base_motion.hpp"
 #include "dem/events/bond_healing.hpp"
@@ -137,6 +138,7 @@ struct Scene {
     std::optional<EnergyParameters> energy;
     std::optional<ElasticBaseParameters> elastic_base;
     std::optional<LowerCrustThinningParameters> lower_crust_thinning;
+    std::optional<BasinWaterParameters> basin_water;
     std::optional<FootwallErosionParameters> footwall_erosion;
     std::optional<BaseMotionParameters> base_motion;
     std::optional<FlexureParameters> flexure;

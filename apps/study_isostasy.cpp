@@ -32,10 +32,21 @@ LastWindow last_window(const std::filesystem::path& run) {
     const ConstBaseNodeColumns nodes = base_node_columns(state);
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
         result.loads.x.push_back(nodes.x[k]);
-        result.loads.load.push_back(means.get<double>("force")[2 * k + 1]);
+        result.loads.load.push_back(
+            means.get<double>("force")[2 * k + 1] +
+            (means.has("effects") ? means.get<double>("effects")[2 * k + 1] : 0.0));
         result.uplift.push_back(means.get<double>("displacement")[2 * k + 1]);
     }
     return result;
+}
+
+/// Airy's limit: the largest deflection of a plate too thin to spread the loads.
+double local_compensation(fem::Plate plate, const fem::LineLoads& loads) {
+    plate.thickness = 300.0; // flexural parameter 2 km, some nodes' distance
+    double most = 0.0;
+    for (const double x : loads.x)
+        most = std::max(most, plate.deflection(x, loads, fem::PlateKind::continuous));
+    return most;
 }
 
 } // namespace
@@ -57,24 +68,28 @@ StudyResult study_isostasy(const StudyRequest& asked) {
     std::ranges::sort(thicknesses);
     struct Fill {
         const char* name;
-        std::vector<std::string> without;
+        std::vector<std::string> without, set;
     };
-    const std::vector<Fill> fills{{"sediment", {}}, {"empty", {"sedimentation", "compaction"}}};
+    const std::vector<Fill> fills{{"sediment", {}, {}},
+                                  {"water", {"sedimentation", "compaction"}, {"basin_water={}"}},
+                                  {"empty", {"sedimentation", "compaction"}, {}}};
 
     StudyResult result;
     result.title =
         fmt::format("Isostasy: flank uplift of {} against the thin plate", request.scene);
     std::string table = "fill,elastic_thickness_m,seed,uplift_m,deflection_max_m,"
-                        "net_load_n_per_m,net_load_error,continuous_plate_m,broken_plate_m,"
+                        "net_load_n_per_m,net_load_error,water_n_per_m,continuous_plate_m,"
+                        "broken_plate_m,local_m,"
                         "fitted_thickness_m,fit_misfit,fitted_continuous_thickness_m,"
                         "continuous_fit_misfit,strong_rock_strain,relaxed_rock_strain\n";
     for (const Fill& fill : fills)
         for (double thickness : thicknesses)
             for (int k = 0; k < request.seeds; ++k) {
-                const StudyRun run{fmt::format("{}-elastic_thickness_m={:g}", fill.name, thickness),
-                                   {fmt::format("elastic_base.elastic_thickness_m={}", thickness)},
-                                   "draft",
-                                   fill.without};
+                StudyRun run{fmt::format("{}-elastic_thickness_m={:g}", fill.name, thickness),
+                             {fmt::format("elastic_base.elastic_thickness_m={}", thickness)},
+                             "draft",
+                             fill.without};
+                run.set.insert(run.set.end(), fill.set.begin(), fill.set.end());
                 const std::string parameter = fmt::format("elastic_thickness_m={:g}", thickness);
                 const auto summary = summary_of_run(request, run, request.seed + k);
                 if (!summary) { // the guard of linear elasticity
@@ -91,7 +106,8 @@ StudyResult study_isostasy(const StudyRequest& asked) {
                 const fem::Plate plate{base.young_modulus, base.poisson_ratio, thickness,
                                        (base.mantle_density - base.infill_density) * gravity};
                 const double load = value("net_wall_load_n_per_m"),
-                             uplift = value("footwall_uplift_m");
+                             uplift = value("footwall_uplift_m"),
+                             water = summary->value("basin_water_n_per_m", 0.0);
                 // Under the loads as they are spread, where the breakaway is.
                 const LastWindow last = last_window(folder_of_run(request, run, request.seed + k));
                 using enum fem::PlateKind;
@@ -102,10 +118,11 @@ StudyResult study_isostasy(const StudyRequest& asked) {
                                     whole = fem::fit_thickness(plate, last.loads, continuous,
                                                                last.loads.x, last.uplift);
                 table += fmt::format(
-                    "{},{:g},{},{:.1f},{:.1f},{:.4g},{:.3g},{:.1f},{:.1f},{:.0f},{:.3f},{:.0f},"
-                    "{:.3f},{:.3g},{:.3g}\n",
+                    "{},{:g},{},{:.1f},{:.1f},{:.4g},{:.3g},{:.4g},{:.1f},{:.1f},{:.0f},{:.0f},"
+                    "{:.3f},{:.0f},{:.3f},{:.3g},{:.3g}\n",
                     fill.name, thickness, request.seed + k, uplift, value("base_deflection_max_m"),
-                    load, value("net_wall_load_error"), at_breakaway, when_broken, fit.thickness,
+                    load, value("net_wall_load_error"), water, at_breakaway, when_broken,
+                    local_compensation(plate, last.loads), fit.thickness,
                     fit.misfit, whole.thickness, whole.misfit, value("strong_rock_strain_max"),
                     value("relaxed_rock_strain_max"));
                 const double wall = value("wall_s");

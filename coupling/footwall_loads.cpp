@@ -9,20 +9,20 @@ namespace listric {
 
 namespace {
 
-constexpr const char* table = "footwall_loads";
+constexpr const char* elsewhere = "footwall_loads";
+constexpr const char* on_interface = "interface_loads";
 
 /// So many that the load's change with extension, h e / (b + e), is straight between them to 1e-3.
 constexpr std::size_t crust_steps = 10;
 
-} // namespace
-
-std::span<double> footwall_load(State& state, std::string_view effect, std::size_t unknowns) {
+std::span<double> column_of(State& state, const char* table, std::string_view effect,
+                            std::size_t unknowns) {
     Table& loads = state.base_memory[table];
     loads.resize(unknowns);
     return loads.add<double>(effect, "N", 0.0);
 }
 
-void add_footwall_loads(const State& state, std::span<double> forces) {
+void add_loads(const State& state, const char* table, std::span<double> forces) {
     const auto loads = state.base_memory.find(table);
     if (loads == state.base_memory.end())
         return;
@@ -33,9 +33,31 @@ void add_footwall_loads(const State& state, std::span<double> forces) {
     }
 }
 
-std::vector<double> disc_forces(const ElasticBase& base, const State& state) {
+} // namespace
+
+std::span<double> footwall_load(State& state, std::string_view effect, std::size_t unknowns) {
+    return column_of(state, elsewhere, effect, unknowns);
+}
+
+std::span<double> interface_load(State& state, std::string_view effect, std::size_t unknowns) {
+    return column_of(state, on_interface, effect, unknowns);
+}
+
+std::vector<double> interface_loads(const State& state) {
+    const auto loads = state.base_memory.find(on_interface);
+    std::vector<double> sum(loads == state.base_memory.end() ? 0 : loads->second.rows(), 0.0);
+    add_loads(state, on_interface, sum);
+    return sum;
+}
+
+void add_footwall_loads(const State& state, std::span<double> forces) {
+    add_loads(state, elsewhere, forces);
+    add_loads(state, on_interface, forces);
+}
+
+std::vector<double> interface_forces(const ElasticBase& base, const State& state) {
     std::vector<double> forces = base.holding_forces(state), loads(forces.size(), 0.0);
-    add_footwall_loads(state, loads);
+    add_loads(state, elsewhere, loads);
     std::ranges::transform(forces, loads, forces.begin(), std::minus());
     return forces;
 }

@@ -12,16 +12,22 @@ namespace listric {
 
 class ElasticBase;
 
-// Loads on the footwall that no disc brings: what thins below it, what is eroded from it. Each is
-// kept as the forces on the interface's nodes that displace the interface as the load itself does,
-// C f = u, so that they are superposed with the discs'. State::base_memory["footwall_loads"] has a
-// column per effect, in N per m of strike: x and y of the first node, of the second, ...
+// Loads on the footwall that no disc brings: what thins below it, what is eroded from it, water on
+// it. Each is kept as forces on the interface's nodes, which are superposed with the discs'.
+// State::base_memory has a table for loads on the interface, "interface_loads", and one for loads
+// elsewhere, "footwall_loads": forces that displace the interface as the load itself does, C f = u.
+// Both have a column per effect, in N per m of strike: x and y of the first node, of the second, ...
 
 /// Where an effect keeps its forces; adds the column if it is not there.
 std::span<double> footwall_load(State& state, std::string_view effect, std::size_t unknowns);
+std::span<double> interface_load(State& state, std::string_view effect, std::size_t unknowns);
 
-/// Forces of the discs that hold the present displacement together with the loads of the effects.
-std::vector<double> disc_forces(const ElasticBase& base, const State& state);
+/// Sum of the loads on the interface itself; empty without any.
+std::vector<double> interface_loads(const State& state);
+
+/// Forces on the interface, of discs and water, that hold the present displacement together with
+/// the loads elsewhere.
+std::vector<double> interface_forces(const ElasticBase& base, const State& state);
 
 /// Adds the forces of all effects.
 void add_footwall_loads(const State& state, std::span<double> forces);

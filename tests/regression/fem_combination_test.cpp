@@ -43,13 +43,15 @@ TEST_F(ElasticCombination, WithEverything) {
     how.threads = 3;
     const nlohmann::json summary = run_on_elastic_base(
         {.set = {"energy={}", "output.series=paraview", "lower_crust_thinning.thickness_m=20e3",
-                 "lower_crust_thinning.width_m=15e3", "footwall_erosion.interval_a=1000.0"},
+                 "lower_crust_thinning.width_m=15e3", "footwall_erosion.interval_a=1000.0",
+                 "basin_water={}"},
          .seed = 2},
         how);
     EXPECT_THAT(summary["effects"],
                 testing::IsSupersetOf({"gravity", "bonds", "fault_weakening", "bond_healing",
                                        "sedimentation", "compaction", "energy", "elastic_base",
-                                       "lower_crust_thinning", "footwall_erosion"}));
+                                       "lower_crust_thinning", "basin_water",
+                                       "footwall_erosion"}));
     EXPECT_TRUE(summary.contains("energy_residual"));
 }
 

@@ -2,6 +2,7 @@
 
 #include "apps/explain.hpp"
 #include "apps/footwall_request.hpp"
+#include "coupling/footwall_loads.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -70,7 +71,7 @@ protected:
 };
 
 TEST_F(ElasticBaseRun, LoadsBesideDiscsEndInTheSameBitsAfterAResumeAndWithTwoThreads) {
-    const Scene s = load(loads);
+    const Scene s = load(loads + "[basin_water]\n");
     const json whole = run(s, "whole");
     run(s, "parts", 25.0);
     const json parts = run(s, "parts", {}, true);
@@ -78,10 +79,32 @@ TEST_F(ElasticBaseRun, LoadsBesideDiscsEndInTheSameBitsAfterAResumeAndWithTwoThr
     EXPECT_EQ(parts["base_resolved_difference"], whole["base_resolved_difference"]);
     EXPECT_EQ(run(s, "threads", {}, false, 2)["state_hash"], whole["state_hash"]);
     EXPECT_THAT(whole["effects"],
-                AllOf(Contains("lower_crust_thinning"), Contains("footwall_erosion")));
+                AllOf(Contains("lower_crust_thinning"), Contains("footwall_erosion"),
+                      Contains("basin_water")));
     const double e = whole["extension_m"];
     EXPECT_DOUBLE_EQ(whole["lower_crust_thinning_m"], 20000.0 * e / (15000.0 + e));
     EXPECT_TRUE(whole.contains("footwall_eroded_m2"));
+}
+
+TEST_F(ElasticBaseRun, WaterHoldsTheBaseDown) {
+    const Scene wet = load("[basin_water]\n");
+    const json dry = run(load(), "dry"), filled = run(wet, "wet");
+    const double water = filled["basin_water_n_per_m"];
+    // Its weight alone on the footwall lowers the breakaway; the discs' load hardly changes.
+    const double lower =
+        dry["footwall_uplift_m"].get<double>() - filled["footwall_uplift_m"].get<double>();
+    const State end = read_snapshot(list_snapshots(folder / "wet").back()).state;
+    const auto footwall = fem::make_footwall(make_footwall_request(wet));
+    fem::Load load;
+    load.interface = interface_loads(end);
+    load.interface.resize(2 * footwall->interface().size(), 0.0);
+    footwall->solve(load);
+    const double alone = -footwall->interface_displacement()[1];
+    std::printf("water of %.3g N/m: lower by %.2f m, on the footwall alone %.2f m\n", water, lower,
+                alone);
+    EXPECT_GT(water, 0.0);
+    EXPECT_NEAR(lower, alone, 0.25 * alone); // as for thinning
+    EXPECT_FALSE(dry.contains("basin_water_n_per_m"));
 }
 
 TEST_F(ElasticBaseRun, ThinningLowersTheBase) {
@@ -137,6 +160,8 @@ TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {
                             HasSubstr("not in the model: water")));
     EXPECT_THAT(without, HasSubstr("not in the model: erosion of the footwall, thinning of the "
                                    "lower crust, water"));
+    EXPECT_THAT(explain(load("[basin_water]\n"), 1),
+                AllOf(HasSubstr("basin: water of 1030 kg/m3 up to 0 m"), Not(HasSubstr("crust, water"))));
 }
 
 TEST_F(ElasticBaseRun, RefusesBadInput) {

@@ -1,5 +1,6 @@
 // Loads on the footwall that no disc brings, against columns of rock on springs.
 
+#include "coupling/basin_water.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "coupling/independent_solution.hpp"
 #include "tests/support.hpp"
@@ -180,6 +181,58 @@ TEST_F(Erosion, BringsAnUnevenSurfaceToTheTarget) {
         EXPECT_NEAR(height, target_[k], 0.01);
         EXPECT_TRUE(eroded_[k] >= 0.0 && deposited_[k] >= 0.0);
     }
+}
+
+/// A hanging wall of 10 km moves right by 2 km, off a ramp, and sinks by 1 km.
+TEST(BasinWater, WeighsOnWhatLiesBelow) {
+    Interface interface;
+    for (int k = 0; k <= 40; ++k) { // a ramp of 45 degrees and a flat at 2 km
+        interface.x.push_back(500.0 * k);
+        interface.y.push_back(std::max(-500.0 * k, -2000.0));
+    }
+    constexpr double r = 50.0, column = 200.0;
+    std::vector<Disc> discs; // their tops ten metres below the level: roughness
+    for (int k = 0; k < 100; ++k)
+        discs.push_back({r + 2.0 * r * k, -r - 10.0, r});
+    State state = make_state(discs);
+    add_base_nodes(state, interface.x, interface.y);
+    const DiscColumns d = disc_columns(state);
+    const BaseNodeColumns nodes = base_node_columns(state);
+    const BasinWaterParameters parameters{.level = 0.0, .density = 1030.0};
+    BasinWater water(interface, parameters, gravity, column, 0.01);
+    water.begin(state);
+    EXPECT_NEAR(water.memory.get<double>("start_depth_m")[0], 10.0, 1e-9);
+    water.apply(state, {});
+    EXPECT_NEAR(water_weight(state), 0.0, 1.0);
+
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        d.x[i] += 2000.0;
+        d.y[i] -= 1000.0;
+    }
+    EXPECT_FALSE(water.apply(state, {})); // neighbours are the same
+    // Over the ramp 100, 300, ... 1900 m deep but for the roughness, over the hanging wall 1000 m.
+    const double area = 2000.0 * (1000.0 - 10.0) + 9800.0 * 1000.0;
+    EXPECT_NEAR(water_weight(state), 1030.0 * gravity * area, 1e-9 * water_weight(state));
+    // On the flat, on each metre of the detachment what is above it; Simpson's weights.
+    const auto load = state.base_memory.at("interface_loads").get<double>("basin_water");
+    const double on_a_node = 500.0 * 1030.0 * gravity * 1000.0;
+    for (std::size_t k = 6; k < 22; ++k)
+        EXPECT_NEAR(load[2 * k + 1], -on_a_node * (k % 2 ? 4.0 : 2.0) / 3.0, 1e-9 * on_a_node) << k;
+    for (std::size_t k = 0; k < interface.x.size(); ++k)
+        EXPECT_EQ(load[2 * k], 0.0);
+
+    // A ramp that rises leaves less room where no disc lies on it.
+    std::ranges::fill(nodes.uy, 500.0);
+    water.apply(state, {});
+    const double left = column * (200.0 + 400.0 + 600.0 + 800.0 + 1000.0 + 1200.0 + 1400.0 - 70.0);
+    EXPECT_NEAR(water_weight(state), 1030.0 * gravity * (left + 9800.0 * 1000.0),
+                1e-9 * water_weight(state));
+    // What has come up is dry.
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        d.y[i] += 2000.0;
+    std::ranges::fill(nodes.uy, 3000.0);
+    water.apply(state, {});
+    EXPECT_EQ(water_weight(state), 0.0);
 }
 
 TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
