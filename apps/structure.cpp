@@ -308,22 +308,25 @@ private:
         return std::nullopt;
     }
 
+    /// Where the last window's deformation is, beside the early ones'.
     void measure_hinge() {
+        if (past_.empty())
+            return;
         row_of_ = DiscPlaces(now_).row_of;
-        std::vector<double> early, late;
+        std::vector<double> early;
         for (std::size_t k = 0; k + 1 < past_.size(); ++k) {
             const double end = past_[k + 1].places.extension;
-            const bool is_early = end > 0.1 * extension_ && end < 0.42 * extension_;
-            if (!is_early && end < 0.78 * extension_)
+            if (end < 0.1 * extension_ || end > 0.42 * extension_)
                 continue;
             if (const auto x = hinge(only_present(
                     shear_field(past_[k].places, past_[k + 1].places, least_age(scene_)))))
-                (is_early ? early : late).push_back(*x);
+                early.push_back(*x);
         }
-        if (early.empty() || late.empty())
+        const auto late = hinge(window_);
+        if (early.empty() || !late)
             return;
-        put("hinge_start_x_m", median(late));
-        put("hinge_step_m", median(early) - median(late));
+        put("hinge_start_x_m", late);
+        put("hinge_step_m", median(early) - *late);
     }
 
     /// Discs of an earlier field that are still there.
