@@ -44,13 +44,14 @@ def draw(rows):
         for row in mine:
             right.plot(float(row["elastic_thickness_m"]) / 1e3, float(row["uplift_m"]), "o",
                        color=colour, ms=3.5, alpha=0.45, mew=0)
-        right.plot(nominal, at("uplift_m"), "o-", color=colour, lw=1.6, label=f"{fill}: breakaway")
+        local = mean([float(row["local_m"]) for row in mine]) / 1e3
+        right.plot(nominal, at("uplift_m"), "o-", color=colour, lw=1.6,
+                   label=f"{fill}: breakaway (local compensation: up to {local:.1f} km)")
         right.plot(nominal, at("continuous_plate_m"), ":", color=colour, lw=1.2,
                    label=f"{fill}: continuous plate")
         right.plot(nominal, at("broken_plate_m"), "--", color=colour, lw=1.2,
                    label=f"{fill}: plate broken at the breakaway")
-        right.axhline(mean([float(row["local_m"]) for row in mine]), xmax=0.06, color=colour, lw=2.5)
-    left.set_xlim(4.0, 55.0)
+    left.set_xlim(4.0, 80.0)
     left.set_title("Against the thickness fitted to the detachment's deflection", fontsize=10,
                    loc="left")
     left.set_xlabel("fitted elastic thickness, km: bar from continuous to broken plate; nominal beside it")
@@ -60,10 +61,10 @@ def draw(rows):
         axes.set_xscale("log")
         axes.set_xticks([2, 5, 10, 15, 20, 30], labels=["2", "5", "10", "15", "20", "30"])
         axes.minorticks_off()
-        axes.set_ylim(bottom=0.0)
+        axes.set_ylim(0.0, 1.35 * max(float(row["uplift_m"]) for row in rows))
         axes.set_ylabel("uplift of the breakaway, m")
         axes.grid(True, lw=0.4, color="#d0d0d0")
-        axes.legend(frameon=False, fontsize=8)
+        axes.legend(frameon=False, fontsize=7)
         without_frame(axes)
     figure.tight_layout()
     return figure

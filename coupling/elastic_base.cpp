@@ -232,7 +232,7 @@ void ElasticBase::book(State& state, double cycles, double extension, double rea
     }
 
     add_footwall_loads(state, load_);
-    if (state.base_memory.contains("footwall_loads")) {
+    if (has_footwall_loads(state)) {
         const auto effects = means.add<double>("effects", "N", 0.0);
         std::vector<double> loads(load_.size(), 0.0);
         add_footwall_loads(state, loads);

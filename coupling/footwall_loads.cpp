@@ -50,6 +50,10 @@ std::vector<double> interface_loads(const State& state) {
     return sum;
 }
 
+bool has_footwall_loads(const State& state) {
+    return state.base_memory.contains(elsewhere) || state.base_memory.contains(on_interface);
+}
+
 void add_footwall_loads(const State& state, std::span<double> forces) {
     add_loads(state, elsewhere, forces);
     add_loads(state, on_interface, forces);

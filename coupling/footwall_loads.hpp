@@ -29,6 +29,8 @@ std::vector<double> interface_loads(const State& state);
 /// the loads elsewhere.
 std::vector<double> interface_forces(const ElasticBase& base, const State& state);
 
+bool has_footwall_loads(const State& state);
+
 /// Adds the forces of all effects.
 void add_footwall_loads(const State& state, std::span<double> forces);
 

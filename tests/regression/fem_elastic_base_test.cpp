@@ -103,6 +103,8 @@ TEST_F(ElasticBaseRun, WaterHoldsTheBaseDown) {
     std::printf("water of %.3g N/m: lower by %.2f m, on the footwall alone %.2f m\n", water, lower,
                 alone);
     EXPECT_GT(water, 0.0);
+    EXPECT_LT(filled["base_resolved_difference"].get<double>(), 0.08); // as on a second mesh
+    EXPECT_TRUE(end.base_memory.at("last_window").has("effects"));
     EXPECT_NEAR(lower, alone, 0.25 * alone); // as for thinning
     EXPECT_FALSE(dry.contains("basin_water_n_per_m"));
 }
