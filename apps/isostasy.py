@@ -38,9 +38,11 @@ def draw(rows):
         between = [math.sqrt(a * b) for a, b in zip(least, most)]
         left.plot(between, at("uplift_m"), "o-", color=colour, lw=1.6, label=f"{fill}: breakaway")
         left.hlines(at("uplift_m"), least, most, color=colour, lw=4, alpha=0.3)
-        for t, x, y in zip(nominal, most, at("uplift_m")):
-            left.annotate(f"{t:g} km", (x, y), xytext=(6, 0), textcoords="offset points", va="center",
-                          fontsize=8, color=colour)
+        on_the_left = fill == "water"  # its bars end where those of the empty basin begin
+        for t, x, y in zip(nominal, least if on_the_left else most, at("uplift_m")):
+            left.annotate(f"{t:g} km", (x, y), xytext=(-6 if on_the_left else 6, 0),
+                          textcoords="offset points", ha="right" if on_the_left else "left",
+                          va="center", fontsize=8, color=colour)
         for row in mine:
             right.plot(float(row["elastic_thickness_m"]) / 1e3, float(row["uplift_m"]), "o",
                        color=colour, ms=3.5, alpha=0.45, mew=0)
@@ -61,7 +63,7 @@ def draw(rows):
         axes.set_xscale("log")
         axes.set_xticks([2, 5, 10, 15, 20, 30], labels=["2", "5", "10", "15", "20", "30"])
         axes.minorticks_off()
-        axes.set_ylim(0.0, 1.35 * max(float(row["uplift_m"]) for row in rows))
+        axes.set_ylim(0.0, 1.6 * max(float(row["uplift_m"]) for row in rows))
         axes.set_ylabel("uplift of the breakaway, m")
         axes.grid(True, lw=0.4, color="#d0d0d0")
         axes.legend(frameon=False, fontsize=7)
