@@ -295,9 +295,8 @@ std::vector<std::pair<std::string, double>> footwall_summary(const Table& histor
     for (const char* name : {"strong_rock_strain_max", "relaxed_rock_strain_max",
                              "rock_rotation_max_deg", "beyond_byerlee_m2"})
         measures.emplace_back(name, largest(column(name)));
-    for (const char* name :
-         {"lower_crust_thinning_m", "basin_water_n_per_m", "footwall_eroded_m2",
-          "footwall_deposited_m2"})
+    for (const char* name : {"lower_crust_thinning_m", "basin_water_n_per_m", "footwall_eroded_m2",
+                             "footwall_deposited_m2"})
         if (history.has(name))
             measures.emplace_back(name, column(name).back());
     return measures;

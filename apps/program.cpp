@@ -146,8 +146,9 @@ void add_validation_options(CLI::App& command, ValidationRequest& request) {
     command.add_option("--accuracy", request.accuracy, "Of the runs: draft, standard, ...");
     command.add_option("--seeds", request.seeds, "Runs per experiment")->check(CLI::Range(1, 1000));
     command.add_option("--runs", request.runs, "Folder of the runs (out/validation-ACCURACY)");
-    command.add_option("--output", request.output,
-                       "Document (docs/validation.md; not at standard or not all: beside the runs)");
+    command.add_option(
+        "--output", request.output,
+        "Document (docs/validation.md; not at standard or not all: beside the runs)");
     command.add_option("--only", request.only, "One experiment");
     command.add_option("--plan", request.plan, "Runs and expectations (apps/validation.toml)");
     add_threads(command, request.threads);
@@ -177,8 +178,7 @@ void require_known(std::string_view kind, std::string_view word,
                    const std::vector<std::string>& known) {
     if (std::ranges::find(known, word) != known.end())
         return;
-    const auto meant =
-        nearest(word, std::vector<std::string_view>(known.begin(), known.end()));
+    const auto meant = nearest(word, std::vector<std::string_view>(known.begin(), known.end()));
     throw UsageError(fmt::format("no {} {}; {}there are {}", kind, word,
                                  meant ? fmt::format("did you mean {}? ", *meant) : "",
                                  fmt::join(known, ", ")));

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "coupling/basin_water.hpp"
 #include "coupling/elastic_base.hpp"
 #include "coupling/footwall_erosion.hpp"
-#include "coupling/basin_water.hpp"
 #include "coupling/lower_crust_thinning.hpp"
 #include "dem/base_motion.hpp"
 #include "dem/events/bond_healing.hpp"

@@ -82,9 +82,8 @@ public:
               std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
               const Measures& measures, std::span<const Past> past)
         : scene_(scene), base_(base), now_(now), events_(events), faults_(faults),
-          measures_(measures), past_(past),
-          detachment_(base.surfaces.front().chain), d_(disc_columns(now)),
-          diameter_(2.0 * now.mean_radius), extension_(now.clock.extension),
+          measures_(measures), past_(past), detachment_(base.surfaces.front().chain),
+          d_(disc_columns(now)), diameter_(2.0 * now.mean_radius), extension_(now.clock.extension),
           profile_(measure_profile(scene, now, base)) {
         if (!past.empty())
             window_ = shear_field(past.back().places, DiscPlaces(now), least_age(scene));
@@ -358,59 +357,69 @@ private:
                    angle = found.get<double>("angle_rad"), x = found.get<double>("x_m"),
                    y = found.get<double>("y_m");
         for (std::size_t k = 0; k < at.size(); ++k)
-            if (const double dip = angle[k] * 180.0 / pi; at[k] > from + 1.0 && at[k] < to + 1.0 &&
-                                                          slip[k] > 0.0 && dip > 20.0 && dip < 80.0)
+            if (const double dip = angle[k] * 180.0 / pi;
+                at[k] > from + 1.0 && at[k] < to + 1.0 && slip[k] > 0.0 && dip > 20.0 && dip < 80.0)
                 centres.push_back({x[k], y[k]});
         return centres;
+    }
+
+    /// Of the rock and sediment above the kink in one window, times areas.
+    struct AboveKink {
+        double strain = 0.0, reverse = 0.0, on_faults = 0.0, sediment = 0.0, stretch = 0.0;
+    };
+
+    AboveKink sum_above_kink(const ShearField& field, const std::vector<Point>& segments,
+                             double kink, double flat_depth) const {
+        const double reach = scene_.fault_weakening
+                                 ? 0.5 * scene_.fault_weakening->circle_diameters * diameter_
+                                 : 0.0;
+        AboveKink sum;
+        for (std::size_t k = 0; k < field.x.size(); ++k) {
+            const Point p{field.x[k], field.y[k]};
+            if (p.y < -flat_depth || p.x < kink - 3e3 || p.x > kink + 6e3)
+                continue;
+            const auto i = static_cast<std::size_t>(row_of_[static_cast<std::size_t>(field.id[k])]);
+            const double area = d_.radius[i] * d_.radius[i];
+            if (d_.stratum[i] > 0) {
+                sum.sediment += area;
+                sum.stretch += area * field.xx[k];
+            }
+            const ShearPlane plane = shear_plane(field, k);
+            sum.strain += area * plane.strain;
+            if (!plane.reverse || plane.falls_right || plane.dip < 20.0 || plane.dip > 80.0)
+                continue;
+            sum.reverse += area * plane.strain;
+            if (std::ranges::any_of(
+                    segments, [&](Point s) { return std::hypot(s.x - p.x, s.y - p.y) < reach; }))
+                sum.on_faults += area * plane.strain;
+        }
+        return sum;
     }
 
     /// Since half of the extension: by then the upper block's toe turns back.
     void measure_above_kink(double kink, double flat_depth) {
         row_of_ = DiscPlaces(now_).row_of;
         const DiscPlaces now(now_);
-        const double reach =
-            scene_.fault_weakening
-                ? 0.5 * scene_.fault_weakening->circle_diameters * diameter_
-                : 0.0;
-        double all = 0.0, reverse = 0.0, on_faults = 0.0, shortening = 0.0;
+        double strain = 0.0, reverse = 0.0, on_faults = 0.0, shortening = 0.0;
         for (std::size_t k = 0; k < past_.size(); ++k) {
+            const DiscPlaces& start = past_[k].places;
             const DiscPlaces& end = k + 1 < past_.size() ? past_[k + 1].places : now;
             if (end.extension < 0.5 * extension_ + 1.0)
                 continue;
-            const ShearField field =
-                only_present(shear_field(past_[k].places, end, least_age(scene_)));
-            const std::vector<Point> segments =
-                reverse_segments(past_[k].places.extension, end.extension);
-            double sediment = 0.0, stretch = 0.0;
-            for (std::size_t j = 0; j < field.x.size(); ++j) {
-                const Point p{field.x[j], field.y[j]};
-                if (p.y < -flat_depth || p.x < kink - 3e3 || p.x > kink + 6e3)
-                    continue;
-                const auto i =
-                    static_cast<std::size_t>(row_of_[static_cast<std::size_t>(field.id[j])]);
-                const double area = d_.radius[i] * d_.radius[i];
-                if (d_.stratum[i] > 0) {
-                    sediment += area;
-                    stretch += area * field.xx[j];
-                }
-                const ShearPlane plane = shear_plane(field, j);
-                all += area * plane.strain;
-                if (!plane.reverse || plane.falls_right || plane.dip < 20.0 || plane.dip > 80.0)
-                    continue;
-                reverse += area * plane.strain;
-                if (std::ranges::any_of(segments, [&](Point s) {
-                        return std::hypot(s.x - p.x, s.y - p.y) < reach;
-                    }))
-                    on_faults += area * plane.strain;
-            }
-            if (sediment > 0.0)
-                shortening -= stretch / sediment;
+            const AboveKink sum =
+                sum_above_kink(only_present(shear_field(start, end, least_age(scene_))),
+                               reverse_segments(start.extension, end.extension), kink, flat_depth);
+            strain += sum.strain;
+            reverse += sum.reverse;
+            on_faults += sum.on_faults;
+            if (sum.sediment > 0.0)
+                shortening -= sum.stretch / sum.sediment;
         }
-        if (all > 0.0) {
-            put("kink_reverse_strain_share", reverse / all);
-            put("kink_reverse_fault_share", on_faults / all);
-            put("kink_synrift_shortening", shortening);
-        }
+        if (!(strain > 0.0))
+            return;
+        put("kink_reverse_strain_share", reverse / strain);
+        put("kink_reverse_fault_share", on_faults / strain);
+        put("kink_synrift_shortening", shortening);
     }
 
     void measure_ramp_flat_ramp() {

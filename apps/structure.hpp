@@ -38,9 +38,9 @@ NamedNumbers measure_structure(const Scene& scene, const RigidBase& base, const 
 std::vector<std::pair<double, NamedNumbers>> examine_run(const std::filesystem::path& output,
                                                          std::span<const double> extensions);
 
-/// How far nearer to the breakaway a steep normal fault has come up than those born 2 km of extension
-/// before it, m: distance from the nearest of them, at the height of its middle. Steep: 45 degrees.
-/// 0: none has.
+/// How far nearer to the breakaway a steep normal fault has come up than those born 2 km of
+/// extension before it, m: distance from the nearest of them, at the height of its middle. Steep:
+/// 45 degrees. 0: none has.
 double inner_fault_step(const std::vector<Fault>& faults);
 
 /// Rank correlation of a fault's throws with the strata's numbers (Spearman), -1 where throw falls

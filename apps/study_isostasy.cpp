@@ -122,8 +122,8 @@ StudyResult study_isostasy(const StudyRequest& asked) {
                     "{:.3f},{:.0f},{:.3f},{:.3g},{:.3g}\n",
                     fill.name, thickness, request.seed + k, uplift, value("base_deflection_max_m"),
                     load, value("net_wall_load_error"), water, at_breakaway, when_broken,
-                    local_compensation(plate, last.loads), fit.thickness,
-                    fit.misfit, whole.thickness, whole.misfit, value("strong_rock_strain_max"),
+                    local_compensation(plate, last.loads), fit.thickness, fit.misfit,
+                    whole.thickness, whole.misfit, value("strong_rock_strain_max"),
                     value("relaxed_rock_strain_max"));
                 const double wall = value("wall_s");
                 result.points.push_back(

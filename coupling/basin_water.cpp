@@ -70,8 +70,7 @@ bool BasinWater::apply(State& state, const RigidBase&) {
     const std::span<double> load = interface_load(state, name(), 2 * nodes_);
     std::ranges::fill(load, 0.0);
     for (std::size_t k = 0; k < std::min(depth.size(), per_pascal_.size()); ++k) {
-        const double pressure =
-            parameters_.density * gravity_ * std::max(0.0, depth[k] - start);
+        const double pressure = parameters_.density * gravity_ * std::max(0.0, depth[k] - start);
         for (std::size_t n = 0; n < nodes_; ++n)
             load[2 * n + 1] -= pressure * per_pascal_[k][n];
     }

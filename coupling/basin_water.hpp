@@ -7,10 +7,10 @@
 
 namespace listric {
 
-/// Water fills what lies below its level above hanging wall and detachment. Its weight goes straight
-/// down to the detachment. It does not act on the discs: their contacts carry effective stress,
-/// which water whose pressure is in the pores, too, leaves as it is. Its pushes sideways, on the
-/// scarp and on the head block, balance each other and are left out.
+/// Water fills what lies below its level above hanging wall and detachment. Its weight goes
+/// straight down to the detachment. It does not act on the discs: their contacts carry effective
+/// stress, which water whose pressure is in the pores, too, leaves as it is. Its pushes sideways,
+/// on the scarp and on the head block, balance each other and are left out.
 struct BasinWaterParameters {
     double level = 0.0;       ///< of its surface, above the original surface, m
     double density = 1030.0;  ///< kg/m^3
@@ -26,8 +26,8 @@ double water_weight(const State& state);
 
 /// Puts the weight of the water on the interface.
 ///
-/// Its memory has a row: start_depth_m, the mean depth between the tops of the discs of the original
-/// surface and the level. That is the surface's roughness, and no water.
+/// Its memory has a row: start_depth_m, the mean depth between the tops of the discs of the
+/// original surface and the level. That is the surface's roughness, and no water.
 class BasinWater : public Event {
 public:
     BasinWater(const Interface& interface, const BasinWaterParameters& parameters, double gravity,

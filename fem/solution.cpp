@@ -220,8 +220,7 @@ Guard ElasticFootwall::guard(double rock_weight) const {
             double& most = rock.relaxed ? guard.relaxed_strain : guard.strong_strain;
             most = std::max(most, std::abs(centre) + radius);
             guard.rotation = std::max(guard.rotation, 0.5 * std::abs(slope[1][0] - slope[0][1]));
-            const double pressure =
-                -rock_weight * place.y - 2.0 * (rock.lambda + rock.mu) * centre;
+            const double pressure = -rock_weight * place.y - 2.0 * (rock.lambda + rock.mu) * centre;
             if (!rock.relaxed && beyond_byerlee(pressure, 2.0 * rock.mu * radius))
                 guard.beyond_byerlee += values.JxW(q);
         }

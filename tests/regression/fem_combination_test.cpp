@@ -50,8 +50,7 @@ TEST_F(ElasticCombination, WithEverything) {
     EXPECT_THAT(summary["effects"],
                 testing::IsSupersetOf({"gravity", "bonds", "fault_weakening", "bond_healing",
                                        "sedimentation", "compaction", "energy", "elastic_base",
-                                       "lower_crust_thinning", "basin_water",
-                                       "footwall_erosion"}));
+                                       "lower_crust_thinning", "basin_water", "footwall_erosion"}));
     EXPECT_TRUE(summary.contains("energy_residual"));
 }
 

@@ -78,9 +78,8 @@ TEST_F(ElasticBaseRun, LoadsBesideDiscsEndInTheSameBitsAfterAResumeAndWithTwoThr
     EXPECT_EQ(parts["state_hash"], whole["state_hash"]);
     EXPECT_EQ(parts["base_resolved_difference"], whole["base_resolved_difference"]);
     EXPECT_EQ(run(s, "threads", {}, false, 2)["state_hash"], whole["state_hash"]);
-    EXPECT_THAT(whole["effects"],
-                AllOf(Contains("lower_crust_thinning"), Contains("footwall_erosion"),
-                      Contains("basin_water")));
+    EXPECT_THAT(whole["effects"], AllOf(Contains("lower_crust_thinning"),
+                                        Contains("footwall_erosion"), Contains("basin_water")));
     const double e = whole["extension_m"];
     EXPECT_DOUBLE_EQ(whole["lower_crust_thinning_m"], 20000.0 * e / (15000.0 + e));
     EXPECT_TRUE(whole.contains("footwall_eroded_m2"));
@@ -130,8 +129,8 @@ TEST_F(ElasticBaseRun, ThinningLowersTheBase) {
 }
 
 TEST_F(ElasticBaseRun, StopsWhereLinearElasticityEnds) {
-    const Scene soft = load(loads.substr(0, loads.find("[footwall")),
-                            {"elastic_base.young_modulus_pa=1e8"});
+    const Scene soft =
+        load(loads.substr(0, loads.find("[footwall")), {"elastic_base.young_modulus_pa=1e8"});
     try {
         run(soft, "soft");
         FAIL() << "a footwall of clay has carried it";
@@ -162,8 +161,9 @@ TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {
                             HasSubstr("not in the model: water")));
     EXPECT_THAT(without, HasSubstr("not in the model: erosion of the footwall, thinning of the "
                                    "lower crust, water"));
-    EXPECT_THAT(explain(load("[basin_water]\n"), 1),
-                AllOf(HasSubstr("basin: water of 1030 kg/m3 up to 0 m"), Not(HasSubstr("crust, water"))));
+    EXPECT_THAT(
+        explain(load("[basin_water]\n"), 1),
+        AllOf(HasSubstr("basin: water of 1030 kg/m3 up to 0 m"), Not(HasSubstr("crust, water"))));
 }
 
 TEST_F(ElasticBaseRun, RefusesBadInput) {

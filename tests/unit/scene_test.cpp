@@ -735,9 +735,8 @@ TEST_F(SceneTest, AwkwardNumbersReadBackTheSame) {
                 continue; // checked against each other
             if (table.name == "elastic_base" || table.name == "flexure" ||
                 table.name == "lower_crust_thinning" || table.name == "basin_water" ||
-                table.name == "footwall_erosion" ||
-                table.name == "base_motion" || table.name == "stretching" ||
-                table.name == "energy") {
+                table.name == "footwall_erosion" || table.name == "base_motion" ||
+                table.name == "stretching" || table.name == "energy") {
                 table.drop(); // checked against each other
                 continue;
             }

@@ -154,9 +154,9 @@ TEST(InnerFault, StepsTowardTheBreakaway) {
     EXPECT_EQ(inner_fault_step({}), 0.0);
     EXPECT_EQ(inner_fault_step({outer, antithetic}), 0.0); // of one age
     EXPECT_NEAR(inner_fault_step({outer, fault_at(26e3, 9e3), antithetic}), 5e3, 1.0);
-    EXPECT_EQ(inner_fault_step({outer, fault_at(26e3, 2e3)}), 0.0);            // hardly younger
+    EXPECT_EQ(inner_fault_step({outer, fault_at(26e3, 2e3)}), 0.0);             // hardly younger
     EXPECT_EQ(inner_fault_step({outer, fault_at(34e3, 9e3), antithetic}), 0.0); // further out
-    EXPECT_EQ(inner_fault_step({outer, fault_at(26e3, 9e3, true, 2.0)}), 0.0); // not steep
+    EXPECT_EQ(inner_fault_step({outer, fault_at(26e3, 9e3, true, 2.0)}), 0.0);  // not steep
     Fault reverse = fault_at(26e3, 9e3);
     reverse.normal = false;
     EXPECT_EQ(inner_fault_step({outer, reverse}), 0.0);
@@ -220,9 +220,9 @@ TEST(ReverseFaults, AboveTheKink) {
     auto detection = std::make_unique<FaultWeakening>(*scene.fault_weakening, 0.01, 9.81, density);
     const double segments[4][5] = {// x, y, angle, slip, found at
                                    {middle.x, middle.y, 50.0, 90.0, 8e3},
-                                   {middle.x + 2e3, middle.y, 50.0, -90.0, 8e3},  // normal
-                                   {middle.x - 2e3, middle.y, 130.0, 90.0, 8e3},  // falls right
-                                   {middle.x, middle.y + 2e3, 50.0, 90.0, 4e3}};  // before
+                                   {middle.x + 2e3, middle.y, 50.0, -90.0, 8e3}, // normal
+                                   {middle.x - 2e3, middle.y, 130.0, 90.0, 8e3}, // falls right
+                                   {middle.x, middle.y + 2e3, 50.0, 90.0, 4e3}}; // before
     detection->memory.resize(4);
     for (std::size_t k = 0; k < 4; ++k) {
         int column = 0;
@@ -235,12 +235,11 @@ TEST(ReverseFaults, AboveTheKink) {
     std::vector<std::unique_ptr<Event>> events;
     events.push_back(std::move(detection));
     RigidBase base;
-    base.surfaces = {{"detachment",
-                      {arc({0.0, 0.0}, {0.0, -1.0}, 7e3, 90.0 * degree),
-                       line({7e3, -7e3}, {12e3, -7e3}),
-                       arc({12e3, -7e3}, {0.0, -1.0}, 8e3, 90.0 * degree),
-                       line({20e3, -15e3}, {100e3, -15e3})},
-                      0.0}};
+    base.surfaces = {
+        {"detachment",
+         {arc({0.0, 0.0}, {0.0, -1.0}, 7e3, 90.0 * degree), line({7e3, -7e3}, {12e3, -7e3}),
+          arc({12e3, -7e3}, {0.0, -1.0}, 8e3, 90.0 * degree), line({20e3, -15e3}, {100e3, -15e3})},
+         0.0}};
     const NamedNumbers found = measure_structure(scene, base, state, events, {}, {}, past);
     const std::map<std::string, double> numbers(found.begin(), found.end());
     EXPECT_NEAR(numbers.at("kink_reverse_strain_share"), 1.0, 1e-9);

@@ -76,7 +76,8 @@ TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
         footwall->solve(load);
         const double sum = -contrast * 20e3 * e, to = 65e3 + e, from = -35e3;
         EXPECT_NEAR(footwall->total_load().y / sum, 1.0, 1e-12);
-        load.traction = [=, vertical = load.traction](fem::Vector p, fem::Vector n, fem::Boundary b) {
+        load.traction = [=, vertical = load.traction](fem::Vector p, fem::Vector n,
+                                                      fem::Boundary b) {
             return fem::Vector{p.x * vertical(p, n, b).y, 0.0};
         };
         footwall->solve(load);
