@@ -150,6 +150,8 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
         if (value)
             frame[name] = *value;
     };
+    if (scene.basin_water)
+        frame["water_level_m"] = scene.basin_water->level;
     add("inclined_shear_angle_deg", m.inclined_shear_angle);
     add("area_balance", m.area_balance);
     add("halfgraben_area_share", m.halfgraben_area_share);

@@ -71,7 +71,7 @@ BOND, BOND_SEDIMENT = "#3a3a3a", "#a87a10"
 BEHAVIOUR = (("#4b5560", "elastic"), ("#98a3ad", "plastic: minor faults"),
              ("#e8b48c", "weakened: major faults"), ("#f6f1df", "unconsolidated"))
 NORMALS_BLUE = "#1f5fb4"
-LEVEL_BLUE, TOP_GREEN = "#1f6fb4", "#2b8a3e"
+LEVEL_BLUE, TOP_GREEN, WATER = "#1f6fb4", "#2b8a3e", "#c6dcef"
 # Slip-rate classes of active faults: upper bound (mm/a), line width (pt), label.
 FAULT_CLASSES = ((0.5, 0.8, "slip < 0.5 mm/a"), (1.0, 1.5, "slip 0.5–1 mm/a"),
                  (math.inf, 2.4, "slip > 1 mm/a"))
@@ -431,15 +431,32 @@ def strata_panel(ax, cax, frame):
     else:
         cax.set_axis_off()
     draw_discs(ax, frame, rgb)
-    ax.axhline(frame.level, color=LEVEL_BLUE, linewidth=1.0, dashes=(6, 3), zorder=6)
     handles = [
         (tuple(swatch(c) for c in LAYER_COLOURS), f"pre-rift, {layer:g} km layers"),
-        (Line2D([], [], color=INK, linewidth=1.5), "detachment"),
-        (Line2D([], [], color=LEVEL_BLUE, linewidth=1.0, dashes=(4, 2)),
-         "target level of sediments")]
+        (Line2D([], [], color=INK, linewidth=1.5), "detachment")]
+    if "sedimentation" in frame.meta.get("effects", ()):
+        ax.axhline(frame.level, color=LEVEL_BLUE, linewidth=1.0, dashes=(6, 3), zorder=6)
+        handles.append((Line2D([], [], color=LEVEL_BLUE, linewidth=1.0, dashes=(4, 2)),
+                        "target level of sediments"))
+    if "water_level_m" in frame.meta:
+        draw_water(ax, frame, frame.meta["water_level_m"] / 1000.0)
+        handles.append((swatch(WATER), "water"))
     if frame.faults is not None and len(frame.faults):
         handles += draw_faults(ax, frame.faults)
     describe(ax, frame, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
+
+
+def draw_water(ax, frame, level):
+    """Water below `level` (km) above the highest discs and, where there are none, the detachment."""
+    line = frame.detachment[np.argsort(frame.detachment[:, 0], kind="stable")]
+    width = 2 * np.median(frame.radius)
+    edges = np.arange(0.0, frame.wall + width, width)
+    x = 0.5 * (edges[1:] + edges[:-1])
+    floor = np.interp(x, *line.T)
+    column = np.digitize(frame.x, edges) - 1
+    inside = (column >= 0) & (column < len(floor))
+    np.maximum.at(floor, column[inside], (frame.y + frame.radius)[inside])
+    ax.fill_between(x, floor, level, where=floor < level, color=WATER, linewidth=0, zorder=1.5)
 
 
 def bonds_panel(ax, cax, frame):
