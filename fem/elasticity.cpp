@@ -381,7 +381,7 @@ void ElasticFootwall::refine(double share_of_cells) {
 } // namespace listric::fem
 
 extern "C" __attribute__((visibility("default"))) listric::fem::Footwall*
-listric_make_footwall(const listric::fem::FootwallRequest& request, std::string& message) {
+LISTRIC_FEM_ENTRY(const listric::fem::FootwallRequest& request, std::string& message) {
     try {
         listric::fem::start_once();
         return new listric::fem::ElasticFootwall(request);

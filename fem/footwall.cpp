@@ -36,9 +36,9 @@ MakeFootwall load_plugin() {
                "); install libdeal.ii-dev petsc-dev libopenmpi-dev openmpi-bin gmsh "
                "(Debian 12) and build again");
     }
-    const auto entry = reinterpret_cast<MakeFootwall>(dlsym(library, entry_name));
+    const auto entry = reinterpret_cast<MakeFootwall>(dlsym(library, LISTRIC_FEM_ENTRY));
     if (!entry)
-        refuse(file + ": is no plug-in for elastic bases; build again");
+        refuse(file + ": is no plug-in for elastic bases of this build; build again");
     return entry;
 }
 

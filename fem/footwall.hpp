@@ -215,10 +215,10 @@ std::unique_ptr<Footwall> make_footwall(const FootwallRequest& request);
 /// A series of written fields that ParaView opens: file names beside the .pvd, and their times.
 void write_series(const std::string& pvd, std::span<const std::pair<double, std::string>> moments);
 
-/// The plug-in's only entry. On failure null, with the reason in `message`.
+/// The plug-in's only entry. On failure null, with the reason in `message`. Its name,
+/// LISTRIC_FEM_ENTRY, has a hash of this file: a plug-in of another build has none of that name.
 extern "C" {
 using MakeFootwall = Footwall* (*)(const FootwallRequest& request, std::string& message);
 }
-inline constexpr const char* entry_name = "listric_make_footwall";
 
 } // namespace listric::fem
