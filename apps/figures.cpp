@@ -96,8 +96,20 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
     }
     put<double>(folder, "detachment", line, 2);
 
-    const Profile profile = measure_profile(scene, state, base);
     std::vector<double> rows;
+    if (scene.basin_water) {
+        const double width = water_column_width(scene.hanging_wall->mean_radius);
+        const double level = scene.basin_water->level;
+        rows = {0.0, level, level}; // the shore at the breakaway
+        double x = 0.5 * width;
+        for (const double water : water_depths(state, level, width)) {
+            rows.insert(rows.end(), {x, level - water, level});
+            x += width;
+        }
+        put<double>(folder, "water", rows, 3);
+        rows.clear();
+    }
+    const Profile profile = measure_profile(scene, state, base);
     for (std::size_t k = 0; k < profile.x.size(); ++k)
         rows.insert(rows.end(),
                     {profile.x[k], profile.pre_rift_top[k], profile.sediment_thickness[k]});
@@ -150,8 +162,6 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
         if (value)
             frame[name] = *value;
     };
-    if (scene.basin_water)
-        frame["water_level_m"] = scene.basin_water->level;
     add("inclined_shear_angle_deg", m.inclined_shear_angle);
     add("area_balance", m.area_balance);
     add("halfgraben_area_share", m.halfgraben_area_share);

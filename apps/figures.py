@@ -106,6 +106,7 @@ class Frame:
     profile: Optional[np.ndarray]
     depocentres: Optional[np.ndarray]
     faults: Optional[np.ndarray]
+    water: Optional[np.ndarray] = None   # x, floor, level
     predicted_shear: Optional[np.ndarray] = None
     predicted_normals: Optional[np.ndarray] = None
     view: tuple = ()                     # xmin, xmax, ymin, ymax (km)
@@ -227,6 +228,7 @@ def load_frame(directory):
         detachment=km(detachment), profile=profile,
         depocentres=km(load_array(directory, "depocentres", columns=3, optional=True)),
         faults=faults,
+        water=km(load_array(directory, "water", columns=3, optional=True)),
         predicted_shear=km(load_array(directory, "predicted_shear", columns=2, optional=True)),
         predicted_normals=km(load_array(directory, "predicted_normals", columns=2,
                                         optional=True)))
@@ -438,25 +440,13 @@ def strata_panel(ax, cax, frame):
         ax.axhline(frame.level, color=LEVEL_BLUE, linewidth=1.0, dashes=(6, 3), zorder=6)
         handles.append((Line2D([], [], color=LEVEL_BLUE, linewidth=1.0, dashes=(4, 2)),
                         "target level of sediments"))
-    if "water_level_m" in frame.meta:
-        draw_water(ax, frame, frame.meta["water_level_m"] / 1000.0)
+    if frame.water is not None:
+        x, floor, level = frame.water.T
+        ax.fill_between(x, floor, level, color=WATER, linewidth=0, zorder=1.5)
         handles.append((swatch(WATER), "water"))
     if frame.faults is not None and len(frame.faults):
         handles += draw_faults(ax, frame.faults)
     describe(ax, frame, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
-
-
-def draw_water(ax, frame, level):
-    """Water below `level` (km) above the highest discs and, where there are none, the detachment."""
-    line = frame.detachment[np.argsort(frame.detachment[:, 0], kind="stable")]
-    width = 2 * np.median(frame.radius)
-    edges = np.arange(0.0, frame.wall + width, width)
-    x = 0.5 * (edges[1:] + edges[:-1])
-    floor = np.interp(x, *line.T)
-    column = np.digitize(frame.x, edges) - 1
-    inside = (column >= 0) & (column < len(floor))
-    np.maximum.at(floor, column[inside], (frame.y + frame.radius)[inside])
-    ax.fill_between(x, floor, level, where=floor < level, color=WATER, linewidth=0, zorder=1.5)
 
 
 def bonds_panel(ax, cax, frame):

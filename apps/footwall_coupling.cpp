@@ -110,7 +110,7 @@ std::vector<std::unique_ptr<Event>> FootwallCoupling::make_events() {
     if (scene_.basin_water)
         events.push_back(std::make_unique<BasinWater>(
             base_->interface(), *scene_.basin_water, scene_.gravity->acceleration,
-            4.0 * scene_.hanging_wall->mean_radius, rate));
+            water_column_width(scene_.hanging_wall->mean_radius), rate));
     if (scene_.footwall_erosion) {
         const SurfaceResponse& surface = responses_.surface;
         const auto uplift = [this, &surface, &crust](const State& state) {

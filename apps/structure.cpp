@@ -82,11 +82,11 @@ public:
               std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
               const Measures& measures, std::span<const Past> past)
         : scene_(scene), base_(base), now_(now), events_(events), faults_(faults),
-          measures_(measures), past_(past), detachment_(base.surfaces.front().chain),
+          measures_(measures), past_(past), detachment_(base.surfaces.front().chain), places_(now),
           d_(disc_columns(now)), diameter_(2.0 * now.mean_radius), extension_(now.clock.extension),
           profile_(measure_profile(scene, now, base)) {
         if (!past.empty())
-            window_ = shear_field(past.back().places, DiscPlaces(now), least_age(scene));
+            window_ = shear_field(past.back().places, places_, least_age(scene));
     }
 
     NamedNumbers numbers() {
@@ -292,7 +292,8 @@ private:
         double all = 0.0;
         const double least = FaultTraceOptions{}.least_strain * field.window / strain_window;
         for (std::size_t k = 0; k < field.x.size(); ++k) {
-            const auto i = static_cast<std::size_t>(row_of_[static_cast<std::size_t>(field.id[k])]);
+            const auto i =
+                static_cast<std::size_t>(places_.row_of[static_cast<std::size_t>(field.id[k])]);
             if (const double depth = -d_.start_y[i], shear = field.shear(k);
                 d_.stratum[i] == 0 && depth > 5e3 && depth < 10e3 && shear >= least) {
                 strained.emplace_back(d_.start_x[i], shear);
@@ -311,7 +312,6 @@ private:
     void measure_hinge() {
         if (past_.empty())
             return;
-        row_of_ = DiscPlaces(now_).row_of;
         std::vector<double> early;
         for (std::size_t k = 0; k + 1 < past_.size(); ++k) {
             const double end = past_[k + 1].places.extension;
@@ -332,7 +332,7 @@ private:
     ShearField only_present(ShearField field) const {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < field.x.size(); ++k) {
-            if (row_of_[static_cast<std::size_t>(field.id[k])] < 0)
+            if (places_.row_of[static_cast<std::size_t>(field.id[k])] < 0)
                 continue;
             field.id[kept] = field.id[k];
             for (auto* values : {&field.x, &field.y, &field.xx, &field.xy, &field.yx, &field.yy})
@@ -378,7 +378,8 @@ private:
             const Point p{field.x[k], field.y[k]};
             if (p.y < -flat_depth || p.x < kink - 3e3 || p.x > kink + 6e3)
                 continue;
-            const auto i = static_cast<std::size_t>(row_of_[static_cast<std::size_t>(field.id[k])]);
+            const auto i =
+                static_cast<std::size_t>(places_.row_of[static_cast<std::size_t>(field.id[k])]);
             const double area = d_.radius[i] * d_.radius[i];
             if (d_.stratum[i] > 0) {
                 sum.sediment += area;
@@ -398,12 +399,10 @@ private:
 
     /// Since half of the extension: by then the upper block's toe turns back.
     void measure_above_kink(double kink, double flat_depth) {
-        row_of_ = DiscPlaces(now_).row_of;
-        const DiscPlaces now(now_);
         double strain = 0.0, reverse = 0.0, on_faults = 0.0, shortening = 0.0;
         for (std::size_t k = 0; k < past_.size(); ++k) {
             const DiscPlaces& start = past_[k].places;
-            const DiscPlaces& end = k + 1 < past_.size() ? past_[k + 1].places : now;
+            const DiscPlaces& end = k + 1 < past_.size() ? past_[k + 1].places : places_;
             if (end.extension < 0.5 * extension_ + 1.0)
                 continue;
             const AboveKink sum =
@@ -546,11 +545,11 @@ private:
     const Measures& measures_;
     std::span<const Past> past_;
     const Chain& detachment_;
+    DiscPlaces places_; ///< now
     ConstDiscColumns d_;
     double diameter_, extension_;
     Profile profile_;
     ShearField window_; ///< the last
-    std::vector<std::int32_t> row_of_;
     NamedNumbers numbers_;
 };
 

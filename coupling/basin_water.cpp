@@ -10,8 +10,6 @@ namespace listric {
 
 namespace {
 
-constexpr const char* effect = "basin_water";
-
 /// Height of the detachment, as it has moved, at x, m.
 double detachment_height(const ConstBaseNodeColumns& nodes, double x) {
     std::size_t k = 1;
@@ -49,7 +47,7 @@ double water_weight(const State& state) {
 
 BasinWater::BasinWater(const Interface& interface, const BasinWaterParameters& parameters,
                        double gravity, double column_width, double extension_rate)
-    : Event(effect, {parameters.interval, extension_rate}), parameters_(parameters),
+    : Event("basin_water", {parameters.interval, extension_rate}), parameters_(parameters),
       gravity_(gravity), column_width_(column_width), nodes_(interface.x.size()) {
     memory.add<double>("start_depth_m", "", 0.0);
     for (double x = 0.0; x + column_width <= interface.x.back(); x += column_width)

@@ -17,6 +17,9 @@ struct BasinWaterParameters {
     double interval = 2500.0; ///< time between adaptations, a
 };
 
+/// Two mean disc diameters, m: the highest disc of a column is then the surface.
+inline double water_column_width(double mean_radius) { return 4.0 * mean_radius; }
+
 /// Depth of the water, m, in columns of that width from the breakaway on. The floor of a column is
 /// its highest disc, or the detachment where no disc lies.
 std::vector<double> water_depths(const State& state, double level, double column_width);

@@ -16,8 +16,8 @@ class ElasticBase;
 // it. Each is kept as forces on the interface's nodes, which are superposed with the discs'.
 // State::base_memory has a table for loads on the interface, "interface_loads", and one for loads
 // elsewhere, "footwall_loads": forces that displace the interface as the load itself does, C f = u.
-// Both have a column per effect, in N per m of strike: x and y of the first node, of the second,
-// ...
+// Both have a column per effect, in N per m of strike: x and y of the first node, the second and
+// so on.
 
 /// Where an effect keeps its forces; adds the column if it is not there.
 std::span<double> footwall_load(State& state, std::string_view effect, std::size_t unknowns);
