@@ -1,3 +1,3 @@
-#include "apps/program.hpp"
+#include "apps/commands/program.hpp"
 
 int main(int argc, char** argv) { return listric::program(argc, argv); }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::coupling {
 
 void add_rows(std::span<const double> rows, std::span<const double> v, std::span<double> result) {
     std::ranges::fill(result, 0.0);
@@ -25,4 +25,4 @@ void add_rows(std::span<const double> rows, std::span<const double> v, std::span
             sum[k] += v[i] * row[k];
 }
 
-} // namespace listric
+} // namespace listric::coupling

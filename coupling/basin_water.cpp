@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-namespace listric {
+namespace listric::coupling {
+
+using namespace dem;
 
 namespace {
 
@@ -75,4 +77,4 @@ bool BasinWater::apply(State& state, const RigidBase&) {
     return false;
 }
 
-} // namespace listric
+} // namespace listric::coupling

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace listric {
+namespace listric::coupling {
 
 /// Water fills what lies below its level above hanging wall and detachment. Its weight goes
 /// straight down to the detachment. It does not act on the discs: their contacts carry effective
@@ -22,22 +22,22 @@ inline double water_column_width(double mean_radius) { return 4.0 * mean_radius;
 
 /// Depth of the water, m, in columns of that width from the breakaway on. The floor of a column is
 /// its highest disc, or the detachment where no disc lies.
-std::vector<double> water_depths(const State& state, double level, double column_width);
+std::vector<double> water_depths(const dem::State& state, double level, double column_width);
 
 /// Weight of the water on the footwall, N per m of strike.
-double water_weight(const State& state);
+double water_weight(const dem::State& state);
 
 /// Puts the weight of the water on the interface.
 ///
 /// Its memory has a row: start_depth_m, the mean depth between the tops of the discs of the
 /// original surface and the level. That is the surface's roughness, and no water.
-class BasinWater : public Event {
+class BasinWater : public dem::Event {
 public:
     BasinWater(const Interface& interface, const BasinWaterParameters& parameters, double gravity,
                double column_width, double extension_rate);
 
-    void begin(State& state) override;
-    bool apply(State& state, const RigidBase& base) override;
+    void begin(dem::State& state) override;
+    bool apply(dem::State& state, const dem::RigidBase& base) override;
 
 private:
     BasinWaterParameters parameters_;
@@ -46,4 +46,4 @@ private:
     std::vector<std::vector<double>> per_pascal_; ///< by column: forces on the nodes, upward, N
 };
 
-} // namespace listric
+} // namespace listric::coupling

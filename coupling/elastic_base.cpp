@@ -10,7 +10,9 @@
 #include <limits>
 #include <numeric>
 
-namespace listric {
+namespace listric::coupling {
+
+using namespace dem;
 
 namespace {
 
@@ -464,4 +466,4 @@ void ElasticBase::begin_window(State& state) const {
         {{"cycles", "1"}, {"reaction_error", "1"}, {"net_load", "N"}, {"weight_change", "N"}});
 }
 
-} // namespace listric
+} // namespace listric::coupling

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace listric {
+namespace listric::coupling {
 
 /// How base and discs advance together.
 enum class CouplingScheme {
@@ -33,8 +33,8 @@ struct CouplingParameters {
 
 /// Stiffness of the discs that rest on one node, N/m: three contacts' (two springs in series each)
 /// times the discs that a node spans.
-double node_stiffness(const Material& base, std::span<const Material> discs, double node_spacing,
-                      double mean_radius);
+double node_stiffness(const dem::Material& base, std::span<const dem::Material> discs,
+                      double node_spacing, double mean_radius);
 
 /// Means of a window of extension, for the force balance.
 struct WindowBalance {
@@ -47,7 +47,7 @@ struct WindowBalance {
 /// An elastic footwall under the discs, condensed to the detachment and loaded by the changes of
 /// the discs' forces since the settled initial state. Its memory are the state's nodes and
 /// `base_memory`, so that it can be made anew for a resumed state.
-class ElasticBase final : public BaseResponse {
+class ElasticBase final : public dem::BaseResponse {
 public:
     ElasticBase(Interface interface, const CouplingParameters& parameters);
 
@@ -60,18 +60,18 @@ public:
     double staggered_growth() const;
 
     /// Gives a state the nodes, at rest.
-    void attach(State& state) const;
+    void attach(dem::State& state) const;
 
     /// Settles the discs while the nodes are held and makes the mean forces of the last 2,000
     /// cycles the reference load. Settled is where these change by less than 2e-5 from one 2,000
     /// to the next, and would move the base by less than `drift` m. Throws NumericalFailure if that
     /// is not reached. The clock starts at 0 afterwards.
-    void settle(State& state, const RigidBase& base, const CyclePhysics& physics,
-                const Execution& execution,
+    void settle(dem::State& state, const dem::RigidBase& base, const dem::CyclePhysics& physics,
+                const dem::Execution& execution,
                 const std::function<void(std::string_view, double)>& report,
                 double drift = 0.3) const;
 
-    void respond(State& state, const Clock& clock) override;
+    void respond(dem::State& state, const dem::Clock& clock) override;
 
     bool is_iterated() const { return parameters_.scheme == CouplingScheme::strong; }
 
@@ -80,8 +80,9 @@ public:
     /// ten-thousandth of the discs' mean radius; to a thousandth of that where contacts that open
     /// and close allow no better. Returns how often an interval was computed, in the mean. Throws
     /// NumericalFailure if that is not found.
-    double advance_iterated(State& state, const RigidBase& base, const CyclePhysics& physics,
-                            std::int64_t cycles, const Execution& execution);
+    double advance_iterated(dem::State& state, const dem::RigidBase& base,
+                            const dem::CyclePhysics& physics, std::int64_t cycles,
+                            const dem::Execution& execution);
 
     /// Static displacement of the interface under forces on its unknowns.
     std::vector<double> displacement(std::span<const double> forces) const;
@@ -90,26 +91,26 @@ public:
     std::vector<double> forces_for(std::span<const double> displacement) const;
 
     /// The same for its present displacement.
-    std::vector<double> holding_forces(const State& state) const;
+    std::vector<double> holding_forces(const dem::State& state) const;
 
     /// Means of the window: forces of the discs relative to the reference with the virtual ones,
     /// and displacement.
     /// Columns force, N, and displacement, m, of the unknowns; effects, N, where loads of effects
     /// act beside the discs.
-    Table window_means(const State& state) const;
+    dem::Table window_means(const dem::State& state) const;
 
-    WindowBalance window(const State& state) const;
-    void begin_window(State& state) const;
+    WindowBalance window(const dem::State& state) const;
+    void begin_window(dem::State& state) const;
 
     double seconds = 0.0; ///< wall time spent responding
 
 private:
-    double collect(State& state, double cycles, double extension);
-    void book(State& state, double cycles, double extension, double reaction);
-    double carried_mass(const State& state) const;
-    void move_modes(State& state, double step);
-    void move_lumped(State& state, double step);
-    void move_staggered(State& state, double step);
+    double collect(dem::State& state, double cycles, double extension);
+    void book(dem::State& state, double cycles, double extension, double reaction);
+    double carried_mass(const dem::State& state) const;
+    void move_modes(dem::State& state, double step);
+    void move_lumped(dem::State& state, double step);
+    void move_staggered(dem::State& state, double step);
 
     Interface interface_;
     CouplingParameters parameters_;
@@ -118,4 +119,4 @@ private:
     std::vector<double> load_, modal_load_, modal_velocity_, velocity_; // scratch
 };
 
-} // namespace listric
+} // namespace listric::coupling

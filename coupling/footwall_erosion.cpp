@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::coupling {
+
+using namespace dem;
 
 std::vector<double> SurfaceResponse::uplift_by(std::span<const double> forces) const {
     std::vector<double> result;
@@ -143,4 +145,4 @@ bool FootwallErosion::apply(State& state, const RigidBase&) {
     return false;
 }
 
-} // namespace listric
+} // namespace listric::coupling

@@ -8,16 +8,16 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::coupling {
 
 /// Erosion and deposition on the footwall, left of the breakaway, to a target line.
 struct FootwallErosionParameters {
-    double interval = 5.0e4;              ///< between adaptations, a
-    double level = 0.0;                   ///< of the target, above the original surface, m
-    std::vector<TargetStage> target = {}; ///< the target line; empty: the level
-    double width = 100e3;                 ///< of the footwall that is worked on, m
-    double sediment_density = 2300.0;     ///< of what is laid down, kg/m^3
-    double rock_density = 2700.0;         ///< of what is eroded first, kg/m^3
+    double interval = 5.0e4;                   ///< between adaptations, a
+    double level = 0.0;                        ///< of the target, above the original surface, m
+    std::vector<dem::TargetStage> target = {}; ///< the target line; empty: the level
+    double width = 100e3;                      ///< of the footwall that is worked on, m
+    double sediment_density = 2300.0;          ///< of what is laid down, kg/m^3
+    double rock_density = 2700.0;              ///< of what is eroded first, kg/m^3
 };
 
 /// How the footwall's surface answers, at knots from the left to the breakaway. A pressure is
@@ -62,18 +62,18 @@ std::vector<double> cover_pressure(const FootwallErosionParameters& parameters, 
 
 /// Adapts the footwall's surface and puts the change of weight on it. Its memory has a row per
 /// knot: x, eroded, deposited.
-class FootwallErosion : public Event {
+class FootwallErosion : public dem::Event {
 public:
     /// Uplift of the knots by everything but the cover, m.
-    using Uplift = std::function<std::vector<double>(const State& state)>;
+    using Uplift = std::function<std::vector<double>(const dem::State& state)>;
 
     /// @param forces  equivalent to the response's interface displacements, by rows, N/Pa
     FootwallErosion(SurfaceResponse response, std::vector<double> forces, Uplift uplift,
                     const FootwallErosionParameters& parameters, double gravity,
                     double extension_rate);
 
-    void begin(State& state) override;
-    bool apply(State& state, const RigidBase& base) override;
+    void begin(dem::State& state) override;
+    bool apply(dem::State& state, const dem::RigidBase& base) override;
 
     fem::Load load() const; ///< of the cover as it is
 
@@ -87,8 +87,8 @@ private:
     std::vector<double> forces_;
     Uplift uplift_;
     FootwallErosionParameters parameters_;
-    Target target_;
+    dem::Target target_;
     double gravity_;
 };
 
-} // namespace listric
+} // namespace listric::coupling

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <functional>
 
-namespace listric {
+namespace listric::coupling {
+
+using namespace dem;
 
 namespace {
 
@@ -110,4 +112,4 @@ FootwallResponses solve_footwall_loads(fem::Footwall& footwall, std::size_t unkn
     return result;
 }
 
-} // namespace listric
+} // namespace listric::coupling

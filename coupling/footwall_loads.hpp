@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-namespace listric {
+namespace listric::coupling {
 
 class ElasticBase;
 
@@ -20,20 +20,20 @@ class ElasticBase;
 // so on.
 
 /// Where an effect keeps its forces; adds the column if it is not there.
-std::span<double> footwall_load(State& state, std::string_view effect, std::size_t unknowns);
-std::span<double> interface_load(State& state, std::string_view effect, std::size_t unknowns);
+std::span<double> footwall_load(dem::State& state, std::string_view effect, std::size_t unknowns);
+std::span<double> interface_load(dem::State& state, std::string_view effect, std::size_t unknowns);
 
 /// Sum of the loads on the interface itself; empty without any.
-std::vector<double> interface_loads(const State& state);
+std::vector<double> interface_loads(const dem::State& state);
 
 /// Forces on the interface, of discs and water, that hold the present displacement together with
 /// the loads elsewhere.
-std::vector<double> interface_forces(const ElasticBase& base, const State& state);
+std::vector<double> interface_forces(const ElasticBase& base, const dem::State& state);
 
-bool has_footwall_loads(const State& state);
+bool has_footwall_loads(const dem::State& state);
 
 /// Adds the forces of all effects.
-void add_footwall_loads(const State& state, std::span<double> forces);
+void add_footwall_loads(const dem::State& state, std::span<double> forces);
 
 /// The unit solutions that the effects superpose, solved for together.
 struct FootwallResponses {
@@ -51,4 +51,4 @@ FootwallResponses solve_footwall_loads(fem::Footwall& footwall, std::size_t unkn
                                        const LowerCrustThinningParameters* thinning,
                                        double contrast, double distance);
 
-} // namespace listric
+} // namespace listric::coupling

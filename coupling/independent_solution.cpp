@@ -8,7 +8,9 @@
 #include <cmath>
 #include <functional>
 
-namespace listric {
+namespace listric::coupling {
+
+using namespace dem;
 
 namespace {
 
@@ -152,4 +154,4 @@ IndependentSolution solve_independently(fem::FootwallRequest request, const Inte
     return result;
 }
 
-} // namespace listric
+} // namespace listric::coupling

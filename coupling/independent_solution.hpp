@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::coupling {
 
 /// The base once more, from forces on the interface that a run has recorded.
 struct IndependentSolution {
@@ -31,4 +31,4 @@ IndependentSolution solve_independently(fem::FootwallRequest request, const Inte
                                         std::span<const double> forces,
                                         const fem::Load& other = {});
 
-} // namespace listric
+} // namespace listric::coupling

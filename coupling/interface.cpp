@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 
-namespace listric {
+namespace listric::coupling {
+
+using namespace dem;
 
 Interface condense(fem::Footwall& footwall, int degree) {
     const auto& faces = footwall.interface_faces();
@@ -106,4 +108,4 @@ InterfaceBalance interface_balance(const State& state, const RigidBase& base) {
             over(std::abs(power), powers)};
 }
 
-} // namespace listric
+} // namespace listric::coupling

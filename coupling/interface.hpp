@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::coupling {
 
 /// The detachment as the footwall's elements see it, condensed: what the discs rest on. Unknowns
 /// are x and y of the first node, x and y of the second, ...
@@ -34,6 +34,6 @@ struct InterfaceBalance {
 };
 
 /// Measures the contacts as they stand.
-InterfaceBalance interface_balance(const State& state, const RigidBase& base);
+InterfaceBalance interface_balance(const dem::State& state, const dem::RigidBase& base);
 
-} // namespace listric
+} // namespace listric::coupling

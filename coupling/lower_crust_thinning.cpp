@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::coupling {
+
+using namespace dem;
 
 namespace {
 
@@ -68,4 +70,4 @@ bool LowerCrustThinning::apply(State& state, const RigidBase&) {
     return false;
 }
 
-} // namespace listric
+} // namespace listric::coupling

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::coupling {
 
 /// Pure shear of the lower crust, below and beyond the detachment: extension that the discs do not
 /// have. Its crust stretches from width b to b + e and thins from h to h b / (b + e); mantle rises
@@ -44,14 +44,14 @@ std::vector<fem::Load> lower_crust_loads(const LowerCrustThinningParameters& par
                                          double contrast, double distance, std::size_t steps);
 
 /// Puts the load of the present extension on the footwall.
-class LowerCrustThinning : public Event {
+class LowerCrustThinning : public dem::Event {
 public:
     /// @param forces  equivalent to the response's interface displacements, by rows, N
     LowerCrustThinning(const LowerCrustResponse& response, std::vector<double> forces,
                        double extension_rate);
 
-    void begin(State& state) override;
-    bool apply(State& state, const RigidBase& base) override;
+    void begin(dem::State& state) override;
+    bool apply(dem::State& state, const dem::RigidBase& base) override;
 
 private:
     double distance_;
@@ -59,4 +59,4 @@ private:
     std::vector<double> forces_;
 };
 
-} // namespace listric
+} // namespace listric::coupling

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace listric {
+namespace listric::coupling {
 
 Modes find_modes(std::span<const double> compliance, std::size_t unknowns, std::size_t most) {
     const auto n = static_cast<Eigen::Index>(unknowns);
@@ -32,4 +32,4 @@ Modes find_modes(std::span<const double> compliance, std::size_t unknowns, std::
     return modes;
 }
 
-} // namespace listric
+} // namespace listric::coupling

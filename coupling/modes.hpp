@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::coupling {
 
 /// The softest modes of a base that is condensed to its interface: C = Q diag(c) Q^T.
 struct Modes {
@@ -25,4 +25,4 @@ Modes find_modes(std::span<const double> compliance, std::size_t unknowns, std::
 /// depend on how wide a processor's vectors are.
 void add_rows(std::span<const double> rows, std::span<const double> v, std::span<double> result);
 
-} // namespace listric
+} // namespace listric::coupling

@@ -6,7 +6,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -29,4 +29,4 @@ void* allocate_aligned(std::size_t bytes) {
 
 void free_aligned(void* memory, std::size_t bytes) { ::operator delete(memory, alignment(bytes)); }
 
-} // namespace listric
+} // namespace listric::dem

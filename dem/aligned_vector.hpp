@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// Memory that starts at a cache line. Large pieces ask the system for large pages: with pages of
 /// 4 kB the processor drops prefetches whose page it has not at hand.
@@ -21,4 +21,4 @@ template <class T> struct AlignedAllocator {
 
 template <class T> using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
-} // namespace listric
+} // namespace listric::dem

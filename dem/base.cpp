@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -167,4 +167,4 @@ Point point_at(const Chain& chain, double arc_length) {
     return {};
 }
 
-} // namespace listric
+} // namespace listric::dem

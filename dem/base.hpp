@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 struct Point {
     double x = 0.0, y = 0.0; ///< m
@@ -102,4 +102,4 @@ double stretching(const RigidBase& base, double extension);
 /// Greatest translation of a surface, in units of the extension speed.
 double greatest_translation(const RigidBase& base);
 
-} // namespace listric
+} // namespace listric::dem

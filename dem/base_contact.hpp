@@ -7,7 +7,7 @@
 #include <array>
 #include <optional>
 
-namespace listric {
+namespace listric::dem {
 
 /// A disc as a surface sees it.
 struct BaseContactDisc {
@@ -163,4 +163,4 @@ inline void add_load(const BaseNodeColumns& nodes, const NodeContactForce& f, in
     }
 }
 
-} // namespace listric
+} // namespace listric::dem

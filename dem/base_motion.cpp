@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -62,4 +62,4 @@ double greatest_base_speed(const BaseMotionParameters& parameters, double rate) 
     return fastest;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -3,7 +3,7 @@
 #include "dem/cycle.hpp"
 #include "dem/target_line.hpp"
 
-namespace listric {
+namespace listric::dem {
 
 /// Motion of the detachment that is known beforehand: uplift, subsidence, tilt.
 struct BaseMotionParameters {
@@ -35,4 +35,4 @@ private:
 /// extension during it.
 double greatest_base_speed(const BaseMotionParameters& parameters, double rate);
 
-} // namespace listric
+} // namespace listric::dem

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -78,4 +78,4 @@ double move_nodes(const BaseNodeColumns& n, double time_step) {
     return fastest;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -4,7 +4,7 @@
 #include "dem/state.hpp"
 #include "dem/trace.hpp"
 
-namespace listric {
+namespace listric::dem {
 
 /// Where the base is: how far it has moved and how it is deformed.
 struct BasePlace {
@@ -37,4 +37,4 @@ double greatest_node_travel(const State& state);
 /// m/s.
 double move_nodes(const BaseNodeColumns& nodes, double time_step);
 
-} // namespace listric
+} // namespace listric::dem

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::dem {
 
 /// Bonds contact row `k`. Strengths are normally distributed, keyed by (seed, occasion, ids): the
 /// same pair gets the same strengths whatever the order of rows. A strength read as a stress acts
@@ -30,4 +30,4 @@ inline void install_bond(State& state, std::size_t k, const BondStrength& streng
     c.shear_strength[k] = draw(Purpose::bond_shear, strength.shear_mean, strength.shear_deviation);
 }
 
-} // namespace listric
+} // namespace listric::dem

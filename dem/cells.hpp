@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// Square cells over the discs, for finding all discs within one cell width of a point.
 class Cells {
@@ -72,4 +72,4 @@ private:
     std::vector<std::int32_t> begin_, discs_;
 };
 
-} // namespace listric
+} // namespace listric::dem

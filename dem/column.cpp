@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::dem {
 
 void Table::set(Column column) {
     const std::size_t size = std::visit([](const auto& v) { return v.size(); }, column.values);
@@ -58,4 +58,4 @@ const Column& Table::require(std::string_view name) const {
     throw std::out_of_range("no column named " + std::string(name));
 }
 
-} // namespace listric
+} // namespace listric::dem

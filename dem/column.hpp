@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// A named, typed, unit-bearing array with one value per row of its table.
 struct Column {
@@ -68,4 +68,4 @@ private:
     std::size_t rows_ = 0;
 };
 
-} // namespace listric
+} // namespace listric::dem

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -217,4 +217,4 @@ std::vector<bool> touching(const State& state) {
     return result;
 }
 
-} // namespace listric
+} // namespace listric::dem

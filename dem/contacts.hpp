@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 // Neighbour lists. Each disc has a searched place, where the last search found it. The lists hold
 // every pair of discs, and of disc and surface, whose searched places are closer than the skin; so
@@ -47,4 +47,4 @@ bool update_contacts(State& state, const RigidBase& base);
 /// True where row k of the contact table touches or is bonded.
 std::vector<bool> touching(const State& state);
 
-} // namespace listric
+} // namespace listric::dem

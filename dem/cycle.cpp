@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -387,4 +387,4 @@ double stable_time_step(double mass, const Material& m, double damping, double s
     return safety * std::sqrt(2.0 * mass / (stiffness * (1.0 + damping)));
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-namespace listric {
+namespace listric::dem {
 
 /// Physics of the cycle beyond the contact law.
 struct CyclePhysics {
@@ -72,4 +72,4 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics, s
 /// local damping always adds to the springs' force.
 double stable_time_step(double mass, const Material& material, double damping, double safety);
 
-} // namespace listric
+} // namespace listric::dem

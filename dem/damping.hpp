@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 /// The force less local damping: a share of its size that opposes the velocity, so that steady
 /// motion is free [Itasca 1999, as cited by the paper]. What is at rest is not damped. A force in N
@@ -11,4 +11,4 @@ inline double damped(double force, double velocity, double damping) {
     return velocity == 0.0 ? force : force - std::copysign(damping * std::abs(force), velocity);
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -95,4 +95,4 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
     return energy;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::dem {
 
 // Where the work goes, J per metre of thickness:
 //   boundary, base and gravity work + work of events
@@ -69,4 +69,4 @@ inline double slip_loss(double before, double trial, double after, const Contact
            static_cast<double>(p.shear_stiffness_times_step);
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -2,8 +2,8 @@
 
 #include "dem/units.hpp"
 
-namespace listric {
+namespace listric::dem {
 
 double Schedule::seconds() const { return interval * seconds_per_year; }
 
-} // namespace listric
+} // namespace listric::dem

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace listric {
+namespace listric::dem {
 
 /// Geological time between applications, and the extension that it stands for.
 struct Schedule {
@@ -42,4 +42,4 @@ private:
     Schedule schedule_;
 };
 
-} // namespace listric
+} // namespace listric::dem

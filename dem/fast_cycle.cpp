@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -315,4 +315,4 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
     return state.clock.cycle - start.cycle;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 // The plain cycle (cycle.cpp) in the layout of the machine, with the same bits.
 //
@@ -177,4 +177,4 @@ private:
     std::vector<std::uint32_t> slot_of_, base_slot_of_; ///< by row of the contact tables
 };
 
-} // namespace listric
+} // namespace listric::dem

@@ -7,7 +7,7 @@
 #include <bit>
 #include <numeric>
 
-namespace listric {
+namespace listric::dem {
 
 FastCycle::FastCycle(const State& state, const RigidBase& base, const CyclePhysics& physics,
                      int threads)
@@ -299,4 +299,4 @@ void FastCycle::unpack(State& state) const {
     }
 }
 
-} // namespace listric
+} // namespace listric::dem

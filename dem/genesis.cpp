@@ -10,7 +10,7 @@
 #include <limits>
 #include <numeric>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -180,4 +180,4 @@ State make_hanging_wall(const GenesisRequest& request,
     return state;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-namespace listric {
+namespace listric::dem {
 
 /// The hanging wall before extension [paper, Table 1].
 struct HangingWallParameters {
@@ -52,4 +52,4 @@ struct GenesisRequest {
 State make_hanging_wall(const GenesisRequest& request,
                         const std::function<void(std::string_view, double)>& report);
 
-} // namespace listric
+} // namespace listric::dem

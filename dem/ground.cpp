@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -138,4 +138,4 @@ void Ground::add(Point centre, double radius) {
     columns_[column(centre.x)].push_back({centre, radius});
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// The ground that a falling disc meets: how high its centre comes to lie over discs and base.
 class Ground {
@@ -44,4 +44,4 @@ private:
     std::vector<std::vector<Obstacle>> columns_;
 };
 
-} // namespace listric
+} // namespace listric::dem

@@ -1,6 +1,6 @@
 #include "dem/law.hpp"
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -21,4 +21,4 @@ PairParameters::PairParameters(std::span<const Material> materials, double time_
             table_.push_back(contact_parameters(a, b, time_step));
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// What the contact law needs of a pair of materials. Single precision halves the traffic of the
 /// cycle and is ample for properties; forces and positions are double.
@@ -67,4 +67,4 @@ inline double contact_force(double overlap, double slip_rate, const ContactParam
     return normal;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// Microproperties of the discs of one material [paper, Table 1].
 struct Material {
@@ -28,4 +28,4 @@ struct BondStrength {
 /// Index of a disc's material in State::materials. The order is fixed.
 enum MaterialIndex : std::uint8_t { basement = 0, sediment = 1, weak = 2 };
 
-} // namespace listric
+} // namespace listric::dem

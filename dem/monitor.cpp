@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::vector<int> coordination(const State& state, const RigidBase& base) {
     return count;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// How far the state is from equilibrium [paper, "PFC2D: general features"].
 struct ForceBalance {
@@ -44,4 +44,4 @@ std::vector<Stress> disc_stresses(const State& state, const RigidBase& base);
 /// Number of touching discs and surfaces of every disc.
 std::vector<int> coordination(const State& state, const RigidBase& base);
 
-} // namespace listric
+} // namespace listric::dem

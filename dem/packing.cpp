@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -131,4 +131,4 @@ void bond_touching(State& state, const BondStrength& strength, std::int64_t occa
             install_bond(state, k, strength, occasion);
 }
 
-} // namespace listric
+} // namespace listric::dem

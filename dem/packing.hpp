@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 // Steps of making a packing, shared by the hanging wall and the samples of the laboratory.
 
@@ -49,4 +49,4 @@ void settle(State& state, const RigidBase& base, const CyclePhysics& physics, do
 /// Bonds every touching pair. Strengths are keyed by `occasion`.
 void bond_touching(State& state, const BondStrength& strength, std::int64_t occasion);
 
-} // namespace listric
+} // namespace listric::dem

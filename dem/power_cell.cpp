@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
     return result;
 }
 
-} // namespace listric
+} // namespace listric::dem

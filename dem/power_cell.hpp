@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// The part of the plane that belongs to a disc: the points whose power |p - c|^2 - r^2 is least
 /// for it. Unlike a disc's own area it contains its share of the pores, and cells fill the plane.
@@ -24,4 +24,4 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
 /// Radius of the rock that each disc stands for, m.
 std::vector<double> rock_radii(const State& state);
 
-} // namespace listric
+} // namespace listric::dem

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-namespace listric {
+namespace listric::dem {
 
 /// What a random number is for; keeps the streams of different purposes apart.
 enum class Purpose : std::uint64_t {
@@ -48,4 +48,4 @@ inline double normal(std::uint64_t seed, Purpose purpose, std::uint64_t a, std::
     return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * pi * v);
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -10,7 +10,7 @@
 #include <immintrin.h>
 #endif
 
-namespace listric {
+namespace listric::dem {
 
 // Vectors of the compiler (gcc and clang). Every lane is computed as a scalar would be, so all
 // widths give the same bits. One source serves them: `Lanes` is the widest that the machine has in
@@ -171,4 +171,4 @@ inline Lanes4 transpose(const Lanes4& r) {
             second_halves(even_ab, even_cd), second_halves(odd_ab, odd_cd)};
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace listric {
+namespace listric::dem {
 
 State empty_state() {
     State state;
@@ -241,4 +241,4 @@ std::uint64_t hash(const State& state) {
     return h;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// Where the simulation is. Geological time is extension over extension rate.
 struct Clock {
@@ -135,4 +135,4 @@ std::uint64_t hash(const Table& table);
 /// Hash of every column and number of the state.
 std::uint64_t hash(const State& state);
 
-} // namespace listric
+} // namespace listric::dem

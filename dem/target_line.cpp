@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 double TargetLine::height(double x) const {
     const auto next = std::ranges::upper_bound(points_, x, {}, &Point::x);
@@ -57,4 +57,4 @@ TargetLine Target::at(double time) const {
     return TargetLine(std::move(points));
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// The line that exogenic processes adapt the surface to [paper, "Syn-rift sedimentation"]:
 /// straight between its points, level beyond the first and the last.
@@ -44,4 +44,4 @@ private:
     std::vector<TargetStage> stages_;
 };
 
-} // namespace listric
+} // namespace listric::dem

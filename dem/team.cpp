@@ -4,7 +4,7 @@
 #include <sched.h>
 #endif
 
-namespace listric {
+namespace listric::dem {
 
 #if defined __linux__
 
@@ -37,4 +37,4 @@ Pinned::~Pinned() = default;
 
 #endif
 
-} // namespace listric
+} // namespace listric::dem

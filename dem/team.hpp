@@ -8,7 +8,7 @@
 #include <immintrin.h>
 #endif
 
-namespace listric {
+namespace listric::dem {
 
 /// Meeting point of a fixed number of threads. A cycle lasts about 0.1 ms and being woken takes as
 /// long, so waiting spins for about that time; then it sleeps, or else two threads on a shared
@@ -73,4 +73,4 @@ template <class Work> void run_team(int threads, Work&& work) {
     work(0);
 }
 
-} // namespace listric
+} // namespace listric::dem

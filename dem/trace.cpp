@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 std::array<double, 3> shape_functions(int degree, double t) {
     if (degree == 1)
@@ -110,4 +110,4 @@ std::optional<TracePoint> Trace::nearest(Point p, double place) const {
                       shape_functions(static_cast<int>(degree_), t)};
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace listric {
+namespace listric::dem {
 
 // The wall of a base that deforms: the edge of its finite elements. Each face is a polynomial
 // through degree + 1 nodes, X(t) = sum N_i(t) (x_i + u_i) with t from 0 to 1, and everything that
@@ -55,4 +55,4 @@ private:
 /// N_i(t) of a face: of its start, end for degree 1; start, middle, end for degree 2.
 std::array<double, 3> shape_functions(int degree, double t);
 
-} // namespace listric
+} // namespace listric::dem

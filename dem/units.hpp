@@ -1,10 +1,10 @@
 #pragma once
 
-namespace listric {
+namespace listric::dem {
 
 inline constexpr double pi = 3.14159265358979323846;
 
 /// Seconds in a Julian year; geological time is given in years (a).
 inline constexpr double seconds_per_year = 365.25 * 86400.0;
 
-} // namespace listric
+} // namespace listric::dem

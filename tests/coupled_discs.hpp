@@ -14,6 +14,9 @@
 
 namespace listric::support {
 
+using namespace dem;
+using namespace coupling;
+
 constexpr double radius = 1500.0, length = 4000.0, gravity = 9.81; // m, m, m/s^2
 
 inline RigidBase make_listric_base() {

@@ -2,8 +2,8 @@
 
 // Runs of small scenes, in-process, in a folder of their own and without pictures.
 
-#include "apps/run.hpp"
-#include "apps/snapshot.hpp"
+#include "apps/archive/snapshot.hpp"
+#include "apps/run/run.hpp"
 #include "tests/small_halfgraben.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +21,8 @@
 #include <vector>
 
 namespace listric::support {
+
+using namespace dem;
 
 /// A scene that the tests ship, in tests/scenes.
 inline std::string test_scene(const std::string& name) {

@@ -15,6 +15,8 @@
 
 namespace listric::support {
 
+using namespace dem;
+
 inline constexpr double density = 2600.0; ///< of every disc, kg/m^3
 
 struct Disc {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -75,4 +75,4 @@ bool BondHealing::apply(State& state, const RigidBase&) {
     return false;
 }
 
-} // namespace listric
+} // namespace listric::dem

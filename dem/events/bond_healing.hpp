@@ -2,7 +2,7 @@
 
 #include "dem/event.hpp"
 
-namespace listric {
+namespace listric::dem {
 
 /// Which relative displacement of two touching discs forbids healing: the paper's criterion is a
 /// shear strain rate, and opening counts the squeezing of a compacting sediment as well.
@@ -29,4 +29,4 @@ private:
     BondStrength strength_;
 };
 
-} // namespace listric
+} // namespace listric::dem

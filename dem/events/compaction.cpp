@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 Compaction::Compaction(const CompactionParameters& parameters, double surface_porosity,
                        Target surface, double extension_rate)
@@ -41,4 +41,4 @@ bool Compaction::apply(State& state, const RigidBase&) {
     return false; // lists of smaller discs still hold every contact
 }
 
-} // namespace listric
+} // namespace listric::dem

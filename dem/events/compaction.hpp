@@ -3,7 +3,7 @@
 #include "dem/event.hpp"
 #include "dem/target_line.hpp"
 
-namespace listric {
+namespace listric::dem {
 
 /// Loss of sediment volume with burial, Phi = Phi_ini exp(-c depth) [paper; Baldwin & Butler 1985].
 struct CompactionParameters {
@@ -29,4 +29,4 @@ private:
     Target surface_;
 };
 
-} // namespace listric
+} // namespace listric::dem

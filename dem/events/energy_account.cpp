@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -84,4 +84,4 @@ EnergyBalance EnergyAccount::balance(const State& state, const RigidBase& base) 
     return b;
 }
 
-} // namespace listric
+} // namespace listric::dem

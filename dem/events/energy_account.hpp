@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
 
 /// The account has no parameters: the table is the switch.
 struct EnergyParameters {};
@@ -66,4 +66,4 @@ private:
     double gravity_;
 };
 
-} // namespace listric
+} // namespace listric::dem

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::dem {
 
 Equilibrium::Equilibrium(double interval, double extension_rate, double gravity)
     : Event("equilibrium", {interval, extension_rate}), gravity_(gravity) {
@@ -24,4 +24,4 @@ bool Equilibrium::apply(State& state, const RigidBase& base) {
     return false;
 }
 
-} // namespace listric
+} // namespace listric::dem

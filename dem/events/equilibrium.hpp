@@ -2,7 +2,7 @@
 
 #include "dem/event.hpp"
 
-namespace listric {
+namespace listric::dem {
 
 /// Samples how quasi-static the run is [paper: mean unbalanced against mean contact force].
 ///
@@ -17,4 +17,4 @@ private:
     double gravity_;
 };
 
-} // namespace listric
+} // namespace listric::dem

@@ -11,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -227,4 +227,4 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     return true;
 }
 
-} // namespace listric
+} // namespace listric::dem

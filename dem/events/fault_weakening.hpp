@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace listric {
+namespace listric::dem {
 
 /// Automatic fault detection (AFD) and weakening [paper, Fig. 4c, d; Table 1].
 struct FaultWeakeningParameters {
@@ -44,4 +44,4 @@ private:
     double overburden_; ///< weight of rock, N/m^3
 };
 
-} // namespace listric
+} // namespace listric::dem

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -101,4 +101,4 @@ bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     return true;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace listric {
+namespace listric::dem {
 
 /// Adjusts radius and density of weakened discs, which interpenetrate under load, such that the
 /// volume of the rock and its mass are conserved [paper, "Enhanced DE models"].
@@ -42,4 +42,4 @@ double enlargement(double mean_stress, const Material& weak_material);
 /// Sum of power-cell areas of weakened discs less what it was before weakening, m^2.
 double weakened_volume_change(const State& state, const RigidBase& base);
 
-} // namespace listric
+} // namespace listric::dem

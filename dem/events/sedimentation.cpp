@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -108,4 +108,4 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
     return true;
 }
 
-} // namespace listric
+} // namespace listric::dem

@@ -3,7 +3,7 @@
 #include "dem/event.hpp"
 #include "dem/target_line.hpp"
 
-namespace listric {
+namespace listric::dem {
 
 /// Deposition and erosion to a target line [paper, "Syn-rift sedimentation"; Table 1].
 struct SedimentationParameters {
@@ -34,4 +34,4 @@ private:
     double radius_ratio_;
 };
 
-} // namespace listric
+} // namespace listric::dem

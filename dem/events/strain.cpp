@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::dem {
 
 namespace {
 
@@ -81,4 +81,4 @@ bool Strain::apply(State& state, const RigidBase&) {
     return false;
 }
 
-} // namespace listric
+} // namespace listric::dem

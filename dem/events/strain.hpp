@@ -4,7 +4,10 @@
 
 #include <vector>
 
-namespace listric {
+namespace listric::dem {
+
+/// Extension over which strain is measured, m.
+inline constexpr double strain_window = 500.0;
 
 /// Shear strain of the hanging wall, per window of extension and since the start.
 ///
@@ -23,4 +26,4 @@ public:
 /// Largest shear strain of every disc since the last window began; 0 for discs deposited since.
 std::vector<double> shear_strain(const State& state);
 
-} // namespace listric
+} // namespace listric::dem

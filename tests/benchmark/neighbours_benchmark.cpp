@@ -7,6 +7,8 @@
 #include <benchmark/benchmark.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

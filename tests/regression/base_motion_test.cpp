@@ -9,6 +9,8 @@
 #include <map>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

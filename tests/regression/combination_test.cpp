@@ -2,7 +2,7 @@
 // choices that go together occurs in at least one run. Each run must finish, stay finite and keep
 // its mass; pairs that do not go together are refused by name.
 
-#include "apps/effects.hpp"
+#include "apps/model/effects.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -13,6 +13,8 @@
 #include <set>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

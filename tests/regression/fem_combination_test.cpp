@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

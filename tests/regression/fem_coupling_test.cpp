@@ -3,6 +3,8 @@
 #include "tests/scene_runs.hpp"
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

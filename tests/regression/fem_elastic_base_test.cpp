@@ -1,7 +1,7 @@
 // Scenes with an elastic base: what loads it besides discs, and what bad input leads to.
 
-#include "apps/explain.hpp"
-#include "apps/footwall_request.hpp"
+#include "apps/commands/explain.hpp"
+#include "apps/scene/footwall_request.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "tests/scene_runs.hpp"
 
@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,7 +1,7 @@
 // The scene flexure from the call to the files: names, numbers and what bad input leads to.
 
-#include "apps/run.hpp"
-#include "apps/snapshot.hpp"
+#include "apps/archive/snapshot.hpp"
+#include "apps/run/run.hpp"
 #include "fem/elastic_layer.hpp"
 
 #include <gmock/gmock.h>
@@ -15,6 +15,8 @@
 #include <unistd.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,7 +1,7 @@
-#include "apps/calibration.hpp"
-#include "apps/laboratory.hpp"
-#include "apps/pure_shear.hpp"
-#include "apps/run.hpp"
+#include "apps/laboratory/calibration.hpp"
+#include "apps/laboratory/laboratory.hpp"
+#include "apps/laboratory/pure_shear.hpp"
+#include "apps/run/run.hpp"
 #include "dem/contacts.hpp"
 #include "dem/monitor.hpp"
 #include "tests/support.hpp"
@@ -17,6 +17,8 @@
 #include <unistd.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

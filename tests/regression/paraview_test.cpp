@@ -1,7 +1,7 @@
 // The series for ParaView, opened and drawn by ParaView's own libraries (or VTK's, its readers).
 
-#include "apps/effects.hpp"
-#include "apps/run.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/run/run.hpp"
 #include "dem/contacts.hpp"
 #include "dem/monitor.hpp"
 #include "dem/units.hpp"
@@ -22,6 +22,8 @@
 #include <unistd.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

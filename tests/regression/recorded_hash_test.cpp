@@ -10,6 +10,8 @@
 #include <sstream>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

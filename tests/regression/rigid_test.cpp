@@ -17,6 +17,8 @@
 #include <unistd.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,8 +1,8 @@
 // Runs from beginning to end: reproducible, resumable after anything, honest about what fails.
 // Most runs are made in-process; where signals and exit codes matter, by the program.
 
-#include "apps/effects.hpp"
-#include "apps/run.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/run/run.hpp"
 #include "dem/cycle.hpp"
 #include "tests/small_halfgraben.hpp"
 
@@ -28,6 +28,8 @@
 #include <unistd.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,7 +1,7 @@
 // Studies of accuracy against time, on a scene small enough for a test.
 
-#include "apps/run.hpp"
-#include "apps/study.hpp"
+#include "apps/run/run.hpp"
+#include "apps/studies/study.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +13,8 @@
 #include <unistd.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

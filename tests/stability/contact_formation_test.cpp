@@ -7,6 +7,8 @@
 #include "tests/stability/hard_case.hpp"
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

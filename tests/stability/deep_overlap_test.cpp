@@ -8,6 +8,8 @@
 #include "tests/stability/hard_case.hpp"
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

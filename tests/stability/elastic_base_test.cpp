@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 namespace listric {
+
+using namespace dem;
+using namespace coupling;
 namespace {
 
 using namespace support;

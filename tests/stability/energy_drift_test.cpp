@@ -10,6 +10,8 @@
 #include "tests/verification/shaken_lattice.hpp"
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -3,7 +3,7 @@
 // What the hard cases have in common: how fast discs move, whether all are where they may be, and
 // that a restart in the middle changes nothing.
 
-#include "apps/snapshot.hpp"
+#include "apps/archive/snapshot.hpp"
 #include "dem/cycle.hpp"
 #include "dem/monitor.hpp"
 #include "tests/support.hpp"
@@ -16,6 +16,8 @@
 #include <unistd.h>
 
 namespace listric::support {
+
+using namespace dem;
 
 /// Greatest speed of a disc, m/s; NaN if one is no number.
 inline double fastest(const State& state) {

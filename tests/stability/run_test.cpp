@@ -1,7 +1,7 @@
 // What a whole run does about trouble: a boundary that moves too fast is said and flagged, and a
 // run that goes wrong stops, names what and where, and leaves a state from which it can go on.
 
-#include "apps/effects.hpp"
+#include "apps/model/effects.hpp"
 #include "dem/cycle.hpp"
 #include "tests/scene_runs.hpp"
 
@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

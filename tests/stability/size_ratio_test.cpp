@@ -9,6 +9,8 @@
 #include "tests/verification/settled_packing.hpp"
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -9,6 +9,8 @@
 #include "tests/stability/hard_case.hpp"
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

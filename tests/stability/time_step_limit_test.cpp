@@ -20,6 +20,8 @@
 #include <algorithm>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;
@@ -148,18 +150,19 @@ TEST_P(TimeStepLimit, StableTimeStepIsBelowThatOfAPacking) {
 }
 
 TEST_P(TimeStepLimit, IsNoticedWhenExceeded) {
-    // 1 % beyond it the guard stops a chain and a lattice before discs are more than some radii from
-    // where they belong, and says which and where; the program's own step never troubles it.
+    // 1 % beyond it the guard stops a chain and a lattice before discs are more than some radii
+    // from where they belong, and says which and where; the program's own step never troubles it.
     const Material m;
     const double of_chain = unit(m), of_lattice = 2.0 * unit(m) / std::sqrt(24.0 * 6.38 / 17.0);
-    for (const auto& [discs, limit] : {std::pair(row(100, r), of_chain),
-                                       std::pair(hexagonal(20, 20, r), of_lattice)}) {
+    for (const auto& [discs, limit] :
+         {std::pair(row(100, r), of_chain), std::pair(hexagonal(20, 20, r), of_lattice)}) {
         State state = displaced(discs, m, 1.01 * limit);
         try {
             advance(state, {}, {0.0, 0.0}, 5000, GetParam());
             FAIL() << "not noticed";
         } catch (const NumericalFailure& failure) {
-            EXPECT_THAT(failure.what(), testing::ContainsRegex("disc [0-9]+ .* x = .* y = .* cycle"));
+            EXPECT_THAT(failure.what(),
+                        testing::ContainsRegex("disc [0-9]+ .* x = .* y = .* cycle"));
         }
         const double own = stable_time_step(mass, m, 0.0, 1.0);
         EXPECT_LE(own, (1.0 + 1e-12) * limit);

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;
@@ -15,7 +17,9 @@ using namespace support;
 constexpr double surface_porosity = 0.5, c = 4e-4;
 
 struct Burial {
-    State state = make_state({{0.0, -3000.0, 90.0}, {500.0, -1500.0, 90.0}, {1000.0, -3000.0, 90.0},
+    State state = make_state({{0.0, -3000.0, 90.0},
+                              {500.0, -1500.0, 90.0},
+                              {1000.0, -3000.0, 90.0},
                               {1500.0, 200.0, 90.0}});
     Compaction event{{}, surface_porosity, 0.0, 0.01};
 
@@ -33,8 +37,8 @@ struct Burial {
 };
 
 double expected_radius(double depth) {
-    return 90.0 * std::sqrt((1.0 - surface_porosity) /
-                            (1.0 - surface_porosity * std::exp(-c * depth)));
+    return 90.0 *
+           std::sqrt((1.0 - surface_porosity) / (1.0 - surface_porosity * std::exp(-c * depth)));
 }
 
 TEST(Compaction, FollowsThePorosityLaw) {

@@ -1,8 +1,10 @@
-#include "apps/compression.hpp"
+#include "apps/laboratory/compression.hpp"
 
 #include <gtest/gtest.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 TEST(Compression, ByerleeInPrincipalStresses) {

@@ -11,6 +11,8 @@
 #include <set>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;
@@ -165,7 +167,9 @@ TEST(Contacts, BondedPairsAreKeptBeyondTheSkin) {
 TEST(Contacts, BaseContactsWithHistory) {
     // Radius 100, skin 25: in the corner of the box a disc meets two surfaces, in the middle one.
     const RigidBase base = box(2000.0, 5000.0);
-    State state = make_state({{110.0, 120.0, 100.0}, {1000.0, 124.0, 100.0}, {1000.0, 400.0, 100.0},
+    State state = make_state({{110.0, 120.0, 100.0},
+                              {1000.0, 124.0, 100.0},
+                              {1000.0, 400.0, 100.0},
                               {1950.0, 2000.0, 100.0}});
     find_contacts(state, base);
     const BaseContactColumns b = base_contact_columns(state);
@@ -193,8 +197,8 @@ TEST(Contacts, TranslatingSurfacesAreFoundWhereTheyAre) {
 }
 
 TEST(Contacts, TouchingMeansOverlapOrBond) {
-    State state = make_state({{0.0, 0.0, 100.0}, {199.0, 0.0, 100.0}, {410.0, 0.0, 100.0},
-                              {620.0, 0.0, 100.0}});
+    State state = make_state(
+        {{0.0, 0.0, 100.0}, {199.0, 0.0, 100.0}, {410.0, 0.0, 100.0}, {620.0, 0.0, 100.0}});
     find_contacts(state, {});
     ASSERT_EQ(state.contacts.rows(), 3u);
     bond(state, 2, 1.0f, 1.0f);

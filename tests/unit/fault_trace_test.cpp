@@ -5,9 +5,9 @@
 // it. Places are known to half the grid's step plus the scatter of 12 discs per circle: half a
 // diameter. A dip over L diameters is then off by less than atan(1 / L).
 
-#include "apps/fault_history.hpp"
-#include "apps/fault_throw.hpp"
-#include "apps/fault_trace.hpp"
+#include "apps/measures/fault_history.hpp"
+#include "apps/measures/fault_throw.hpp"
+#include "apps/measures/fault_trace.hpp"
 #include "dem/events/property_update.hpp"
 #include "tests/support.hpp"
 
@@ -18,6 +18,8 @@
 #include <functional>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -14,6 +14,8 @@
 #include <algorithm>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;
@@ -105,8 +107,7 @@ TEST(FaultWeakening, ConvertsTheBandAndNothingElse) {
         for (std::size_t k = 0; k < x.size(); ++k) {
             const double dx = d.x[i] - x[k], dy = d.y[i] - y[k];
             in_band = in_band || (std::hypot(dx, dy) < 2.5 * b.diameter &&
-                                  std::abs(dy * std::cos(a[k]) - dx * std::sin(a[k])) <
-                                      half_width);
+                                  std::abs(dy * std::cos(a[k]) - dx * std::sin(a[k])) < half_width);
         }
         ASSERT_EQ(d.material[i] == weak, in_band) << d.x[i] << " " << d.y[i];
         EXPECT_EQ(w.rock_radius[i], in_band ? before[i] : 0.0);

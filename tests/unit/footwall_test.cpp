@@ -12,6 +12,8 @@
 #include <map>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

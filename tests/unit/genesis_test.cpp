@@ -13,6 +13,8 @@
 #include <algorithm>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

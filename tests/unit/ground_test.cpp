@@ -11,6 +11,8 @@
 #include <limits>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -1,7 +1,7 @@
 // Constructions on arcs whose results are known in closed form. Curves are sampled every 25 m, so
 // heights are off by at most 25^2 / 8 R, centimetres, and the last column by one sample.
 
-#include "apps/kinematics.hpp"
+#include "apps/measures/kinematics.hpp"
 #include "dem/units.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,8 @@
 #include <cmath>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 constexpr double degree = pi / 180.0;

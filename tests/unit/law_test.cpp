@@ -11,6 +11,8 @@
 #include <limits>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 constexpr ContactParameters parameters{1024.0f, 16.0f, 0.5f}; // K, K_s dt, mu
@@ -25,8 +27,8 @@ struct Outcome {
 Outcome contact(double overlap, double slip_rate, double shear_before, bool bonded_before) {
     double shear = shear_before;
     std::uint8_t bonded = bonded_before;
-    const double normal = contact_force(overlap, slip_rate, parameters, tensile, shear_strength,
-                                        shear, bonded);
+    const double normal =
+        contact_force(overlap, slip_rate, parameters, tensile, shear_strength, shear, bonded);
     return {normal, shear, bonded == 1};
 }
 

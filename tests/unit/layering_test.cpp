@@ -178,7 +178,7 @@ TEST(Layering, FindsPlantedViolations) {
                                           "#include \"dem/../fem/mesh.hpp\"\n"
                                           "#include <unistd.h>\n"
                                           "#include HEADER\n"),
-                ElementsAre("apps/scene.hpp", "fmt/core.h", "../apps/run.hpp",
+                ElementsAre("apps/scene/scene.hpp", "fmt/core.h", "../apps/run.hpp",
                             "dem/../fem/mesh.hpp", "unistd.h", "HEADER"));
     EXPECT_THAT(forbidden_includes("fem", "#include <deal.II/grid/tria.h>\n"
                                           "#include <petscksp.h>\n"
@@ -195,7 +195,7 @@ TEST(Layering, FindsPlantedViolations) {
                                                "#include \"fem/mesh.hpp\"\n"
                                                "#include <deal.II/lac/vector.h>\n"
                                                "#include \"apps/scene.hpp\"\n"),
-                ElementsAre("fem/mesh.hpp", "deal.II/lac/vector.h", "apps/scene.hpp"));
+                ElementsAre("fem/mesh.hpp", "deal.II/lac/vector.h", "apps/scene/scene.hpp"));
     EXPECT_THAT(forbidden_includes("apps", "#include \"coupling/schemes.hpp\"\n"
                                            "#include <toml++/toml.h>\n"
                                            "#include <deal.II/base/point.h>\n"

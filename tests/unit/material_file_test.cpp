@@ -1,7 +1,7 @@
 // Material files: what is read, what is refused and how, and that scenes take their defaults from
 // them in the right order.
 
-#include "apps/material_file.hpp"
+#include "apps/scene/material_file.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,6 +12,8 @@
 #include <fstream>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,8 +1,8 @@
 // Concentration measures on densities whose answers are known, and depocentres of a drawn profile.
 // Piecewise constant densities are exact; the linear one, sampled in n cells, is off by O(1/n^2).
 
-#include "apps/effects.hpp"
-#include "apps/measure.hpp"
+#include "apps/measures/measure.hpp"
+#include "apps/model/effects.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 constexpr std::size_t n = 1000;

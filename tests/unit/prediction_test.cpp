@@ -1,8 +1,10 @@
-#include "apps/prediction.hpp"
+#include "apps/run/prediction.hpp"
 
 #include <gtest/gtest.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 Scene draft(const char* scene, const std::vector<std::string>& set = {},

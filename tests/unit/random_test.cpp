@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 constexpr std::uint64_t n = 100000;

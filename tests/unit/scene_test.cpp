@@ -1,6 +1,6 @@
-#include "apps/scene.hpp"
+#include "apps/scene/scene.hpp"
 
-#include "apps/declaration.hpp"
+#include "apps/scene/declaration.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +17,8 @@
 #include <random>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

@@ -13,6 +13,8 @@
 #include <set>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -1,14 +1,16 @@
-#include "dem/specimen.hpp"
+#include "apps/laboratory/specimen.hpp"
 
+#include "apps/laboratory/servo.hpp"
 #include "dem/contacts.hpp"
 #include "dem/monitor.hpp"
-#include "dem/servo.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

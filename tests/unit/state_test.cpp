@@ -10,6 +10,8 @@
 #include <tuple>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -1,7 +1,7 @@
 // Structural measures of states whose structure is known.
 
-#include "apps/fault_throw.hpp"
-#include "apps/structure.hpp"
+#include "apps/measures/fault_throw.hpp"
+#include "apps/measures/structure.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "tests/support.hpp"
 
@@ -11,6 +11,8 @@
 #include <map>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

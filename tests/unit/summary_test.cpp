@@ -1,11 +1,13 @@
 // Names and signs of what summary.json says about faults: they are part of the program's contract.
 
-#include "apps/summary.hpp"
+#include "apps/archive/summary.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using nlohmann::json;

@@ -1,8 +1,8 @@
 // Target lines: heights, distances and change with time are exact but for round-off; the files they
 // come from are refused with line, column and cure.
 
-#include "apps/scene.hpp"
-#include "apps/target_csv.hpp"
+#include "apps/scene/scene.hpp"
+#include "apps/scene/target_csv.hpp"
 #include "dem/target_line.hpp"
 #include "tests/support.hpp"
 
@@ -13,6 +13,8 @@
 #include <fstream>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;

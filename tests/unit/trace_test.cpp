@@ -10,6 +10,8 @@
 #include <vector>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 /// Nodes on a quarter circle from the vertical breakaway and on the flat behind it.

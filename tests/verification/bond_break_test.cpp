@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

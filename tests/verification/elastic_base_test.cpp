@@ -11,6 +11,9 @@
 #include <cmath>
 
 namespace listric {
+
+using namespace dem;
+using namespace coupling;
 namespace {
 
 using namespace support;

@@ -1,10 +1,12 @@
-#include "apps/compression.hpp"
+#include "apps/laboratory/compression.hpp"
 #include "dem/contacts.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -20,6 +20,8 @@
 #include <algorithm>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -11,6 +11,8 @@
 
 namespace listric {
 
+using namespace dem;
+
 inline std::string name(const Execution& e) {
     return e.cycle == Cycle::plain ? "plain" : "fast_" + std::to_string(e.threads);
 }

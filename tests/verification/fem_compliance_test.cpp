@@ -10,6 +10,9 @@
 #include <cmath>
 
 namespace listric {
+
+using namespace dem;
+using namespace coupling;
 namespace {
 
 using namespace support;

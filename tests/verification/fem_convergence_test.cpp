@@ -8,6 +8,8 @@
 #include <cmath>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -11,6 +11,8 @@
 #include <cmath>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -9,6 +9,8 @@
 #include <vector>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 std::vector<double> numbers_of(const std::string& call) {

@@ -14,6 +14,8 @@
 #include <tuple>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -18,6 +18,8 @@
 #include <algorithm>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -12,6 +12,8 @@
 #include <algorithm>
 
 namespace listric {
+
+using namespace dem;
 namespace {
 
 using namespace support;

@@ -7,6 +7,8 @@
 
 namespace listric::support {
 
+using namespace dem;
+
 inline GenesisRequest packing_request(double length, double depth, double mean_radius) {
     constexpr double high = 1e5;
     GenesisRequest r;

@@ -7,6 +7,8 @@
 
 namespace listric::support {
 
+using namespace dem;
+
 inline double square(double a) { return a * a; }
 
 /// A bonded lattice of 4 x 4 discs in random motion without losses.

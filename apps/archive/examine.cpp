@@ -1,0 +1,79 @@
+#include "apps/archive/examine.hpp"
+
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/snapshot.hpp"
+#include "apps/archive/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace listric {
+
+using namespace dem;
+
+namespace fs = std::filesystem;
+
+FaultReport report_faults(const Scene& scene, const RigidBase& base, const State& now,
+                          std::span<const std::filesystem::path> snapshots) {
+    std::vector<DiscPlaces> older;
+    // The newest first, so that an extra snapshot of a stopped run cannot make a window too short.
+    double next = now.clock.extension;
+    const double least = 0.75 * scene.output.interval;
+    for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
+        try {
+            const DiscPlaces places(read_snapshot(*path).state);
+            if (next - places.extension < least)
+                continue;
+            next = places.extension;
+            older.push_back(places);
+        } catch (const StorageError&) {
+            continue;
+        }
+    }
+    std::ranges::reverse(older);
+    return report_faults(scene, base, now, older);
+}
+
+std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
+                                                         std::span<const double> extensions) {
+    const RunFolder run(output);
+    const auto nearest_snapshot = [&](double extension) {
+        return *std::ranges::min_element(run.snapshots, {}, [&](const fs::path& path) {
+            return std::abs(snapshot_extension(path) - extension);
+        });
+    };
+    std::map<fs::path, double> wanted;
+    for (double extension : extensions)
+        wanted[nearest_snapshot(extension)] = extension;
+    std::vector<std::pair<double, NamedNumbers>> found;
+    std::vector<Past> past;
+    std::vector<DiscPlaces> places;
+    for (const fs::path& path : run.snapshots) {
+        const Moment moment = run.read(path);
+        const State& now = moment.state;
+        if (wanted.contains(path)) {
+            const Measures measures = measure(run.scene, now, run.base, moment.events);
+            const FaultReport faults = report_faults(run.scene, run.base, now, places);
+            NamedNumbers numbers = history_row(now, measures);
+            std::erase_if(numbers, [](const auto& n) { return std::isnan(n.second); });
+            const NamedNumbers more =
+                measure_structure(run.scene, run.base, now, moment.events, faults, measures, past);
+            numbers.insert(numbers.end(), more.begin(), more.end());
+            found.emplace_back(wanted[path], std::move(numbers));
+        }
+        // A snapshot of a stopped run must not make a window too short.
+        if (!past.empty() &&
+            now.clock.extension - past.back().places.extension < 0.75 * run.scene.output.interval)
+            continue;
+        Past next{DiscPlaces(now), find_basins(measure_profile(run.scene, now, run.base)), {}};
+        if (!past.empty())
+            next.throw_correlations =
+                throw_age_correlations(run.scene, run.base, now, past.back().places);
+        past.push_back(std::move(next));
+        places.push_back(past.back().places);
+    }
+    return found;
+}
+
+} // namespace listric

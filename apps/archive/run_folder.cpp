@@ -1,0 +1,58 @@
+#include "apps/archive/run_folder.hpp"
+
+#include "apps/model/effects.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+namespace listric {
+
+using namespace dem;
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> list_snapshots(const fs::path& output) {
+    std::vector<fs::path> snapshots;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(output / "snapshots", error))
+        if (entry.path().extension() == ".h5")
+            snapshots.push_back(entry.path());
+    // By extension: longer names are further.
+    std::ranges::sort(snapshots, {},
+                      [](const fs::path& p) { return std::pair(p.native().size(), p.native()); });
+    return snapshots;
+}
+
+double snapshot_extension(const fs::path& path) {
+    return std::strtod(path.filename().c_str() + std::strlen("extension-"), nullptr);
+}
+
+void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> events) {
+    for (const auto& event : events) {
+        const auto memory = snapshot.event_memory.find(event->name());
+        if (memory == snapshot.event_memory.end())
+            throw StorageError("the snapshot knows nothing of " + event->name());
+        event->memory = std::move(memory->second);
+        event->applied = snapshot.event_applied.at(event->name());
+    }
+}
+
+RunFolder::RunFolder(const fs::path& output) : snapshots(list_snapshots(output)) {
+    if (snapshots.empty())
+        throw StorageError(output.string() + ": no snapshots; is this a run's folder?");
+    SceneRequest request;
+    request.scene = (output / "scene.toml").string();
+    scene = load_scene(request);
+    base = make_base(scene);
+}
+
+Moment RunFolder::read(const fs::path& path) const {
+    Snapshot snapshot = read_snapshot(path);
+    Moment moment{{}, make_events(scene)};
+    hand_over(snapshot, moment.events);
+    moment.state = std::move(snapshot.state);
+    return moment;
+}
+
+} // namespace listric

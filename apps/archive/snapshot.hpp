@@ -1,0 +1,49 @@
+#pragma once
+
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+#include "dem/event.hpp"
+#include "dem/state.hpp"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace listric {
+
+/// What a run carries along besides the state.
+struct RunRecord {
+    std::string scene;  ///< the scene in force, as TOML
+    dem::Table history; ///< a row per window, see docs/measures.md; NaN: no meaning there
+    std::map<std::string, double> seconds_by_part; ///< wall time spent so far
+    double disc_steps = 0.0;                       ///< discs times cycles so far
+    double predicted_seconds = 0.0;                ///< of the whole run
+    std::optional<double> base_elements_difference,
+        base_resolved_difference; ///< at the end of a run with an elastic base
+};
+
+/// Everything that the run needs to go on as if it had never stopped.
+struct Snapshot {
+    dem::State state;
+    std::map<std::string, dem::Table> event_memory;
+    std::map<std::string, std::int64_t> event_applied;
+    RunRecord record;
+};
+
+/// Writes an HDF5 file under a temporary name and renames it, so that a file of this name is always
+/// complete. Throws StorageError.
+void write_snapshot(const std::filesystem::path& path, const dem::State& state,
+                    std::span<const std::unique_ptr<dem::Event>> events, const RunRecord& record);
+
+/// Throws StorageError if the file is missing, incomplete or of another kind.
+Snapshot read_snapshot(const std::filesystem::path& path);
+
+/// Hash of the state and of what the events remember: equal for equal runs.
+std::uint64_t run_hash(const dem::State& state,
+                       std::span<const std::unique_ptr<dem::Event>> events);
+std::uint64_t run_hash(const Snapshot& snapshot);
+
+} // namespace listric

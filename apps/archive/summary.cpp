@@ -1,0 +1,216 @@
+#include "apps/archive/summary.hpp"
+
+#include "apps/model/effects.hpp"
+#include "apps/model/footwall_coupling.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+/// Visits every measure that is a number: name and value, if it has one.
+template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
+    visit("basin_area_m2", std::optional(m.basin_area));
+    visit("area_balance", m.area_balance);
+    visit("cutoff_x_m", m.cutoff ? std::optional(m.cutoff->x) : std::nullopt);
+    visit("cutoff_z_m", m.cutoff ? std::optional(m.cutoff->y) : std::nullopt);
+    visit("rollover_tilt_deg", m.rollover_tilt);
+    visit("breakaway_rotation_deg", m.breakaway_rotation);
+    visit("toe_rotation_deg", m.toe_rotation);
+    visit("lower_block_rotation_deg", m.lower_block_rotation);
+    const auto visit_point = [&](const char* x, const char* z, const std::optional<Point>& p) {
+        visit(x, p ? std::optional(p->x) : std::nullopt);
+        visit(z, p ? std::optional(p->y) : std::nullopt);
+    };
+    visit_point("intervening_high_x_m", "intervening_high_z_m", m.intervening_high);
+    visit("halfgraben_area_share", m.halfgraben_area_share);
+    visit("dilation_area_m2", m.dilation_area);
+    visit("depth_to_detachment_m", m.depth_to_detachment);
+    visit("inclined_shear_angle_deg", m.inclined_shear_angle);
+    visit("inclined_shear_misfit_m", m.inclined_shear_misfit);
+    visit("normals_misfit_m", m.normals_misfit);
+    visit("predicted_tilt_deg", m.predicted_tilt);
+    visit_point("predicted_cutoff_x_m", "predicted_cutoff_z_m", m.predicted_cutoff);
+    visit("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
+    visit("strain_top10", m.strain_top10);
+    visit("strain_top10_cumulative", m.strain_top10_cumulative);
+    visit("strain_gini", m.strain_gini);
+    visit("basement_unbonded_fraction", m.basement_unbonded_fraction);
+    visit("old_sediment_bonded_fraction", m.old_sediment_bonded_fraction);
+    visit("weak_fraction", m.weak_fraction);
+    visit("volume_error_fraction", m.volume_error_fraction);
+    visit("deposited_fraction", m.deposited_fraction);
+    visit("eroded_fraction", m.eroded_fraction);
+    visit("mass_error_fraction", std::optional(m.mass_error_fraction));
+    visit("unbalanced_ratio_mean", std::optional(m.unbalanced_ratio_mean));
+    visit("unbalanced_ratio_max", std::optional(m.unbalanced_ratio_max));
+    visit("inertial_number", std::optional(m.inertial_number));
+    if (!m.energy)
+        return;
+    const EnergyBalance& e = *m.energy;
+    const double work = e.boundary_work + e.gravity_work;
+    for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
+             {"energy_boundary_work_j_per_m", e.boundary_work},
+             {"energy_gravity_work_j_per_m", e.gravity_work},
+             {"energy_events_j_per_m", e.events},
+             {"energy_kinetic_j_per_m", e.stored.kinetic},
+             {"energy_strain_normal_j_per_m", e.stored.normal_strain},
+             {"energy_strain_shear_j_per_m", e.stored.shear_strain},
+             {"energy_stored_change_j_per_m", e.stored_change},
+             {"energy_friction_j_per_m", e.friction},
+             {"energy_damping_j_per_m", e.damping},
+             {"energy_bond_breaking_j_per_m", e.bond_breaking},
+             {"energy_stepping_j_per_m", e.stepping}})
+        visit(name, std::optional(value));
+    visit("energy_base_work_j_per_m", e.base_work);
+    visit("energy_residual", work != 0.0 ? std::optional(e.residual() / work) : std::nullopt);
+}
+
+/// The faults, and what they have in common.
+void add_faults(nlohmann::ordered_json& json, const FaultReport& report) {
+    const auto put = [&](const char* name, std::optional<double> value) {
+        if (value && std::isfinite(*value))
+            json[name] = *value;
+    };
+    put("fault_width_diameters", report.width);
+    put("antithetic_foot_x_m", report.antithetic_foot);
+    if (report.main_antithetic)
+        json["main_antithetic_fault"] = *report.main_antithetic;
+    if (report.main_synthetic)
+        json["main_synthetic_fault"] = *report.main_synthetic;
+    put("sediment_weak_off_fault_fraction", report.sediment_weak_off_fault_fraction);
+    auto& list = json["faults"] = nlohmann::ordered_json::array();
+    for (const Fault& f : report.faults) {
+        const Point top = f.trace.points.front(), bottom = f.trace.points.back();
+        auto throws = nlohmann::ordered_json::object();
+        for (const auto& [stratum, value] : f.throws)
+            throws[fmt::format("{}", stratum)] = value;
+        auto points = nlohmann::ordered_json::array();
+        for (Point p : f.trace.points)
+            points.push_back({std::round(p.x), std::round(-p.y)});
+        list.push_back({{"x_top_m", top.x},
+                        {"z_top_m", -top.y},
+                        {"x_bottom_m", bottom.x},
+                        {"z_bottom_m", -bottom.y},
+                        {"length_m", f.trace.length()},
+                        {"dip_deg", f.dip},
+                        {"sense", f.normal ? "normal" : "reverse"},
+                        {"attitude", f.synthetic ? "synthetic" : "antithetic"},
+                        {"rate_mm_per_a", f.rate},
+                        {"width_diameters", f.width},
+                        {"curvature_per_m", f.curvature},
+                        {"born_at_m", f.born_at},
+                        {"dip_at_birth_deg", f.dip_at_birth},
+                        {"traced_since_m", f.traced_since},
+                        {"footwall_turn_deg", f.footwall_turn},
+                        {"foot_x_m", f.foot.x},
+                        {"foot_z_m", -f.foot.y},
+                        {"throw_m", throws},
+                        {"points_m", points}});
+        if (f.pre_rift_throw)
+            list.back()["pre_rift_throw_m"] = *f.pre_rift_throw;
+    }
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, double>> history_row(const State& state, const Measures& m) {
+    std::vector<std::pair<std::string, double>> row = {
+        {"extension_m", state.clock.extension},
+        {"cycle", static_cast<double>(state.clock.cycle)},
+        {"discs", static_cast<double>(state.discs.rows())},
+    };
+    for_each_measure(m, [&](const char* name, std::optional<double> value) {
+        row.emplace_back(name, value.value_or(std::nan("")));
+    });
+    return row;
+}
+
+std::string to_csv(const Table& table) {
+    std::string text;
+    for (const Column& column : table.columns())
+        text.append(text.empty() ? "" : ",").append(column.name);
+    text += '\n';
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const char* separator = "";
+        for (const Column& column : table.columns()) {
+            const double value = std::get<std::vector<double>>(column.values)[row];
+            text += separator;
+            text += std::isnan(value) ? std::string() : fmt::format("{}", value);
+            separator = ",";
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+std::string summary_json(const Scene& scene, int threads, const State& state,
+                         const RunRecord& record, const Measures& m, const FaultReport& faults,
+                         double wall_seconds, std::uint64_t state_hash) {
+    nlohmann::ordered_json json = {
+        {"scene", scene.name},
+        {"accuracy", scene.accuracy},
+        {"seed", scene.seed},
+        {"threads", threads},
+        {"discs", state.discs.rows()},
+        {"cycles", state.clock.cycle},
+        {"wall_s", wall_seconds},
+        {"predicted_wall_s", record.predicted_seconds},
+        {"disc_steps_per_s", record.disc_steps / wall_seconds},
+        {"finished", true},
+        {"state_hash", fmt::format("{:016x}", state_hash)},
+        {"extension_m", state.clock.extension},
+    };
+    for_each_measure(m, [&](const char* name, std::optional<double> value) {
+        if (value && std::isfinite(*value))
+            json[name] = *value;
+    });
+    for (const auto& [name, value] : footwall_summary(record.history, state))
+        if (std::isfinite(value))
+            json[name] = value;
+    if (record.base_elements_difference)
+        json["base_elements_difference"] = *record.base_elements_difference;
+    if (record.base_resolved_difference)
+        json["base_resolved_difference"] = *record.base_resolved_difference;
+    if (m.quasi_static)
+        json["quasi_static"] = *m.quasi_static;
+    if (m.energy) {
+        auto& list = json["energy_by_event_j_per_m"] = nlohmann::ordered_json::object();
+        for (const auto& [event, work] : m.energy->by_event)
+            list[event] = work;
+    }
+    json["effects"] = effect_names(scene);
+    double named = 0.0;
+    auto& parts = json["time_by_part_s"] = nlohmann::ordered_json::object();
+    for (const auto& [part, seconds] : record.seconds_by_part) {
+        parts[part] = seconds;
+        named += seconds;
+    }
+    parts["other"] = std::max(0.0, wall_seconds - named);
+    if (m.depocentres) {
+        auto& list = json["depocentres"] = nlohmann::ordered_json::array();
+        for (const Depocentre& d : *m.depocentres)
+            list.push_back(
+                {{"x_m", d.x}, {"thickness_m", d.thickness}, {"prominence_m", d.prominence}});
+    }
+    add_faults(json, faults);
+    return json.dump(2) + "\n";
+}
+
+std::optional<double> summary_extension(const std::filesystem::path& summary) {
+    std::ifstream in(summary);
+    const auto json = nlohmann::json::parse(in, nullptr, false);
+    if (!json.is_object() || !json.value("finished", false) || !json.contains("extension_m") ||
+        !json["extension_m"].is_number())
+        return std::nullopt;
+    return json["extension_m"].get<double>();
+}
+
+} // namespace listric

@@ -1,0 +1,119 @@
+#include "apps/figures/base_figure.hpp"
+
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/snapshot.hpp"
+#include "apps/figures/figures.hpp"
+#include "apps/model/footwall_coupling.hpp"
+#include "apps/support/npy.hpp"
+#include "apps/support/python.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+using namespace dem;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Beyond this x the picture ends, m, left of the breakaway and right of the wall.
+constexpr double beside = 100e3;
+
+/// The snapshots nearest to a fifth, half and the whole of the newest one's extension.
+std::vector<fs::path> shown(const std::vector<fs::path>& snapshots) {
+    const double end = snapshot_extension(snapshots.back());
+    std::vector<fs::path> paths;
+    for (const double share : {0.2, 0.5, 1.0})
+        paths.push_back(*std::ranges::min_element(snapshots, {}, [&](const fs::path& path) {
+            return std::abs(snapshot_extension(path) - share * end);
+        }));
+    paths.erase(std::ranges::unique(paths).begin(), paths.end());
+    return paths;
+}
+
+/// Uplift of the footwall's surface, then of the detachment.
+std::string uplift_rows(const State& state, const fem::Field& field) {
+    std::string rows;
+    const auto add = [&](double x, double uplift) {
+        rows += fmt::format("{:.2f},{:.2f},{:.4f}\n", state.clock.extension, x, uplift);
+    };
+    for (std::size_t k = 0; k < field.place.size(); ++k)
+        if (std::abs(field.place[k].y) < 1e-3 && field.place[k].x < 0.0 &&
+            field.place[k].x > -beside)
+            add(field.place[k].x, field.displacement[k].y);
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    for (std::size_t k = 0; k < nodes.x.size(); ++k)
+        add(nodes.x[k], nodes.uy[k]);
+    return rows;
+}
+
+/// Plain arrays for the drawing script: corners x, y and displacements of the patches, stress xx,
+/// yy, xy; discs x, y, radius, stratum.
+void export_section(const State& state, const std::vector<fem::StressPatch>& patches,
+                    const fs::path& folder) {
+    const ConstDiscColumns d = disc_columns(state);
+    const double right = *std::ranges::max_element(d.x) + beside;
+    std::vector<double> rows;
+    for (const fem::StressPatch& p : patches) {
+        if (p.corner[0].x < -beside || p.corner[0].x > right)
+            continue;
+        for (std::size_t k = 0; k < 4; ++k)
+            rows.insert(rows.end(),
+                        {p.corner[k].x, p.corner[k].y, p.displacement[k].x, p.displacement[k].y});
+        rows.insert(rows.end(), {p.xx, p.yy, p.xy});
+    }
+    write_npy<double>(folder / "patches.npy", rows, 19);
+    rows.clear();
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        rows.insert(rows.end(),
+                    {d.x[i], d.y[i], d.radius[i], static_cast<double>(d.stratum[i]), d.start_y[i]});
+    write_npy<double>(folder / "discs.npy", rows, 5);
+}
+
+/// Recovers the footwall's field at the moments that are shown, and leaves the arrays of the last.
+void export_footwall(const fs::path& output, const RunFolder& run, const fs::path& folder) {
+    FootwallCoupling coupling(run.scene);
+    const auto events = coupling.make_events();
+    std::string table = "extension_m,x_m,uplift_m\n";
+    const std::vector<fs::path> moments = shown(run.snapshots);
+    for (const fs::path& path : moments) {
+        Snapshot snapshot = read_snapshot(path);
+        hand_over(snapshot, events);
+        const fem::Footwall& footwall = coupling.recover(snapshot.state);
+        table += uplift_rows(snapshot.state, footwall.field());
+        if (path == moments.back())
+            export_section(snapshot.state, footwall.stress(), folder);
+    }
+    write_text(output / "footwall.csv", table);
+}
+
+} // namespace
+
+void draw_base(const fs::path& output) {
+    std::string table = "extension_m,x_m,y_m,ux_m,uy_m\n";
+    for (const fs::path& path : list_snapshots(output)) {
+        const State state = read_snapshot(path).state;
+        const ConstBaseNodeColumns nodes = base_node_columns(state);
+        for (std::size_t k = 0; k < nodes.x.size(); ++k)
+            table += fmt::format("{:.2f},{:.2f},{:.2f},{:.4f},{:.4f}\n", state.clock.extension,
+                                 nodes.x[k], nodes.y[k], nodes.ux[k], nodes.uy[k]);
+    }
+    write_text(output / "base.csv", table);
+    const fs::path figures = output / "figures";
+    std::string problem = run_drawing_script("base.py", {output.string(), figures.string()});
+    const RunFolder run(output);
+    if (problem.empty() && run.scene.elastic_base) {
+        const TemporaryFolder data(figures);
+        export_footwall(output, run, data.path);
+        problem = run_drawing_script("footwall.py",
+                                     {output.string(), data.path.string(), figures.string()});
+    }
+    if (!problem.empty())
+        throw StorageError(problem);
+}
+
+} // namespace listric

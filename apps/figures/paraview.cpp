@@ -1,0 +1,264 @@
+#include "apps/figures/paraview.hpp"
+
+#include "apps/archive/snapshot.hpp"
+#include "dem/base_place.hpp"
+#include "dem/contacts.hpp"
+#include "dem/law.hpp"
+#include "dem/monitor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In the order in which ParaView lists them.
+constexpr std::array<std::string_view, 3> parts = {"discs", "contacts", "base"};
+
+/// VTK XML PolyData with raw appended data: small, and read by every version.
+class PolyData {
+public:
+    PolyData(std::size_t point_count, std::size_t vertex_count, std::size_t line_count)
+        : points_(point_count), vertices_(vertex_count), lines_(line_count) {}
+
+    template <class T>
+    void array(std::string& section, const std::string& name, const std::vector<T>& values,
+               int components = 1, const std::vector<const char*>& component_names = {}) {
+        const char* type = std::is_same_v<T, float>          ? "Float32"
+                           : std::is_same_v<T, std::int32_t> ? "Int32"
+                           : std::is_same_v<T, std::int64_t> ? "Int64"
+                                                             : "UInt8";
+        section += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" ",
+                               type, name, components);
+        for (std::size_t k = 0; k < component_names.size(); ++k)
+            section += fmt::format("ComponentName{}=\"{}\" ", k, component_names[k]);
+        section += fmt::format("format=\"appended\" offset=\"{}\"/>\n", data_.size());
+        const std::uint64_t bytes = values.size() * sizeof(T);
+        data_.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+        data_.append(reinterpret_cast<const char*>(values.data()), bytes);
+    }
+
+    std::string point_data, cell_data, points, vertices, lines;
+
+    std::string text() const {
+        return fmt::format(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+            "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
+            "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" "
+            "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"
+            "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n"
+            "<Verts>\n{}</Verts>\n<Lines>\n{}</Lines>\n"
+            "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_{}\n</AppendedData>\n"
+            "</VTKFile>\n",
+            points_, vertices_, lines_, point_data, cell_data, points, vertices, lines, data_);
+    }
+
+private:
+    std::size_t points_, vertices_, lines_;
+    std::string data_;
+};
+
+/// Cells of `size` consecutive points each.
+void cells(PolyData& file, std::string& section, std::size_t count, std::size_t size,
+           std::vector<std::int64_t> connectivity) {
+    std::vector<std::int64_t> offsets(count);
+    for (std::size_t k = 0; k < count; ++k)
+        offsets[k] = static_cast<std::int64_t>((k + 1) * size);
+    file.array(section, "connectivity", connectivity);
+    file.array(section, "offsets", offsets);
+}
+
+std::vector<float> points(const ConstDiscColumns& d) {
+    std::vector<float> p;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        p.insert(p.end(), {static_cast<float>(d.x[i]), static_cast<float>(d.y[i]), 0.0f});
+    return p;
+}
+
+template <class T, class Range> std::vector<T> as(const Range& values) {
+    std::vector<T> result;
+    for (const auto& value : values)
+        result.push_back(static_cast<T>(value));
+    return result;
+}
+
+/// Unbroken bonds of every disc.
+std::vector<std::int32_t> bonds_per_disc(const State& state) {
+    const ConstContactColumns c = contact_columns(state);
+    std::vector<std::int32_t> bonds(state.discs.rows(), 0);
+    for (std::size_t k = 0; k < c.bonded.size(); ++k)
+        if (c.bonded[k]) {
+            ++bonds[static_cast<std::size_t>(c.first[k])];
+            ++bonds[static_cast<std::size_t>(c.second[k])];
+        }
+    return bonds;
+}
+
+std::string discs_file(const State& state, const RigidBase& base) {
+    const ConstDiscColumns d = disc_columns(state);
+    const std::size_t n = d.x.size();
+    PolyData file(n, n, 0);
+    file.array(file.points, "Points", points(d), 3);
+    std::vector<std::int64_t> connectivity(n);
+    for (std::size_t i = 0; i < n; ++i)
+        connectivity[i] = static_cast<std::int64_t>(i);
+    cells(file, file.vertices, n, 1, connectivity);
+    file.array(file.point_data, "id", as<std::int64_t>(d.id));
+    file.array(file.point_data, "radius_m", as<float>(d.radius));
+    file.array(file.point_data, "material", as<std::int32_t>(d.material));
+    file.array(file.point_data, "stratum", as<std::int32_t>(d.stratum));
+    file.array(file.point_data, "rotation_rad", as<float>(d.rotation));
+    std::vector<float> start_depth;
+    for (const double y : d.start_y)
+        start_depth.push_back(static_cast<float>(-y));
+    file.array(file.point_data, "start_depth_m", start_depth);
+    file.array(file.point_data, "coordination", as<std::int32_t>(coordination(state, base)));
+    file.array(file.point_data, "bonds", bonds_per_disc(state));
+    std::vector<float> velocity, stress;
+    for (std::size_t i = 0; i < n; ++i)
+        velocity.insert(velocity.end(),
+                        {static_cast<float>(d.vx[i]), static_cast<float>(d.vy[i]), 0.0f});
+    for (const Stress& s : disc_stresses(state, base))
+        stress.insert(stress.end(), {static_cast<float>(s.xx), static_cast<float>(s.yy),
+                                     static_cast<float>(s.xy)});
+    file.array(file.point_data, "velocity_m_per_s", velocity, 3);
+    file.array(file.point_data, "stress_pa", stress, 3, {"XX", "YY", "XY"});
+    for (const char* name : {"window_strain", "total_strain", "porosity"})
+        if (state.discs.has(name))
+            file.array(file.point_data, name, as<float>(state.discs.get<double>(name)));
+    return file.text();
+}
+
+std::string contacts_file(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const std::vector<bool> touches = touching(state);
+    std::vector<std::int64_t> connectivity;
+    std::vector<std::uint8_t> bonded;
+    std::vector<float> normal, shear;
+    for (std::size_t k = 0; k < touches.size(); ++k)
+        if (touches[k]) {
+            const auto i = static_cast<std::size_t>(c.first[k]);
+            const auto j = static_cast<std::size_t>(c.second[k]);
+            const double overlap =
+                d.radius[i] + d.radius[j] - std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]);
+            const ContactParameters law = contact_parameters(state.materials[d.material[i]],
+                                                             state.materials[d.material[j]], 1.0);
+            normal.push_back(law.normal_stiffness * static_cast<float>(overlap));
+            connectivity.insert(connectivity.end(), {c.first[k], c.second[k]});
+            bonded.push_back(c.bonded[k]);
+            shear.push_back(static_cast<float>(c.shear_force[k]));
+        }
+    PolyData file(d.x.size(), 0, bonded.size());
+    file.array(file.points, "Points", points(d), 3);
+    cells(file, file.lines, bonded.size(), 2, connectivity);
+    file.array(file.cell_data, "bonded", bonded);
+    file.array(file.cell_data, "normal_force_n", normal);
+    file.array(file.cell_data, "shear_force_n", shear);
+    return file.text();
+}
+
+/// A polyline per surface, as far as the discs reach: the surfaces themselves are endless.
+std::string base_file(const State& state, const RigidBase& given) {
+    const RigidBase base = standing_base(given, state);
+    const ConstDiscColumns d = disc_columns(state);
+    const Point breakaway = base.surfaces.front().chain.front().start;
+    Point low = breakaway, high = breakaway;
+    const double margin = 2.0 * state.mean_radius;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        low = {std::min(low.x, d.x[i] - margin), std::min(low.y, d.y[i] - margin)};
+        high = {std::max(high.x, d.x[i] + margin), std::max(high.y, d.y[i] + margin)};
+    }
+    std::vector<float> corners;
+    std::vector<std::int64_t> connectivity, offsets;
+    std::vector<std::int32_t> surfaces;
+    for (std::size_t s = 0; s < base.surfaces.size(); ++s) {
+        const Surface& surface = base.surfaces[s];
+        double length = 0.0;
+        for (const Segment& segment : surface.chain)
+            length += segment.length;
+        const auto steps = static_cast<std::int64_t>(std::ceil(length / state.mean_radius));
+        for (std::int64_t k = 0; k <= steps; ++k) {
+            Point p = point_at(surface.chain,
+                               length * static_cast<double>(k) / static_cast<double>(steps));
+            p.x += surface.translation.x * state.clock.extension;
+            p.y += surface.translation.y * state.clock.extension;
+            if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y)
+                continue;
+            connectivity.push_back(static_cast<std::int64_t>(connectivity.size()));
+            corners.insert(corners.end(), {static_cast<float>(p.x), static_cast<float>(p.y), 0.0f});
+        }
+        offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+        surfaces.push_back(static_cast<std::int32_t>(s));
+    }
+    PolyData file(connectivity.size(), 0, surfaces.size());
+    file.array(file.points, "Points", corners, 3);
+    file.array(file.lines, "connectivity", connectivity);
+    file.array(file.lines, "offsets", offsets);
+    file.array(file.cell_data, "surface", surfaces);
+    return file.text();
+}
+
+/// Moment and part that a file's name tells; none if the file is not of the series.
+struct SeriesFile {
+    double extension = 0.0; ///< m
+    std::size_t part = 0;
+    std::string name;
+
+    auto operator<=>(const SeriesFile&) const = default;
+};
+
+std::optional<SeriesFile> series_file(const std::string& name) {
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        SeriesFile file{0.0, part, name};
+        const char* const begin = name.data() + std::min(name.size(), parts[part].size() + 1);
+        const auto [end, error] = std::from_chars(begin, name.data() + name.size(), file.extension);
+        if (error == std::errc() && name.starts_with(fmt::format("{}-", parts[part])) &&
+            std::string_view(end) == "m.vtp")
+            return file;
+    }
+    return {};
+}
+
+} // namespace
+
+void write_paraview(const fs::path& output, const State& state, const RigidBase& base,
+                    double extension_rate) {
+    const fs::path folder = output / "paraview";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    const std::string moment = fmt::format("{:08.2f}m.vtp", state.clock.extension);
+    write_text(folder / ("discs-" + moment), discs_file(state, base));
+    write_text(folder / ("contacts-" + moment), contacts_file(state));
+    write_text(folder / ("base-" + moment), base_file(state, base));
+
+    std::vector<SeriesFile> files;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (const auto file = series_file(entry.path().filename().string()))
+            files.push_back(*file);
+    std::ranges::sort(files);
+    std::string series = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
+                         "<Collection>\n";
+    // ParaView names a block after `name`; it goes by the order of the lines, not by `part`.
+    for (const auto& [extension, part, name] : files)
+        series +=
+            fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"paraview/{}\"/>\n",
+                        extension / extension_rate / 1e6, part, parts[part], name);
+    write_text(output / "paraview.pvd", series + "</Collection>\n</VTKFile>\n");
+}
+
+} // namespace listric

@@ -1,0 +1,290 @@
+#include "apps/laboratory/compression.hpp"
+
+#include "apps/laboratory/servo.hpp"
+#include "dem/contacts.hpp"
+#include "dem/law.hpp"
+#include "dem/monitor.hpp"
+#include "dem/packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+constexpr int servo_cycles = 5; ///< between adjustments of the walls
+
+std::size_t bonds(const State& state) {
+    return static_cast<std::size_t>(
+        std::ranges::count(contact_columns(state).bonded, std::uint8_t{1}));
+}
+
+/// A sample under test: its walls, and the strain of the discs in its inner part.
+class Press {
+public:
+    explicit Press(Specimen& sample) : s_(sample), has_sides_(s_.base.surfaces.size() > 2) {
+        set_zero();
+    }
+
+    /// Strains count from here.
+    void set_zero() {
+        height_ = height();
+        width_ = width();
+        bonds_ = bonds(s_.state);
+        const ConstDiscColumns d = disc_columns(std::as_const(s_.state));
+        x_.assign(d.x.begin(), d.x.end());
+        y_.assign(d.y.begin(), d.y.end());
+        const double left = *std::ranges::min_element(x_), right = *std::ranges::max_element(x_);
+        const double low = *std::ranges::min_element(y_), high = *std::ranges::max_element(y_);
+        inner_.clear();
+        for (std::size_t i = 0; i < x_.size(); ++i)
+            if (std::abs(x_[i] - 0.5 * (left + right)) < 0.4 * (right - left) &&
+                std::abs(y_[i] - 0.5 * (low + high)) < 0.4 * (high - low))
+                inner_.push_back(i);
+    }
+
+    double height() const { return s_.place_of(top_wall).y - s_.place_of(bottom_wall).y; }
+    double width() const {
+        if (has_sides_)
+            return s_.place_of(right_wall).x - s_.place_of(left_wall).x;
+        const ConstDiscColumns d = disc_columns(std::as_const(s_.state));
+        double left = 1e300, right = -1e300;
+        for (std::size_t i = 0; i < d.x.size(); ++i) {
+            left = std::min(left, d.x[i] - d.radius[i]);
+            right = std::max(right, d.x[i] + d.radius[i]);
+        }
+        return right - left;
+    }
+
+    /// Stress between a pair of opposite walls, Pa, and the stiffness of the contacts of one.
+    struct Load {
+        double stress, stiffness;
+    };
+    Load axial() const {
+        const auto loads = surface_loads(s_.state, s_.base);
+        return {0.5 * (loads[bottom_wall].force.y - loads[top_wall].force.y) / width(),
+                stiffness(loads[bottom_wall], loads[top_wall])};
+    }
+    Load lateral() const {
+        if (!has_sides_)
+            return {0.0, 0.0};
+        const auto loads = surface_loads(s_.state, s_.base);
+        return {0.5 * (loads[left_wall].force.x - loads[right_wall].force.x) / height(),
+                stiffness(loads[left_wall], loads[right_wall])};
+    }
+
+    /// Both walls of a pair move toward the sample, m/s.
+    void press_axially(double speed) {
+        s_.steer(bottom_wall, {0.0, speed});
+        s_.steer(top_wall, {0.0, -speed});
+    }
+    void press_laterally(double speed) {
+        s_.steer(left_wall, {speed, 0.0});
+        s_.steer(right_wall, {-speed, 0.0});
+    }
+
+    CompressionPoint point() const {
+        const ConstDiscColumns d = disc_columns(std::as_const(s_.state));
+        const double present = static_cast<double>(bonds(s_.state));
+        return {(height_ - height()) / height_,
+                axial().stress,
+                (width_ - width()) / width_,
+                lateral().stress,
+                -gradient(y_, d.y),
+                -gradient(x_, d.x),
+                bonds_ ? 1.0 - present / static_cast<double>(bonds_) : 0.0};
+    }
+
+private:
+    double stiffness(const SurfaceLoad& a, const SurfaceLoad& b) const {
+        const double one = contact_parameters(s_.base.material, s_.state.materials[basement], 1.0)
+                               .normal_stiffness;
+        return one * std::max(1.0, 0.5 * (a.contacts + b.contacts));
+    }
+
+    /// Least-squares gradient of displacement over position of the inner discs.
+    double gradient(const std::vector<double>& start, std::span<const double> now) const {
+        double mean_start = 0.0, mean_moved = 0.0;
+        for (std::size_t i : inner_) {
+            mean_start += start[i];
+            mean_moved += now[i] - start[i];
+        }
+        mean_start /= static_cast<double>(inner_.size());
+        mean_moved /= static_cast<double>(inner_.size());
+        double square = 0.0, product = 0.0;
+        for (std::size_t i : inner_) {
+            const double a = start[i] - mean_start;
+            square += a * a;
+            product += a * (now[i] - start[i] - mean_moved);
+        }
+        return square > 0.0 ? product / square : 0.0;
+    }
+
+    Specimen& s_;
+    bool has_sides_;
+    double height_ = 0.0, width_ = 0.0;
+    std::size_t bonds_ = 0;
+    std::vector<double> x_, y_; ///< of the discs at zero strain, m
+    std::vector<std::size_t> inner_;
+};
+
+double least_squares_slope(const std::vector<double>& x, const std::vector<double>& y) {
+    const auto n = static_cast<double>(x.size());
+    const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
+    const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
+    double square = 0.0, product = 0.0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        square += (x[k] - mean_x) * (x[k] - mean_x);
+        product += (x[k] - mean_x) * (y[k] - mean_y);
+    }
+    return product / square;
+}
+
+} // namespace
+
+void consolidate(Specimen& sample, const RockMaterial& rock, bool unbreakable) {
+    if (rock.bonds || unbreakable) {
+        BondStrength strength = rock.bonds.value_or(BondStrength{});
+        if (unbreakable)
+            strength = {1e30, 0.0, 1e30, 0.0, StrengthReading::force};
+        bond_touching(sample.state, strength, 0);
+    }
+    sample.state.materials.assign(3, rock.material);
+}
+
+std::vector<CompressionPoint> compress_elastically(Specimen sample,
+                                                   const CompressionParameters& p) {
+    constexpr double last_strain = 5e-4;
+    sample.base.surfaces.resize(2); // the sides are free
+    sample.state.base_contacts.resize(0);
+    find_contacts(sample.state, sample.base);
+    const double dt = sample.state.clock.time_step;
+    sample.advance(2000); // what the sides held in comes to rest
+    Press press(sample);
+    const double height = press.height(), full_speed = 0.5 * p.strain_rate * height;
+    const double duration = last_strain / p.strain_rate;
+    const double ramp = 0.1 * duration; // s
+    std::vector<CompressionPoint> curve{press.point()};
+    const double start = sample.time();
+    const auto cycles =
+        std::max<std::int64_t>(servo_cycles, static_cast<std::int64_t>(duration / (100.0 * dt)));
+    while (curve.back().axial_strain < last_strain) {
+        press.press_axially(full_speed * std::min(1.0, (sample.time() - start + dt) / ramp));
+        sample.advance(cycles);
+        curve.push_back(press.point());
+    }
+    return curve;
+}
+
+std::vector<CompressionPoint> compress_to_failure(Specimen sample, const CompressionParameters& p) {
+    const double dt = sample.state.clock.time_step;
+    const double interval = servo_cycles * dt;
+    Press press(sample);
+    Servo axial, lateral;
+    const auto hold_sides = [&] {
+        const Press::Load load = press.lateral();
+        press.press_laterally(
+            lateral.speed((p.confining - load.stress) * press.height(), load.stiffness, interval));
+    };
+    // Isotropic loading, until both stresses stay within two percent for a while.
+    int calm = 0;
+    for (int step = 0; calm < 100 && step < 40000; ++step) {
+        const Press::Load load = press.axial();
+        press.press_axially(
+            axial.speed((p.confining - load.stress) * press.width(), load.stiffness, interval));
+        hold_sides();
+        sample.advance(servo_cycles);
+        const bool is_calm = std::abs(press.axial().stress - p.confining) < 0.02 * p.confining &&
+                             std::abs(press.lateral().stress - p.confining) < 0.02 * p.confining;
+        calm = is_calm ? calm + 1 : 0;
+    }
+    if (calm < 100)
+        throw NumericalFailure("the servo does not reach a confining stress of " +
+                               std::to_string(p.confining) + " Pa");
+
+    press.set_zero();
+    const double full_speed = 0.5 * p.strain_rate * press.height();
+    const double ramp = 200.0 * dt, start = sample.time();
+    std::vector<CompressionPoint> curve{press.point()};
+    const double spacing = 1e-4; // of points, strain
+    double peak = 0.0, strain_at_peak = 0.0;
+    for (double next = spacing; curve.back().axial_strain < p.largest_strain; next += spacing) {
+        // A point is the mean over its strain.
+        CompressionPoint mean = {};
+        double stress = 0.0, side = 0.0;
+        int samples = 0;
+        while ((mean = press.point()).axial_strain < next) {
+            press.press_axially(full_speed * std::min(1.0, (sample.time() - start + dt) / ramp));
+            for (int k = 0; k < 4; ++k) {
+                hold_sides();
+                sample.advance(servo_cycles);
+            }
+            stress += press.axial().stress;
+            side += press.lateral().stress;
+            ++samples;
+        }
+        if (samples) {
+            mean.axial_stress = stress / samples;
+            mean.lateral_stress = side / samples;
+        }
+        curve.push_back(mean);
+        if (mean.axial_stress > peak) {
+            peak = mean.axial_stress;
+            strain_at_peak = mean.axial_strain;
+        }
+        // Past the peak: well below it, or no higher for as long again.
+        if (mean.axial_strain > 1.25 * strain_at_peak + 2e-3 && mean.axial_stress < 0.85 * peak)
+            break;
+        if (mean.axial_strain > 2.0 * strain_at_peak + 5e-3)
+            break;
+    }
+    return curve;
+}
+
+Elasticity elasticity(const std::vector<CompressionPoint>& curve) {
+    std::vector<double> axial, lateral, stress;
+    for (const CompressionPoint& p : curve)
+        if (p.axial_strain >= 0.2 * curve.back().axial_strain) {
+            axial.push_back(p.gauge_axial);
+            lateral.push_back(p.gauge_lateral);
+            stress.push_back(p.axial_stress);
+        }
+    return {least_squares_slope(axial, stress), -least_squares_slope(axial, lateral)};
+}
+
+double peak_stress(const std::vector<CompressionPoint>& curve) {
+    constexpr std::size_t width = 10;
+    double peak = 0.0, sum = 0.0;
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+        sum += curve[k].axial_stress;
+        if (k >= width)
+            sum -= curve[k - width].axial_stress;
+        peak = std::max(peak, sum / static_cast<double>(std::min(k + 1, width)));
+    }
+    return peak;
+}
+
+double byerlee_axial(double confining) {
+    return std::min(Envelope{0.85, 0.0}.axial(confining), Envelope{0.6, 60e6}.axial(confining));
+}
+
+double Envelope::axial(double confining) const {
+    const double root = std::sqrt(friction * friction + 1.0) + friction;
+    return root * root * confining + 2.0 * cohesion * root;
+}
+
+Envelope fit_envelope(const std::vector<double>& confining, const std::vector<double>& axial) {
+    const double slope = least_squares_slope(confining, axial);
+    const auto n = static_cast<double>(axial.size());
+    const double intercept = (std::accumulate(axial.begin(), axial.end(), 0.0) -
+                              slope * std::accumulate(confining.begin(), confining.end(), 0.0)) /
+                             n;
+    const double root = std::sqrt(std::max(slope, 1e-12)); // tan(45 deg + phi / 2)
+    return {0.5 * (root - 1.0 / root), intercept / (2.0 * root)};
+}
+
+} // namespace listric

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "apps/measures/fault_trace.hpp"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace listric {
+
+/// An active fault with its history (docs/measures.md defines the numbers).
+struct Fault {
+    FaultTrace trace;
+    double dip = 0.0;             ///< of the best straight line, degrees
+    bool normal = true;           ///< sense of slip in the last window; false: reverse
+    bool synthetic = true;        ///< dips the way the detachment does at the breakaway
+    double rate = 0.0;            ///< median slip rate along the trace, mm/a
+    double width = 0.0;           ///< median along the trace, mean disc diameters
+    double curvature = 0.0;       ///< 1/m, > 0: convex upward
+    double born_at = 0.0;         ///< extension since which its place has been active, m
+    double dip_at_birth = 0.0;    ///< of the line traced in the first window since, degrees
+    double traced_since = 0.0;    ///< end of that window, m of extension
+    dem::Point foot_at_birth;     ///< of that line, as foot, m
+    double footwall_turn = 0.0;   ///< rotation of the footwall block since birth, degrees, > 0
+                                  ///< counter-clockwise: toward the detachment
+    dem::Point foot;              ///< lower end, extended to the detachment if that is close, m
+    std::map<int, double> throws; ///< m by stratum, 0: pre-rift top; > 0: normal
+    std::optional<double> pre_rift_throw; ///< of the layers below it, median, m
+};
+
+/// What the faults of a state have in common.
+struct FaultReport {
+    std::vector<Fault> faults; ///< the longest first
+    /// Index of the main fault: normal, steeper than 30 degrees, if possible reaching the lower
+    /// half of the hanging wall, and of those the one with most slip rate times length.
+    std::optional<std::size_t> main_antithetic, main_synthetic;
+    std::optional<double> antithetic_foot; ///< x of the main antithetic fault's foot at birth,
+                                           ///< less the extension from its birth to that line, m
+    std::optional<double> width;           ///< median over faults by length, diameters
+    std::optional<double> sediment_weak_off_fault_fraction;
+};
+
+} // namespace listric

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "dem/base.hpp"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace listric {
+
+/// Least-squares rigid motion of points: add pairs, then fit, then ask.
+class RigidMotion {
+public:
+    void add(dem::Point from, dem::Point to) { pairs_.emplace_back(from, to); }
+    std::size_t size() const { return pairs_.size(); }
+
+    void fit() {
+        const auto n = static_cast<double>(pairs_.size());
+        for (const auto& [a, b] : pairs_) {
+            from_ = {from_.x + a.x / n, from_.y + a.y / n};
+            to_ = {to_.x + b.x / n, to_.y + b.y / n};
+        }
+        double sine = 0.0, cosine = 0.0;
+        for (const auto& [a, b] : pairs_) {
+            const double ax = a.x - from_.x, ay = a.y - from_.y;
+            const double bx = b.x - to_.x, by = b.y - to_.y;
+            sine += ax * by - ay * bx;
+            cosine += ax * bx + ay * by;
+        }
+        angle_ = std::atan2(sine, cosine);
+    }
+
+    double angle() const { return angle_; } ///< rad, counter-clockwise
+    dem::Point move(dem::Point p) const {
+        const double x = p.x - from_.x, y = p.y - from_.y;
+        return {to_.x + std::cos(angle_) * x - std::sin(angle_) * y,
+                to_.y + std::sin(angle_) * x + std::cos(angle_) * y};
+    }
+
+private:
+    std::vector<std::pair<dem::Point, dem::Point>> pairs_;
+    dem::Point from_, to_;
+    double angle_ = 0.0;
+};
+
+} // namespace listric

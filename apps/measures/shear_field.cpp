@@ -1,0 +1,89 @@
+#include "apps/measures/shear_field.hpp"
+
+#include "dem/cells.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace listric {
+
+using namespace dem;
+
+double ShearField::shear(std::size_t k) const { return std::hypot(xx[k] - yy[k], xy[k] + yx[k]); }
+
+double ShearField::shear_along(std::size_t k, Point t) const {
+    // n = (-t.y, t.x): n (grad u) t + t (grad u) n, the first the change of u_t with n.
+    return (xy[k] + yx[k]) * (t.x * t.x - t.y * t.y) - 2.0 * t.x * t.y * (xx[k] - yy[k]);
+}
+
+DiscPlaces::DiscPlaces(const State& state)
+    : extension(state.clock.extension), diameter(2.0 * state.mean_radius),
+      row_of(static_cast<std::size_t>(state.next_id), -1) {
+    const ConstDiscColumns d = disc_columns(state);
+    x.assign(d.x.begin(), d.x.end());
+    y.assign(d.y.begin(), d.y.end());
+    id.assign(d.id.begin(), d.id.end());
+    for (std::size_t i = 0; i < id.size(); ++i) {
+        row_of[static_cast<std::size_t>(id[i])] = static_cast<std::int32_t>(i);
+        age.push_back(d.stratum[i] > 0 ? extension - d.start_extension[i]
+                                       : std::numeric_limits<double>::infinity());
+    }
+}
+
+ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age) {
+    ShearField field;
+    field.diameter = now.diameter;
+    field.window = now.extension - before.extension;
+    std::vector<double> old_x, old_y;
+    for (std::size_t i = 0; i < now.id.size(); ++i) {
+        const auto id = static_cast<std::size_t>(now.id[i]);
+        if (id >= before.row_of.size() || before.row_of[id] < 0 || now.age[i] < least_age)
+            continue;
+        const auto old = static_cast<std::size_t>(before.row_of[id]);
+        field.x.push_back(now.x[i]);
+        field.y.push_back(now.y[i]);
+        field.id.push_back(now.id[i]);
+        old_x.push_back(before.x[old]);
+        old_y.push_back(before.y[old]);
+    }
+    const std::size_t count = field.x.size();
+    for (auto* values : {&field.xx, &field.xy, &field.yx, &field.yy})
+        values->assign(count, 0.0);
+    // Neighbours and gradient refer to the places half way: where two sides slid past each other, a
+    // disc's neighbours across the fault then lie as much ahead of it as behind.
+    std::vector<double> half_x(count), half_y(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        half_x[i] = 0.5 * (old_x[i] + field.x[i]);
+        half_y[i] = 0.5 * (old_y[i] + field.y[i]);
+    }
+    const double reach = 1.9 * field.diameter;
+    const Cells cells(half_x, half_y, reach);
+    for (std::size_t i = 0; i < count; ++i) {
+        double sxx = 0.0, sxy = 0.0, syy = 0.0, uxx = 0.0, uxy = 0.0, uyx = 0.0, uyy = 0.0;
+        const double ux_i = field.x[i] - old_x[i], uy_i = field.y[i] - old_y[i];
+        cells.for_each_near(half_x[i], half_y[i], [&](std::int32_t row) {
+            const auto j = static_cast<std::size_t>(row);
+            const double dx = half_x[j] - half_x[i], dy = half_y[j] - half_y[i];
+            if (dx * dx + dy * dy > reach * reach)
+                return;
+            const double ux = field.x[j] - old_x[j] - ux_i, uy = field.y[j] - old_y[j] - uy_i;
+            sxx += dx * dx;
+            sxy += dx * dy;
+            syy += dy * dy;
+            uxx += ux * dx;
+            uxy += ux * dy;
+            uyx += uy * dx;
+            uyy += uy * dy;
+        });
+        const double determinant = sxx * syy - sxy * sxy;
+        if (determinant <= 1e-3 * sxx * syy)
+            continue;
+        field.xx[i] = (uxx * syy - uxy * sxy) / determinant;
+        field.xy[i] = (uxy * sxx - uxx * sxy) / determinant;
+        field.yx[i] = (uyx * syy - uyy * sxy) / determinant;
+        field.yy[i] = (uyy * sxx - uyx * sxy) / determinant;
+    }
+    return field;
+}
+
+} // namespace listric

@@ -1,0 +1,320 @@
+#include "apps/run/flexure.hpp"
+
+#include "apps/archive/snapshot.hpp"
+#include "apps/figures/figures.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/run/run.hpp"
+#include "apps/support/python.hpp"
+#include "fem/elastic_layer.hpp"
+#include "fem/footwall.hpp"
+#include "fem/plate.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+/// Downward deflection along the middle of the base.
+struct Deflection {
+    std::vector<double> x, w; ///< m
+
+    double at_centre() const {
+        const auto nearest = std::ranges::min_element(x, {}, [](double p) { return std::abs(p); });
+        return w[static_cast<std::size_t>(nearest - x.begin())];
+    }
+};
+
+struct Bulge {
+    double height, x; ///< m
+};
+
+/// Highest point beside the load, between nodes by the parabola through three of them.
+std::optional<Bulge> bulge(const Deflection& d) {
+    std::size_t top = 0;
+    for (std::size_t k = 1; k + 1 < d.x.size(); ++k)
+        if (d.x[k] > 0.0 && d.w[k] <= d.w[k - 1] && d.w[k] <= d.w[k + 1] &&
+            (top == 0 || d.w[k] < d.w[top]))
+            top = k;
+    if (top == 0 || d.w[top] >= 0.0)
+        return std::nullopt;
+    // Nodes of one row are evenly spaced.
+    const double a = d.w[top - 1], b = d.w[top], c = d.w[top + 1];
+    const double bend = a - 2.0 * b + c;
+    const double shift = bend > 0.0 ? 0.5 * (a - c) / bend : 0.0;
+    return Bulge{-(b - 0.25 * (a - c) * shift), d.x[top] + shift * (d.x[top + 1] - d.x[top])};
+}
+
+/// What bends, what holds it and what it is compared with.
+struct Case {
+    fem::FootwallRequest request;
+    fem::Plate plate;
+    fem::ElasticLayer layer;
+    double compared_to; ///< beyond this x, m, the sides disturb
+};
+
+Case make_case(const Scene& scene) {
+    const FlexureParameters& flexure = *scene.flexure;
+    const ElasticBaseParameters& base = *scene.elastic_base;
+    const double gravity = scene.gravity.value_or(GravityParameters{}).acceleration;
+    const double te = base.elastic_thickness;
+    Case c{};
+    c.request.layers = {{0.0, base.young_modulus, base.poisson_ratio, base.crust_density}};
+    c.request.depth = te;
+    c.request.surface_spring = (base.crust_density - base.infill_density) * gravity;
+    c.request.base_spring = (base.mantle_density - base.crust_density) * gravity;
+    c.request.degree = base.degree;
+    c.request.solver = base.solver;
+    c.request.cell_size = te / base.cells;
+    c.plate = {base.young_modulus, base.poisson_ratio, te,
+               (base.mantle_density - base.infill_density) * gravity};
+    c.layer = {base.young_modulus, base.poisson_ratio, te, c.request.surface_spring,
+               c.request.base_spring};
+
+    // Far enough for the sides not to be felt (e^-10), or at the sinusoid's crests.
+    const double far = 10.0 * c.plate.alpha();
+    c.request.left = -far;
+    c.request.right = far;
+    c.compared_to = 0.6 * far;
+    switch (flexure.load) {
+    case FlexureLoad::line:
+        c.request.surface_breaks = {0.0};
+        break;
+    case FlexureLoad::broken:
+        c.request.left = 0.0;
+        c.request.left_side = fem::Side::free;
+        break;
+    case FlexureLoad::strip:
+        c.request.right = flexure.half_width + far;
+        c.request.left = -c.request.right;
+        c.request.surface_breaks = {-flexure.half_width, 0.0, flexure.half_width};
+        c.compared_to += flexure.half_width;
+        break;
+    case FlexureLoad::sinusoid:
+        c.request.left = 0.0;
+        c.request.right = c.compared_to = flexure.wavelength;
+        c.request.cell_size = std::min(c.request.cell_size, flexure.wavelength / 16.0);
+        break;
+    }
+    const double cells = (c.request.right - c.request.left) / c.request.cell_size;
+    constexpr double most = 20e3;
+    if (cells * te / c.request.cell_size > 1e6 || cells > most)
+        throw UsageError(
+            fmt::format("the base would have {:.0f} elements along it, allowed: {:.0f}; "
+                        "a shorter load, fewer elastic_base.cells or a thicker base",
+                        cells, most));
+    return c;
+}
+
+double pressure_at(const FlexureParameters& flexure, double x) {
+    if (flexure.load == FlexureLoad::strip)
+        return std::abs(x) < flexure.half_width ? flexure.pressure : 0.0;
+    if (flexure.load == FlexureLoad::sinusoid)
+        return flexure.pressure * std::cos(2.0 * std::numbers::pi * x / flexure.wavelength);
+    return 0.0;
+}
+
+fem::Load make_load(const FlexureParameters& flexure, const Case& c, const fem::Footwall& base) {
+    fem::Load load;
+    const double te = c.request.depth;
+    if (flexure.load == FlexureLoad::line) {
+        const fem::PointForce force{{0.0, 0.0}, {0.0, -flexure.line_load}};
+        load.interface = base.nodal_forces({&force, 1});
+    } else if (flexure.load == FlexureLoad::broken) {
+        // The parabola of shear of a beam: with a point force the end's corner would sink in.
+        load.traction = [&flexure, te](fem::Vector p, fem::Vector, fem::Boundary boundary) {
+            const double s = -p.y / te;
+            return boundary == fem::Boundary::left
+                       ? fem::Vector{0.0, -0.5 * flexure.line_load / te * 6.0 * s * (1.0 - s)}
+                       : fem::Vector{};
+        };
+    } else {
+        load.traction = [&flexure](fem::Vector p, fem::Vector, fem::Boundary boundary) {
+            return boundary == fem::Boundary::surface ? fem::Vector{0.0, -pressure_at(flexure, p.x)}
+                                                      : fem::Vector{};
+        };
+    }
+    return load;
+}
+
+double plate_deflection(const FlexureParameters& flexure, const fem::Plate& plate, double x) {
+    switch (flexure.load) {
+    case FlexureLoad::line:
+        return plate.line(x, flexure.line_load);
+    case FlexureLoad::broken:
+        return plate.broken(x, flexure.line_load);
+    case FlexureLoad::strip:
+        return plate.strip(x, flexure.pressure, flexure.half_width);
+    case FlexureLoad::sinusoid:
+        break;
+    }
+    return plate.sinusoid(x, flexure.pressure, flexure.wavelength);
+}
+
+/// The exact elastic layer's middle; nothing for a broken one, whose end no such solution has.
+std::optional<std::vector<double>> exact_deflection(const FlexureParameters& flexure,
+                                                    const fem::ElasticLayer& layer,
+                                                    const std::vector<double>& x) {
+    const double depth = 0.5 * layer.thickness;
+    if (flexure.load == FlexureLoad::broken)
+        return std::nullopt;
+    if (flexure.load == FlexureLoad::sinusoid) {
+        const double q = 2.0 * std::numbers::pi / flexure.wavelength;
+        const double amplitude = flexure.pressure * layer.response(q, depth);
+        std::vector<double> w;
+        for (double place : x)
+            w.push_back(amplitude * std::cos(q * place));
+        return w;
+    }
+    return layer.deflection(x, depth, [&](double q) {
+        return flexure.load == FlexureLoad::line
+                   ? flexure.line_load
+                   : 2.0 * flexure.pressure * std::sin(q * flexure.half_width) / q;
+    });
+}
+
+std::uint64_t hash(const std::vector<double>& numbers) {
+    std::uint64_t key = 1469598103934665603u; // FNV-1a, a number at a time
+    for (double number : numbers)
+        key = (key ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u;
+    return key;
+}
+
+const char* name_of(FlexureLoad load) {
+    constexpr const char* names[] = {"line", "broken", "strip", "sinusoid"};
+    return names[static_cast<int>(load)];
+}
+
+} // namespace
+
+void bend_base(const Scene& scene, int threads, const fs::path& output,
+               const std::function<void(const std::string&)>& say) {
+    const double start = now();
+    const FlexureParameters& flexure = *scene.flexure;
+    Deflection d, plate, exact;
+    fem::Vector reaction, total;
+    const Case c = make_case(scene);
+    try {
+        const std::unique_ptr<fem::Footwall> base = fem::make_footwall(c.request);
+        say(fmt::format("elastic base: {} elements, {} unknowns", base->mesh().cells,
+                        base->mesh().unknowns));
+        base->solve(make_load(flexure, c, *base));
+        const fem::Field field = base->field();
+        const double middle = -0.5 * c.request.depth;
+        for (std::size_t k = 0; k < field.place.size(); ++k)
+            if (std::abs(field.place[k].y - middle) < 1e-3 * c.request.cell_size &&
+                std::abs(field.place[k].x) <= c.compared_to * (1.0 + 1e-9)) {
+                d.x.push_back(field.place[k].x);
+                d.w.push_back(-field.displacement[k].y);
+            }
+        if (d.x.empty())
+            throw UsageError(
+                "elastic_base.cells: elements of degree 1 need an even number, so that "
+                "nodes lie on the middle of the base");
+        reaction = base->reaction();
+        total = base->total_load();
+        base->write(output.string(), "footwall");
+        const std::pair<double, std::string> moment{0.0, "footwall.vtu"};
+        fem::write_series((output / "footwall.pvd").string(), {&moment, 1});
+    } catch (const fem::FootwallError& error) {
+        throw UsageError(fmt::format("elastic_base: {}", error.what()));
+    }
+    const double solved = now();
+
+    plate.x = exact.x = d.x;
+    for (double x : d.x)
+        plate.w.push_back(plate_deflection(flexure, c.plate, x));
+    const auto exact_w = exact_deflection(flexure, c.layer, d.x);
+    std::string csv = exact_w ? "x_m,deflection_m,plate_m,layer_m\n" : "x_m,deflection_m,plate_m\n";
+    for (std::size_t k = 0; k < d.x.size(); ++k)
+        csv += fmt::format("{},{},{}{}\n", d.x[k], d.w[k], plate.w[k],
+                           exact_w ? fmt::format(",{}", (*exact_w)[k]) : "");
+    write_text(output / "deflection.csv", csv);
+
+    const double w0 = d.at_centre(), analytic = plate_deflection(flexure, c.plate, 0.0);
+    nlohmann::ordered_json json = {
+        {"scene", scene.name},
+        {"accuracy", scene.accuracy},
+        {"seed", scene.seed},
+        {"threads", threads},
+        {"discs", 0},
+        {"cycles", 0},
+        {"wall_s", 0.0},
+        {"predicted_wall_s", 3.0}, // loading the plug-in, solving, drawing
+        {"disc_steps_per_s", 0.0},
+        {"finished", true},
+        {"state_hash", fmt::format("{:016x}", hash(d.w))},
+        {"extension_m", 0.0},
+        {"load", name_of(flexure.load)},
+        {"elastic_thickness_m", scene.elastic_base->elastic_thickness},
+        {"young_modulus_pa", scene.elastic_base->young_modulus},
+        {"poisson_ratio", scene.elastic_base->poisson_ratio},
+        {"restoring_pa_per_m", c.plate.restoring},
+        {"alpha_m", c.plate.alpha()},
+        {"w0_m", w0},
+        {"analytic_w0_m", analytic},
+        {"relative_error", std::abs(w0 / analytic - 1.0)},
+    };
+    if (exact_w) {
+        exact.w = *exact_w;
+        double worst = 0.0;
+        for (std::size_t k = 0; k < d.x.size(); ++k)
+            worst = std::max(worst, std::abs(d.w[k] - exact.w[k]));
+        json["exact_w0_m"] = exact.at_centre();
+        json["exact_relative_error"] = worst / std::abs(exact.at_centre());
+    }
+    if (flexure.load != FlexureLoad::sinusoid) {
+        const auto put = [&](const std::string& prefix, const Deflection& of) {
+            if (const auto top = bulge(of)) {
+                json[prefix + "bulge_m"] = top->height;
+                json[prefix + "bulge_x_m"] = top->x;
+            }
+        };
+        put("", d);
+        put("analytic_", plate);
+        if (exact_w)
+            put("exact_", exact);
+        json["reaction_error"] = std::abs(reaction.y / total.y + 1.0);
+    }
+    json["effects"] = effect_names(scene);
+    const auto write_summary = [&](double drawing) {
+        json["wall_s"] = now() - start;
+        json["time_by_part_s"] = {{"base", solved - start},
+                                  {"figures", drawing},
+                                  {"other", std::max(0.0, now() - solved - drawing)}};
+        write_text(output / "summary.json", json.dump(2) + "\n");
+    };
+    write_summary(0.0); // the picture's legend reads it
+    const double drawing = now();
+    if (const std::string problem = draw_flexure(output); !problem.empty())
+        say("warning: no figure: " + problem);
+    write_summary(now() - drawing);
+    say(fmt::format("deflection {:.2f} m, thin plate {:.2f} m{}; figure in {}", w0, analytic,
+                    exact_w ? fmt::format(", exact layer {:.2f} m", exact.at_centre()) : "",
+                    (output / "figures").string()));
+}
+
+std::string draw_flexure(const fs::path& output) {
+    std::error_code error;
+    fs::create_directories(output / "figures", error);
+    return run_drawing_script("flexure.py", {output.string(), (output / "figures").string()});
+}
+
+} // namespace listric

@@ -1,0 +1,499 @@
+#include "apps/scene/document.hpp"
+
+#include "apps/support/resources.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace listric {
+
+using namespace dem;
+
+namespace fs = std::filesystem;
+
+// ---------------------------------------------------------------------------------------- errors
+
+void fail(std::string message) {
+    std::ranges::replace(message, '\n', ' ');
+    throw SceneError(message);
+}
+
+namespace {
+
+/// "file:line", or the option of the call that the value comes from.
+std::string place(const toml::source_region& source) {
+    const std::string origin = source.path ? *source.path : "";
+    return origin.starts_with("--") ? origin : fmt::format("{}:{}", origin, source.begin.line);
+}
+
+} // namespace
+
+void fail(const Entry& entry, std::string_view message) {
+    fail(fmt::format("{}: {}: {}", place(entry.node.source()), entry.path, message));
+}
+
+std::string quoted(const std::string& string) {
+    std::ostringstream stream;
+    stream << toml::toml_formatter(toml::value<std::string>(string),
+                                   toml::format_flags::allow_unicode_strings);
+    return stream.str();
+}
+
+namespace {
+
+/// A float of TOML: it has a point or an exponent.
+std::string toml_float(double x) {
+    std::string number = text(x);
+    return number.find_first_of(".en") == number.npos ? number + ".0" : number;
+}
+
+/// What a wrong value is: integer 3, string "abc", table.
+std::string type_and_value(const toml::node& node) {
+    if (const auto* number = node.as_floating_point())
+        return "number " + toml_float(number->get());
+    if (const auto* number = node.as_integer())
+        return fmt::format("integer {}", number->get());
+    if (const auto* string = node.as_string())
+        return "string " + quoted(string->get());
+    if (const auto* boolean = node.as_boolean())
+        return boolean->get() ? "boolean true" : "boolean false";
+    return node.is_table() ? "table" : node.is_array() ? "array" : "date or time";
+}
+
+} // namespace
+
+void fail_type(const Entry& entry, std::string_view allowed) {
+    fail(entry, fmt::format("wrong type ({}), allowed: {}", type_and_value(entry.node), allowed));
+}
+
+std::string advice(std::string_view name, const std::vector<std::string_view>& allowed) {
+    if (allowed.empty())
+        return "none is allowed";
+    const auto meant = nearest(name, allowed);
+    return meant ? fmt::format("did you mean {}?", *meant)
+                 : fmt::format("allowed: {}", fmt::join(allowed, ", "));
+}
+
+std::vector<std::string_view> keys(const std::vector<Parameter>& parameters) {
+    std::vector<std::string_view> keys;
+    std::ranges::transform(parameters, std::back_inserter(keys), &Parameter::key);
+    return keys;
+}
+
+// --------------------------------------------------------------------------------------- reading
+
+namespace {
+
+/// The number behind `node`, if it is one in the parameter's range.
+double number(const Entry& entry, const Parameter& parameter) {
+    const auto* integer = entry.node.as_integer();
+    const auto* floating = entry.node.as_floating_point();
+    if (!integer && !floating)
+        fail_type(entry, type_of(parameter));
+    const double x = integer ? static_cast<double>(integer->get()) : floating->get();
+    if (!parameter.range.contains(x))
+        fail(entry,
+             fmt::format("out of range ({}), allowed: {}{}{}", text(x), text(parameter.range),
+                         parameter.range.reason.empty() ? "" : "; ", parameter.range.reason));
+    return x;
+}
+
+const toml::array& array(const Entry& entry, const Parameter& parameter) {
+    if (!entry.node.is_array())
+        fail_type(entry, type_of(parameter));
+    return *entry.node.as_array();
+}
+
+const std::string& string(const Entry& entry, const Parameter& parameter) {
+    if (!entry.node.is_string())
+        fail_type(entry, type_of(parameter));
+    return entry.node.as_string()->get();
+}
+
+/// Whether a parameter still has a default that it cannot keep.
+bool must_be_given(const Parameter& parameter) {
+    const auto* variable = std::get_if<double*>(&parameter.variable);
+    return variable && !parameter.range.contains(**variable * parameter.per_si);
+}
+
+DetachmentSegment read_segment(const Entry& entry);
+std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parameter);
+
+/// Reads an entry into a variable, one function for each type of variable.
+struct Reader {
+    const Entry& entry;
+    const Parameter& parameter;
+
+    void operator()(double* x) const { *x = number(entry, parameter) / parameter.per_si; }
+    void operator()(std::optional<double>* x) const {
+        *x = number(entry, parameter) / parameter.per_si;
+    }
+    void operator()(int* x) const { read_integer(x); }
+    void operator()(std::uint64_t* x) const { read_integer(x); }
+    void operator()(std::string* x) const { *x = string(entry, parameter); }
+
+    void operator()(const Choice& choice) const {
+        const std::string& name = string(entry, parameter);
+        if (std::ranges::find(choice.names, name) == choice.names.end())
+            fail(entry,
+                 fmt::format("unknown value ({}), {}", quoted(name), advice(name, choice.names)));
+        choice.set(name);
+    }
+
+    void operator()(std::vector<double>* x) const {
+        x->clear();
+        for (const toml::node& node : array(entry, parameter))
+            x->push_back(number({node, item_path(x->size())}, parameter) / parameter.per_si);
+    }
+
+    void operator()(std::vector<DetachmentSegment>* x) const {
+        x->clear();
+        for (const toml::node& node : array(entry, parameter))
+            x->push_back(read_segment({node, item_path(x->size())}));
+    }
+
+    void operator()(std::vector<TargetStage>* x) const { *x = read_target(entry, parameter); }
+
+    void operator()(std::vector<fem::Layer>* x) const {
+        x->clear();
+        for (const toml::node& node : array(entry, parameter)) {
+            fem::Layer layer;
+            read_table({node, item_path(x->size())}, parameters(layer));
+            x->push_back(layer);
+        }
+    }
+
+private:
+    template <class Integer> void read_integer(Integer* x) const {
+        if (!entry.node.is_integer())
+            fail_type(entry, type_of(parameter));
+        number(entry, parameter); // checks the range
+        *x = static_cast<Integer>(entry.node.as_integer()->get());
+    }
+
+    std::string item_path(std::size_t index) const {
+        return fmt::format("{}[{}]", entry.path, index);
+    }
+};
+
+} // namespace
+
+void read(const Entry& entry, const Parameter& parameter) {
+    std::visit(Reader{entry, parameter}, parameter.variable);
+}
+
+void read_table(const Entry& entry, const std::vector<Parameter>& parameters) {
+    if (!entry.node.is_table())
+        fail_type(entry, "table");
+    for (const auto& [key, node] : *entry.node.as_table()) {
+        const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
+        const auto parameter = std::ranges::find(parameters, key.str(), &Parameter::key);
+        if (parameter == parameters.end())
+            fail(inner, fmt::format("unknown key, {}", advice(key.str(), keys(parameters))));
+        read(inner, *parameter);
+    }
+    for (const Parameter& parameter : parameters) {
+        if (must_be_given(parameter))
+            fail(entry, fmt::format("needs {} ({}; {})", parameter.key, parameter.doc,
+                                    text(parameter.range)));
+    }
+}
+
+namespace {
+
+DetachmentSegment read_segment(const Entry& entry) {
+    using Kind = DetachmentSegment::Kind;
+    const toml::table* table = entry.node.as_table();
+    if (!table || table->size() != 1)
+        fail(entry, "needs exactly one of arc and line, "
+                    "allowed: {arc = {radius_m = 15000.0}}, {line = {length_m = 5000.0}}");
+    const auto [key, node] = *table->begin();
+    const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
+    if (key != "arc" && key != "line")
+        fail(inner, fmt::format("unknown segment, {}", advice(key.str(), {"arc", "line"})));
+    DetachmentSegment segment;
+    segment.kind = key == "arc" ? Kind::arc : Kind::line;
+    read_table(inner, parameters(segment));
+    return segment;
+}
+
+/// Points [x, y] by ascending x; the parameter's range holds for y.
+std::vector<Point> read_points(const Entry& entry, const Parameter& parameter) {
+    constexpr double far = 1e7; // m
+    Parameter x_parameter = parameter;
+    x_parameter.range = {.from = -far, .to = far};
+    std::vector<Point> points;
+    for (const toml::node& node : array(entry, parameter)) {
+        const Entry item{node, fmt::format("{}[{}]", entry.path, points.size())};
+        const toml::array* pair = node.as_array();
+        if (!pair || pair->size() != 2)
+            fail(item, "needs two numbers, for example [12000.0, -350.0]");
+        const Point p{number({*pair->get(0), item.path + "[0]"}, x_parameter),
+                      number({*pair->get(1), item.path + "[1]"}, parameter)};
+        if (!points.empty() && p.x <= points.back().x)
+            fail(item,
+                 fmt::format("is not sorted: x = {} comes after {}; sort the points by x, each "
+                             "x once",
+                             text(p.x), text(points.back().x)));
+        points.push_back(p);
+    }
+    if (points.empty())
+        fail(entry,
+             "has no points, needs at least one, for example [[0.0, 0.0], [40000.0, -500.0]]");
+    return points;
+}
+
+std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parameter) {
+    const toml::array& items = array(entry, parameter);
+    if (items.empty() || !items.front().is_table())
+        return {{0.0, read_points(entry, parameter)}};
+    Parameter years = parameter;
+    years.range = {.from = 0, .to = 1e10};
+    std::vector<TargetStage> stages;
+    for (const toml::node& node : items) {
+        const Entry item{node, fmt::format("{}[{}]", entry.path, stages.size())};
+        const toml::table* table = node.as_table();
+        const toml::node* points = table ? table->get("points") : nullptr;
+        const toml::node* time = table ? table->get("time_a") : nullptr;
+        if (!points || !time || table->size() != 2)
+            fail(item,
+                 "needs time_a and points, for example {time_a = 0.0, points = [[0.0, 0.0]]}");
+        TargetStage stage;
+        stage.time = number({*time, item.path + ".time_a"}, years);
+        if (!stages.empty() && stage.time <= stages.back().time)
+            fail(item, fmt::format("is not sorted: time_a = {} comes after {}; sort the stages by "
+                                   "time, each time once",
+                                   text(stage.time), text(stages.back().time)));
+        stage.points = read_points({*points, item.path + ".points"}, parameter);
+        stages.push_back(stage);
+    }
+    return stages;
+}
+
+} // namespace
+
+// ----------------------------------------------------------------------- files and --set options
+
+namespace {
+
+/// `origin` is where messages say that the text comes from.
+toml::table parse(const std::string& text, const std::string& origin) {
+    try {
+        return toml::parse(text, origin);
+    } catch (const toml::parse_error& error) {
+        fail(fmt::format("{}:{}:{}: {}", origin, error.source().begin.line,
+                         error.source().begin.column, error.description()));
+    }
+}
+
+} // namespace
+
+bool is_path(const std::string& name_or_path) {
+    return name_or_path.find('/') != name_or_path.npos || name_or_path.ends_with(".toml");
+}
+
+fs::path Shelf::path() const {
+    const char* other = std::getenv(variable);
+    return other && *other ? fs::path(other) : source_folder() / folder;
+}
+
+std::vector<std::string> Shelf::names() const {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator file(path(), error), end; !error && file != end;
+         file.increment(error)) {
+        if (file->path().extension() == ".toml")
+            names.push_back(file->path().stem().string());
+    }
+    if (error)
+        fail(fmt::format("{}: {}s folder cannot be read: {}", path().string(), kind,
+                         error.message()));
+    std::ranges::sort(names);
+    return names;
+}
+
+fs::path Shelf::find(const std::string& wanted) const {
+    const fs::path file = is_path(wanted) ? fs::path(wanted) : path() / (wanted + ".toml");
+    std::error_code error;
+    if (fs::is_directory(file, error))
+        fail(fmt::format("{}: is a directory, needs a {} file", file.string(), kind));
+    if (fs::exists(file, error))
+        return file;
+    const std::vector<std::string> shipped = names();
+    const std::vector<std::string_view> candidates(shipped.begin(), shipped.end());
+    const auto meant = nearest(is_path(wanted) ? file.stem().string() : wanted, candidates);
+    fail(fmt::format("{}: {}{} ({}s: {})", wanted.empty() ? "\"\"" : wanted,
+                     error             ? error.message()
+                     : is_path(wanted) ? std::string("no such file")
+                                       : fmt::format("no such {}", kind),
+                     meant ? fmt::format(", did you mean {}?", *meant) : "", kind,
+                     fmt::join(shipped, ", ")));
+}
+
+toml::table Shelf::read(const fs::path& path) const {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    std::string text;
+    std::getline(file, text, '\0'); // stops early where the file is not text
+    if (!file.is_open() || file.bad())
+        fail(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+    if (!file.eof())
+        fail(fmt::format("{}:{}: is not a text file (it has a NUL byte); a {} is TOML in UTF-8",
+                         path.string(), 1 + std::ranges::count(text, '\n'), kind));
+    toml::table document = parse(text, path.string());
+    if (document.empty())
+        fail(fmt::format("{}: is empty; {}", path.string(), contents));
+    return document;
+}
+
+namespace {
+
+/// Moves the values over, tables into the tables of the same name. They keep their origin.
+void merge(toml::table& into, toml::table& from) {
+    for (auto&& [key, node] : from) {
+        toml::table* table = into[key].as_table();
+        if (table && node.is_table()) {
+            merge(*table, *node.as_table());
+        } else {
+            into.insert_or_assign(key, std::move(node));
+        }
+    }
+}
+
+} // namespace
+
+void set(toml::table& document, const std::string& assignment, const std::string& origin) {
+    const auto equals = assignment.find('=');
+    const std::string key = assignment.substr(0, equals);
+    const std::string value = equals == key.npos ? "" : assignment.substr(equals + 1);
+    toml::table given;
+    try {
+        given = toml::parse(assignment, origin);
+    } catch (const toml::parse_error&) {
+        try {
+            given = toml::parse(fmt::format("{}={}", key, quoted(value)), origin);
+        } catch (const toml::parse_error&) {
+        }
+    }
+    if (equals == key.npos || given.size() != 1)
+        fail(fmt::format("{}: needs the form table.key=value", origin));
+    merge(document, given);
+}
+
+// --------------------------------------------------------------------------------------- writing
+
+namespace {
+
+/// The shortest number in units of the key that reads back as the same SI value, if there is any:
+/// of two units, one may have fewer doubles around a value.
+double in_key_units(double si, double per_si) {
+    for (int digits = 1; per_si != 1.0 && digits <= 17; ++digits) {
+        const std::string rounded = fmt::format("{:.{}g}", si * per_si, digits);
+        const double x = std::strtod(rounded.c_str(), nullptr);
+        if (x / per_si == si)
+            return x;
+    }
+    return si * per_si;
+}
+
+/// Writes a variable, one function for each type; empty if there is nothing to write.
+struct Writer {
+    double per_si;
+
+    std::string operator()(const double* x) const { return toml_float(in_key_units(*x, per_si)); }
+    std::string operator()(const std::optional<double>* x) const {
+        return *x ? operator()(&**x) : "";
+    }
+    std::string operator()(const int* x) const { return fmt::format("{}", *x); }
+    std::string operator()(const std::uint64_t* x) const { return fmt::format("{}", *x); }
+    std::string operator()(const std::string* x) const { return quoted(*x); }
+    std::string operator()(const Choice& choice) const { return quoted(std::string(choice.get())); }
+    std::string operator()(const std::vector<double>* x) const {
+        std::vector<std::string> items;
+        for (const double& item : *x)
+            items.push_back(operator()(&item));
+        return fmt::format("[{}]", fmt::join(items, ", "));
+    }
+    std::string operator()(const std::vector<DetachmentSegment>* x) const;
+    std::string operator()(const std::vector<fem::Layer>* x) const;
+    std::string operator()(const std::vector<TargetStage>* x) const {
+        const auto points = [](const TargetStage& stage) {
+            std::vector<std::string> items;
+            for (const Point& p : stage.points)
+                items.push_back(fmt::format("[{}, {}]", toml_float(p.x), toml_float(p.y)));
+            return fmt::format("[{}]", fmt::join(items, ", "));
+        };
+        if (x->empty())
+            return "";
+        if (x->size() == 1 && x->front().time == 0.0)
+            return points(x->front());
+        std::string lines;
+        for (const TargetStage& stage : *x)
+            lines += fmt::format("    {{time_a = {}, points = {}}},\n", toml_float(stage.time),
+                                 points(stage));
+        return fmt::format("[\n{}]", lines);
+    }
+};
+
+std::string write(const Parameter& parameter) {
+    return std::visit(Writer{parameter.per_si}, parameter.variable);
+}
+
+std::string inline_table(const std::vector<Parameter>& parameters) {
+    std::vector<std::string> pairs;
+    for (const Parameter& parameter : parameters) {
+        if (const std::string value = write(parameter); !value.empty())
+            pairs.push_back(fmt::format("{} = {}", parameter.key, value));
+    }
+    return fmt::format("{{{}}}", fmt::join(pairs, ", "));
+}
+
+std::string Writer::operator()(const std::vector<DetachmentSegment>* x) const {
+    std::string lines;
+    for (DetachmentSegment segment : *x)
+        lines += fmt::format("    {{{} = {}}},\n",
+                             segment.kind == DetachmentSegment::Kind::arc ? "arc" : "line",
+                             inline_table(parameters(segment)));
+    return lines.empty() ? "[]" : fmt::format("[\n{}]", lines);
+}
+
+std::string Writer::operator()(const std::vector<fem::Layer>* x) const {
+    std::string lines;
+    for (fem::Layer layer : *x)
+        lines += fmt::format("    {},\n", inline_table(parameters(layer)));
+    return lines.empty() ? "" : fmt::format("[\n{}]", lines);
+}
+
+} // namespace
+
+std::string write(const std::vector<Parameter>& parameters) {
+    std::string lines;
+    for (const Parameter& parameter : parameters)
+        if (const std::string value = write(parameter); !value.empty())
+            lines += fmt::format("{:<40}  # {}\n", fmt::format("{} = {}", parameter.key, value),
+                                 parameter.doc);
+    return lines;
+}
+
+std::string explain(const Parameter& parameter) {
+    const std::string value = must_be_given(parameter) ? "(required)" : write(parameter);
+    std::vector<std::string> facts{type_of(parameter)};
+    if (!parameter.unit.empty())
+        facts.back() += fmt::format(" in {}", parameter.unit);
+    if (const std::string range = text(parameter.range); !range.empty())
+        facts.push_back(range);
+    if (!parameter.symbol.empty())
+        facts.push_back(fmt::format("symbol {}", parameter.symbol));
+    return fmt::format("    {} = {}\n        {}\n        {}\n", parameter.key,
+                       value.empty() ? "(none)" : value, parameter.doc, fmt::join(facts, "; "));
+}
+
+} // namespace listric

@@ -1,0 +1,70 @@
+#include "apps/scene/material_file.hpp"
+
+#include <fmt/format.h>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+std::vector<Parameter> top_level(RockMaterial& rock) {
+    return {{"description", &rock.description, "", {}, "", "what the material stands for"}};
+}
+
+/// Reads a table that must say everything: a microproperty that was forgotten would silently be
+/// another rock's. The reading of strengths alone has a default.
+void read_whole_table(const Entry& entry, const std::vector<Parameter>& parameters) {
+    read_table(entry, parameters);
+    for (const Parameter& p : parameters)
+        if (p.key != "strength_is" && !entry.node.as_table()->contains(p.key))
+            fail(entry, fmt::format("needs {} ({}; {})", p.key, p.doc, text(p.range)));
+}
+
+} // namespace
+
+RockMaterial read_material(const std::filesystem::path& file,
+                           const std::vector<std::string>& changes) {
+    toml::table document = materials.read(file);
+    for (const std::string& change : changes)
+        set(document, change, "--set " + change);
+    RockMaterial rock;
+    rock.name = file.stem().string();
+    rock.material.bondable = false;
+    bool has_material = false;
+    for (const auto& [key, node] : document) {
+        const Entry entry{node, std::string(key.str())};
+        if (key == "description") {
+            read(entry, top_level(rock).front());
+        } else if (key == "material") {
+            read_whole_table(entry, parameters(rock.material));
+            has_material = true;
+        } else if (key == "bonds") {
+            rock.bonds.emplace();
+            rock.material.bondable = true;
+            read_whole_table(entry, parameters(*rock.bonds));
+        } else {
+            fail(entry, fmt::format("unknown {}, {}", node.is_table() ? "table" : "key",
+                                    advice(key.str(), {"description", "material", "bonds"})));
+        }
+    }
+    if (!has_material)
+        fail(fmt::format("{}: needs [material], the microproperties of its discs", file.string()));
+    return rock;
+}
+
+RockMaterial load_material(const std::string& name_or_path,
+                           const std::vector<std::string>& changes) {
+    return read_material(materials.find(name_or_path), changes);
+}
+
+std::string to_toml(const RockMaterial& rock) {
+    RockMaterial copy = rock; // parameters() binds variables
+    std::string lines = fmt::format("description = {}\n\n[material]\n{}", quoted(rock.description),
+                                    write(parameters(copy.material)));
+    if (copy.bonds)
+        lines += fmt::format("\n[bonds]\n{}", write(parameters(*copy.bonds)));
+    return lines;
+}
+
+} // namespace listric

@@ -1,0 +1,113 @@
+#include "apps/studies/study.hpp"
+
+#include "apps/archive/snapshot.hpp"
+#include "apps/figures/figures.hpp"
+#include "apps/run/run.hpp"
+#include "apps/scene/declaration.hpp"
+#include "apps/support/python.hpp"
+#include "apps/support/version.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Name of this machine's processor, for people.
+std::string processor() {
+    std::ifstream in("/proc/cpuinfo");
+    for (std::string line; std::getline(in, line);)
+        if (line.starts_with("model name"))
+            return line.substr(line.find(':') + 2);
+    return "unknown processor";
+}
+
+std::string to_csv(const StudyResult& result) {
+    std::string text = "method,parameter,quantity,error,wall_s,disc_steps\n";
+    for (const StudyPoint& p : result.points)
+        text += fmt::format("{},{},{},{:.6g},{:.4g},{:.6g}\n", p.method, p.parameter, p.quantity,
+                            p.error, p.wall, p.disc_steps);
+    return text;
+}
+
+void print(const StudyResult& result) {
+    std::cout << fmt::format("{:<34} {:<26} {:<28} {:>9} {:>9} {:>10}\n", "method", "parameter",
+                             "quantity", "error", "wall, s", "disc-steps");
+    for (const StudyPoint& p : result.points)
+        std::cout << fmt::format("{:<34} {:<26} {:<28} {:>9.2g} {:>9.3g} {:>10.2g}\n", p.method,
+                                 p.parameter, p.quantity, p.error, p.wall, p.disc_steps);
+    for (const auto& [quantity, floor] : result.floors)
+        std::cout << fmt::format("spread between seeds: {} {:.2g}\n", quantity, floor);
+}
+
+} // namespace
+
+double study_clock() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+std::span<const Study> studies() {
+    static constexpr std::array<Study, 7> all{{
+        {"resolution", "lis1 with 3,000 to 67,000 discs", study_resolution},
+        {"speed", "boundary speed: how slow is quasi-static", study_speed},
+        {"time-step", "time step and density scaling: wave, lattice, lis1", study_time_step},
+        {"footwall", "elements, refinement and solvers of the elastic base", study_footwall},
+        {"coupling", "scheme, update interval and modes of lis1-elastic", study_coupling},
+        {"isostasy", "lis1-elastic by elastic thickness, filled and empty", study_isostasy},
+        {"precision", "single precision and neighbour lists", study_precision},
+    }};
+    return all;
+}
+
+void run_study(StudyRequest request) {
+    const auto study = std::ranges::find(studies(), request.name, &Study::name);
+    if (study == studies().end()) {
+        std::vector<std::string_view> names;
+        std::ranges::transform(studies(), std::back_inserter(names), &Study::name);
+        const auto meant = nearest(request.name, names);
+        throw UsageError(fmt::format("study: no study {}; {}there are {}", request.name,
+                                     meant ? fmt::format("did you mean {}? ", *meant) : "",
+                                     fmt::join(names, ", ")));
+    }
+    if (request.seeds < 1 || request.seeds > 1000)
+        throw UsageError(fmt::format("--seeds {}: allowed: 1 to 1000", request.seeds));
+    for (double value : request.values)
+        if (!(value > 0.0) || !std::isfinite(value))
+            throw UsageError(fmt::format("--values {}: allowed: numbers above 0", value));
+    if (request.output.empty())
+        request.output = "out/study-" + request.name;
+    std::error_code error;
+    fs::create_directories(request.output, error);
+    if (error)
+        throw StorageError(fmt::format("{}: {}", request.output.string(), error.message()));
+
+    const StudyResult result = study->make(request);
+    const nlohmann::ordered_json json = {
+        {"study", request.name},      {"title", result.title},      {"floors", result.floors},
+        {"version", version},         {"processor", processor()},   {"compiler", compiler},
+        {"build_flags", build_flags}, {"threads", request.threads}, {"seeds", request.seeds},
+    };
+    write_text(request.output / "study.csv", to_csv(result));
+    write_text(request.output / "study.json", json.dump(2) + "\n");
+    print(result);
+    if (const std::string problem = run_drawing_script("study.py", {request.output.string()});
+        !problem.empty())
+        std::fputs(fmt::format("listric: warning: no figure: {}\n", problem).c_str(), stderr);
+}
+
+} // namespace listric

@@ -1,0 +1,276 @@
+// Studies that are made of whole runs.
+
+#include "apps/studies/study.hpp"
+
+#include "apps/run/run.hpp"
+#include "apps/scene/scene.hpp"
+#include "dem/cycle.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+using Json = nlohmann::json;
+using Values = std::vector<double>; ///< one number, or the coordinates of a place
+
+constexpr double graben_from = 12e3; ///< x beyond which a depocentre is the collapse graben's, m
+
+/// A quantity of a finished run; nothing where it has no meaning.
+std::optional<Values> value_of(const Json& summary, const std::string& quantity) {
+    if (quantity == "cutoff")
+        return Values{summary.at("cutoff_x_m"), summary.at("cutoff_z_m")};
+    if (quantity == "depocentre") {
+        const auto found = summary.find("depocentres");
+        if (found == summary.end())
+            return std::nullopt;
+        const Json* best = nullptr;
+        for (const Json& place : *found)
+            if (place.at("x_m") > graben_from &&
+                (!best || place.at("prominence_m") > best->at("prominence_m")))
+                best = &place;
+        if (!best)
+            return std::nullopt;
+        return Values{best->at("x_m"), best->at("thickness_m")};
+    }
+    const auto found = summary.find(quantity);
+    if (found == summary.end())
+        return std::nullopt;
+    return Values{found->get<double>()};
+}
+
+double distance(const Values& a, const Values& b) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return std::sqrt(sum);
+}
+
+Values mean(const std::vector<Values>& of) {
+    Values sum(of[0].size(), 0.0);
+    for (const Values& v : of)
+        for (std::size_t k = 0; k < v.size(); ++k)
+            sum[k] += v[k] / static_cast<double>(of.size());
+    return sum;
+}
+
+std::vector<Values> values_of(const std::vector<std::optional<Json>>& seeds,
+                              const std::string& quantity) {
+    std::vector<Values> values;
+    for (const auto& summary : seeds)
+        if (const auto value = summary ? value_of(*summary, quantity) : std::nullopt)
+            values.push_back(*value);
+    return values;
+}
+
+/// What a run took, without its figures: mean over seeds.
+void add_costs(const std::vector<std::optional<Json>>& seeds, StudyPoint& point) {
+    double counted = 0.0;
+    for (const auto& summary : seeds)
+        if (summary) {
+            const double wall = summary->at("wall_s");
+            point.wall += wall - summary->at("time_by_part_s").value("figures", 0.0);
+            point.disc_steps += wall * summary->at("disc_steps_per_s").get<double>();
+            counted += 1.0;
+        }
+    point.wall /= std::max(1.0, counted);
+    point.disc_steps /= std::max(1.0, counted);
+}
+
+double root_mean_square(const std::vector<Values>& values, const Values& reference, double scale) {
+    double sum = 0.0;
+    for (const Values& v : values)
+        sum += std::pow(distance(v, reference) / scale, 2);
+    return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+} // namespace
+
+std::filesystem::path folder_of_run(const StudyRequest& request, const StudyRun& run,
+                                    std::int64_t seed) {
+    return request.output / "runs" / fmt::format("{}-seed={}", run.parameter, seed);
+}
+
+std::optional<Json> summary_of_run(const StudyRequest& request, const StudyRun& run,
+                                   std::int64_t seed) {
+    SceneRequest scene_request;
+    scene_request.scene = request.scene;
+    scene_request.set = run.set;
+    scene_request.set.insert(scene_request.set.end(), request.set.begin(), request.set.end());
+    scene_request.seed = seed;
+    scene_request.accuracy = run.accuracy;
+    scene_request.without = run.without;
+    const Scene scene = load_scene(scene_request);
+    RunOptions options;
+    options.output = folder_of_run(request, run, seed);
+    options.threads = request.threads;
+    options.resume = true;
+    options.quiet = request.quiet;
+    try {
+        if (run_scene(scene, options) == RunOutcome::interrupted)
+            throw UsageError("interrupted; the same call goes on from here");
+    } catch (const NumericalFailure& failure) {
+        std::fputs(fmt::format("listric: {}: {}\n", run.parameter, failure.what()).c_str(), stderr);
+        return std::nullopt;
+    }
+    std::ifstream in(options.output / "summary.json");
+    return Json::parse(in);
+}
+
+void sweep_runs(const StudyRequest& request, const std::string& method,
+                const std::vector<StudyRun>& runs, std::size_t reference,
+                const std::vector<StudyQuantity>& quantities, StudyResult& result) {
+    std::vector<std::vector<std::optional<Json>>> summaries;
+    for (const StudyRun& run : runs) {
+        summaries.emplace_back();
+        for (int k = 0; k < std::min(request.seeds, run.most_seeds); ++k)
+            summaries.back().push_back(summary_of_run(request, run, request.seed + k));
+    }
+    for (const StudyQuantity& quantity : quantities) {
+        const std::vector<Values> best = values_of(summaries[reference], quantity.name);
+        if (best.empty())
+            continue;
+        const Values wanted = quantity.is_error ? Values(best[0].size(), 0.0) : mean(best);
+        const double scale = quantity.is_error      ? 1.0
+                             : quantity.scale > 0.0 ? quantity.scale
+                                                    : distance(wanted, Values(wanted.size(), 0.0));
+        // The spread of the reference, or of the next finest that has one.
+        for (std::size_t r = reference + 1; r-- > 0 && !quantity.is_error;)
+            if (const auto seeds = values_of(summaries[r], quantity.name); seeds.size() > 1) {
+                result.floors[quantity.name] = root_mean_square(seeds, mean(seeds), scale);
+                break;
+            }
+        for (std::size_t r = 0; r < runs.size(); ++r) {
+            if (r == reference && !quantity.is_error)
+                continue;
+            const std::vector<Values> values = values_of(summaries[r], quantity.name);
+            StudyPoint point{method,        runs[r].parameter,
+                             quantity.name, std::numeric_limits<double>::infinity(),
+                             0.0,           0.0};
+            if (!values.empty())
+                point.error = root_mean_square(values, wanted, scale);
+            add_costs(summaries[r], point);
+            result.points.push_back(point);
+        }
+    }
+}
+
+namespace {
+
+/// Geometry, and what faults are judged by. Lengths over the thickness of the hanging wall.
+std::vector<StudyQuantity> basin_quantities(const Scene& scene) {
+    const double thickness = scene.hanging_wall->thickness;
+    return {{"rollover_tilt_deg", 0.0},
+            {"cutoff", thickness},
+            {"area_balance", 0.0},
+            {"depocentre", thickness},
+            {"antithetic_foot_x_m", thickness},
+            {"strain_top10", 0.0},
+            {"basement_unbonded_fraction", 1.0},
+            {"unbalanced_ratio_mean", 0.0, true},
+            {"inertial_number", 0.0, true}};
+}
+
+StudyRequest with_scene(StudyRequest request, const char* scene) {
+    if (request.scene.empty())
+        request.scene = scene;
+    return request;
+}
+
+Scene load(const StudyRequest& request) {
+    SceneRequest wanted;
+    wanted.scene = request.scene;
+    wanted.set = request.set;
+    return load_scene(wanted);
+}
+
+} // namespace
+
+StudyResult study_resolution(const StudyRequest& asked) {
+    const StudyRequest request = with_scene(asked, "lis1");
+    const Scene scene = load(request);
+    // 3,000, 4,200, 8,300, 16,700, 33,000 and 67,000 discs of lis1 before sediment.
+    Values radii =
+        request.values.empty() ? Values{220.0, 186.2, 132.0, 93.1, 66.0, 46.55} : request.values;
+    std::ranges::sort(radii, std::greater{});
+    std::vector<StudyRun> runs;
+    for (double radius : radii)
+        runs.push_back({fmt::format("mean_radius_m={:g}", radius),
+                        {fmt::format("hanging_wall.mean_radius_m={}", radius),
+                         "extension.speed_m_per_s=1.0"}});
+    runs.back().most_seeds = 1; // as dear as all others together
+    StudyResult result;
+    result.title =
+        fmt::format("Resolution: {} against mean radius {:g} m", request.scene, radii.back());
+    sweep_runs(request, request.scene, runs, runs.size() - 1, basin_quantities(scene), result);
+    return result;
+}
+
+StudyResult study_coupling(const StudyRequest& asked) {
+    const StudyRequest request = with_scene(asked, "lis1-elastic");
+    StudyResult result;
+    result.title = fmt::format("Coupling: {} at draft to 2 km against all modes at every cycle",
+                               request.scene);
+    // Of the base: how far it is from where the last window's mean loads want it.
+    const std::vector<StudyQuantity> quantities{{"footwall_uplift_m"},
+                                                {"base_deflection_max_m"},
+                                                {"base_resolved_difference", 0.0, true},
+                                                {"base_reaction_error", 0.0, true}};
+    const auto run = [](const std::string& scheme, int interval, int modes,
+                        const std::string& parameter) {
+        return StudyRun{parameter,
+                        {fmt::format("elastic_base.scheme={}", scheme),
+                         fmt::format("elastic_base.update_interval_cycles={}", interval),
+                         fmt::format("elastic_base.modes={}", modes),
+                         "extension.distance_m=2000.0"},
+                        "draft"};
+    };
+    const StudyRun reference = run("modal", 1, 0, "converged=1");
+    const auto sweep = [&](const std::string& method, std::vector<StudyRun> runs) {
+        runs.push_back(reference);
+        sweep_runs(request, method, runs, runs.size() - 1, quantities, result);
+    };
+    const auto intervals = [&](const std::string& scheme, const std::vector<int>& values) {
+        std::vector<StudyRun> runs;
+        for (const int value : values)
+            runs.push_back(run(scheme, value, 100, fmt::format("{}-interval={}", scheme, value)));
+        sweep(fmt::format("{} by update interval: runs", scheme), runs);
+    };
+    intervals("modal", {20, 10, 5, 2});
+    intervals("lumped", {5, 1});
+    std::vector<StudyRun> runs;
+    for (const int value : {10, 20, 50, 100})
+        runs.push_back(run("modal", 5, value, fmt::format("modal-modes={}", value)));
+    sweep("modal by number of modes: runs", runs);
+    return result;
+}
+
+StudyResult study_speed(const StudyRequest& asked) {
+    const StudyRequest request = with_scene(asked, "lis1");
+    const Scene scene = load(request);
+    Values speeds = request.values.empty() ? Values{8.0, 4.0, 2.0, 1.0, 0.5, 0.25} : request.values;
+    std::ranges::sort(speeds, std::greater{});
+    std::vector<StudyRun> runs;
+    for (double speed : speeds)
+        runs.push_back({fmt::format("speed_m_per_s={:g}", speed),
+                        {fmt::format("extension.speed_m_per_s={}", speed)},
+                        "draft"});
+    StudyResult result;
+    result.title =
+        fmt::format("Boundary speed: {} at draft against {:g} m/s", request.scene, speeds.back());
+    sweep_runs(request, request.scene, runs, runs.size() - 1, basin_quantities(scene), result);
+    return result;
+}
+
+} // namespace listric

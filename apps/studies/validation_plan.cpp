@@ -1,0 +1,256 @@
+#include "apps/studies/validation_plan.hpp"
+
+#include "apps/scene/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", "", "apps"};
+
+std::vector<std::string> words(const std::string& text) {
+    std::istringstream in(text);
+    return {std::istream_iterator<std::string>(in), {}};
+}
+
+template <class Enum> Choice choice(Enum& value, std::vector<std::string_view> names) {
+    return {names, [&value, names] { return names[static_cast<std::size_t>(value)]; },
+            [&value, names](std::string_view name) {
+                value = static_cast<Enum>(std::ranges::find(names, name) - names.begin());
+            }};
+}
+
+/// Reads every table of the array `key`, if it is there, with read(entry).
+template <class Read> void for_each_table(const Entry& parent, const char* key, Read&& read) {
+    const toml::node* node = parent.node.as_table()->get(key);
+    if (!node)
+        return;
+    const std::string path = parent.path.empty() ? key : parent.path + "." + key;
+    if (!node->is_array_of_tables())
+        fail_type({*node, path}, fmt::format("tables [[{}]]", path));
+    std::size_t number = 0;
+    for (const toml::node& item : *node->as_array())
+        read(Entry{item, fmt::format("{}[{}]", path, number++)});
+}
+
+/// Reads the keys of a table but those of the given tables in it.
+void read_values(const Entry& entry, const std::vector<Parameter>& parameters,
+                 const std::vector<std::string_view>& tables = {}) {
+    std::vector<std::string_view> allowed = keys(parameters);
+    allowed.insert(allowed.end(), tables.begin(), tables.end());
+    for (const auto& [key, node] : *entry.node.as_table()) {
+        const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
+        if (std::ranges::find(allowed, key.str()) == allowed.end())
+            fail(inner, fmt::format("unknown key, {}", advice(key.str(), allowed)));
+        const auto parameter = std::ranges::find(parameters, key.str(), &Parameter::key);
+        if (parameter != parameters.end())
+            read(inner, *parameter);
+    }
+}
+
+void need(const Entry& entry, const char* key, bool present) {
+    if (!present)
+        fail(entry, fmt::format("needs {}", key));
+}
+
+ValidationRun read_run(const Entry& entry) {
+    ValidationRun run;
+    std::string set, without;
+    read_values(entry, {{"name", &run.name, "", {}, "", "of the folders"},
+                        {"scene", &run.scene, "", {}, "", "that is run"},
+                        {"set", &set, "", {}, "", "changes, table.key=value"},
+                        {"without", &without, "", {}, "", "tables taken out"},
+                        {"seeds", &run.seeds, "", {.from = 0, .to = 1000}, "", "0: all"},
+                        {"accuracy", &run.accuracy, "", {}, "", "if always the same"},
+                        {"at_m", &run.at, "m", {.from = 0, .to = 1e6}, "", "measured there"}});
+    run.set = words(set);
+    run.without = words(without);
+    need(entry, "name", !run.name.empty());
+    need(entry, "scene", !run.scene.empty());
+    need(entry, "at_m", !run.at.empty());
+    return run;
+}
+
+Expectation read_expectation(const Entry& entry) {
+    Expectation e;
+    read_values(entry,
+                {{"kind", choice(e.kind, {"kinematics", "faults", "conservation"}), "", {}, "", ""},
+                 {"needed", choice(e.needed, {"each", "most", "mean"}), "", {}, "", "of the seeds"},
+                 {"absent", choice(e.absent, {"missed", "met"}), "", {}, "", "without a value"},
+                 {"measure", &e.measure, "", {}, "", "name"},
+                 {"what", &e.what, "", {}, "", "for people"},
+                 {"run", &e.run, "", {}, "", "default: the first"},
+                 {"minus", &e.minus, "", {}, "", "run whose value is taken off"},
+                 {"at_m", &e.at, "m", {.from = 0, .to = 1e6}, "", "extension"},
+                 {"since_m", &e.since, "m", {.from = 0, .to = 1e6}, "", "extension taken off"},
+                 {"unit", &e.unit, "", {.above = 0}, "", "value over this is shown"},
+                 {"digits", &e.digits, "", {.from = 0, .to = 9}, "", "after the point"},
+                 {"expected", &e.expected, "", {}, "", ""},
+                 {"tolerance", &e.tolerance, "", {.from = 0}, "", ""},
+                 {"least", &e.least, "", {}, "", ""},
+                 {"most", &e.most, "", {}, "", ""},
+                 {"source", &e.source, "", {}, "", "who expects it"}});
+    need(entry, "measure", !e.measure.empty());
+    need(entry, "what", !e.what.empty());
+    if (e.expected && (e.least || e.most))
+        fail(entry, "has expected and least or most: one or the other");
+    return e;
+}
+
+ValidationPicture read_picture(const Entry& entry) {
+    ValidationPicture picture;
+    read_values(entry,
+                {{"name", &picture.name, "", {}, "", "of the file"},
+                 {"caption", &picture.caption, "", {}, "", "below it"}},
+                {"rows"});
+    need(entry, "name", !picture.name.empty());
+    for_each_table(entry, "rows", [&](const Entry& item) {
+        ValidationPicture::Row row;
+        read_values(item, {{"run", &row.run, "", {}, "", "drawn"},
+                           {"at_m", &row.at, "m", {.from = 0, .to = 1e6}, "", "extension"},
+                           {"seeds", &row.seeds, "", {.from = 0, .to = 1000}, "", "0: all"}});
+        picture.rows.push_back(row);
+    });
+    return picture;
+}
+
+/// @param before  experiments whose expectations this one may share
+ValidationExperiment read_experiment(const Entry& entry,
+                                     const std::vector<ValidationExperiment>& before) {
+    ValidationExperiment x;
+    std::string runs, like;
+    read_values(entry,
+                {{"name", &x.name, "", {}, "", "for --only"},
+                 {"title", &x.title, "", {}, "", "heading"},
+                 {"about", &x.about, "", {}, "", "before the table"},
+                 {"seen", &x.seen, "", {}, "", "in the pictures"},
+                 {"runs", &runs, "", {}, "", "names of runs; the first is judged"},
+                 {"like", &like, "", {}, "", "has this one's expectations, too"},
+                 {"compare", &x.compare, "", {}, "", "run whose values stand beside"}},
+                {"expect", "picture"});
+    x.runs = words(runs);
+    need(entry, "name", !x.name.empty());
+    need(entry, "runs", !x.runs.empty());
+    if (!like.empty()) {
+        const auto other = std::ranges::find(before, like, &ValidationExperiment::name);
+        if (other == before.end())
+            fail(entry, fmt::format("like: no experiment {} before this one", like));
+        // What the other's control is for, this one has no control for.
+        for (Expectation e : other->expectations)
+            if (e.run == other->runs.front() && e.minus.empty()) {
+                e.run = x.runs.front();
+                x.expectations.push_back(std::move(e));
+            }
+    }
+    for_each_table(entry, "expect", [&](const Entry& item) {
+        x.expectations.push_back(read_expectation(item));
+        if (x.expectations.back().run.empty())
+            x.expectations.back().run = x.runs.front();
+    });
+    for_each_table(entry, "picture",
+                   [&](const Entry& item) { x.pictures.push_back(read_picture(item)); });
+    return x;
+}
+
+} // namespace
+
+const ValidationRun& ValidationPlan::run(const std::string& name) const {
+    return *std::ranges::find(runs, name, &ValidationRun::name);
+}
+
+ValidationPlan load_validation_plan(const std::filesystem::path& file) {
+    const toml::table document = shelf.read(file);
+    for (const auto& [key, node] : document)
+        if (key != "run" && key != "experiment")
+            fail({node, std::string(key.str())},
+                 fmt::format("unknown key, {}", advice(key.str(), {"run", "experiment"})));
+    ValidationPlan plan;
+    const Entry top{document, ""};
+    for_each_table(top, "run", [&](const Entry& e) { plan.runs.push_back(read_run(e)); });
+    const auto check = [&](const Entry& entry, const std::string& name) {
+        std::vector<std::string_view> names;
+        for (const ValidationRun& run : plan.runs)
+            names.push_back(run.name);
+        if (!name.empty() && std::ranges::find(names, name) == names.end())
+            fail(entry, fmt::format("no run {}, {}", name, advice(name, names)));
+    };
+    for_each_table(top, "experiment", [&](const Entry& entry) {
+        plan.experiments.push_back(read_experiment(entry, plan.experiments));
+        const ValidationExperiment& x = plan.experiments.back();
+        for (const std::string& name : x.runs)
+            check(entry, name);
+        check(entry, x.compare);
+        for (const Expectation& e : x.expectations) {
+            check(entry, e.run);
+            check(entry, e.minus);
+        }
+        for (const ValidationPicture& picture : x.pictures)
+            for (const auto& row : picture.rows)
+                check(entry, row.run);
+    });
+    return plan;
+}
+
+bool Expectation::meets(double value) const {
+    if (expected && std::abs(value - *expected) > tolerance)
+        return false;
+    return !(least && value < *least) && !(most && value > *most);
+}
+
+std::string Expectation::target() const {
+    const auto number = [&](double value) { return fmt::format("{:.{}f}", value, digits); };
+    if (expected)
+        return fmt::format("{} ± {}", number(*expected), number(tolerance));
+    if (least && most)
+        return fmt::format("{} to {}", number(*least), number(*most));
+    if (least)
+        return "at least " + number(*least);
+    if (most)
+        return "at most " + number(*most);
+    return "–";
+}
+
+Verdict judge(const Expectation& e, std::span<const std::optional<double>> values) {
+    Verdict v;
+    double sum = 0.0, count = 0.0;
+    for (const auto& value : values) {
+        ++v.of;
+        v.met += value ? e.meets(*value) : e.absent == Expectation::Absent::met;
+        if (value) {
+            sum += *value;
+            count += 1.0;
+        }
+    }
+    if (v.of == 0) {
+        v.text = "no run yet";
+        return v;
+    }
+    if (!e.is_judged()) {
+        v.text = "reported";
+        return v;
+    }
+    using enum Expectation::Needed;
+    const bool mean_met = count > 0.0 ? e.meets(sum / count) : e.absent == Expectation::Absent::met;
+    v.fulfilled = e.needed == mean ? mean_met : e.needed == most ? 2 * v.met > v.of : v.met == v.of;
+    const std::string share = fmt::format("{} of {}", v.met, v.of);
+    if (e.needed == mean)
+        v.text = fmt::format("{} by the mean ({} seeds)", mean_met ? "met" : "missed", share);
+    else if (v.met == v.of)
+        v.text = fmt::format("met ({})", share);
+    else if (v.met == 0)
+        v.text = fmt::format("missed (0 of {})", v.of);
+    else
+        v.text = fmt::format("{} in {} seeds", v.fulfilled ? "met" : "missed: met", share);
+    return v;
+}
+
+} // namespace listric
