@@ -194,7 +194,8 @@ int run_program(const std::vector<std::string>& words) {
 
 std::string run_drawing_script(const std::string& script,
                                const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{"/usr/bin/python3", LISTRIC_SOURCE_DIR "/apps/" + script};
+    std::vector<std::string> words{"/usr/bin/python3",
+                                   LISTRIC_SOURCE_DIR "/apps/figures/python/" + script};
     words.insert(words.end(), arguments.begin(), arguments.end());
     const int code = run_program(words);
     return code == 0 ? ""
