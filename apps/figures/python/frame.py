@@ -10,7 +10,7 @@ origin), n discs:
     discs_weak                       0 or 1; only where faults weaken rock
     discs_unbonded_share             0 to 1, of a disc's contacts; only where there are bonds
     discs_behaviour                  class of rock behaviour; only where there are bonds
-    broken, bonded                   contacts: x, y of both discs, 1 where both are sediment
+    bonded                           contacts: x, y of both discs, 1 where both are sediment
     detachment                       x, y
     profile                          x, height of the pre-rift top, thickness of sediment
     depocentres                      x, thickness, prominence
@@ -31,7 +31,9 @@ import numpy as np
 NUMBERS = ("extension_m", "time_a", "right_wall_x_m", "strata", "layer_m", "strain_window_m")
 MOST_STRATA = 10_000
 
-ELASTIC, PLASTIC, WEAKENED, UNCONSOLIDATED = range(4)  # classes of rock behaviour
+# Classes of rock behaviour [paper, Fig. 5]: elastic, plastic with minor faults, weakened by major
+# faults, unconsolidated.
+CLASSES = ELASTIC, PLASTIC, WEAKENED, UNCONSOLIDATED = range(4)
 
 
 @dataclass
@@ -48,7 +50,6 @@ class Frame:
     strata: int                                # number that the colours are for
     weak: np.ndarray | None = None
     behaviour: np.ndarray | None = None
-    broken: np.ndarray | None = None
     bonded: np.ndarray | None = None
     profile: np.ndarray | None = None
     depocentres: np.ndarray | None = None
@@ -145,6 +146,8 @@ def load_discs(folder: str) -> dict[str, np.ndarray | None]:
         raise InputError(f"{folder}: discs_radius.npy holds radii that are not positive")
     if discs["stratum"].max() > MOST_STRATA:
         raise InputError(f"{folder}: more than {MOST_STRATA:,} strata")
+    if discs["behaviour"] is not None and not np.isin(discs["behaviour"], CLASSES).all():
+        raise InputError(f"{folder}: discs_behaviour.npy holds an unknown class")
     if discs["weak"] is not None:
         discs["weak"] = discs["weak"].astype(bool)
     return discs
@@ -174,7 +177,6 @@ def load_frame(folder: str) -> Frame:
         return load_array(folder, name, columns=columns, optional=True, finite=finite)
 
     profile = km(table("profile", 3, finite=False))
-    contacts = [1e-3] * 4 + [1.0]
     level = target_level(meta)
     frame = Frame(
         meta=meta, x=km(discs["x"]), y=km(discs["y"]), radius=km(discs["radius"]),
@@ -182,7 +184,7 @@ def load_frame(folder: str) -> Frame:
         strain=np.asarray(discs["shear_strain"], dtype=float), detachment=km(detachment),
         strata=max(int(meta["strata"]), int(discs["stratum"].max()), 0),
         weak=discs["weak"], behaviour=behaviour(discs),
-        broken=scaled(table("broken", 5), contacts), bonded=scaled(table("bonded", 5), contacts),
+        bonded=scaled(table("bonded", 5), [1e-3] * 4 + [1.0]),
         profile=profile if profile is not None and len(profile) > 1 else None,
         depocentres=km(table("depocentres", 3)),
         faults=scaled(table("faults", 4), [1.0, 1e-3, 1e-3, 1.0]), water=km(table("water", 3)),
