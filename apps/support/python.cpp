@@ -33,7 +33,7 @@ int run_program(const std::vector<std::string>& words) {
 std::string run_drawing_script(const std::string& script,
                                const std::vector<std::string>& arguments) {
     std::vector<std::string> words{"/usr/bin/python3",
-                                   (source_folder() / "apps" / script).string()};
+                                   (source_folder() / "apps/figures/python" / script).string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     const int code = run_program(words);
     return code == 0 ? ""

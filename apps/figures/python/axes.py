@@ -1,0 +1,120 @@
+"""Axes of a section: scales, footwall and detachment, active faults, legend and colour bar."""
+import math
+
+from frame import Frame
+from plot import FAINT, INK
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
+from matplotlib.legend_handler import HandlerTuple
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.patheffects import Normal, Stroke
+from matplotlib.ticker import FuncFormatter, MultipleLocator
+
+FOOTWALL = "#efeeeb"
+# Slip-rate classes of active faults: upper bound (mm/a), line width (pt), label.
+FAULT_CLASSES = ((0.5, 0.8, "slip < 0.5 mm/a"), (1.0, 1.5, "slip 0.5–1 mm/a"),
+                 (math.inf, 2.4, "slip > 1 mm/a"))
+LEGEND = {"loc": "lower right", "frameon": False, "borderpad": 0.2, "borderaxespad": 0.1,
+          "handlelength": 1.6, "handletextpad": 0.5, "columnspacing": 1.4,
+          "handler_map": {tuple: HandlerTuple(ndivide=None, pad=0)}}
+
+
+def section_axes(ax, frame: Frame) -> None:
+    """Axes of a section: equal scales in km, footwall, detachment, right wall."""
+    xmin, xmax, ymin, ymax = frame.view
+    line = frame.detachment
+    if line[0, 0] > line[-1, 0]:                # left to right
+        line = line[::-1]
+    if line[-1, 0] < frame.wall:                # flat sole up to the right wall
+        line = np.vstack((line, (frame.wall, line[-1, 1])))
+    left, right = (xmin, line[0, 1]), (xmax, line[-1, 1])
+    ax.fill(*np.vstack((left, line, right, (xmax, ymin), (xmin, ymin))).T,
+            color=FOOTWALL, linewidth=0, zorder=1)
+    ax.plot((xmin, line[0, 0]), (line[0, 1],) * 2, color=FAINT, linewidth=0.8, zorder=5)
+    ax.plot(*line.T, color=INK, linewidth=1.5, zorder=5, solid_joinstyle="round")
+    ax.plot((frame.wall,) * 2, (line[-1, 1], ymax - 0.3), color=FAINT, linewidth=1.0,
+            zorder=5)
+    ax.text(xmin + 0.3, ymin + 0.25, "footwall", color=FAINT, fontsize=9,
+            style="italic", va="bottom", zorder=6)
+    ax.set_xlim(xmin, xmax)
+    ax.set_ylim(ymin, ymax)
+    ax.set_aspect("equal", adjustable="box")
+    depth_axis(ax, "Depth (km)")
+    distance_axis(ax, frame)
+
+
+def depth_axis(ax, label: str) -> None:
+    """Label a y-up axis in km as depth, positive down."""
+    span = abs(ax.get_ylim()[1] - ax.get_ylim()[0])
+    step = next((s for s in (0.1, 0.2, 0.5, 1, 2, 5, 10) if span / s <= 7), 20)
+    ax.yaxis.set_major_locator(MultipleLocator(step))
+    if step >= 1:
+        ax.yaxis.set_minor_locator(MultipleLocator(1 if step <= 5 else step / 5))
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: depth_text(value)))
+    ax.set_ylabel(label)
+
+
+def depth_text(height: float) -> str:
+    """A height in km as depth, with a true minus and no minus zero."""
+    return f"{0.0 - height + 0.0:g}".replace("-", "−") if abs(height) > 1e-9 else "0"
+
+
+def distance_axis(ax, frame: Frame) -> None:
+    """x ticks in km from the breakaway."""
+    step = 5 if 15 < frame.span <= 80 else (20 if frame.span > 80 else 2)
+    ax.xaxis.set_major_locator(MultipleLocator(step))
+    ax.xaxis.set_minor_locator(MultipleLocator(1 if step < 20 else 5))
+
+
+def describe(ax, frame: Frame, text: str, handles=()) -> None:
+    """Description at the left and legend at the right, just above the axes."""
+    if frame.legends is not None:               # a sheet draws one legend for a row
+        row = frame.legends.setdefault(text, {})
+        for handle, label in handles:
+            row.setdefault(label, handle)
+        return
+    ax.annotate(text, (0, 1), (0, 5), xycoords="axes fraction",
+                textcoords="offset points", fontsize=10.5, weight="semibold",
+                va="bottom", annotation_clip=False)
+    if handles:
+        ax.legend([h for h, _ in handles], [t for _, t in handles], ncol=len(handles),
+                  bbox_to_anchor=(1.004, 1.0), **LEGEND)
+
+
+def swatch(colour: str) -> Patch:
+    return Patch(facecolor=colour, edgecolor=FAINT, linewidth=0.4)
+
+
+def stroke(colour: str, width: float, **options) -> Line2D:
+    """A line for a legend."""
+    return Line2D([], [], color=colour, linewidth=width, **options)
+
+
+def bar(cax, cmap, norm, label: str, **options):
+    """Colour bar in the axes cax with its label."""
+    colour_bar = cax.figure.colorbar(ScalarMappable(norm, cmap), cax=cax, **options)
+    colour_bar.outline.set_linewidth(0.6)
+    colour_bar.set_label(label, fontsize=9.5)
+    cax.tick_params(labelsize=9)
+    return colour_bar
+
+
+def draw_faults(ax, faults: np.ndarray | None) -> list:
+    """Active faults, line width by slip rate (mm/a); returns legend entries."""
+    if faults is None:
+        return []
+    handles, lower = [], -math.inf
+    lines = [faults[faults[:, 0] == number] for number in np.unique(faults[:, 0])]
+    for upper, width, label in FAULT_CLASSES:
+        chosen = [line[:, 1:3] for line in lines if lower <= line[0, 3] < upper]
+        lower = upper
+        if len(chosen):
+            ax.add_collection(LineCollection(
+                chosen, colors=INK, linewidths=width, capstyle="round",
+                path_effects=[Stroke(linewidth=width + 1.2, foreground="white"), Normal()],
+                zorder=7), autolim=False)
+            handles.append((stroke(INK, width), label))
+    return handles

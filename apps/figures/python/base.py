@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""Figure of an elastic base: how the detachment has moved, by extension.
+
+Usage: base.py RUN_DIR FIGURES_DIR
+
+Reads RUN_DIR/base.csv: extension_m, and of every node x_m, y_m at the start and its displacement
+ux_m, uy_m.  Writes base.png under a temporary name and renames it: vertical displacement along the
+detachment, the detachment itself with its displacement ten times too large, and the breakaway's
+uplift over extension.  On bad input: one line on stderr, exit status 1.
+"""
+import os
+import sys
+
+sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
+from plot import FAINT, InputError, colormaps, new_figure, read_table, run, save, without_frame
+
+import numpy as np
+
+EXAGGERATION = 10.0
+
+
+def load(folder: str) -> dict[float, np.ndarray]:
+    """Nodes (x, y, ux, uy in m) by extension in m, ascending."""
+    table = read_table(os.path.join(folder, "base.csv"), may_be_empty=True)
+    nodes = np.column_stack([table[name] for name in ("x_m", "y_m", "ux_m", "uy_m")])
+    if not len(nodes):
+        raise InputError("base.csv has no moment: the base does not deform")
+    extension = table["extension_m"]
+    return {float(value): nodes[extension == value] for value in np.unique(extension)}
+
+
+def shown(extensions: list[float]) -> list[float]:
+    """About five moments, evenly over the run, the last among them."""
+    step = max(1, round(len(extensions) / 5))
+    return extensions[::-1][::step][::-1]
+
+
+def draw(moments: dict[float, np.ndarray]):
+    figure = new_figure(11, 10.5, 120)
+    profile, section, history = figure.subplots(3, 1, height_ratios=(1.1, 1.3, 0.8))
+    draw_displacement(profile, section, moments)
+    draw_history(history, moments)
+    without_frame(profile, section, history)
+    figure.tight_layout()
+    return figure
+
+
+def draw_displacement(profile, section, moments: dict[float, np.ndarray]) -> None:
+    """Uplift by distance, and the detachment's shape, at about five moments."""
+    extensions = list(moments)
+    colours = colormaps["viridis_r"]
+    last = extensions[-1] or 1.0
+    x, y = moments[extensions[-1]].T[:2] / 1e3
+    section.plot(x, y, color=FAINT, lw=1.0, ls="--", label="at the start")
+    for extension in shown(extensions):
+        x, y, ux, uy = moments[extension].T
+        options = {"color": colours(0.15 + 0.8 * extension / last), "lw": 1.6,
+                   "label": f"{extension / 1e3:.1f} km"}
+        profile.plot(x / 1e3, uy, **options)
+        section.plot((x + EXAGGERATION * ux) / 1e3, (y + EXAGGERATION * uy) / 1e3, **options)
+    profile.axhline(0.0, color=FAINT, lw=0.6)
+    profile.set_ylabel("uplift of the detachment, m")
+    profile.set_title("Vertical displacement since the settled start", loc="left", fontsize=10.5)
+    section.set_ylabel("height, km")
+    section.set_aspect("equal")
+    section.set_title(f"Detachment, displacement × {EXAGGERATION:g}", loc="left", fontsize=10.5)
+    for axes in (profile, section):
+        axes.set_xlabel("distance from the breakaway, km")
+        axes.legend(frameon=False, fontsize=8.5, title="extension", loc="center left",
+                    bbox_to_anchor=(1.0, 0.5))
+
+
+def draw_history(axes, moments: dict[float, np.ndarray]) -> None:
+    """Uplift of the breakaway, and of the highest and lowest place, by extension."""
+    extension = [e / 1e3 for e in moments]
+    uplifts = [nodes[:, 3] for nodes in moments.values()]
+    axes.plot(extension, [uy[0] for uy in uplifts], "o-", color="#1f6fb4", ms=3.5, lw=1.3,
+              label="breakaway")
+    axes.plot(extension, [uy.max() for uy in uplifts], color="#d7301f", lw=1.0, ls="--",
+              label="highest place")
+    axes.plot(extension, [uy.min() for uy in uplifts], color="#525252", lw=1.0, ls=":",
+              label="lowest place")
+    axes.set_xlabel("extension, km")
+    axes.set_ylabel("uplift, m")
+    axes.legend(frameon=False, fontsize=8.5, loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
+def main(folder: str, figures: str) -> None:
+    save(draw(load(folder)), figures, "base")
+
+
+if __name__ == "__main__":
+    run(main, "base.py RUN_DIR FIGURES_DIR")

@@ -1,0 +1,230 @@
+"""A frame: one moment of a run, as the program wrote it into a folder.
+
+Read are frame.json and plain arrays (SI units, y up, original surface at y = 0, breakaway at the
+origin), n discs:
+
+    discs_x, discs_y, discs_radius   m
+    discs_stratum                    0 before the rift, then 1 for the oldest stratum
+    discs_start_depth                m, NaN for sediment
+    discs_shear_strain               of the last window of extension, NaN for younger discs
+    discs_weak                       0 or 1; only where faults weaken rock
+    discs_unbonded_share             0 to 1, of a disc's contacts; only where there are bonds
+    discs_behaviour                  class of rock behaviour; only where there are bonds
+    bonded                           contacts: x, y of both discs, 1 where both are sediment
+    detachment                       x, y
+    profile                          x, height of the pre-rift top, thickness of sediment
+    depocentres                      x, thickness, prominence
+    faults                           number of the fault, x, y, slip rate in m/a
+    water                            x, floor, level; only where the basin holds water
+    predicted_shear, predicted_normals  x, y of the pre-rift top by kinematic constructions
+
+An array that is not there says that the run knows no such thing.
+"""
+import math
+import os
+from dataclasses import dataclass
+
+from plot import InputError, read_json
+
+import numpy as np
+
+NUMBERS = ("extension_m", "time_a", "right_wall_x_m", "strata", "layer_m", "strain_window_m")
+MOST_STRATA = 10_000
+
+# Classes of rock behaviour [paper, Fig. 5]: elastic, plastic with minor faults, weakened by major
+# faults, unconsolidated.
+CLASSES = ELASTIC, PLASTIC, WEAKENED, UNCONSOLIDATED = range(4)
+
+
+@dataclass
+class Frame:
+    """One frame, lengths in km (y up), rates in mm/a, time in a."""
+    meta: dict
+    x: np.ndarray
+    y: np.ndarray
+    radius: np.ndarray
+    stratum: np.ndarray
+    start_depth: np.ndarray
+    strain: np.ndarray
+    detachment: np.ndarray
+    strata: int                                # number that the colours are for
+    weak: np.ndarray | None = None
+    behaviour: np.ndarray | None = None
+    bonded: np.ndarray | None = None
+    profile: np.ndarray | None = None
+    depocentres: np.ndarray | None = None
+    faults: np.ndarray | None = None
+    water: np.ndarray | None = None
+    predicted_shear: np.ndarray | None = None
+    predicted_normals: np.ndarray | None = None
+    level: float | None = None                 # that sediment is filled up to
+    view: tuple = ()                           # xmin, xmax, ymin, ymax
+    owner: np.ndarray | None = None            # disc of each cell of an image, -1: none
+    strain_top: float | None = None            # end of the colour scale, where frames share it
+    legends: dict | None = None                # collects legend entries by panel, undrawn
+
+    @property
+    def extension(self) -> float:
+        return self.meta["extension_m"] / 1000.0
+
+    @property
+    def wall(self) -> float:
+        return self.meta["right_wall_x_m"] / 1000.0
+
+    @property
+    def span(self) -> float:
+        """Width of the view."""
+        return self.view[1] - self.view[0]
+
+    @property
+    def rise(self) -> float:
+        """Height of the view."""
+        return self.view[3] - self.view[2]
+
+
+def is_finite(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def load_meta(folder: str) -> dict:
+    """frame.json with its numbers checked."""
+    path = os.path.join(folder, "frame.json")
+    meta = read_json(path)
+    for key in NUMBERS:
+        if not is_finite(meta.get(key)):
+            raise InputError(f"{path}: '{key}' is missing or not a finite number")
+    if not is_finite(meta.get("level_m", 0.0)):
+        raise InputError(f"{path}: 'level_m' is not a finite number")
+    if not isinstance(meta.get("scene"), str):
+        raise InputError(f"{path}: 'scene' is missing or not a string")
+    if meta["layer_m"] <= 0 or meta["right_wall_x_m"] <= 0:
+        raise InputError(f"{path}: 'layer_m' and 'right_wall_x_m' must be positive")
+    return meta
+
+
+def load_array(folder: str, name: str, columns: int | None = None, optional: bool = False,
+               finite: bool = True) -> np.ndarray | None:
+    """Numeric array name.npy: 1-D, or 2-D with the given number of columns."""
+    path = os.path.join(folder, name + ".npy")
+    if optional and not os.path.exists(path):
+        return None
+    try:
+        array = np.load(path, allow_pickle=False)
+    except OSError as failure:
+        raise InputError(f"{path}: {failure.strerror or failure}") from failure
+    except (ValueError, EOFError, SyntaxError, KeyError) as failure:
+        raise InputError(f"{path}: corrupt or not an .npy file ({failure})") from failure
+    if not isinstance(array, np.ndarray) or array.dtype.kind not in "buif":
+        raise InputError(f"{path}: not a plain numeric array")
+    if columns is None:
+        if array.ndim != 1:
+            raise InputError(f"{path}: expected one dimension, shape is {array.shape}")
+    elif array.size == 0:
+        array = np.zeros((0, columns))
+    elif array.ndim != 2 or array.shape[1] != columns:
+        raise InputError(f"{path}: expected {columns} columns, shape is {array.shape}")
+    if finite and not np.all(np.isfinite(array)):
+        raise InputError(f"{path}: holds values that are not finite")
+    return array
+
+
+def load_discs(folder: str) -> dict[str, np.ndarray | None]:
+    """The arrays of the discs by name, all of one length."""
+    discs = {name: load_array(folder, "discs_" + name) for name in ("x", "y", "radius", "stratum")}
+    for name in ("start_depth", "shear_strain"):  # not defined for all discs
+        discs[name] = load_array(folder, "discs_" + name, finite=False)
+    for name in ("weak", "unbonded_share", "behaviour"):
+        discs[name] = load_array(folder, "discs_" + name, optional=True)
+    count = len(discs["x"])
+    if count == 0:
+        raise InputError(f"{folder}: discs_x.npy holds no discs")
+    for name, array in discs.items():
+        if array is not None and len(array) != count:
+            raise InputError(f"{folder}: discs_{name}.npy has {len(array)} values, "
+                             f"discs_x.npy {count}")
+    if np.any(discs["radius"] <= 0):
+        raise InputError(f"{folder}: discs_radius.npy holds radii that are not positive")
+    if discs["stratum"].max() > MOST_STRATA:
+        raise InputError(f"{folder}: more than {MOST_STRATA:,} strata")
+    if discs["behaviour"] is not None and not np.isin(discs["behaviour"], CLASSES).all():
+        raise InputError(f"{folder}: discs_behaviour.npy holds an unknown class")
+    if discs["weak"] is not None:
+        discs["weak"] = discs["weak"].astype(bool)
+    return discs
+
+
+def scaled(array: np.ndarray | None, factors) -> np.ndarray | None:
+    return None if array is None else np.asarray(array, dtype=float) * np.array(factors)
+
+
+def km(array: np.ndarray | None) -> np.ndarray | None:
+    return None if array is None else np.asarray(array, dtype=float) / 1000.0
+
+
+def load_frame(folder: str) -> Frame:
+    """All arrays of the frame, converted to km."""
+    if not os.path.isdir(folder):
+        raise InputError(f"{folder}: no such directory")
+    meta = load_meta(folder)
+    if meta["strata"] > MOST_STRATA:
+        raise InputError(f"{folder}: more than {MOST_STRATA:,} strata")
+    discs = load_discs(folder)
+    detachment = load_array(folder, "detachment", columns=2)
+    if len(detachment) < 2:
+        raise InputError(f"{folder}: detachment.npy needs at least two points")
+
+    def table(name, columns, finite=True):
+        return load_array(folder, name, columns=columns, optional=True, finite=finite)
+
+    profile = km(table("profile", 3, finite=False))
+    level = target_level(meta)
+    frame = Frame(
+        meta=meta, x=km(discs["x"]), y=km(discs["y"]), radius=km(discs["radius"]),
+        stratum=discs["stratum"].astype(int), start_depth=km(discs["start_depth"]),
+        strain=np.asarray(discs["shear_strain"], dtype=float), detachment=km(detachment),
+        strata=max(int(meta["strata"]), int(discs["stratum"].max()), 0),
+        weak=discs["weak"], behaviour=behaviour(discs),
+        bonded=scaled(table("bonded", 5), [1e-3] * 4 + [1.0]),
+        profile=profile if profile is not None and len(profile) > 1 else None,
+        depocentres=km(table("depocentres", 3)),
+        faults=scaled(table("faults", 4), [1.0, 1e-3, 1e-3, 1.0]), water=km(table("water", 3)),
+        predicted_shear=km(table("predicted_shear", 2)),
+        predicted_normals=km(table("predicted_normals", 2)),
+        level=None if level is None else level / 1000.0)
+    frame.view = view_of(frame)
+    return frame
+
+
+def target_level(meta: dict) -> float | None:
+    """Height, m, that sediment is filled up to, if it is.
+
+    Frames without sediment may still carry the height that it would have.
+    """
+    return meta.get("level_m") if meta["strata"] > 0 else None
+
+
+def behaviour(discs: dict[str, np.ndarray | None]) -> np.ndarray | None:
+    """Class of rock behaviour of every disc [paper, Fig. 5], where there are bonds."""
+    if discs["behaviour"] is not None:
+        return discs["behaviour"].astype(int)
+    return behaviour_by_rule(discs["unbonded_share"], discs["stratum"], discs["weak"])
+
+
+def behaviour_by_rule(unbonded_share: np.ndarray | None, stratum: np.ndarray,
+                      weak: np.ndarray | None) -> np.ndarray | None:
+    """The classes of frames that do not carry them."""
+    if unbonded_share is None:
+        return None
+    kind = np.full(len(stratum), ELASTIC)                 # bonds mainly intact
+    kind[unbonded_share > 0.25] = PLASTIC                 # more than a stray crack
+    kind[(stratum > 0) & (unbonded_share > 0.5)] = UNCONSOLIDATED
+    if weak is not None:
+        kind[weak] = WEAKENED
+    return kind
+
+
+def view_of(frame: Frame) -> tuple[float, float, float, float]:
+    """Extent of the section (km): 1 km left of the breakaway to right of the wall."""
+    tops = np.append(np.quantile(frame.y + frame.radius, 0.9999), (frame.level or 0.0, 0.0))
+    bottom = min(frame.detachment[:, 1].min(), np.quantile(frame.y - frame.radius, 0.0001))
+    return (-1.0, frame.wall + 0.5, bottom - 0.6, tops.max() + 0.5)

@@ -1,0 +1,74 @@
+"""A page of sections: its measures in inches, its headline and its small print."""
+import textwrap
+
+from frame import Frame
+from plot import FAINT, Figure
+
+DPI = 150
+WIDTH, LEFT, RIGHT = 12.0, 0.72, 1.13
+PANEL_WIDTH = WIDTH - LEFT - RIGHT
+MAX_PANEL_HEIGHT = 8.0
+PROFILE_HEIGHT = 2.5
+ROW_ABOVE = 0.34          # description and legend above each panel
+TITLE = 0.42
+XLABEL = 0.52
+GAP = 0.20                # between the panels of the overview, below tick marks
+FOOTER_LINE = 0.155
+
+
+def panel_size(frame: Frame) -> tuple[float, float]:
+    """Width and height of a section at equal scales."""
+    height = min(PANEL_WIDTH * frame.rise / frame.span, MAX_PANEL_HEIGHT)
+    return height * frame.span / frame.rise, height
+
+
+def extension_text(frame: Frame) -> str:
+    """Extension in km: one decimal, two when one is not enough."""
+    value = frame.extension
+    return f"{value:.1f}" if abs(value * 10 - round(value * 10)) < 0.05 else f"{value:.2f}"
+
+
+def footer(frame: Frame) -> list[str]:
+    """What was computed, as wrapped lines of small print."""
+    meta, parts = frame.meta, []
+    if meta.get("title"):
+        parts.append(str(meta["title"]))
+    radius = meta.get("mean_radius_m", frame.radius.mean() * 1000)
+    parts.append(f"{len(frame.x):,} discs, mean radius {radius:.3g} m")
+    parts += [f"{key} {meta[key]}" for key in ("accuracy", "seed") if key in meta]
+    if isinstance(meta.get("effects"), list):
+        parts.append("effects: " + (", ".join(map(str, meta["effects"])) or "none"))
+    return textwrap.wrap("  ·  ".join(parts), 190)[:3]
+
+
+def below(lines: list[str]) -> float:
+    """Height between the lowest panel and the page's end."""
+    return XLABEL + FOOTER_LINE * len(lines) + 0.12
+
+
+def add_axes(figure: Figure, x: float, y: float, width: float, height: float):
+    """Axes at a place in inches from the lower left corner."""
+    across, up = figure.get_size_inches()
+    return figure.add_axes((x / across, y / up, width / across, height / up))
+
+
+def write_around(figure: Figure, headline: str, lines: list[str]) -> None:
+    """The headline and the small print at the foot."""
+    across, up = figure.get_size_inches()
+    figure.text(LEFT / across, 1 - 0.13 / up, headline, fontsize=14, weight="bold", va="top")
+    for index, line in enumerate(reversed(lines)):
+        figure.text(LEFT / across, (0.09 + FOOTER_LINE * index) / up, line, fontsize=7.5,
+                    color=FAINT, va="bottom")
+
+
+def set_ticks(ax) -> None:
+    ax.tick_params(which="major", length=4)
+    ax.tick_params(which="minor", length=2)
+
+
+def name_distance(ax, lowest: bool) -> None:
+    """Numbers and name of the x axis, under the lowest panel only."""
+    if lowest:
+        ax.set_xlabel("Distance from the breakaway (km)")
+    else:
+        ax.tick_params(labelbottom=False)

@@ -1,0 +1,268 @@
+"""What a panel of a figure shows: strata, bonds, behaviour, strain, sediment or kinematics.
+
+Every panel is drawn by a function of its axes, the axes of its colour bar and the frame.
+"""
+from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section_axes, stroke,
+                  swatch)
+from discs import draw_discs
+from frame import Frame
+from page import PANEL_WIDTH, PROFILE_HEIGHT
+from plot import FAINT, INK
+from scales import (strain_colours, strain_limit, strain_ticks, stratum_colours, stratum_ticks)
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize, to_rgb
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter
+
+LAYER_COLOURS = ("#cdbfa6", "#9c8b72")
+SEDIMENT, SEDIMENT_EDGE, SEDIMENT_PALE = "#fbeab4", "#b07d00", "#fdf6dc"
+WEAK, WEAK_PALE = "#d7301f", "#e9a59a"
+BOND, BOND_SEDIMENT = "#3a3a3a", "#a87a10"
+UNDEFINED = "#e2e8ee"
+NORMALS_BLUE = "#1f5fb4"
+LEVEL_BLUE, TOP_GREEN, WATER = "#1f6fb4", "#2b8a3e", "#c6dcef"
+# Classes of rock behaviour in their order [paper, Fig. 9b]: colour, label.
+BEHAVIOUR = (("#4b5560", "elastic"), ("#98a3ad", "plastic: minor faults"),
+             ("#e8b48c", "weakened: major faults"), ("#f6f1df", "unconsolidated"))
+MOST_DEPOCENTRES = 10     # that are labelled
+
+
+def strata_panel(ax, cax, frame: Frame) -> None:
+    """Sediment strata by age, pre-rift layers by start depth (km), faults (mm/a)."""
+    section_axes(ax, frame)
+    layer = frame.meta["layer_m"] / 1000.0
+    rgb = layer_colours(frame.start_depth, layer)
+    sediment = frame.stratum > 0
+    if sediment.any():
+        colours = stratum_colours(frame.strata)
+        rgb[sediment] = colours[frame.stratum[sediment] - 1]
+        strata_bar(cax, colours)
+    else:
+        cax.set_axis_off()
+    draw_discs(ax, frame, rgb)
+    handles = [(tuple(swatch(c) for c in LAYER_COLOURS), f"pre-rift, {layer:g} km layers"),
+               (stroke(INK, 1.5), "detachment")]
+    if frame.level is not None:
+        ax.axhline(frame.level, color=LEVEL_BLUE, linewidth=1.0, dashes=(6, 3), zorder=6)
+        handles.append((stroke(LEVEL_BLUE, 1.0, dashes=(4, 2)), "target level of sediments"))
+    if frame.water is not None:
+        x, floor, level = frame.water.T
+        ax.fill_between(x, floor, level, color=WATER, linewidth=0, zorder=1.5)
+        handles.append((swatch(WATER), "water"))
+    handles += draw_faults(ax, frame.faults)
+    describe(ax, frame, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
+
+
+def layer_colours(start_depth: np.ndarray, layer: float) -> np.ndarray:
+    """Colours (n x 3) of pre-rift rock in layers of that thickness, by turns."""
+    depth = np.nan_to_num(start_depth, nan=0.0, posinf=0.0, neginf=0.0)
+    return np.array([to_rgb(c) for c in LAYER_COLOURS])[
+        np.floor(np.maximum(depth, 0.0) / layer).astype(int) % 2]
+
+
+def strata_bar(cax, colours: np.ndarray) -> None:
+    count = len(colours)
+    norm = BoundaryNorm(np.arange(count + 1) + 0.5, count)
+    colour_bar = bar(cax, ListedColormap(colours), norm, "Stratum (1 is the oldest)",
+                     spacing="proportional", drawedges=False)
+    ticks = stratum_ticks(count)
+    colour_bar.set_ticks(ticks, labels=[str(t) for t in ticks])
+    colour_bar.ax.minorticks_off()
+
+
+def bonds_panel(ax, cax, frame: Frame) -> None:
+    """Contact bonds as lines; where they are broken, the section stays white."""
+    section_axes(ax, frame)
+    cax.set_axis_off()
+    if frame.bonded is None:
+        describe(ax, frame, "Contact-bond pattern (bonds off)")
+        return
+    points = 2 * np.median(frame.radius) * PANEL_WIDTH * 72 / frame.span
+    young = frame.bonded[:, 4] > 0.5
+    sediment = frame.stratum > 0
+    rgb = np.tile(to_rgb(WEAK_PALE), (len(frame.x), 1))
+    rgb[sediment] = to_rgb(SEDIMENT_PALE)
+    alpha = sediment.astype(float)
+    if frame.weak is not None:
+        alpha[frame.weak] = 1.0
+        rgb[frame.weak] = to_rgb(WEAK_PALE)
+    draw_discs(ax, frame, rgb,
+               ((frame.bonded[~young, :4], BOND), (frame.bonded[young, :4], BOND_SEDIMENT)),
+               segment_width=float(np.clip(0.17 * points, 0.25, 0.9)), alpha=alpha)
+    handles = [(stroke(BOND, 1.2), "bond, pre-rift")]
+    if sediment.any():
+        handles.append((stroke(BOND_SEDIMENT, 1.2), "bond, sediment"))
+        handles.append((swatch(SEDIMENT_PALE), "sediment"))
+    if frame.weak is not None:
+        handles.append((swatch(WEAK_PALE), "weakened"))
+    describe(ax, frame, "Contact-bond pattern", handles)
+
+
+def behaviour_panel(ax, cax, frame: Frame) -> None:
+    """Inferred rock behaviour in four types, and the active faults [paper, Fig. 9b]."""
+    section_axes(ax, frame)
+    cax.set_axis_off()
+    kind = frame.behaviour
+    if kind is None:
+        describe(ax, frame, "Rock behaviour (bonds off)")
+        return
+    draw_discs(ax, frame, np.array([to_rgb(colour) for colour, _ in BEHAVIOUR])[kind])
+    handles = [(swatch(colour), label) for k, (colour, label) in enumerate(BEHAVIOUR)
+               if (kind == k).any() or k < 2]
+    handles += draw_faults(ax, frame.faults)
+    describe(ax, frame, "Rock behaviour", handles)
+
+
+def strain_panel(ax, cax, frame: Frame) -> None:
+    """Shear strain (no unit) of the last window of extension."""
+    section_axes(ax, frame)
+    limit = frame.strain_top or strain_limit(frame.strain)
+    finite = np.isfinite(frame.strain)
+    cmap, norm = strain_colours(), Normalize(0.0, limit, clip=True)
+    rgb = cmap(norm(np.where(finite, frame.strain, 0.0)))[:, :3]
+    rgb[~finite] = to_rgb(UNDEFINED)
+    draw_discs(ax, frame, rgb)
+    strain_bar(cax, limit, frame.strain[finite].max() if finite.any() else 0.0)
+    handles = []
+    if not finite.all():
+        handles.append((swatch(UNDEFINED), "not defined"))
+    if frame.profile is not None and (frame.stratum > 0).any():
+        ax.plot(frame.profile[:, 0], frame.profile[:, 1], color=TOP_GREEN, linewidth=1.0,
+                zorder=6)
+        handles.append((stroke(TOP_GREEN, 1.0), "pre-rift top"))
+    handles += draw_faults(ax, frame.faults)
+    window = frame.meta["strain_window_m"]
+    describe(ax, frame, f"Shear strain, last {window:g} m of extension", handles)
+
+
+def strain_bar(cax, limit: float, highest: float) -> None:
+    above = highest > limit * (1 + 1e-9)
+    colour_bar = bar(cax, strain_colours(), Normalize(0.0, limit),
+                     f"Shear strain (max. {highest:.2g})" if above else "Shear strain",
+                     extend="max" if above else "neither", extendfrac=0.04)
+    colour_bar.set_ticks(strain_ticks(limit))
+    colour_bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:.3g}"))
+
+
+def sediment_panel(ax, cax, frame: Frame) -> None:
+    """Thickness of sediments and depth of the pre-rift top (km, both down)."""
+    cax.set_axis_off()
+    ax.set_xlim(*frame.view[:2])
+    distance_axis(ax, frame)
+    if frame.profile is None:
+        ax.set_yticks([])
+        ax.text(0.5, 0.5, "no thickness profile in this frame", color=FAINT,
+                ha="center", va="center", transform=ax.transAxes)
+        describe(ax, frame, "Sediment thickness")
+        return
+    x, top, thickness = frame.profile.T
+    known = np.isfinite(thickness)
+    shown = -np.where(known, thickness, np.nan)
+    deepest = max(np.nanmax(-shown, initial=0.0), np.nanmax(-top, initial=0.0), 0.5)
+    highest = max(np.nanmax(top, initial=0.0), 0.0)
+    ax.set_ylim(-1.32 * deepest, highest + 0.10 * deepest)
+    depth_axis(ax, "Thickness, depth (km)")
+    ax.grid(axis="y", color="#dddddd", linewidth=0.6, zorder=0)
+    ax.set_axisbelow(True)
+    ax.fill_between(x, 0.0, shown, where=known, color=SEDIMENT, linewidth=0, zorder=1)
+    ax.plot(x, shown, color=SEDIMENT_EDGE, linewidth=1.4, zorder=3)
+    ax.plot(x, top, color=INK, linewidth=1.1, dashes=(4, 2), zorder=4)
+    ax.axhline(0.0, color=FAINT, linewidth=0.8, zorder=2)
+    handles = [
+        (Patch(facecolor=SEDIMENT, edgecolor=SEDIMENT_EDGE, linewidth=1.2), "sediment thickness"),
+        (stroke(INK, 1.1, dashes=(3, 1.5)), "depth of pre-rift top")]
+    if frame.depocentres is not None and len(frame.depocentres):
+        draw_depocentres(ax, frame.depocentres)
+        handles.append((Line2D([], [], color=WEAK, marker="^", markersize=7,
+                               linestyle="none"), "depocentre: thickness, prominence (km)"))
+    describe(ax, frame, "Sediment thickness and pre-rift top", handles)
+
+
+def draw_depocentres(ax, depocentres: np.ndarray) -> None:
+    """Mark depocentres below the curve; labels of the most prominent ones."""
+    points = depocentres[np.argsort(-depocentres[:, 2], kind="stable")]
+    xmin, xmax = ax.get_xlim()
+    ymin, ymax = ax.get_ylim()
+    inches_x, inches_y = PANEL_WIDTH / (xmax - xmin), PROFILE_HEIGHT / (ymax - ymin)
+    half, height = 0.37 / inches_x, 0.17 / inches_y
+    placed = []
+    for index, (x, thickness, prominence) in enumerate(points):
+        ax.plot(x, -thickness - 0.05 / inches_y, marker="^", markersize=7, color=WEAK,
+                markeredgecolor="white", markeredgewidth=0.5, zorder=6, clip_on=False)
+        if index >= MOST_DEPOCENTRES:
+            continue
+        cx = min(max(x, xmin + 1.1 * half), xmax - 1.1 * half)
+        cy = free_height(placed, cx, -thickness - 0.21 / inches_y, 2 * half, height)
+        if cy < ymin + 0.4 * height:        # no room left: marker only
+            continue
+        placed.append((cx, cy))
+        ax.text(cx, cy, f"{thickness:.1f}, {prominence:.1f}", fontsize=9, ha="center",
+                va="center", zorder=7, bbox={"facecolor": "white", "alpha": 0.75,
+                                             "linewidth": 0, "pad": 0.6})
+
+
+def free_height(placed: list[tuple[float, float]], x: float, y: float, width: float,
+                height: float) -> float:
+    """Highest place at or below y where a label of that size hits none that are placed."""
+    for _ in range(12):
+        hit = [p for p in placed if abs(p[0] - x) < width and abs(p[1] - y) < height]
+        if not hit:
+            break
+        y = min(p[1] for p in hit) - height
+    return y
+
+
+def kinematics_panel(ax, cax, frame: Frame) -> None:
+    """The model's pre-rift top beside kinematic constructions, all at true scale."""
+    section_axes(ax, frame)
+    cax.set_axis_off()
+    handles = []
+    meta = frame.meta
+    if frame.profile is not None:
+        x, top, _ = frame.profile.T
+        ax.fill_between(x, top, 0.0, where=top < 0, color=SEDIMENT_PALE, linewidth=0, zorder=2)
+        ax.plot(x, top, color=INK, linewidth=1.8, zorder=6)
+        handles.append((stroke(INK, 1.8), "pre-rift top"))
+    if frame.predicted_normals is not None and len(frame.predicted_normals) > 1:
+        ax.add_collection(LineCollection(
+            pieces(frame.predicted_normals), colors=NORMALS_BLUE, linewidths=1.8,
+            linestyles=(0, (6, 2)), zorder=7), autolim=False)
+        label = "normals stay normal"
+        if "predicted_tilt_deg" in meta and "rollover_tilt_deg" in meta:
+            label += (f" (tilt {meta['predicted_tilt_deg']:.1f}°, "
+                      f"model {meta['rollover_tilt_deg']:.1f}°)")
+        handles.append((stroke(NORMALS_BLUE, 1.8, dashes=(4, 1.5)), label))
+    if frame.predicted_shear is not None and len(frame.predicted_shear) > 1:
+        ax.plot(*frame.predicted_shear.T, color=WEAK, linewidth=1.5, dashes=(2, 1.5), zorder=7)
+        handles.append((stroke(WEAK, 1.5, dashes=(1.5, 1.2)),
+                        f"inclined shear, {meta.get('inclined_shear_angle_deg', 0):g}° "
+                        "(best fit)"))
+    ax.text(0.985, 0.06, "\n".join(areas_text(meta)), transform=ax.transAxes, ha="right",
+            va="bottom", fontsize=9.5, zorder=8)
+    describe(ax, frame, "Kinematics", handles)
+
+
+def pieces(curve: np.ndarray, gap: float = 0.5) -> list[np.ndarray]:
+    """The curve without its steps above gap (km): where normals part, nothing is predicted."""
+    step = np.hypot(*np.diff(curve, axis=0).T)
+    return [p for p in np.split(curve, np.flatnonzero(step > gap) + 1) if len(p) > 1]
+
+
+def areas_text(meta: dict) -> list[str]:
+    """What is known of the basin's area."""
+    text = []
+    if "area_balance" in meta:
+        text.append(f"basin area = {meta['area_balance']:.3f} × extension × thickness")
+    if "halfgraben_area_share" in meta:
+        split = f"halfgraben's share {meta['halfgraben_area_share']:.2f}"
+        if "predicted_halfgraben_area_share" in meta:
+            split += f" (normals: {meta['predicted_halfgraben_area_share']:.2f})"
+        text.append(split)
+    return text
+
+
+PANELS = {"strata": strata_panel, "bonds": bonds_panel, "behaviour": behaviour_panel,
+          "strain": strain_panel, "sediment": sediment_panel, "kinematics": kinematics_panel}

@@ -1,0 +1,117 @@
+"""What all figure scripts share: Matplotlib, style, a figure, its way to a file, a script's errors.
+
+Import this module first: it says in one line which library is missing, and draws without a screen.
+"""
+import csv
+import json
+import os
+import sys
+from collections.abc import Callable
+
+try:
+    import numpy as np
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import colormaps
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+except ImportError as failure:
+    sys.stderr.write(f"{os.path.basename(sys.argv[0])}: cannot import {failure.name or failure}\n")
+    sys.exit(1)
+
+INK, FAINT = "#1a1a1a", "#6b6b6b"
+STYLE = {
+    "font.family": "DejaVu Sans", "font.size": 10, "axes.linewidth": 0.8,
+    "axes.edgecolor": INK, "axes.labelsize": 10.5, "text.color": INK,
+    "xtick.labelsize": 9.5, "ytick.labelsize": 9.5,
+}
+
+
+class InputError(Exception):
+    """Input that is missing or makes no sense; the message is for the user."""
+
+
+def read_json(path: str) -> dict:
+    """A file's JSON object."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            value = json.load(file)
+    except OSError as failure:
+        raise InputError(f"{path}: {failure.strerror or failure}") from failure
+    except ValueError as failure:
+        raise InputError(f"{path}: not valid JSON ({failure})") from failure
+    if not isinstance(value, dict):
+        raise InputError(f"{path}: not a JSON object")
+    return value
+
+
+def read_rows(path: str) -> list[dict[str, str]]:
+    """The rows of a CSV file below its head, of which there is at least one."""
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+    except OSError as failure:
+        raise InputError(f"{path}: {failure.strerror or failure}") from failure
+    if not rows:
+        raise InputError(f"{path}: an empty table")
+    return rows
+
+
+def read_table(path: str, may_be_empty: bool = False) -> dict[str, np.ndarray]:
+    """A CSV file of numbers as an array per column."""
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            rows = list(csv.reader(file))
+        columns = np.array(rows[1:], dtype=float).T
+    except OSError as failure:
+        raise InputError(f"{path}: {failure.strerror or failure}") from failure
+    except (ValueError, IndexError) as failure:
+        raise InputError(f"{path}: not a table of numbers ({failure})") from failure
+    if len(rows) == 1 and may_be_empty:
+        return {key: np.empty(0) for key in rows[0]}
+    if len(rows) < 2 or len(columns) != len(rows[0]):
+        raise InputError(f"{path}: an empty table")
+    return dict(zip(rows[0], columns))
+
+
+def new_figure(width: float, height: float, dpi: float, **options) -> Figure:
+    """A white figure of that size in inches."""
+    figure = Figure(figsize=(width, height), dpi=dpi, facecolor="white", **options)
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def without_frame(*all_axes) -> None:
+    """Leaves axes their left and lower spine."""
+    for axes in all_axes:
+        for side in ("top", "right"):
+            axes.spines[side].set_visible(False)
+
+
+def save(figure: Figure, folder: str, name: str) -> str:
+    """Writes folder/name.png, whole or not at all; returns its path."""
+    os.makedirs(folder, exist_ok=True)
+    path = os.path.join(folder, f"{name}.png")
+    temporary = os.path.join(folder, f".{name}-{os.getpid()}.tmp")
+    try:
+        figure.savefig(temporary, format="png")
+        os.replace(temporary, path)
+    finally:
+        if os.path.exists(temporary):
+            os.remove(temporary)
+    return path
+
+
+def run(main: Callable[..., None], usage: str) -> None:
+    """Calls main with the script's arguments, as many as the usage names; errors are one line."""
+    try:
+        if len(sys.argv) != len(usage.split()):
+            raise InputError(f"usage: {usage}")
+        main(*sys.argv[1:])
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except Exception as failure:  # also a full disk: one line, no traceback
+        kind = "" if isinstance(failure, InputError) else f"{type(failure).__name__}: "
+        text = " ".join(f"{kind}{failure}".split())
+        sys.stderr.write(f"{os.path.basename(sys.argv[0])}: {text}\n")
+        sys.exit(1)

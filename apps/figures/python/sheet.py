@@ -1,0 +1,135 @@
+"""Frames beside each other at one scale: the sheet of an experiment, the gallery of all."""
+from collections.abc import Sequence
+
+from axes import LEGEND
+from frame import Frame
+from page import (DPI, GAP, LEFT, RIGHT, ROW_ABOVE, TITLE, XLABEL, add_axes, below, extension_text,
+                  footer, name_distance, set_ticks, write_around)
+from panels import PANELS
+from plot import Figure, new_figure, save
+from scales import share_scales
+
+SHEET_WIDTH, SHEET_GAP = 19.0, 0.30   # inches
+LABELS = 0.3                          # inches, for the extension above each column
+ON_SHEET = ("strata", "bonds", "behaviour", "strain")
+ONLY_WITH_BONDS = ("bonds", "behaviour")
+IN_GALLERY = ("strata", "strain")
+GALLERY_DPI = 75
+GALLERY_ROW_ABOVE = 0.36
+GALLERY_STRAIN_TOP = 0.5              # strain where the colours end
+
+
+def draw_sheet(frames: Sequence[Frame]) -> Figure:
+    """A column per frame, a row per kind of section."""
+    kinds = [name for name in ON_SHEET
+             if frames[0].bonded is not None or name not in ONLY_WITH_BONDS]
+    share_scales(frames)
+    inch = (SHEET_WIDTH - LEFT - RIGHT - SHEET_GAP * (len(frames) - 1)) \
+        / sum(frame.span for frame in frames)
+    height = inch * max(frame.rise for frame in frames)
+    lines = footer(frames[-1])
+    total = TITLE + LABELS + below(lines) + len(kinds) * (height + ROW_ABOVE) \
+        + GAP * (len(kinds) - 1)
+    figure = new_figure(SHEET_WIDTH, total, DPI)
+    write_around(figure, f"{frames[-1].meta['scene'].upper()}, "
+                 + " and ".join(extension_text(frame) for frame in frames)
+                 + " km of extension", lines)
+    y = total - TITLE - LABELS
+    for row, name in enumerate(kinds):
+        y -= ROW_ABOVE + height
+        all_axes = draw_row(figure, frames, name, y, inch)
+        for column, ax in enumerate(all_axes):
+            mark_letter(ax, chr(ord("a") + row * len(frames) + column))
+            if row == 0:
+                name_column(ax, frames[column])
+            name_distance(ax, lowest=row + 1 == len(kinds))
+        draw_legends(figure, frames[0].legends, y + height)
+        y -= GAP
+    return figure
+
+
+def draw_row(figure: Figure, frames: Sequence[Frame], name: str, y: float, inch: float) -> list:
+    """Axes with one kind of section of all frames; collects their legend in the frames."""
+    all_axes, legends, x = [], {}, LEFT
+    for column, frame in enumerate(frames):
+        frame.legends = legends
+        ax = add_axes(figure, x, y, inch * frame.span, inch * frame.rise)
+        cax = add_axes(figure, SHEET_WIDTH - RIGHT + 0.16, y, 0.17, inch * frame.rise)
+        PANELS[name](ax, cax, frame)
+        cax.set_visible(column + 1 == len(frames))
+        if column > 0:
+            ax.set_ylabel("")
+            ax.tick_params(labelleft=False)
+        set_ticks(ax)
+        all_axes.append(ax)
+        x += inch * frame.span + SHEET_GAP
+    return all_axes
+
+
+def mark_letter(ax, letter: str) -> None:
+    ax.text(0.974, 0.86, letter, transform=ax.transAxes, fontsize=13, weight="bold", ha="right",
+            va="top", zorder=9, bbox={"facecolor": "white", "linewidth": 0.6, "pad": 2.5})
+
+
+def name_column(ax, frame: Frame) -> None:
+    ax.annotate(f"{extension_text(frame)} km of extension", (0.5, 1), (0, 26),
+                xycoords="axes fraction", textcoords="offset points", ha="center",
+                fontsize=11.5, weight="semibold", annotation_clip=False)
+
+
+def draw_legends(figure: Figure, legends: dict, top: float) -> None:
+    """Description and legend of a row whose axes end at that height (inches)."""
+    across, up = figure.get_size_inches()
+    for text, entries in legends.items():
+        figure.text(LEFT / across, (top + 0.07) / up, text, fontsize=10.5, weight="semibold",
+                    va="bottom")
+        if entries:
+            figure.legend(list(entries.values()), list(entries), ncol=len(entries),
+                          bbox_to_anchor=((across - RIGHT) / across, top / up), **LEGEND)
+
+
+def draw_gallery(frames: Sequence[Frame]) -> Figure:
+    """A row per frame, strata beside strain, all at one scale."""
+    share_scales(frames, GALLERY_STRAIN_TOP)
+    span = max(frame.span for frame in frames)
+    inch = 0.5 * (SHEET_WIDTH - LEFT - 2 * RIGHT - SHEET_GAP) / span
+    heights = [inch * frame.rise for frame in frames]
+    total = 0.35 + XLABEL + sum(heights) + GALLERY_ROW_ABOVE * len(frames)
+    figure = new_figure(SHEET_WIDTH, total, GALLERY_DPI)
+    y = total - 0.1
+    for row, (frame, height) in enumerate(zip(frames, heights)):
+        y -= height + GALLERY_ROW_ABOVE
+        frame.legends = {}     # collected and not drawn
+        width = inch * frame.span
+        for column, name in enumerate(IN_GALLERY):
+            x = LEFT + column * (inch * span + RIGHT + SHEET_GAP)
+            ax = add_axes(figure, x, y, width, height)
+            cax = add_axes(figure, x + width + 0.12, y, 0.15, height)
+            PANELS[name](ax, cax, frame)
+            cax.set_visible(row == 0)
+            if column:
+                ax.set_ylabel("")
+            else:
+                ax.annotate(str(frame.meta.get("title", "")), (0, 1), (0, 5), fontsize=13,
+                            xycoords="axes fraction", textcoords="offset points",
+                            weight="semibold", annotation_clip=False)
+            name_distance(ax, lowest=row + 1 == len(frames))
+    return figure
+
+
+def save_sheet(frames: Sequence[Frame], folder: str) -> None:
+    """experiment-<extension>km.png"""
+    save(draw_sheet(frames), folder, f"experiment-{extension_text(frames[-1])}km")
+
+
+def save_gallery(frames: Sequence[Frame], folder: str) -> None:
+    """gallery.png, with a palette of 256 colours where Pillow is there: a third of the size."""
+    path = save(draw_gallery(frames), folder, "gallery")
+    try:
+        from PIL import Image
+    except ImportError:
+        return
+    with Image.open(path) as image:
+        small = image.convert("RGB").quantize(256, method=Image.Quantize.MEDIANCUT,
+                                              dither=Image.Dither.NONE)
+    small.save(path, optimize=True)

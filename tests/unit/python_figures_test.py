@@ -1,0 +1,402 @@
+#!/usr/bin/python3
+"""Tests of the figure scripts' functions; no picture is compared.
+
+Usage: tests/unit/python_figures_test.py
+"""
+import contextlib
+import io
+import json
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "apps/figures/python"))
+import plot
+
+import numpy as np
+
+import axes
+import base
+import discs
+import figures
+import footwall
+import frame as frames
+import isostasy
+import laboratory
+import page
+import panels
+import scales
+import sections
+import sheet
+import study
+
+META = {"scene": "lis1", "title": "a title", "extension_m": 2000.0, "time_a": 2e5,
+        "level_m": -100.0, "right_wall_x_m": 4000.0, "strata": 2, "layer_m": 1000.0,
+        "strain_window_m": 500.0}
+ARRAYS = {
+    "discs_x": [500.0, 1500.0, 2500.0, 3500.0], "discs_y": [-500.0, -500.0, -500.0, -100.0],
+    "discs_radius": [400.0, 400.0, 400.0, 100.0], "discs_stratum": [0, 0, 1, 2],
+    "discs_start_depth": [500.0, 1500.0, np.nan, np.nan],
+    "discs_shear_strain": [0.0, 0.1, 0.2, np.nan],
+    "detachment": [[0.0, 0.0], [1000.0, -1000.0], [4000.0, -1000.0]],
+}
+
+
+class Folder(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = temporary.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        Path(self.path(name)).write_text(text, encoding="utf-8")
+        return self.path(name)
+
+    def frame(self, meta=(), **arrays):
+        """The frame of META and ARRAYS with these changed; None is left out."""
+        folder = tempfile.mkdtemp(dir=self.folder)
+        values = {key: value for key, value in {**META, **dict(meta)}.items() if value is not None}
+        Path(folder, "frame.json").write_text(json.dumps(values), encoding="utf-8")
+        for name, array in {**ARRAYS, **arrays}.items():
+            np.save(os.path.join(folder, name + ".npy"), np.array(array))
+        return frames.load_frame(folder)
+
+
+class Reading(Folder):
+    def test_a_table_has_an_array_per_column(self):
+        table = plot.read_table(self.write("t.csv", "x,y\n1,2\n3,4\n"))
+        np.testing.assert_array_equal(table["x"], [1.0, 3.0])
+        np.testing.assert_array_equal(table["y"], [2.0, 4.0])
+
+    def test_a_table_without_rows_is_refused_unless_it_may_be_empty(self):
+        path = self.write("t.csv", "x,y\n")
+        with self.assertRaisesRegex(plot.InputError, "an empty table"):
+            plot.read_table(path)
+        self.assertEqual(len(plot.read_table(path, may_be_empty=True)["y"]), 0)
+
+    def test_words_and_ragged_rows_are_no_table(self):
+        for text in ("x,y\n1,two\n", "x,y\n1,2\n3\n"):
+            with self.assertRaisesRegex(plot.InputError, "not a table of numbers"):
+                plot.read_table(self.write("t.csv", text))
+
+    def test_a_missing_file_is_named(self):
+        for read in (plot.read_table, plot.read_rows, plot.read_json):
+            with self.assertRaisesRegex(plot.InputError, "none.csv: No such file"):
+                read(self.path("none.csv"))
+
+    def test_json_must_be_an_object(self):
+        with self.assertRaisesRegex(plot.InputError, "not a JSON object"):
+            plot.read_json(self.write("a.json", "[1]"))
+        with self.assertRaisesRegex(plot.InputError, "not valid JSON"):
+            plot.read_json(self.write("a.json", "{"))
+
+
+class Scripts(Folder):
+    def fails_with(self, main, arguments, usage="script.py DIR"):
+        """Exit status and the line on stderr."""
+        said = io.StringIO()
+        with mock.patch.object(sys, "argv", ["script.py", *arguments]), \
+                contextlib.redirect_stderr(said), self.assertRaises(SystemExit) as end:
+            plot.run(main, usage)
+        return end.exception.code, said.getvalue()
+
+    def test_a_wrong_number_of_arguments_is_answered_by_the_usage(self):
+        self.assertEqual(self.fails_with(lambda _: None, []),
+                         (1, "script.py: usage: script.py DIR\n"))
+
+    def test_an_error_is_one_line(self):
+        def main(_):
+            raise OSError("disk\nfull")
+        self.assertEqual(self.fails_with(main, ["a"]), (1, "script.py: OSError: disk full\n"))
+
+    def test_an_interrupt_is_no_error(self):
+        def main(_):
+            raise KeyboardInterrupt
+        self.assertEqual(self.fails_with(main, ["a"]), (130, ""))
+
+    def test_a_figure_is_written_whole_or_not_at_all(self):
+        path = plot.save(plot.new_figure(1, 1, 20), self.path("new"), "picture")
+        self.assertEqual(os.listdir(self.path("new")), ["picture.png"])
+        self.assertEqual(path, self.path("new/picture.png"))
+        figure = mock.Mock()
+        figure.savefig.side_effect = lambda name, **_: Path(name).write_text("half") and 1 / 0
+        with self.assertRaises(ZeroDivisionError):
+            plot.save(figure, self.path("new"), "other")
+        self.assertEqual(os.listdir(self.path("new")), ["picture.png"])
+
+    def test_figures_refuses_what_it_cannot_draw(self):
+        with self.assertRaisesRegex(plot.InputError, "sections|experiment|animation|gallery"):
+            figures.main("other", self.folder, self.folder)
+        with self.assertRaisesRegex(plot.InputError, "no such directory"):
+            figures.main("sections", self.path("none"), self.folder)
+        with self.assertRaisesRegex(plot.InputError, "holds no frames"):
+            figures.main("sections", self.folder, self.folder)
+
+
+class Frames(Folder):
+    def test_lengths_are_kilometres(self):
+        frame = self.frame(bonded=[[1000.0, 2000.0, 3000.0, 4000.0, 1.0]],
+                           faults=[[7.0, 1000.0, -2000.0, 0.5]])
+        np.testing.assert_allclose(frame.x, [0.5, 1.5, 2.5, 3.5])
+        np.testing.assert_allclose(frame.bonded, [[1.0, 2.0, 3.0, 4.0, 1.0]])
+        np.testing.assert_allclose(frame.faults, [[7.0, 1.0, -2.0, 0.5]])
+        self.assertEqual((frame.extension, frame.wall, frame.strata), (2.0, 4.0, 2))
+
+    def test_what_a_run_does_not_know_is_none(self):
+        frame = self.frame()
+        for name in ("weak", "behaviour", "bonded", "profile", "water", "faults"):
+            self.assertIsNone(getattr(frame, name), name)
+
+    def test_the_target_level_is_there_where_the_frame_has_it_and_sediment(self):
+        self.assertEqual(self.frame().level, -0.1)
+        self.assertIsNone(self.frame({"level_m": None}).level)
+        self.assertIsNone(self.frame({"strata": 0}).level)
+
+    def test_the_view_holds_all_discs_and_the_detachment(self):
+        frame = self.frame()
+        xmin, xmax, ymin, ymax = frame.view
+        self.assertEqual((xmin, xmax), (-1.0, 4.5))
+        self.assertAlmostEqual(ymin, -1.6)
+        self.assertAlmostEqual(ymax, 0.5)
+        self.assertAlmostEqual(frame.span, 5.5)
+        self.assertAlmostEqual(frame.rise, 2.1)
+
+    def test_bad_numbers_of_the_frame_are_named(self):
+        for key, value in (("time_a", None), ("time_a", "1"), ("strata", True),
+                           ("extension_m", float("nan")), ("level_m", "0"), ("scene", 1),
+                           ("layer_m", 0)):
+            with self.assertRaisesRegex(plot.InputError, key):
+                self.frame({key: value})
+
+    def test_bad_arrays_are_named(self):
+        for name, value, problem in (
+                ("discs_y", [1.0], "discs_y.npy has 1 values, discs_x.npy 4"),
+                ("discs_weak", [1], "discs_weak.npy has 1 values"),
+                ("discs_behaviour", [1], "discs_behaviour.npy has 1 values"),
+                ("discs_behaviour", [0, 1, 2, 4], "unknown class"),
+                ("discs_radius", [1.0, 1.0, 0.0, 1.0], "not positive"),
+                ("discs_x", [np.nan] * 4, "not finite"),
+                ("discs_x", [[1.0]], "expected one dimension"),
+                ("discs_stratum", [0, 0, 0, 10_001], "10,000 strata"),
+                ("detachment", [[0.0, 0.0]], "at least two points"),
+                ("water", [[0.0, 0.0]], "expected 3 columns")):
+            with self.assertRaisesRegex(plot.InputError, problem):
+                self.frame(**{name: value})
+
+    def test_behaviour_is_what_the_frame_says(self):
+        frame = self.frame(discs_behaviour=np.array([3, 2, 1, 0], dtype=np.int32),
+                           discs_unbonded_share=[0.0] * 4)
+        np.testing.assert_array_equal(frame.behaviour, [3, 2, 1, 0])
+
+    def test_behaviour_by_rule(self):
+        share = np.array([0.25, 0.26, 0.6, 0.5, 0.51, 0.9])
+        stratum = np.array([0, 0, 0, 1, 1, 1])
+        weak = np.array([False, False, False, False, False, True])
+        np.testing.assert_array_equal(frames.behaviour_by_rule(share, stratum, None),
+                                      [0, 1, 1, 1, 3, 3])
+        np.testing.assert_array_equal(frames.behaviour_by_rule(share, stratum, weak),
+                                      [0, 1, 1, 1, 3, 2])
+        self.assertIsNone(frames.behaviour_by_rule(None, stratum, weak))
+
+
+class Scales(Folder):
+    def test_the_strain_scale_ends_at_a_plain_number_above_its_99th_percentile(self):
+        for strain, limit in (([0.011], 0.012), ([0.13, np.nan], 0.15), ([9.0], 10.0), ([2.0], 2.0),
+                              ([0.0], 0.01), ([np.nan], 0.01), ([], 0.01)):
+            self.assertAlmostEqual(scales.strain_limit(np.array(strain)), limit)
+
+    def test_ticks_of_strain_are_plain_numbers(self):
+        np.testing.assert_allclose(scales.strain_ticks(0.12), [0.0, 0.03, 0.06, 0.09, 0.12])
+        np.testing.assert_allclose(scales.strain_ticks(0.15), [0.0, 0.05, 0.1, 0.15])
+        np.testing.assert_allclose(scales.strain_ticks(10.0), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0])
+
+    def test_about_eight_strata_are_numbered(self):
+        self.assertEqual(scales.stratum_ticks(1), [1])
+        self.assertEqual(scales.stratum_ticks(4), [1, 2, 3, 4])
+        self.assertEqual(scales.stratum_ticks(40), [1, 5, 10, 15, 20, 25, 30, 35, 40])
+
+    def test_every_stratum_has_its_colour(self):
+        for count in (1, 2, 6, 50):
+            self.assertEqual(len(np.unique(scales.stratum_colours(count), axis=0)), count)
+
+    def test_frames_share_the_largest_scale(self):
+        first = self.frame({"strata": 0}, discs_stratum=[0] * 4, discs_shear_strain=[1.0] * 4)
+        second = self.frame()
+        scales.share_scales([first, second])
+        self.assertEqual((first.strata, second.strata), (2, 2))
+        self.assertEqual((first.strain_top, second.strain_top), (1.0, 1.0))
+        scales.share_scales([first], 0.5)
+        self.assertEqual(first.strain_top, 0.5)
+
+
+class Drawing(Folder):
+    def test_depth_has_a_true_minus_and_no_minus_zero(self):
+        self.assertEqual([axes.depth_text(y) for y in (-5.0, 0.0, -1e-12, 2.5)],
+                         ["5", "0", "0", "−2.5"])
+
+    def test_extension_has_two_decimals_only_where_one_is_not_enough(self):
+        self.assertEqual(page.extension_text(self.frame()), "2.0")
+        self.assertEqual(page.extension_text(self.frame({"extension_m": 2250.0})), "2.25")
+
+    def test_the_footer_says_what_was_computed(self):
+        frame = self.frame({"accuracy": "draft", "seed": 3, "effects": ["one", "two"],
+                            "mean_radius_m": 186.2})
+        self.assertEqual(page.footer(frame), ["a title  ·  4 discs, mean radius 186 m  ·  "
+                                              "accuracy draft  ·  seed 3  ·  effects: one, two"])
+        self.assertIn("effects: none", page.footer(self.frame({"effects": []}))[0])
+
+    def test_a_section_has_equal_scales_and_fits(self):
+        frame = self.frame()
+        width, height = page.panel_size(frame)
+        self.assertAlmostEqual(width / height, frame.span / frame.rise)
+        self.assertLessEqual(height, page.MAX_PANEL_HEIGHT)
+        self.assertLessEqual(width, page.PANEL_WIDTH + 1e-9)
+
+    def test_an_image_shows_the_disc_that_covers_a_cell(self):
+        frame = self.frame(discs_radius=[20.0] * 4)
+        owner = discs.owner_map(frame)
+        self.assertEqual(set(np.unique(owner)), {-1, 0, 1, 2, 3})
+        cell = frame.span / owner.shape[1]
+        for index, (x, y) in enumerate(zip(frame.x, frame.y)):
+            self.assertEqual(owner[int((frame.view[3] - y) / cell), int((x + 1.0) / cell)], index)
+
+    def test_lines_are_painted_from_end_to_end(self):
+        image = np.zeros((10, 10, 4), dtype=np.uint8)
+        discs.paint_lines(image, np.array([[0.5, 9.5, 9.5, 9.5]]), "#ffffff", 0.0, 10.0, 1.0)
+        self.assertTrue((image[0] == 255).all())
+        self.assertTrue((image[1:] == 0).all())
+
+    def test_layers_change_colour_with_start_depth(self):
+        rgb = panels.layer_colours(np.array([0.5, 1.5, 2.5, np.nan]), 1.0)
+        np.testing.assert_array_equal(rgb[0], rgb[2])
+        np.testing.assert_array_equal(rgb[0], rgb[3])
+        self.assertTrue((rgb[0] != rgb[1]).any())
+
+    def test_a_curve_is_cut_where_it_jumps(self):
+        curve = np.array([[0.0, 0.0], [0.1, 0.0], [2.0, 0.0], [2.1, 0.0], [5.0, 0.0]])
+        self.assertEqual([len(piece) for piece in panels.pieces(curve)], [2, 2])
+
+    def test_labels_are_moved_below_each_other(self):
+        self.assertEqual(panels.free_height([], 0.0, -1.0, 2.0, 0.5), -1.0)
+        self.assertEqual(panels.free_height([(0.5, -1.0)], 0.0, -1.0, 2.0, 0.5), -1.5)
+        self.assertEqual(panels.free_height([(3.0, -1.0)], 0.0, -1.0, 2.0, 0.5), -1.0)
+
+    def test_kinematics_are_drawn_where_they_are_known(self):
+        overview = ["strata", "bonds", "behaviour", "strain", "sediment"]
+        self.assertEqual(list(sections.figures_of(self.frame())), [*overview, "overview"])
+        known = sections.figures_of(self.frame(predicted_shear=[[0.0, 0.0], [1.0, 1.0]]))
+        self.assertEqual(list(known), [*overview, "kinematics", "overview"])
+        self.assertEqual(known["overview"], overview)
+
+    def test_every_figure_can_be_drawn_of_little_and_of_much(self):
+        much = {"discs_weak": [0, 1, 0, 0], "discs_unbonded_share": [0.0, 0.3, 0.6, 1.0],
+                "bonded": [[500.0, -500.0, 1500.0, -500.0, 0.0]],
+                "faults": [[0.0, 1000.0, -500.0, 2.0], [0.0, 1500.0, -900.0, 2.0]],
+                "profile": [[1000.0, -200.0, np.nan], [2000.0, -400.0, 400.0]],
+                "depocentres": [[2000.0, 400.0, 300.0]],
+                "water": [[0.0, -50.0, 0.0], [4000.0, -50.0, 0.0]],
+                "predicted_shear": [[0.0, 0.0], [4000.0, -300.0]],
+                "predicted_normals": [[0.0, 0.0], [300.0, -300.0]]}
+        for arrays in ({}, much):
+            frame = self.frame(**arrays)
+            self.assertEqual(len(sections.draw_figure(frame, list(panels.PANELS), 20).axes), 12)
+            rows = 4 if arrays else 2
+            self.assertEqual(len(sheet.draw_sheet([frame, self.frame(**arrays)]).axes), 4 * rows)
+
+
+class SmallScripts(Folder):
+    def test_moments_of_the_base_ascend_and_keep_their_nodes(self):
+        self.write("base.csv", "extension_m,x_m,y_m,ux_m,uy_m\n"
+                               "500,0,0,0,2\n500,9,-1,0,3\n0,0,0,0,0\n0,9,-1,0,0\n")
+        moments = base.load(self.folder)
+        self.assertEqual(list(moments), [0.0, 500.0])
+        np.testing.assert_array_equal(moments[500.0], [[0, 0, 0, 2], [9, -1, 0, 3]])
+
+    def test_a_base_that_does_not_deform_has_no_figure(self):
+        self.write("base.csv", "extension_m,x_m,y_m,ux_m,uy_m\n")
+        with self.assertRaisesRegex(plot.InputError, "does not deform"):
+            base.load(self.folder)
+
+    def test_about_five_moments_are_shown_and_the_last(self):
+        self.assertEqual(base.shown([1.0, 2.0]), [1.0, 2.0])
+        shown = base.shown([float(k) for k in range(21)])
+        self.assertEqual(shown, [0.0, 4.0, 8.0, 12.0, 16.0, 20.0])
+
+    def test_uplift_is_exaggerated_up_to_five_kilometres(self):
+        self.assertEqual([footwall.exaggeration(m) for m in (1e4, 4e3, 500.0, 1.0)],
+                         [1, 1, 10, 100])
+
+    def test_runs_of_one_thickness_are_averaged_over_seeds(self):
+        rows = [{"elastic_thickness_m": t, "uplift_m": u}
+                for t, u in (("5000", "3"), ("2000", "1"), ("2000", "2"))]
+        fill = isostasy.Fill("water", rows)
+        self.assertEqual(fill.nominal, [2.0, 5.0])
+        self.assertEqual(fill.uplift, [1.5, 3.0])
+        self.assertEqual(fill.at("uplift_m", 2.0), [0.75, 1.5])
+
+    def test_points_of_a_study_are_sorted_into_panels_and_curves(self):
+        self.write("study.json", "{}")
+        self.write("study.csv", "method,parameter,quantity,error,wall_s,disc_steps\n"
+                                "A: fast,n=10,width,0,1,100\nA: fast,n=20,width,nan,2,104\n"
+                                "slow,n=5,depth,0.5,1,0\n")
+        _, found = study.load(self.folder)
+        self.assertEqual({panel: list(curves) for panel, curves in found.items()},
+                         {"A": [("fast", "width")], "": [("slow", "depth")]})
+        first, second = found["A"]["fast", "width"]
+        self.assertEqual((first["error"], first["work"]), (study.ZERO, 100.0))
+        self.assertFalse(first["failed"])
+        self.assertTrue(second["failed"])
+        self.assertEqual(found[""]["slow", "depth"][0]["work"], 5.0)
+        self.assertTrue(study.costs_the_same(found["A"]))
+        self.assertFalse(study.costs_the_same({}))
+
+    def test_a_curve_is_named_by_what_tells_it_from_the_others(self):
+        self.assertEqual(study.curve_name("a", "q", {("a", "q"): []}), "a")
+        self.assertEqual(study.curve_name("a", "q", {("a", "q"): [], ("b", "q"): []}), "a")
+        self.assertEqual(study.curve_name("a", "q", {("a", "q"): [], ("a", "r"): []}), "q")
+        self.assertEqual(study.curve_name("a", "q", {("a", "q"): [], ("b", "r"): []}), "a, q")
+
+
+class Laboratory(Folder):
+    def test_colours_go_from_light_to_dark(self):
+        self.assertEqual(laboratory.colour(0, 1), laboratory.COLOURS[0])
+        self.assertEqual(laboratory.colour(4, 5), laboratory.COLOURS[-1])
+
+    def test_seeds_are_interpolated_where_they_have_rows(self):
+        table = {"seed": np.array([1.0, 1.0, 2.0, 3.0]),
+                 "shear_strain": np.array([0.0, 1.0, 0.0, 0.0])}
+        values = np.array([0.0, 2.0, 7.0, 9.0])
+        found = laboratory.by_strain(np.array([0.5]), table, values, table["seed"] < 3.0)
+        np.testing.assert_allclose(found, [[1.0], [7.0]])
+
+    def test_envelopes_are_read_where_they_are(self):
+        self.write("envelopes.csv", "confining_pa,byerlee_axial_pa\n0,1\n2,3\n")
+        np.testing.assert_array_equal(
+            laboratory.envelopes(self.folder, {"points": []})["byerlee_axial_pa"], [1.0, 3.0])
+
+    def test_envelopes_by_rule(self):
+        summary = {"points": [{"confining_pa": 100e6}, {"confining_pa": 200e6}],
+                   "friction": 0.75, "cohesion_pa": 10e6}
+        lines = laboratory.envelopes_by_rule(summary)
+        self.assertEqual((lines["confining_pa"][0], lines["confining_pa"][-1]), (0.0, 210e6))
+        self.assertEqual(lines["byerlee_axial_pa"][0], 0.0)  # no cohesion at low stress
+        # At friction 0.75, tan(45 deg + phi / 2) is 2.
+        np.testing.assert_allclose(lines["fitted_axial_pa"], 4.0 * lines["confining_pa"] + 40e6)
+
+    def test_what_is_no_laboratory_test_is_refused(self):
+        self.write("summary.json", '{"test": "other"}')
+        with self.assertRaisesRegex(plot.InputError, "not the summary of a laboratory test"):
+            laboratory.load_summary(self.folder)
+
+
+if __name__ == "__main__":
+    unittest.main()
