@@ -13,6 +13,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace coupling;
 namespace {
 
 namespace fs = std::filesystem;

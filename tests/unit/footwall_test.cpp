@@ -12,8 +12,6 @@
 #include <map>
 
 namespace listric {
-
-using namespace dem;
 namespace {
 
 using namespace support;

@@ -11,8 +11,6 @@
 
 namespace listric {
 
-using namespace dem;
-using namespace coupling;
 namespace {
 
 using namespace support;

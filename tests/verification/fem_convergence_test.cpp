@@ -9,7 +9,6 @@
 
 namespace listric {
 
-using namespace dem;
 namespace {
 
 using namespace support;

@@ -12,7 +12,6 @@
 
 namespace listric {
 
-using namespace dem;
 namespace {
 
 using namespace support;

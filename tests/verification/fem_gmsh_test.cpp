@@ -11,7 +11,6 @@
 
 namespace listric {
 
-using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;
