@@ -27,13 +27,11 @@ double Plate::deflection(double x, const LineLoads& loads, PlateKind kind) const
     for (std::size_t k = 0; k < loads.x.size(); ++k) {
         sum += line(x - loads.x[k], loads.load[k]);
         const double t = std::abs(loads.x[k]) / a;
-        kink +=
-            loads.load[k] / (2.0 * a * restoring) * std::exp(-t) * (std::cos(t) - std::sin(t));
+        kink += loads.load[k] / (2.0 * a * restoring) * std::exp(-t) * (std::cos(t) - std::sin(t));
     }
     const double t = std::abs(x) / a;
-    return kind == PlateKind::continuous
-               ? sum
-               : sum + kink * std::exp(-t) * (std::cos(t) - std::sin(t));
+    return kind == PlateKind::continuous ? sum
+                                         : sum + kink * std::exp(-t) * (std::cos(t) - std::sin(t));
 }
 
 PlateFit fit_thickness(Plate plate, const LineLoads& loads, PlateKind kind,
