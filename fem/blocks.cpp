@@ -145,9 +145,9 @@ private:
     };
 
     struct Column {
-        double left = 0.0, right = 0.0; ///< x, m
         Fractions cells;
         BlockSide top;
+        double left = 0.0, right = 0.0; ///< x, m
     };
 
     /// Cells of one height in the columns of a row.
@@ -210,9 +210,7 @@ private:
     void find_columns() {
         if (starts_steep_)
             columns_.push_back(
-                {0.0,
-                 0.0,
-                 far_left_,
+                {far_left_,
                  {segment({request_.left, breakaway_.y}, edge_.at(0.0)), Boundary::surface}});
         for (const Part& part : parts_)
             if (part.is_flat)
@@ -231,10 +229,7 @@ private:
     }
 
     Column column_below(const Part& part) const {
-        return {0.0,
-                0.0,
-                part.cells,
-                {stretch(edge_, part.edge_start, part.edge_end), {}, EdgeCurve::skin}};
+        return {part.cells, {stretch(edge_, part.edge_start, part.edge_end), {}, EdgeCurve::skin}};
     }
 
     Column column_below_surface_and(const Part& part) const {
@@ -244,7 +239,7 @@ private:
             cells.push_back(f * joint / whole);
         for (std::size_t i = 1; i < part.cells.size(); ++i)
             cells.push_back((joint + part.cells[i] * (whole - joint)) / whole);
-        return {0.0, 0.0, cells, {stretch(edge_, 0.0, whole), {}, EdgeCurve::skin}};
+        return {cells, {stretch(edge_, 0.0, whole), {}, EdgeCurve::skin}};
     }
 
     void add_strip() {

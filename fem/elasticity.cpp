@@ -10,6 +10,7 @@
 #include <deal.II/numerics/error_estimator.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace listric::fem {
@@ -393,6 +394,7 @@ Responses ElasticFootwall::responses(std::span<const Load> loads) {
 }
 
 void ElasticFootwall::refine(double share_of_cells) {
+    assert(share_of_cells >= 0.0 && share_of_cells <= 1.0);
     require_solution();
     dealii::Vector<float> jumps(mesh_.cells->n_active_cells());
     dealii::KellyErrorEstimator<2>::estimate(
