@@ -1,116 +1,15 @@
 #include "fem/blocks.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <functional>
 #include <string>
 
 namespace listric::fem {
 
 namespace {
 
-using Path = std::function<Vector(double)>; ///< from 0 to 1
-
-Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y}; }
-Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y}; }
-Vector operator*(double f, Vector a) { return {f * a.x, f * a.y}; }
-
 std::string metres(double x) { return std::to_string(std::lround(x)) + " m"; }
-
-Path segment(Vector a, Vector b) {
-    return [a, b](double t) { return a + t * (b - a); };
-}
-
-Path stretch(const Curve& curve, double from, double to) {
-    return [&curve, from, to](double t) { return curve.at(from + t * (to - from)); };
-}
-
-/// Fractions 0 ... 1 of parts that are all about `size` long.
-std::vector<double> even(double length, double size) {
-    const int parts = std::max(1, static_cast<int>(std::lround(length / size)));
-    std::vector<double> fractions;
-    for (int k = 0; k <= parts; ++k)
-        fractions.push_back(static_cast<double>(k) / parts);
-    return fractions;
-}
-
-/// Parts that are `size` long up to `fine` and then grow, each by `ratio`, to at most `largest`.
-std::vector<double> growing(double length, double size, double fine, double ratio, double largest) {
-    std::vector<double> places{0.0};
-    double part = size;
-    while (places.back() < length) {
-        if (places.back() >= fine)
-            part = std::min(part * ratio, largest);
-        places.push_back(places.back() + part);
-    }
-    const double whole = places.back();
-    for (double& place : places)
-        place /= whole;
-    return places;
-}
-
-std::vector<double> reversed(std::vector<double> fractions) {
-    std::ranges::reverse(fractions);
-    for (double& f : fractions)
-        f = 1.0 - f;
-    return fractions;
-}
-
-/// Four sides of a block; bottom and top run to the right, left and right upward.
-struct Block {
-    Path bottom, top, left, right;
-    int bottom_boundary = 0, top_boundary = 0, left_boundary = 0, right_boundary = 0;
-    EdgeCurve bottom_curve = EdgeCurve::straight, top_curve = EdgeCurve::straight,
-              left_curve = EdgeCurve::straight, right_curve = EdgeCurve::straight;
-};
-
-class Mesher {
-public:
-    explicit Mesher(double tolerance) : tolerance_(tolerance) {}
-
-    /// Cells of a block at the fractions u to the right and v upward, by transfinite interpolation
-    /// (Gordon & Hall 1973).
-    void add(const Block& b, const std::vector<double>& u, const std::vector<double>& v) {
-        const Vector sw = b.bottom(0), se = b.bottom(1), nw = b.top(0), ne = b.top(1);
-        std::vector<unsigned> index;
-        for (double t : v)
-            for (double s : u)
-                index.push_back(vertex((1 - t) * b.bottom(s) + t * b.top(s) + (1 - s) * b.left(t) +
-                                       s * b.right(t) - (1 - s) * (1 - t) * sw - s * (1 - t) * se -
-                                       (1 - s) * t * nw - s * t * ne));
-        const std::size_t n = u.size(), m = v.size();
-        const auto edge = [&](std::size_t a, std::size_t c, int boundary, EdgeCurve curve) {
-            if (boundary != 0 || curve != EdgeCurve::straight)
-                mesh.edges.push_back({index[a], index[c], boundary, curve});
-        };
-        for (std::size_t j = 0; j + 1 < m; ++j)
-            for (std::size_t i = 0; i + 1 < n; ++i)
-                mesh.cells.push_back({{index[j * n + i], index[j * n + i + 1],
-                                       index[(j + 1) * n + i], index[(j + 1) * n + i + 1]}});
-        for (std::size_t i = 0; i + 1 < n; ++i) {
-            edge(i, i + 1, b.bottom_boundary, b.bottom_curve);
-            edge((m - 1) * n + i, (m - 1) * n + i + 1, b.top_boundary, b.top_curve);
-        }
-        for (std::size_t j = 0; j + 1 < m; ++j) {
-            edge(j * n, (j + 1) * n, b.left_boundary, b.left_curve);
-            edge(j * n + n - 1, (j + 1) * n + n - 1, b.right_boundary, b.right_curve);
-        }
-    }
-
-    BlockMesh mesh;
-
-private:
-    unsigned vertex(Vector p) {
-        for (std::size_t k = 0; k < mesh.vertices.size(); ++k)
-            if (std::abs(mesh.vertices[k].x - p.x) + std::abs(mesh.vertices[k].y - p.y) <
-                tolerance_)
-                return static_cast<unsigned>(k);
-        mesh.vertices.push_back(p);
-        return static_cast<unsigned>(mesh.vertices.size() - 1);
-    }
-
-    double tolerance_;
-};
 
 /// Depths of boundaries between layers inside (top, bottom), not closer than `apart` to the ends
 /// or to each other.
@@ -129,13 +28,10 @@ std::vector<double> layer_depths(const FootwallRequest& request, double top, dou
     return depths;
 }
 
-constexpr int number(Boundary boundary) { return static_cast<int>(boundary); }
-
 BlockMesh flat_blocks(const FootwallRequest& request) {
     const double width = request.right - request.left;
     const unsigned halvings = 1;
     const double size = request.cell_size * (1u << halvings);
-    Mesher mesher(1e-6 * request.cell_size);
     std::vector<double> breaks{request.left};
     std::vector<double> inner = request.surface_breaks;
     std::ranges::sort(inner);
@@ -146,28 +42,333 @@ BlockMesh flat_blocks(const FootwallRequest& request) {
     std::vector<double> depths = layer_depths(request, 0.0, request.depth, 0.25 * size);
     depths.insert(depths.begin(), 0.0);
     depths.push_back(request.depth);
+
+    BlockMesher mesher(1e-6 * request.cell_size);
     for (std::size_t r = 0; r + 1 < depths.size(); ++r)
         for (std::size_t c = 0; c + 1 < breaks.size(); ++c) {
             const Vector nw{breaks[c], -depths[r]}, ne{breaks[c + 1], -depths[r]};
             const Vector sw{nw.x, -depths[r + 1]}, se{ne.x, -depths[r + 1]};
-            Block b{segment(sw, se), segment(nw, ne), segment(sw, nw), segment(se, ne)};
+            Block b{{segment(sw, se)}, {segment(nw, ne)}, {segment(sw, nw)}, {segment(se, ne)}};
             if (r == 0)
-                b.top_boundary = number(Boundary::surface);
+                b.top.boundary = Boundary::surface;
             if (r + 2 == depths.size())
-                b.bottom_boundary = number(Boundary::base);
+                b.bottom.boundary = Boundary::base;
             if (c == 0)
-                b.left_boundary = number(Boundary::left);
+                b.left.boundary = Boundary::left;
             if (c + 2 == breaks.size())
-                b.right_boundary = number(Boundary::right);
+                b.right.boundary = Boundary::right;
             mesher.add(b, even(ne.x - nw.x, size), even(nw.y - sw.y, size));
         }
-    mesher.mesh.halvings = halvings;
-    return mesher.mesh;
+    BlockMesh mesh = mesher.take();
+    mesh.halvings = halvings;
+    return mesh;
 }
+
+/// Of the strip of cells along a detachment whose lowest point is at a depth.
+double strip_thickness(const FootwallRequest& request, double lowest) {
+    double thickness = request.skin_thickness;
+    if (thickness <= 0.0) // cells along the detachment all the same: they follow it better
+        thickness = std::min(0.2 * lowest, 0.5 * (request.depth - lowest));
+    if (lowest + thickness > request.depth - 0.5 * request.cell_size)
+        throw FootwallError("the skin along the detachment reaches the base: depth " +
+                            metres(lowest + thickness) + " of " + metres(request.depth));
+    return thickness;
+}
+
+/// Lower edge of the strip, from side to side. Beside a steep start of the detachment it rises to
+/// the surface; below a flat start it goes on below the surface to the left side.
+Curve strip_edge(const FootwallRequest& request, const Curve& detachment, double thickness,
+                 bool starts_steep) {
+    const Vector breakaway = detachment.at(0.0);
+    std::vector<Piece> upper = detachment.pieces();
+    if (!starts_steep)
+        upper.insert(upper.begin(),
+                     {{request.left, breakaway.y}, 0.0, breakaway.x - request.left, 0.0});
+    std::vector<Piece> pieces = Curve(upper).offset(thickness).pieces();
+    if (starts_steep) {
+        const Piece first = pieces.front();
+        const double rise = breakaway.y - first.start.y;
+        if (rise > 1e-6 * thickness) {
+            const double length = rise / -std::sin(first.direction);
+            pieces.insert(pieces.begin(), {first.start - length * tangent_at(first, 0.0),
+                                           first.direction, length, 0.0});
+        }
+    }
+    Piece& last = pieces.back();
+    last.length += request.right - point_at(last, last.length).x; // to the right side, exactly
+    return Curve(std::move(pieces));
+}
+
+/// Blocks of a footwall with a detachment. The detachment is cut where it passes through 45
+/// degrees. A strip of cells lies along it; its lower edge is that of the skin, if there is one.
+/// Below the strip are columns, one under each flat part (the first reaches the left side, below
+/// the surface), and rows, one beside each steep part and the last below all of it.
+class DetachmentBlocks {
+public:
+    explicit DetachmentBlocks(const FootwallRequest& request)
+        : request_(request), detachment_(extended_detachment(request)),
+          mesher_(1e-6 * request.cell_size) {
+        find_parts();
+        find_columns();
+    }
+    DetachmentBlocks(const DetachmentBlocks&) = delete;
+    DetachmentBlocks& operator=(const DetachmentBlocks&) = delete;
+
+    BlockMesh mesh() {
+        add_strip();
+        add_rows();
+        BlockMesh mesh = mesher_.take();
+        mesh.detachment = detachment_;
+        mesh.skin = edge_;
+        mesh.halvings = halvings;
+        return mesh;
+    }
+
+private:
+    static constexpr unsigned halvings = 2;
+    static constexpr double growth = 2.0; ///< of cells far away, each over its neighbour
+
+    /// Stretch of the strip's lower edge beside one layer of rock.
+    struct Section {
+        double start = 0.0, end = 0.0; ///< arc lengths along the edge
+        double bottom = 0.0;           ///< y of its end, m
+        Fractions cells;
+    };
+
+    /// Stretch of the detachment, and of the strip's lower edge under it, that is flat or steep.
+    struct Part {
+        bool is_flat = false;
+        double start = 0.0, end = 0.0;           ///< arc lengths along the detachment
+        double edge_start = 0.0, edge_end = 0.0; ///< arc lengths along the strip's lower edge
+        Fractions cells = {};
+        std::vector<Section> sections = {}; ///< of a steep part, from above
+    };
+
+    struct Column {
+        Fractions cells;
+        BlockSide top;
+        double left = 0.0, right = 0.0; ///< x, m
+    };
+
+    /// Cells of one height in the columns of a row.
+    struct Level {
+        double top = 0.0, bottom = 0.0; ///< y, m
+        Fractions cells;                ///< upward
+        bool is_first = false;          ///< of its row: the row's last column begins here
+        bool is_on_base = false;
+        const Section* beside = nullptr; ///< at the last column's right end; none: the right side
+    };
+
+    void find_parts() {
+        std::vector<double> turns = detachment_.turns(), edge_turns = edge_.turns();
+        if (edge_turns.size() != turns.size())
+            throw FootwallError("the detachment bends too tightly for a skin of " +
+                                metres(thickness_) + "; make the skin thinner or the bends wider");
+        turns.insert(turns.begin(), 0.0);
+        turns.push_back(detachment_.length());
+        // Below a flat start, the edge's first piece lies under the surface. It ends where the
+        // strip is cut, at the bisector.
+        edge_turns.insert(edge_turns.begin(), starts_steep_ ? 0.0 : edge_.pieces().front().length);
+        edge_turns.push_back(edge_.length());
+        for (std::size_t p = 0; p + 1 < turns.size(); ++p) {
+            Part part{(p % 2 == 0) != starts_steep_, turns[p], turns[p + 1], edge_turns[p],
+                      edge_turns[p + 1]};
+            const double length = part.end - part.start;
+            if (!part.is_flat)
+                cut_by_layers(part);
+            else if (p + 2 == turns.size())
+                part.cells =
+                    growing(length, size_,
+                            std::max(0.0, request_.fine_until - detachment_.at(part.start).x),
+                            growth, largest_);
+            else
+                part.cells = even(length, size_);
+            parts_.push_back(std::move(part));
+        }
+    }
+
+    /// A steep part's cells end where layers meet.
+    void cut_by_layers(Part& part) const {
+        const double top = edge_.at(part.edge_start).y, bottom = edge_.at(part.edge_end).y;
+        double start = part.edge_start;
+        const auto cut = [&](double end, double y) {
+            part.sections.push_back({start, end, y, even(end - start, size_)});
+            start = end;
+        };
+        for (double depth : layer_depths(request_, -top, -bottom, 0.25 * size_))
+            cut(edge_.where_y(-depth), -depth);
+        cut(part.edge_end, bottom);
+
+        const double whole = part.edge_end - part.edge_start;
+        part.cells = {0.0};
+        for (const Section& s : part.sections)
+            for (std::size_t i = 1; i < s.cells.size(); ++i)
+                part.cells.push_back((s.start - part.edge_start + s.cells[i] * (s.end - s.start)) /
+                                     whole);
+    }
+
+    void find_columns() {
+        if (starts_steep_)
+            columns_.push_back(
+                {far_left_,
+                 {segment({request_.left, breakaway_.y}, edge_.at(0.0)), Boundary::surface}});
+        for (const Part& part : parts_)
+            if (part.is_flat)
+                columns_.push_back(columns_.empty() ? column_below_surface_and(part)
+                                                    : column_below(part));
+        // They are parted at the feet of the steep parts.
+        columns_.front().left = request_.left;
+        std::size_t k = 0;
+        for (const Part& part : parts_)
+            if (!part.is_flat) {
+                columns_[k].right = edge_.at(part.edge_end).x;
+                ++k;
+                columns_[k].left = columns_[k - 1].right;
+            }
+        columns_.back().right = request_.right;
+    }
+
+    Column column_below(const Part& part) const {
+        return {part.cells, {stretch(edge_, part.edge_start, part.edge_end), {}, EdgeCurve::skin}};
+    }
+
+    Column column_below_surface_and(const Part& part) const {
+        const double joint = part.edge_start, whole = part.edge_end;
+        Fractions cells;
+        for (double f : far_left_)
+            cells.push_back(f * joint / whole);
+        for (std::size_t i = 1; i < part.cells.size(); ++i)
+            cells.push_back((joint + part.cells[i] * (whole - joint)) / whole);
+        return {cells, {stretch(edge_, 0.0, whole), {}, EdgeCurve::skin}};
+    }
+
+    void add_strip() {
+        if (!starts_steep_)
+            add_strip_below_surface(parts_.front().edge_start);
+        for (const Part& part : parts_)
+            if (part.is_flat)
+                add_flat_strip(part);
+            else
+                add_steep_strip(part);
+    }
+
+    void add_strip_below_surface(double joint) {
+        const Vector left{request_.left, breakaway_.y};
+        const Vector below_left{request_.left, breakaway_.y - thickness_};
+        mesher_.add({{stretch(edge_, 0.0, joint), {}, EdgeCurve::skin},
+                     {segment(left, breakaway_), Boundary::surface},
+                     {segment(below_left, left), Boundary::left},
+                     {segment(edge_.at(joint), breakaway_)}},
+                    far_left_, across_);
+    }
+
+    void add_flat_strip(const Part& part) {
+        const Path upper = stretch(detachment_, part.start, part.end);
+        const Path lower = stretch(edge_, part.edge_start, part.edge_end);
+        Block b{{lower, {}, EdgeCurve::skin},
+                {upper, Boundary::detachment, EdgeCurve::detachment},
+                {segment(lower(0), upper(0))},
+                {segment(lower(1), upper(1))}};
+        if (&part == &parts_.back())
+            b.right.boundary = Boundary::right;
+        mesher_.add(b, part.cells, across_);
+    }
+
+    /// Upward is against the detachment's direction.
+    void add_steep_strip(const Part& part) {
+        const Path upper = stretch(detachment_, part.start, part.end);
+        const Path lower = stretch(edge_, part.edge_start, part.edge_end);
+        Block b{{segment(lower(1), upper(1))},
+                {segment(lower(0), upper(0))},
+                {reversed(lower), {}, EdgeCurve::skin},
+                {reversed(upper), Boundary::detachment, EdgeCurve::detachment}};
+        if (&part == &parts_.front())
+            b.top.boundary = Boundary::surface;
+        mesher_.add(b, across_, reversed(part.cells));
+    }
+
+    void add_rows() {
+        double top = starts_steep_ ? breakaway_.y : breakaway_.y - thickness_;
+        std::size_t row = 0;
+        for (const Part& part : parts_) {
+            if (part.is_flat)
+                continue;
+            for (const Section& section : part.sections) {
+                add_level(row, {top, section.bottom, reversed(section.cells),
+                                &section == &part.sections.front(), false, &section});
+                top = section.bottom;
+            }
+            ++row;
+        }
+        add_last_row(row, top);
+    }
+
+    /// Its cells grow toward the base.
+    void add_last_row(std::size_t row, double top) {
+        std::vector<double> depths =
+            layer_depths(request_, -edge_.at(edge_.length()).y, request_.depth, 0.25 * size_);
+        depths.push_back(request_.depth);
+        const double largest = 4.0 * size_;
+        double size = size_;
+        for (std::size_t j = 0; j < depths.size(); ++j) {
+            const double bottom = -depths[j];
+            add_level(row,
+                      {top, bottom, reversed(growing(top - bottom, size, size_, growth, largest)),
+                       j == 0, j + 1 == depths.size(), nullptr});
+            size = std::min(largest, size * (j == 0 ? 1.0 : growth));
+            top = bottom;
+        }
+    }
+
+    void add_level(std::size_t row, const Level& level) {
+        for (std::size_t k = 0; k <= row; ++k) {
+            const Column& column = columns_[k];
+            const Section* beside = k == row ? level.beside : nullptr;
+            const double right_top = beside ? edge_.at(beside->start).x : column.right;
+            const double right_bottom = beside ? edge_.at(beside->end).x : column.right;
+            Block b;
+            b.bottom.path = segment({column.left, level.bottom}, {right_bottom, level.bottom});
+            if (k == row && level.is_first)
+                b.top = column.top;
+            else
+                b.top.path = segment({column.left, level.top}, {right_top, level.top});
+            b.left.path = segment({column.left, level.bottom}, {column.left, b.top.path(0).y});
+            if (beside)
+                b.right = {stretch(edge_, beside->end, beside->start), {}, EdgeCurve::skin};
+            else
+                b.right.path =
+                    segment({column.right, level.bottom}, {column.right, b.top.path(1).y});
+            if (k == 0)
+                b.left.boundary = Boundary::left;
+            if (k + 1 == columns_.size() && !beside)
+                b.right.boundary = Boundary::right;
+            if (level.is_on_base)
+                b.bottom.boundary = Boundary::base;
+            mesher_.add(b, column.cells, level.cells);
+        }
+    }
+
+    const FootwallRequest& request_;
+    const double size_ = request_.cell_size * (1u << halvings); ///< of a block's cells, m
+    const double largest_ = 20.0 * size_;                       ///< far away
+    const Curve detachment_;                                    ///< extended to the right side
+    const Vector breakaway_ = detachment_.at(0.0);
+    const double lowest_ = -detachment_.at(detachment_.length()).y; ///< its depth
+    const double thickness_ = strip_thickness(request_, lowest_);
+    const bool starts_steep_ = detachment_.turns().size() % 2 == 1; ///< it ends flat
+    const Curve edge_ = strip_edge(request_, detachment_, thickness_, starts_steep_);
+    const Fractions across_ = even(thickness_, size_); ///< the strip
+    const Fractions far_left_ =
+        reversed(growing(breakaway_.x - request_.left, size_, 0.5 * lowest_, growth, largest_));
+    std::vector<Part> parts_;     ///< from the breakaway on, flat and steep by turns
+    std::vector<Column> columns_; ///< from the left; their tops refer to edge_
+    BlockMesher mesher_;
+};
 
 } // namespace
 
 Curve extended_detachment(const FootwallRequest& request) {
+    assert(!request.detachment.empty());
     std::vector<Piece> pieces = request.detachment;
     const Curve given(pieces);
     const Vector end = given.at(given.length());
@@ -191,263 +392,7 @@ Curve extended_detachment(const FootwallRequest& request) {
 }
 
 BlockMesh make_blocks(const FootwallRequest& request) {
-    if (request.detachment.empty())
-        return flat_blocks(request);
-
-    const Curve chain = extended_detachment(request);
-    const double lowest = -chain.at(chain.length()).y;
-    double thickness = request.skin_thickness;
-    if (thickness <= 0.0) // cells along the detachment all the same: they follow it better
-        thickness = std::min(0.2 * lowest, 0.5 * (request.depth - lowest));
-    if (lowest + thickness > request.depth - 0.5 * request.cell_size)
-        throw FootwallError("the skin along the detachment reaches the base: depth " +
-                            metres(lowest + thickness) + " of " + metres(request.depth));
-
-    const std::vector<double> turns = chain.turns();
-    const bool starts_steep = turns.size() % 2 == 1; // it ends flat
-    Mesher mesher(1e-6 * request.cell_size);
-    BlockMesh& mesh = mesher.mesh;
-    mesh.detachment = chain;
-
-    // The strip's lower edge. Beside a steep start it rises to the surface; below a flat start the
-    // strip goes on below the surface.
-    const Vector breakaway = chain.at(0.0);
-    std::vector<Piece> top = chain.pieces();
-    if (!starts_steep)
-        top.insert(top.begin(),
-                   {{request.left, breakaway.y}, 0.0, breakaway.x - request.left, 0.0});
-    std::vector<Piece> below = Curve(top).offset(thickness).pieces();
-    if (starts_steep) {
-        Piece& first = below.front();
-        const double rise = breakaway.y - first.start.y;
-        if (rise > 1e-6 * thickness) {
-            const double length = rise / -std::sin(first.direction);
-            const Vector t = tangent_at(first, 0.0);
-            const Piece line{first.start - length * t, first.direction, length, 0.0};
-            below.insert(below.begin(), line);
-        }
-    }
-    { // to the sides, exactly
-        Piece& last = below.back();
-        last.length += request.right - point_at(last, last.length).x;
-    }
-    mesh.skin = Curve(below);
-    const Curve& skin = mesh.skin;
-    const std::vector<double> inner = skin.turns();
-    if (inner.size() != turns.size())
-        throw FootwallError("the detachment bends too tightly for a skin of " + metres(thickness) +
-                            "; make the skin thinner or the bends wider");
-
-    const unsigned halvings = 2;
-    mesh.halvings = halvings;
-    const double size = request.cell_size * (1u << halvings);
-    const double largest = 20.0 * size;
-    constexpr double growth = 2.0;
-
-    // Corners along the chain and the strip's lower edge, by arc length: flat part, steep part, ...
-    std::vector<double> outer_at{0.0}, inner_at{0.0};
-    for (std::size_t k = 0; k < turns.size(); ++k) {
-        outer_at.push_back(turns[k]);
-        inner_at.push_back(inner[k]);
-    }
-    outer_at.push_back(chain.length());
-    inner_at.push_back(skin.length());
-    const std::size_t parts = outer_at.size() - 1;
-    const auto is_flat = [&](std::size_t part) { return (part % 2 == 0) != starts_steep; };
-
-    // Cells along each part, by the strip's lower edge for the far parts that grow.
-    std::vector<std::vector<double>> along(parts);
-    for (std::size_t p = 0; p < parts; ++p) {
-        const double length = outer_at[p + 1] - outer_at[p];
-        if (p + 1 == parts) {
-            const double fine = std::max(0.0, request.fine_until - chain.at(outer_at[p]).x);
-            along[p] = growing(length, size, fine, growth, largest);
-        } else {
-            along[p] = even(length, size);
-        }
-    }
-    const std::vector<double> far_left =
-        reversed(growing(breakaway.x - request.left, size, 0.5 * lowest, growth, largest));
-
-    const std::vector<double> across = even(thickness, size);
-    const int detachment = number(Boundary::detachment), surface = number(Boundary::surface);
-
-    // A steep part's cells end where layers meet.
-    struct SteepPart {
-        Vector upper, lower;        ///< ends of its lower edge
-        std::vector<double> depths; ///< of layers that end at it
-        std::vector<double> at;     ///< arc lengths of its top, these depths, its end
-        std::vector<std::vector<double>> fractions; ///< cells between those, from above
-        std::size_t part;
-    };
-    std::vector<SteepPart> steep;
-    for (std::size_t p = 0; p < parts; ++p) {
-        if (is_flat(p))
-            continue;
-        SteepPart s{skin.at(inner_at[p]), skin.at(inner_at[p + 1]), {}, {inner_at[p]}, {}, p};
-        s.depths = layer_depths(request, -s.upper.y, -s.lower.y, 0.25 * size);
-        for (double depth : s.depths)
-            s.at.push_back(skin.where_y(-depth));
-        s.at.push_back(inner_at[p + 1]);
-        const double whole = inner_at[p + 1] - inner_at[p];
-        along[p] = {0.0};
-        for (std::size_t j = 0; j + 1 < s.at.size(); ++j) {
-            s.fractions.push_back(even(s.at[j + 1] - s.at[j], size));
-            for (std::size_t i = 1; i < s.fractions.back().size(); ++i)
-                along[p].push_back(
-                    (s.at[j] - inner_at[p] + s.fractions.back()[i] * (s.at[j + 1] - s.at[j])) /
-                    whole);
-        }
-        steep.push_back(std::move(s));
-    }
-
-    // The strip.
-    const auto strip_of = [&](std::size_t p) {
-        const Path upper = stretch(chain, outer_at[p], outer_at[p + 1]);
-        const Path lower = stretch(skin, inner_at[p], inner_at[p + 1]);
-        const Path start = segment(lower(0), upper(0)), end = segment(lower(1), upper(1));
-        if (is_flat(p)) {
-            Block b{lower, upper, start, end};
-            b.bottom_curve = EdgeCurve::skin;
-            b.top_curve = EdgeCurve::detachment;
-            b.top_boundary = detachment;
-            if (p + 1 == parts)
-                b.right_boundary = number(Boundary::right);
-            mesher.add(b, along[p], across);
-        } else { // upward is against the chain's direction
-            const auto backward = [](const Path& path) {
-                return [path](double t) { return path(1.0 - t); };
-            };
-            Block b{end, start, backward(lower), backward(upper)};
-            b.left_curve = EdgeCurve::skin;
-            b.right_curve = EdgeCurve::detachment;
-            b.right_boundary = detachment;
-            if (p == 0)
-                b.top_boundary = surface;
-            mesher.add(b, across, reversed(along[p]));
-        }
-    };
-    if (starts_steep) {
-        for (std::size_t p = 0; p < parts; ++p)
-            strip_of(p);
-    } else {
-        // The first part of the strip's lower edge holds the part below the surface. Where the
-        // detachment begins, the strip is cut along the bisector.
-        double joint = skin.nearest(breakaway);
-        const Curve surface_below(
-            std::vector<Piece>{skin.pieces().front()}); // ends at the bisector
-        joint = surface_below.length();
-        const Path lower_left = stretch(skin, 0.0, joint);
-        const Vector corner = skin.at(joint);
-        Block b{lower_left, segment({request.left, breakaway.y}, breakaway),
-                segment({request.left, breakaway.y - thickness}, {request.left, breakaway.y}),
-                segment(corner, breakaway)};
-        b.bottom_curve = EdgeCurve::skin;
-        b.top_boundary = surface;
-        b.left_boundary = number(Boundary::left);
-        mesher.add(b, far_left, across);
-        inner_at[0] = joint;
-        for (std::size_t p = 0; p < parts; ++p)
-            strip_of(p);
-    }
-    // Below the strip: columns k under its flat parts, rows r beside its steep parts, and the rows
-    // below all of it. Column 0 reaches the left side.
-    const std::size_t columns = steep.size() + 1;
-
-    const auto column_left = [&](std::size_t k) {
-        return k == 0 ? request.left : steep[k - 1].lower.x;
-    };
-    const auto column_right = [&](std::size_t k) {
-        return k + 1 == columns ? request.right : steep[k].lower.x;
-    };
-    // Cells along the top of each column.
-    std::vector<std::vector<double>> columns_u(columns);
-    std::vector<Path> column_top(columns);
-    std::vector<EdgeCurve> top_curve(columns, EdgeCurve::skin);
-    for (std::size_t k = 0; k < columns; ++k) {
-        if (k == 0 && starts_steep) {
-            columns_u[0] = far_left;
-            column_top[0] = segment({request.left, breakaway.y}, steep[0].upper);
-            top_curve[0] = EdgeCurve::straight;
-        } else if (k == 0) { // below the surface and the first flat part, joined
-            const double joint = inner_at[0], end = inner_at[1];
-            const double whole = end;
-            for (double f : far_left)
-                columns_u[0].push_back(f * joint / whole);
-            for (std::size_t i = 1; i < along[0].size(); ++i)
-                columns_u[0].push_back((joint + along[0][i] * (end - joint)) / whole);
-            column_top[0] = stretch(skin, 0.0, end);
-        } else {
-            const std::size_t p = steep[k - 1].part + 1;
-            columns_u[k] = along[p];
-            column_top[k] = stretch(skin, inner_at[p], inner_at[p + 1]);
-        }
-    }
-
-    // The bottom of a row is level; the first row of a column has the strip above it.
-    const auto add_rows = [&](std::size_t r, double top_level, double bottom_level,
-                              const std::vector<double>& breaks, bool is_last) {
-        std::vector<double> levels{top_level};
-        for (double depth : breaks)
-            levels.push_back(-depth);
-        levels.push_back(bottom_level);
-        double row_size = size;
-        for (std::size_t j = 0; j + 1 < levels.size(); ++j) {
-            const double high = levels[j], low = levels[j + 1];
-            std::vector<double> v;
-            if (!is_last) {
-                v = reversed(steep[r].fractions[j]);
-            } else {
-                v = reversed(growing(high - low, row_size, size, growth, 4.0 * size));
-                row_size = std::min(4.0 * size, row_size * (j == 0 ? 1.0 : growth));
-            }
-            for (std::size_t k = 0; k <= std::min(r, columns - 1); ++k) {
-                const bool has_top = j == 0 && k == r;
-                const bool beside = !is_last && k == r; // its right side is the strip
-                const double left = column_left(k), right = column_right(k);
-                double right_low = right, right_high = right;
-                Path right_path;
-                if (beside) {
-                    const double a = steep[r].at[j], b = steep[r].at[j + 1];
-                    right_path = [&skin, a, b](double t) { return skin.at(b + t * (a - b)); };
-                    right_low = skin.at(b).x;
-                    right_high = skin.at(a).x;
-                }
-                const double left_high = has_top ? column_top[k](0).y : high;
-                Block b{segment({left, low}, {right_low, low}),
-                        has_top ? column_top[k] : segment({left, high}, {right_high, high}),
-                        segment({left, low}, {left, left_high}),
-                        {}};
-                b.right = beside
-                              ? right_path
-                              : segment({right, low}, {right, has_top ? column_top[k](1).y : high});
-                if (has_top)
-                    b.top_curve = top_curve[k];
-                if (has_top && k == 0 && starts_steep)
-                    b.top_boundary = surface;
-                if (beside)
-                    b.right_curve = EdgeCurve::skin;
-                if (k == 0)
-                    b.left_boundary = number(Boundary::left);
-                if (k + 1 == columns && !beside)
-                    b.right_boundary = number(Boundary::right);
-                if (is_last && j + 2 == levels.size())
-                    b.bottom_boundary = number(Boundary::base);
-                mesher.add(b, columns_u[k], v);
-            }
-        }
-    };
-
-    double level = starts_steep ? breakaway.y : breakaway.y - thickness;
-    for (std::size_t r = 0; r < steep.size(); ++r) {
-        const double bottom = steep[r].lower.y;
-        add_rows(r, level, bottom, steep[r].depths, false);
-        level = bottom;
-    }
-    const double flat_bottom = skin.at(skin.length()).y;
-    add_rows(steep.size(), level, -request.depth,
-             layer_depths(request, -flat_bottom, request.depth, 0.25 * size), true);
-    return mesh;
+    return request.detachment.empty() ? flat_blocks(request) : DetachmentBlocks(request).mesh();
 }
 
 } // namespace listric::fem

@@ -2,71 +2,80 @@
 
 #include "fem/elasticity.hpp"
 
-#include <deal.II/base/mpi.templates.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace listric::fem {
 
 using dealii::Point;
 using dealii::Tensor;
 
-void ElasticFootwall::find_interface() {
-    const bool flat = request_.detachment.empty();
-    const auto id =
-        static_cast<dealii::types::boundary_id>(flat ? Boundary::surface : Boundary::detachment);
-    const unsigned per_face = element_.n_dofs_per_face();
-    const unsigned places = per_face / 2;
-    std::vector<Index> indices(per_face);
-    // Of a face's start, end and middle: unknowns of x and y (below 2^53, so that doubles hold
-    // them), place, and whether it can move.
-    std::vector<std::array<double, 15>> own;
+/// A face on the interface as its process knows it and tells the others: its start, end and, at
+/// degree 2, middle.
+struct ElasticFootwall::FaceOnWall {
+    struct Node {
+        std::array<Index, 2> unknowns{}; ///< of x and y
+        Vector place;                    ///< m
+        bool can_move = false;
+
+        template <class Archive> void serialize(Archive& archive, unsigned /*version*/) {
+            archive& unknowns& place.x& place.y& can_move;
+        }
+    };
+    std::array<Node, 3> nodes;
+
+    template <class Archive> void serialize(Archive& archive, unsigned /*version*/) {
+        archive& nodes;
+    }
+};
+
+std::vector<ElasticFootwall::FaceOnWall> ElasticFootwall::own_faces_on_wall() const {
+    const unsigned nodes = element_.n_dofs_per_face() / 2;
     const dealii::Quadrature<1> support(
-        places == 3 ? std::vector<Point<1>>{Point<1>(0.0), Point<1>(1.0), Point<1>(0.5)}
-                    : std::vector<Point<1>>{Point<1>(0.0), Point<1>(1.0)});
+        nodes == 3 ? std::vector<Point<1>>{Point<1>(0.0), Point<1>(1.0), Point<1>(0.5)}
+                   : std::vector<Point<1>>{Point<1>(0.0), Point<1>(1.0)});
     dealii::FEFaceValues<2> values(mapping_, element_, support, dealii::update_quadrature_points);
+    std::vector<Index> indices(element_.n_dofs_per_face());
+    std::vector<FaceOnWall> faces;
     for_each_own_cell([&](const auto& cell) {
         for (const unsigned f : cell->face_indices()) {
-            if (!cell->face(f)->at_boundary() || cell->face(f)->boundary_id() != id)
+            if (!cell->face(f)->at_boundary() || cell->face(f)->boundary_id() != id_of(wall()))
                 continue;
             values.reinit(cell, f);
             cell->face(f)->get_dof_indices(indices);
-            std::array<double, 15> row{};
-            for (unsigned k = 0; k < 3; ++k) {
-                const unsigned from = k < places ? k : 0;
-                const Point<2> p = values.quadrature_point(from);
-                const Index x = indices[2 * from], y = indices[2 * from + 1];
-                row[5 * k] = static_cast<double>(x);
-                row[5 * k + 1] = static_cast<double>(y);
-                row[5 * k + 2] = p[0];
-                row[5 * k + 3] = p[1];
-                row[5 * k + 4] = !constraints_.is_constrained(x) &&
-                                 !constraints_.is_constrained(y) &&
-                                 p[0] <= request_.interface_end + 1e-6 * request_.cell_size;
+            FaceOnWall& face = faces.emplace_back();
+            for (unsigned k = 0; k < nodes; ++k) {
+                const Vector place = plain(values.quadrature_point(k));
+                const Index x = indices[2 * k], y = indices[2 * k + 1];
+                face.nodes[k] = {{x, y},
+                                 place,
+                                 !constraints_.is_constrained(x) &&
+                                     !constraints_.is_constrained(y) &&
+                                     place.x <= request_.interface_end + 1e-6 * request_.cell_size};
             }
-            own.push_back(row);
         }
     });
-    const auto all = dealii::Utilities::MPI::all_gather(processes, own);
+    return faces;
+}
+
+void ElasticFootwall::find_interface() {
+    std::vector<FaceOnWall> wall_faces;
+    for (const auto& part : dealii::Utilities::MPI::all_gather(processes, own_faces_on_wall()))
+        wall_faces.insert(wall_faces.end(), part.begin(), part.end());
+    const unsigned nodes = element_.n_dofs_per_face() / 2;
 
     struct Node {
         InterfaceNode node;
         std::array<Index, 2> unknowns;
     };
-    std::map<Index, Node> found;
-    for (const auto& part : all)
-        for (const auto& row : part)
-            for (unsigned k = 0; k < places; ++k) {
-                if (row[5 * k + 4] == 0.0)
-                    continue;
-                const Vector p{row[5 * k + 2], row[5 * k + 3]};
-                const double s = flat ? p.x - request_.left : mesh_.detachment.nearest(p);
-                const auto x = static_cast<Index>(row[5 * k]);
-                found[x] = {{p, s}, {x, static_cast<Index>(row[5 * k + 1])}};
-            }
+    std::map<Index, Node> found; // by the x unknown
+    for (const FaceOnWall& face : wall_faces)
+        for (unsigned k = 0; k < nodes; ++k) {
+            const auto& [unknowns, place, can_move] = face.nodes[k];
+            if (can_move)
+                found[unknowns[0]] = {{place, arc_length(place)}, unknowns};
+        }
     std::vector<Node> sorted;
     for (const auto& [x, node] : found)
         sorted.push_back(node);
@@ -79,79 +88,107 @@ void ElasticFootwall::find_interface() {
         nodes_.push_back(node.node);
         node_unknowns_.push_back(node.unknowns);
     }
+
     faces_.clear();
-    for (const auto& part : all)
-        for (const auto& row : part) {
-            InterfaceFace face{};
-            bool whole = true;
-            for (unsigned k = 0; k < places; ++k) {
-                const auto it = number.find(static_cast<Index>(row[5 * k]));
-                whole = whole && it != number.end();
-                face.nodes[k] = whole ? it->second : 0;
-            }
-            if (places < 3)
-                face.nodes[2] = face.nodes[0];
-            if (!whole)
-                continue;
-            if (face.nodes[1] < face.nodes[0])
-                std::swap(face.nodes[0], face.nodes[1]);
-            faces_.push_back(face);
+    for (const FaceOnWall& wall_face : wall_faces) {
+        InterfaceFace face{};
+        bool is_whole = true;
+        for (unsigned k = 0; k < nodes; ++k) {
+            const auto it = number.find(wall_face.nodes[k].unknowns[0]);
+            is_whole = is_whole && it != number.end();
+            face.nodes[k] = is_whole ? it->second : 0;
         }
+        if (!is_whole)
+            continue;
+        if (nodes < 3)
+            face.nodes[2] = face.nodes[0];
+        if (face.nodes[1] < face.nodes[0])
+            std::swap(face.nodes[0], face.nodes[1]);
+        faces_.push_back(face);
+    }
     std::ranges::sort(faces_, {}, [](const InterfaceFace& f) { return f.nodes[0]; });
 }
+
+namespace {
+
+/// Of a face's start, end and middle.
+using Shapes = std::array<double, 3>;
+
+/// Shape functions at t from 0 to 1 along a face.
+Shapes shapes(int degree, double t) {
+    return degree == 2 ? Shapes{(1 - t) * (1 - 2 * t), t * (2 * t - 1), 4 * t * (1 - t)}
+                       : Shapes{1 - t, t, 0.0};
+}
+
+Shapes slopes(int degree, double t) {
+    return degree == 2 ? Shapes{4 * t - 3, 4 * t - 1, 4 - 8 * t} : Shapes{-1.0, 1.0, 0.0};
+}
+
+/// The interface as the curve that its nodes span.
+struct Trace {
+    const std::vector<InterfaceNode>& nodes;
+    const std::vector<InterfaceFace>& faces;
+    int degree;
+
+    struct Place {
+        const InterfaceFace* face = nullptr;
+        double at = 0.0; ///< 0 to 1 along the face
+    };
+
+    Vector sum(const InterfaceFace& face, const Shapes& n) const {
+        Vector p;
+        for (std::size_t k = 0; k < 3; ++k)
+            p = p + n[k] * nodes[face.nodes[k]].place;
+        return p;
+    }
+
+    double closest_on(const InterfaceFace& face, Vector p) const {
+        const Vector a = nodes[face.nodes[0]].place, b = nodes[face.nodes[1]].place;
+        const double length = norm(b - a);
+        double t = std::clamp(dot(p - a, b - a) / (length * length), 0.0, 1.0);
+        for (int step = 0; step < 8; ++step) { // Gauss-Newton
+            const Vector off = p - sum(face, shapes(degree, t)), d = sum(face, slopes(degree, t));
+            t = std::clamp(t + dot(off, d) / dot(d, d), 0.0, 1.0);
+        }
+        return t;
+    }
+
+    /// On no face if p is not finite.
+    Place closest(Vector p) const {
+        Place closest;
+        double least = std::numeric_limits<double>::infinity();
+        for (const InterfaceFace& face : faces) {
+            const Vector a = nodes[face.nodes[0]].place, b = nodes[face.nodes[1]].place;
+            if (std::min(norm(p - a), norm(p - b)) > least + norm(b - a))
+                continue; // too far away
+            const double t = closest_on(face, p);
+            const double distance = norm(p - sum(face, shapes(degree, t)));
+            if (distance < least) {
+                least = distance;
+                closest = {&face, t};
+            }
+        }
+        return closest;
+    }
+};
+
+} // namespace
 
 std::vector<double> ElasticFootwall::nodal_forces(std::span<const PointForce> forces) const {
     if (faces_.empty())
         throw FootwallError("the footwall has no interface to take forces");
+    const Trace trace{nodes_, faces_, request_.degree};
     std::vector<double> result(2 * nodes_.size(), 0.0);
-    const bool quadratic = request_.degree == 2;
-    // Shape functions at t from 0 to 1 along a face, and the place there.
-    const auto shapes = [&](double t) {
-        return quadratic ? std::array{(1 - t) * (1 - 2 * t), t * (2 * t - 1), 4 * t * (1 - t)}
-                         : std::array{1 - t, t, 0.0};
-    };
-    const auto slopes = [&](double t) {
-        return quadratic ? std::array{4 * t - 3, 4 * t - 1, 4 - 8 * t} : std::array{-1.0, 1.0, 0.0};
-    };
-    const auto sum = [&](const InterfaceFace& face, const std::array<double, 3>& n) {
-        Vector p;
-        for (std::size_t k = 0; k < 3; ++k) {
-            p.x += n[k] * nodes_[face.nodes[k]].place.x;
-            p.y += n[k] * nodes_[face.nodes[k]].place.y;
-        }
-        return p;
-    };
     for (const PointForce& force : forces) {
-        double least = std::numeric_limits<double>::infinity(), at = 0.0;
-        const InterfaceFace* on = nullptr;
-        for (const InterfaceFace& face : faces_) {
-            const Vector a = nodes_[face.nodes[0]].place, b = nodes_[face.nodes[1]].place;
-            const double length = std::hypot(b.x - a.x, b.y - a.y);
-            const double away = std::min(std::hypot(force.place.x - a.x, force.place.y - a.y),
-                                         std::hypot(force.place.x - b.x, force.place.y - b.y));
-            if (away > least + length)
-                continue;
-            double t = ((force.place.x - a.x) * (b.x - a.x) + (force.place.y - a.y) * (b.y - a.y)) /
-                       (length * length);
-            t = std::clamp(t, 0.0, 1.0);
-            for (int step = 0; step < 8; ++step) { // Gauss-Newton toward the closest point
-                const Vector p = sum(face, shapes(t)), d = sum(face, slopes(t));
-                t += ((force.place.x - p.x) * d.x + (force.place.y - p.y) * d.y) /
-                     (d.x * d.x + d.y * d.y);
-                t = std::clamp(t, 0.0, 1.0);
-            }
-            const Vector p = sum(face, shapes(t));
-            const double distance = std::hypot(force.place.x - p.x, force.place.y - p.y);
-            if (distance < least) {
-                least = distance;
-                at = t;
-                on = &face;
-            }
-        }
-        const auto n = shapes(at);
-        for (std::size_t k = 0; k < (quadratic ? 3u : 2u); ++k) {
-            result[2 * on->nodes[k]] += n[k] * force.force.x;
-            result[2 * on->nodes[k] + 1] += n[k] * force.force.y;
+        const auto [face, at] = trace.closest(force.place);
+        if (!face)
+            throw FootwallError(
+                "a force on the footwall is at no place: x = " + std::to_string(force.place.x) +
+                " m, y = " + std::to_string(force.place.y) + " m");
+        const Shapes n = shapes(request_.degree, at);
+        for (std::size_t k = 0; k < (request_.degree == 2 ? 3u : 2u); ++k) {
+            result[2 * face->nodes[k]] += n[k] * force.force.x;
+            result[2 * face->nodes[k] + 1] += n[k] * force.force.y;
         }
     }
     return result;

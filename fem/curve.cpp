@@ -1,6 +1,7 @@
 #include "fem/curve.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,18 +11,14 @@ namespace listric::fem {
 
 namespace {
 
-constexpr double steep = 0.25 * std::numbers::pi;
-
-double norm(Vector a) { return std::hypot(a.x, a.y); }
-Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y}; }
-double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+constexpr double steep = 0.25 * std::numbers::pi; ///< dip, rad
 
 /// Arc length of the point of a piece that is closest to p.
 double nearest_on(const Piece& piece, Vector p) {
     const Vector d = p - piece.start;
     if (piece.curvature == 0.0) {
         const Vector t = tangent_at(piece, 0.0);
-        return std::clamp(d.x * t.x + d.y * t.y, 0.0, piece.length);
+        return std::clamp(dot(d, t), 0.0, piece.length);
     }
     const double radius = 1.0 / piece.curvature;
     const Vector centre{piece.start.x - radius * std::sin(piece.direction),
@@ -29,7 +26,7 @@ double nearest_on(const Piece& piece, Vector p) {
     const Vector out = p - centre;
     // Angle from the start's radius, counted in the direction of travel.
     const Vector first = piece.start - centre;
-    double angle = std::atan2(cross(first, out), first.x * out.x + first.y * out.y);
+    double angle = std::atan2(cross(first, out), dot(first, out));
     double s = angle * radius;
     const double round = 2.0 * std::numbers::pi * std::abs(radius);
     if (s < -0.5 * (round - piece.length))
@@ -71,14 +68,42 @@ void cut_end(Piece& piece, double arc_length) { piece.length = arc_length; }
 
 void cut_start(Piece& piece, double arc_length) {
     piece.start = point_at(piece, arc_length);
-    piece.direction += piece.curvature * arc_length;
+    piece.direction = direction_at(piece, arc_length);
     piece.length -= arc_length;
+}
+
+/// Makes the path meet the next piece: both are cut where they cross; a gap is bridged along their
+/// tangents.
+void join(std::vector<Piece>& path, Piece& next, double distance) {
+    Piece& last = path.back();
+    const Vector end = point_at(last, last.length);
+    if (!(norm(next.start - end) > 1e-6 * distance))
+        return;
+    if (const auto cut = crossing(last, next)) {
+        cut_end(last, cut->first);
+        cut_start(next, cut->second);
+        return;
+    }
+    const Vector ta = tangent_at(last, last.length), tb = tangent_at(next, 0.0);
+    const Vector gap = next.start - end;
+    const double det = cross(ta, tb);
+    const double a = det == 0.0 ? -1.0 : cross(gap, tb) / det;
+    const double b = det == 0.0 ? -1.0 : -cross(gap, ta) / det;
+    if (a < 0.0 || b < 0.0)
+        throw FootwallError("the detachment bends too tightly for a skin of " +
+                            std::to_string(distance) + " m; make the skin thinner");
+    path.push_back({end, direction_at(last, last.length), a, 0.0});
+    path.push_back({point_at(path.back(), a), next.direction, b, 0.0});
 }
 
 } // namespace
 
+double direction_at(const Piece& piece, double arc_length) {
+    return piece.direction + piece.curvature * arc_length;
+}
+
 Vector tangent_at(const Piece& piece, double arc_length) {
-    const double direction = piece.direction + piece.curvature * arc_length;
+    const double direction = direction_at(piece, arc_length);
     return {std::cos(direction), std::sin(direction)};
 }
 
@@ -97,26 +122,28 @@ Curve::Curve(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
         ends_.push_back(end += piece.length);
 }
 
-Vector Curve::at(double arc_length) const {
+std::pair<const Piece&, double> Curve::on_piece(double arc_length) const {
+    assert(!empty());
     const auto k = static_cast<std::size_t>(
         std::min<std::ptrdiff_t>(std::ranges::lower_bound(ends_, arc_length) - ends_.begin(),
                                  static_cast<std::ptrdiff_t>(pieces_.size()) - 1));
-    const double s = arc_length - (k ? ends_[k - 1] : 0.0);
-    const Piece& piece = pieces_[k];
+    return {pieces_[k], arc_length - (k ? ends_[k - 1] : 0.0)};
+}
+
+Vector Curve::at(double arc_length) const {
+    const auto [piece, s] = on_piece(arc_length);
     const double inside = std::clamp(s, 0.0, piece.length);
     const Vector p = point_at(piece, inside), t = tangent_at(piece, inside);
-    return {p.x + (s - inside) * t.x, p.y + (s - inside) * t.y};
+    return p + (s - inside) * t;
 }
 
 double Curve::dip_at(double arc_length) const {
-    const auto k = static_cast<std::size_t>(
-        std::min<std::ptrdiff_t>(std::ranges::lower_bound(ends_, arc_length) - ends_.begin(),
-                                 static_cast<std::ptrdiff_t>(pieces_.size()) - 1));
-    const double s = arc_length - (k ? ends_[k - 1] : 0.0);
-    return -(pieces_[k].direction + pieces_[k].curvature * s);
+    const auto [piece, s] = on_piece(arc_length);
+    return -direction_at(piece, s);
 }
 
 double Curve::nearest(Vector p) const {
+    assert(!empty());
     double best = 0.0, least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
         const double s = nearest_on(pieces_[k], p);
@@ -140,11 +167,10 @@ std::vector<double> Curve::turns() const {
         const Piece& piece = pieces_[k];
         if (k > 0) {
             const Piece& before = pieces_[k - 1];
-            if (is_steep(before.direction + before.curvature * before.length) !=
-                is_steep(piece.direction))
+            if (is_steep(direction_at(before, before.length)) != is_steep(piece.direction))
                 turns.push_back(start);
         }
-        const double end = piece.direction + piece.curvature * piece.length;
+        const double end = direction_at(piece, piece.length);
         if (is_steep(piece.direction) != is_steep(end))
             turns.push_back(start + (-steep - piece.direction) / piece.curvature);
         start += piece.length;
@@ -153,6 +179,7 @@ std::vector<double> Curve::turns() const {
 }
 
 double Curve::where_y(double y) const {
+    assert(!empty() && at(0.0).y >= at(length()).y);
     double low = 0.0, high = length();
     for (int step = 0; step < 200 && high - low > 1e-14 * length(); ++step) {
         const double middle = 0.5 * (low + high);
@@ -172,29 +199,8 @@ Curve Curve::offset(double distance) const {
                     piece.direction,
                     piece.length * stretch,
                     piece.curvature / stretch};
-        if (!result.empty()) {
-            Piece& before = result.back();
-            const Vector end = point_at(before, before.length);
-            if (norm(moved.start - end) > 1e-6 * distance) {
-                if (const auto cut = crossing(before, moved)) {
-                    cut_end(before, cut->first);
-                    cut_start(moved, cut->second);
-                } else {
-                    const Vector ta = tangent_at(before, before.length);
-                    const Vector tb = tangent_at(moved, 0.0);
-                    const Vector gap = moved.start - end;
-                    const double det = cross(ta, tb);
-                    const double a = det == 0.0 ? -1.0 : cross(gap, tb) / det;
-                    const double b = det == 0.0 ? -1.0 : -cross(gap, ta) / det;
-                    if (a < 0.0 || b < 0.0)
-                        throw FootwallError("the detachment bends too tightly for a skin of " +
-                                            std::to_string(distance) + " m; make the skin thinner");
-                    const double direction = before.direction + before.curvature * before.length;
-                    result.push_back({end, direction, a, 0.0});
-                    result.push_back({point_at(result.back(), a), moved.direction, b, 0.0});
-                }
-            }
-        }
+        if (!result.empty())
+            join(result, moved, distance);
         result.push_back(moved);
     }
     return Curve(std::move(result));

@@ -1,16 +1,19 @@
 #pragma once
 
-#include "fem/footwall.hpp"
+#include "fem/request.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace listric::fem {
 
-/// Unit vector along a piece after `arc_length` m.
+/// Direction of travel, rad, and unit vector along a piece after `arc_length` m.
+double direction_at(const Piece& piece, double arc_length);
 Vector tangent_at(const Piece& piece, double arc_length);
 Vector point_at(const Piece& piece, double arc_length);
 
-/// Pieces joined end to end, with arc length counted from the first one's start.
+/// Pieces joined end to end, with arc length counted from the first one's start. An empty curve has
+/// no points: only its length and its offset may be asked for.
 class Curve {
 public:
     Curve() = default;
@@ -37,6 +40,10 @@ public:
     Curve offset(double distance) const;
 
 private:
+    /// The piece at an arc length, and the arc length from its start. The ends' pieces go on
+    /// beyond.
+    std::pair<const Piece&, double> on_piece(double arc_length) const;
+
     std::vector<Piece> pieces_;
     std::vector<double> ends_; ///< arc length at the end of each piece
 };

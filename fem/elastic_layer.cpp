@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -32,6 +33,7 @@ Jet decaying(Real s, int power) {
 } // namespace
 
 double ElasticLayer::response(double wave_number, double depth) const {
+    assert(wave_number > 0.0);
     const Real q = wave_number, nu = poisson_ratio;
     const Real mu = static_cast<Real>(young_modulus) / (2 * (1 + nu));
     const auto basis = [&](Real y) {
@@ -76,6 +78,7 @@ double ElasticLayer::response(double wave_number, double depth) const {
 
 std::vector<double> ElasticLayer::deflection(std::span<const double> places, double depth,
                                              const std::function<double(double)>& spectrum) const {
+    assert(depth > 0.0 && top_spring + base_spring > 0.0);
     // Gauss-Legendre, five points a panel; the response decays as e^(-q depth) and its bend is at
     // 1 / alpha.
     constexpr std::array<double, 5> at = {-0.9061798459386640, -0.5384693101056831, 0.0,

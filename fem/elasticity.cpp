@@ -2,16 +2,15 @@
 
 #include "fem/elasticity.hpp"
 
-#include <deal.II/base/mpi.templates.h>
 #include <deal.II/distributed/grid_refinement.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/error_estimator.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace listric::fem {
@@ -48,6 +47,39 @@ dealii::Quadrature<1> in_parts(const dealii::Quadrature<1>& points, std::vector<
     return {place, weight};
 }
 
+/// Adds the lower triangle of a cell's integral of sigma(u) : eps(v).
+void add_stiffness(const dealii::FEValues<2>& values, const Material& material,
+                   const std::vector<unsigned>& component, dealii::FullMatrix<double>& local) {
+    for (const unsigned q : values.quadrature_point_indices()) {
+        const Rock rock = material.at(plain(values.quadrature_point(q)));
+        const double w = values.JxW(q);
+        for (unsigned i = 0; i < component.size(); ++i) {
+            const Tensor<1, 2> gi = values.shape_grad(i, q);
+            const unsigned a = component[i];
+            for (unsigned j = 0; j <= i; ++j) {
+                const Tensor<1, 2> gj = values.shape_grad(j, q);
+                const unsigned b = component[j];
+                // of one-component fields u = N_j e_b, v = N_i e_a
+                local(i, j) += w * (rock.lambda * gi[a] * gj[b] + rock.mu * gi[b] * gj[a] +
+                                    (a == b ? rock.mu * (gi * gj) : 0.0));
+            }
+        }
+    }
+}
+
+/// Adds the integral of v . f over a cell or face, and of f to the total; f by quadrature point.
+template <class Values, class Force>
+void add_forces(const Values& values, const std::vector<unsigned>& component, Force&& force,
+                dealii::Vector<double>& local, Vector& total) {
+    for (const unsigned q : values.quadrature_point_indices()) {
+        const Vector f = force(q);
+        const double w = values.JxW(q);
+        total = total + w * f;
+        for (unsigned i = 0; i < component.size(); ++i)
+            local(i) += w * values.shape_value(i, q) * (component[i] == 0 ? f.x : f.y);
+    }
+}
+
 /// Starts MPI and PETSc with the first footwall and ends them with the program.
 void start_once() {
     static char name[] = "listric", quiet[] = "-no_signal_handler";
@@ -78,7 +110,7 @@ void ElasticFootwall::set_up() {
         if (side == Side::roller) {
             const dealii::IndexSet held = dealii::DoFTools::extract_boundary_dofs(
                 unknowns_, dealii::ComponentMask(std::vector<bool>{true, false}),
-                {static_cast<dealii::types::boundary_id>(boundary)});
+                {id_of(boundary)});
             for (const Index i : held)
                 if (!constraints_.is_constrained(i))
                     constraints_.add_line(i);
@@ -117,58 +149,36 @@ void ElasticFootwall::measure_mesh() {
         throw FootwallError("no mesh: cells fold over; make cells or skin smaller");
 }
 
+/// Of every unknown of an element: 0 for x, 1 for y.
+std::vector<unsigned> ElasticFootwall::components() const {
+    std::vector<unsigned> component(element_.n_dofs_per_cell());
+    for (unsigned i = 0; i < component.size(); ++i)
+        component[i] = element_.system_to_component_index(i).first;
+    return component;
+}
+
 void ElasticFootwall::assemble() {
-    const dealii::QGauss<2> points = quadrature();
     const dealii::QGauss<1> face_points = face_quadrature();
-    dealii::FEValues<2> values(mapping_, element_, points, volume_flags);
+    dealii::FEValues<2> values(mapping_, element_, quadrature(), volume_flags);
     dealii::FEFaceValues<2> face_values(mapping_, element_, face_points, face_flags);
     const unsigned n = element_.n_dofs_per_cell();
-    dealii::FullMatrix<double> local(n, n);
+    dealii::FullMatrix<double> local(n, n); // its lower triangle first
     std::vector<Index> indices(n);
-    std::vector<unsigned> component(n);
-    for (unsigned i = 0; i < n; ++i)
-        component[i] = element_.system_to_component_index(i).first;
+    const std::vector<unsigned> component = components();
     stiffness_ = 0.0;
     for_each_own_cell([&](const auto& cell) {
         values.reinit(cell);
         local = 0.0;
-        for (unsigned q = 0; q < points.size(); ++q) {
-            const Rock rock = material_.at(plain(values.quadrature_point(q)));
-            const double w = values.JxW(q);
-            for (unsigned i = 0; i < n; ++i) {
-                const Tensor<1, 2> gi = values.shape_grad(i, q);
-                const unsigned a = component[i];
-                for (unsigned j = 0; j <= i; ++j) {
-                    const Tensor<1, 2> gj = values.shape_grad(j, q);
-                    const unsigned b = component[j];
-                    // sigma(u) : eps(v) of one-component fields u = N_j e_b, v = N_i e_a
-                    local(i, j) += w * (rock.lambda * gi[a] * gj[b] + rock.mu * gi[b] * gj[a] +
-                                        (a == b ? rock.mu * (gi * gj) : 0.0));
-                }
-            }
-        }
+        add_stiffness(values, material_, component, local);
         for (const unsigned f : cell->face_indices()) {
             if (!cell->face(f)->at_boundary())
                 continue;
-            const int boundary = static_cast<int>(cell->face(f)->boundary_id());
-            const double k = spring(boundary);
-            const bool is_side = boundary == static_cast<int>(Boundary::left) ||
-                                 boundary == static_cast<int>(Boundary::right);
-            if (k == 0.0 && !is_side)
+            const auto boundary = static_cast<Boundary>(cell->face(f)->boundary_id());
+            if (spring(boundary) == 0.0 && boundary != Boundary::left &&
+                boundary != Boundary::right)
                 continue;
             face_values.reinit(cell, f);
-            for (unsigned q = 0; q < face_points.size(); ++q) {
-                const double w = face_values.JxW(q);
-                const double stiffness[2] = {
-                    side_spring(boundary, plain(face_values.quadrature_point(q))),
-                    k * std::abs(face_values.normal_vector(q)[1])};
-                for (unsigned i = 0; i < n; ++i)
-                    for (unsigned j = 0; j <= i; ++j)
-                        if (component[i] == component[j])
-                            local(i, j) += w * stiffness[component[i]] *
-                                           face_values.shape_value(i, q) *
-                                           face_values.shape_value(j, q);
-            }
+            add_springs(face_values, boundary, component, local);
         }
         for (unsigned i = 0; i < n; ++i)
             for (unsigned j = 0; j < i; ++j)
@@ -182,6 +192,21 @@ void ElasticFootwall::assemble() {
     must(MatSetOption(matrix, MAT_SPD, PETSC_TRUE), "positive definiteness");
 }
 
+void ElasticFootwall::add_springs(const dealii::FEFaceValues<2>& values, Boundary boundary,
+                                  const std::vector<unsigned>& component,
+                                  dealii::FullMatrix<double>& local) const {
+    for (const unsigned q : values.quadrature_point_indices()) {
+        const double w = values.JxW(q);
+        const double stiffness[2] = {side_spring(boundary, plain(values.quadrature_point(q))),
+                                     spring(boundary) * std::abs(values.normal_vector(q)[1])};
+        for (unsigned i = 0; i < component.size(); ++i)
+            for (unsigned j = 0; j <= i; ++j)
+                if (component[i] == component[j])
+                    local(i, j) += w * stiffness[component[i]] * values.shape_value(i, q) *
+                                   values.shape_value(j, q);
+    }
+}
+
 void ElasticFootwall::make_solver(bool keep_interface) {
     if (solver_)
         must(KSPDestroy(&solver_), "cannot drop the old factors");
@@ -191,57 +216,70 @@ void ElasticFootwall::make_solver(bool keep_interface) {
     must(KSPCreate(processes, &solver_), "no solver");
     must(KSPSetOperators(solver_, matrix, matrix), "no operator");
     must(KSPGetPC(solver_, &preconditioner), "no preconditioner");
-    if (request_.solver == Solver::mumps) {
-        must(KSPSetType(solver_, KSPPREONLY), "type");
-        must(PCSetType(preconditioner, PCCHOLESKY), "Cholesky");
-        must(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS), "MUMPS");
-        if (keep_interface) {
-            std::vector<PetscInt> kept;
-            for (const auto& node : node_unknowns_)
-                for (const Index unknown : node)
-                    kept.push_back(static_cast<PetscInt>(unknown));
-            IS interface = nullptr;
-            must(ISCreateGeneral(processes, static_cast<PetscInt>(kept.size()), kept.data(),
-                                 PETSC_COPY_VALUES, &interface),
-                 "interface");
-            must(PCFactorSetUpMatSolverType(preconditioner), "MUMPS");
-            must(MatFactorSetSchurIS(solver_factors(), interface), "interface");
-            must(ISDestroy(&interface), "interface");
-        }
-    } else {
-        must(KSPSetType(solver_, KSPCG), "conjugate gradients");
-        must(KSPSetTolerances(solver_, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 1000), "tolerance");
-        // Unknowns come in pairs x, y, which both multigrids want to know.
-        must(MatSetBlockSize(matrix, 2), "block size");
-        if (request_.solver == Solver::boomeramg) {
-            must(PCSetType(preconditioner, PCHYPRE), "hypre");
-            must(PCHYPRESetType(preconditioner, "boomeramg"), "BoomerAMG");
-        } else {
-            must(PCSetType(preconditioner, PCGAMG), "GAMG");
-            GlobalVector places(owned_, processes);
-            const auto units = element_.base_element(0).get_unit_support_points();
-            dealii::FEValues<2> values(mapping_, element_, dealii::Quadrature<2>(units),
-                                       dealii::update_quadrature_points);
-            std::vector<Index> indices(element_.n_dofs_per_cell());
-            for_each_own_cell([&](const auto& cell) {
-                values.reinit(cell);
-                cell->get_dof_indices(indices);
-                for (unsigned i = 0; i < indices.size(); ++i) {
-                    const auto [component, place] = element_.system_to_component_index(i);
-                    if (owned_.is_element(indices[i]))
-                        places(indices[i]) = values.quadrature_point(place)[component];
-                }
-            });
-            places.compress(dealii::VectorOperation::insert);
-            const Vec coordinates = places;
-            MatNullSpace motions = nullptr;
-            must(VecSetBlockSize(coordinates, 2), "block size");
-            must(MatNullSpaceCreateRigidBody(coordinates, &motions), "rigid motions");
-            must(MatSetNearNullSpace(matrix, motions), "rigid motions");
-            must(MatNullSpaceDestroy(&motions), "rigid motions");
-        }
-    }
+    if (request_.solver == Solver::mumps)
+        use_factors(preconditioner, keep_interface);
+    else
+        use_multigrid(preconditioner);
     must(KSPSetUp(solver_), "the stiffness has no factors");
+}
+
+void ElasticFootwall::use_factors(PC preconditioner, bool keep_interface) {
+    must(KSPSetType(solver_, KSPPREONLY), "type");
+    must(PCSetType(preconditioner, PCCHOLESKY), "Cholesky");
+    must(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS), "MUMPS");
+    if (!keep_interface)
+        return;
+    std::vector<PetscInt> kept;
+    for (const auto& node : node_unknowns_)
+        for (const Index unknown : node)
+            kept.push_back(static_cast<PetscInt>(unknown));
+    IS interface = nullptr;
+    must(ISCreateGeneral(processes, static_cast<PetscInt>(kept.size()), kept.data(),
+                         PETSC_COPY_VALUES, &interface),
+         "interface");
+    must(PCFactorSetUpMatSolverType(preconditioner), "MUMPS");
+    must(MatFactorSetSchurIS(solver_factors(), interface), "interface");
+    must(ISDestroy(&interface), "interface");
+}
+
+void ElasticFootwall::use_multigrid(PC preconditioner) {
+    const Mat matrix = stiffness_;
+    must(KSPSetType(solver_, KSPCG), "conjugate gradients");
+    must(KSPSetTolerances(solver_, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 1000), "tolerance");
+    // Unknowns come in pairs x, y, which both multigrids want to know.
+    must(MatSetBlockSize(matrix, 2), "block size");
+    if (request_.solver == Solver::boomeramg) {
+        must(PCSetType(preconditioner, PCHYPRE), "hypre");
+        must(PCHYPRESetType(preconditioner, "boomeramg"), "BoomerAMG");
+    } else {
+        must(PCSetType(preconditioner, PCGAMG), "GAMG");
+        name_rigid_motions();
+    }
+}
+
+void ElasticFootwall::name_rigid_motions() {
+    GlobalVector places(owned_, processes);
+    const auto units = element_.base_element(0).get_unit_support_points();
+    dealii::FEValues<2> values(mapping_, element_, dealii::Quadrature<2>(units),
+                               dealii::update_quadrature_points);
+    std::vector<Index> indices(element_.n_dofs_per_cell());
+    for_each_own_cell([&](const auto& cell) {
+        values.reinit(cell);
+        cell->get_dof_indices(indices);
+        for (unsigned i = 0; i < indices.size(); ++i) {
+            const auto [component, place] = element_.system_to_component_index(i);
+            if (owned_.is_element(indices[i]))
+                places(indices[i]) = values.quadrature_point(place)[component];
+        }
+    });
+    places.compress(dealii::VectorOperation::insert);
+    const Vec coordinates = places;
+    const Mat matrix = stiffness_;
+    MatNullSpace motions = nullptr;
+    must(VecSetBlockSize(coordinates, 2), "block size");
+    must(MatNullSpaceCreateRigidBody(coordinates, &motions), "rigid motions");
+    must(MatSetNearNullSpace(matrix, motions), "rigid motions");
+    must(MatNullSpaceDestroy(&motions), "rigid motions");
 }
 
 /// The load's forces on all unknowns, and their sum.
@@ -253,72 +291,62 @@ std::pair<GlobalVector, Vector> ElasticFootwall::forces_of(const Load& load) con
     dealii::FEValues<2> values(mapping_, element_, points, volume_flags);
     dealii::FEFaceValues<2> whole_face(mapping_, element_, dealii::QIterated<1>(gauss, 4),
                                        face_flags);
-    const unsigned n = element_.n_dofs_per_cell();
-    dealii::Vector<double> local(n);
-    std::vector<Index> indices(n);
-    double total[2] = {0.0, 0.0};
-    if (load.body || load.traction)
-        for_each_own_cell([&](const auto& cell) {
-            local = 0.0;
-            bool is_loaded = false;
-            if (load.body) {
-                is_loaded = true;
-                values.reinit(cell);
-                for (unsigned q = 0; q < points.size(); ++q) {
-                    const Vector f = load.body(plain(values.quadrature_point(q)));
-                    const double w = values.JxW(q);
-                    total[0] += w * f.x;
-                    total[1] += w * f.y;
-                    for (unsigned i = 0; i < n; ++i)
-                        local(i) += w * values.shape_value(i, q) *
-                                    (element_.system_to_component_index(i).first == 0 ? f.x : f.y);
-                }
-            }
-            for (const unsigned f : cell->face_indices()) {
-                if (!load.traction || !cell->face(f)->at_boundary())
-                    continue;
-                is_loaded = true;
-                std::unique_ptr<dealii::FEFaceValues<2>> parts;
-                if (const std::vector<double> at = jumps_within(*cell->face(f), load.jumps);
-                    !at.empty())
-                    parts = std::make_unique<dealii::FEFaceValues<2>>(
-                        mapping_, element_, in_parts(gauss, at), face_flags);
-                dealii::FEFaceValues<2>& face_values = parts ? *parts : whole_face;
-                face_values.reinit(cell, f);
-                for (unsigned q = 0; q < face_values.n_quadrature_points; ++q) {
-                    const auto normal = face_values.normal_vector(q);
-                    const Vector t = load.traction(
-                        plain(face_values.quadrature_point(q)), {normal[0], normal[1]},
-                        static_cast<Boundary>(cell->face(f)->boundary_id()));
-                    const double w = face_values.JxW(q);
-                    total[0] += w * t.x;
-                    total[1] += w * t.y;
-                    for (unsigned i = 0; i < n; ++i)
-                        local(i) += w * face_values.shape_value(i, q) *
-                                    (element_.system_to_component_index(i).first == 0 ? t.x : t.y);
-                }
-            }
-            if (!is_loaded)
-                return;
-            cell->get_dof_indices(indices);
-            constraints_.distribute_local_to_global(local, indices, forces);
-        });
-    Vector sum{dealii::Utilities::MPI::sum(total[0], processes),
-               dealii::Utilities::MPI::sum(total[1], processes)};
-    if (!load.interface.empty()) {
-        if (load.interface.size() != 2 * nodes_.size())
-            throw FootwallError("the load has " + std::to_string(load.interface.size()) +
-                                " interface forces, the interface " +
-                                std::to_string(2 * nodes_.size()));
-        for (std::size_t i = 0; i < load.interface.size(); ++i) {
-            const Index unknown = node_unknowns_[i / 2][i % 2];
-            if (owned_.is_element(unknown))
-                forces(unknown) += load.interface[i];
-            (i % 2 ? sum.y : sum.x) += load.interface[i];
+    const std::vector<unsigned> component = components();
+    dealii::Vector<double> local(element_.n_dofs_per_cell());
+    std::vector<Index> indices(element_.n_dofs_per_cell());
+    Vector total;
+    for_each_own_cell([&](const auto& cell) {
+        if (!load.body && !(load.traction && cell->at_boundary()))
+            return;
+        local = 0.0;
+        if (load.body) {
+            values.reinit(cell);
+            add_forces(
+                values, component,
+                [&](unsigned q) { return load.body(plain(values.quadrature_point(q))); }, local,
+                total);
         }
-    }
+        for (const unsigned f : cell->face_indices()) {
+            if (!load.traction || !cell->face(f)->at_boundary())
+                continue;
+            std::unique_ptr<dealii::FEFaceValues<2>> parts;
+            if (const std::vector<double> at = jumps_within(*cell->face(f), load.jumps);
+                !at.empty())
+                parts = std::make_unique<dealii::FEFaceValues<2>>(mapping_, element_,
+                                                                  in_parts(gauss, at), face_flags);
+            dealii::FEFaceValues<2>& face_values = parts ? *parts : whole_face;
+            face_values.reinit(cell, f);
+            const auto boundary = static_cast<Boundary>(cell->face(f)->boundary_id());
+            const auto traction = [&](unsigned q) {
+                const auto normal = face_values.normal_vector(q);
+                return load.traction(plain(face_values.quadrature_point(q)), {normal[0], normal[1]},
+                                     boundary);
+            };
+            add_forces(face_values, component, traction, local, total);
+        }
+        cell->get_dof_indices(indices);
+        constraints_.distribute_local_to_global(local, indices, forces);
+    });
+    Vector sum{dealii::Utilities::MPI::sum(total.x, processes),
+               dealii::Utilities::MPI::sum(total.y, processes)};
+    if (!load.interface.empty())
+        add_interface_forces(load.interface, forces, sum);
     forces.compress(dealii::VectorOperation::add);
     return {std::move(forces), sum};
+}
+
+void ElasticFootwall::add_interface_forces(const std::vector<double>& load, GlobalVector& forces,
+                                           Vector& sum) const {
+    if (load.size() != 2 * nodes_.size())
+        throw FootwallError("the load has " + std::to_string(load.size()) +
+                            " interface forces, the interface " +
+                            std::to_string(2 * nodes_.size()));
+    for (std::size_t i = 0; i < load.size(); ++i) {
+        const Index unknown = node_unknowns_[i / 2][i % 2];
+        if (owned_.is_element(unknown))
+            forces(unknown) += load[i];
+        (i % 2 ? sum.y : sum.x) += load[i];
+    }
 }
 
 GlobalVector ElasticFootwall::displacement_under(const GlobalVector& forces) {
@@ -366,6 +394,7 @@ Responses ElasticFootwall::responses(std::span<const Load> loads) {
 }
 
 void ElasticFootwall::refine(double share_of_cells) {
+    assert(share_of_cells >= 0.0 && share_of_cells <= 1.0);
     require_solution();
     dealii::Vector<float> jumps(mesh_.cells->n_active_cells());
     dealii::KellyErrorEstimator<2>::estimate(

@@ -12,6 +12,7 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
 #include <deal.II/lac/petsc_vector.h>
 #include <petscksp.h>
@@ -29,8 +30,6 @@ inline void must(PetscErrorCode code, const char* what) {
     if (code)
         throw FootwallError(std::string("the solver failed: ") + what);
 }
-
-inline Vector plain(const dealii::Point<2>& p) { return {p[0], p[1]}; }
 
 /// Plane-strain elasticity by finite elements of degree 1 or 2: assembled and solved in
 /// elasticity.cpp, condensed to the interface in condensation.cpp, read off in solution.cpp.
@@ -85,8 +84,17 @@ private:
     dealii::QGauss<1> face_quadrature() const {
         return dealii::QGauss<1>(static_cast<unsigned>(request_.degree) + 2);
     }
-    double spring(int boundary) const {
-        switch (static_cast<Boundary>(boundary)) {
+    /// The boundary that the interface lies on.
+    Boundary wall() const {
+        return request_.detachment.empty() ? Boundary::surface : Boundary::detachment;
+    }
+    double arc_length(Vector on_wall) const {
+        return wall() == Boundary::surface ? on_wall.x - request_.left
+                                           : mesh_.detachment.nearest(on_wall);
+    }
+    /// Vertical stiffness of what a boundary rests in, Pa/m.
+    double spring(Boundary boundary) const {
+        switch (boundary) {
         case Boundary::surface:
             return request_.surface_spring;
         case Boundary::detachment:
@@ -98,10 +106,10 @@ private:
         }
     }
     /// Horizontal stiffness of a far side, Pa/m.
-    double side_spring(int boundary, Vector place) const {
-        const Side side = boundary == static_cast<int>(Boundary::left)    ? request_.left_side
-                          : boundary == static_cast<int>(Boundary::right) ? request_.right_side
-                                                                          : Side::free;
+    double side_spring(Boundary boundary, Vector place) const {
+        const Side side = boundary == Boundary::left    ? request_.left_side
+                          : boundary == Boundary::right ? request_.right_side
+                                                        : Side::free;
         if (side != Side::elastic)
             return 0.0;
         const Rock rock = material_.at(place);
@@ -110,11 +118,22 @@ private:
 
     void set_up();
     void measure_mesh();
+    struct FaceOnWall;
+    std::vector<FaceOnWall> own_faces_on_wall() const;
     void find_interface();
     void assemble();
+    void add_springs(const dealii::FEFaceValues<2>& values, Boundary boundary,
+                     const std::vector<unsigned>& component,
+                     dealii::FullMatrix<double>& local) const;
     void make_solver(bool keep_interface);
+    void use_factors(PC preconditioner, bool keep_interface);
+    void use_multigrid(PC preconditioner);
+    void name_rigid_motions(); ///< to the multigrid
     Mat solver_factors() const;
+    std::vector<unsigned> components() const;
     std::pair<GlobalVector, Vector> forces_of(const Load& load) const;
+    void add_interface_forces(const std::vector<double>& load, GlobalVector& forces,
+                              Vector& sum) const;
     GlobalVector displacement_under(const GlobalVector& forces);
     std::vector<double> at_interface(const GlobalVector& displacement) const;
     std::vector<double> inverse_of_schur_complement();

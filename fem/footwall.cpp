@@ -5,8 +5,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <dlfcn.h>
+#include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
+#include <system_error>
+#include <unistd.h>
 
 #ifndef LISTRIC_FEM_PLUGIN
 #define LISTRIC_FEM_PLUGIN ""
@@ -42,19 +46,7 @@ MakeFootwall load_plugin() {
     return entry;
 }
 
-} // namespace
-
-void check(const FootwallRequest& r) {
-    if (!(r.right > r.left))
-        refuse("the right side must lie right of the left side");
-    if (!(r.depth > 0.0))
-        refuse("the base must have a depth above 0");
-    if (!(r.cell_size > 0.0) || (r.right - r.left) / r.cell_size > 1e5 ||
-        r.depth / r.cell_size > 1e5)
-        refuse("the cell size (" + number(r.cell_size) +
-               " m) must be above 0 and at least 1e-5 of the footwall's width and depth");
-    if (r.degree != 1 && r.degree != 2)
-        refuse("elements of degree " + std::to_string(r.degree) + ", allowed: 1 and 2");
+void check_layers(const FootwallRequest& r) {
     if (r.layers.empty())
         refuse("there are no layers, at least one is needed");
     if (r.layers.front().top_depth != 0.0)
@@ -79,8 +71,10 @@ void check(const FootwallRequest& r) {
             refuse(name + " begins at a depth of " + number(layer.top_depth) +
                    " m, allowed: above the base at " + number(r.depth));
     }
-    if (r.elastic_thickness < 0.0 || !(r.relaxation >= 1.0) || r.skin_thickness < 0.0)
-        refuse("elastic and skin thickness must be at least 0, the relaxation at least 1");
+}
+
+/// Springs and sides: what holds the footwall in place.
+void check_supports(const FootwallRequest& r) {
     for (double spring : {r.surface_spring, r.detachment_spring, r.base_spring})
         if (!(spring >= 0.0) || !std::isfinite(spring))
             refuse("springs must be at least 0 Pa/m");
@@ -88,21 +82,42 @@ void check(const FootwallRequest& r) {
         refuse("nothing holds the footwall: surface, detachment or base needs a spring");
     if (r.left_side == Side::free && r.right_side == Side::free)
         refuse("nothing holds the footwall sideways: one side needs rollers or springs");
-    if (!r.detachment.empty()) {
-        const Vector start = r.detachment.front().start;
-        if (!(start.x > r.left) || std::abs(start.y) > 1e-6 * r.cell_size)
-            refuse(
-                "the detachment leaves the mesh: it must begin at y = 0, right of the left side");
-        constexpr double slack = 1e-9, right_angle = 1.5707963267948966;
-        for (const Piece& piece : r.detachment)
-            for (double s : {0.0, piece.length}) {
-                const double direction = piece.direction + piece.curvature * s;
-                if (direction > slack || direction < -right_angle - slack)
-                    refuse("the detachment rises or overhangs; allowed are dips from 0 to 90 "
-                           "degrees");
-            }
-        extended_detachment(r); // checks its end
-    }
+}
+
+void check_detachment(const FootwallRequest& r) {
+    const Vector start = r.detachment.front().start;
+    if (!(start.x > r.left) || std::abs(start.y) > 1e-6 * r.cell_size)
+        refuse("the detachment leaves the mesh: it must begin at y = 0, right of the left side");
+    constexpr double slack = 1e-9, right_angle = 0.5 * std::numbers::pi;
+    for (const Piece& piece : r.detachment)
+        for (double s : {0.0, piece.length}) {
+            const double direction = direction_at(piece, s);
+            if (direction > slack || direction < -right_angle - slack)
+                refuse("the detachment rises or overhangs; allowed are dips from 0 to 90 "
+                       "degrees");
+        }
+    extended_detachment(r); // checks its end
+}
+
+} // namespace
+
+void check(const FootwallRequest& r) {
+    if (!(r.right > r.left))
+        refuse("the right side must lie right of the left side");
+    if (!(r.depth > 0.0))
+        refuse("the base must have a depth above 0");
+    if (!(r.cell_size > 0.0) || (r.right - r.left) / r.cell_size > 1e5 ||
+        r.depth / r.cell_size > 1e5)
+        refuse("the cell size (" + number(r.cell_size) +
+               " m) must be above 0 and at least 1e-5 of the footwall's width and depth");
+    if (r.degree != 1 && r.degree != 2)
+        refuse("elements of degree " + std::to_string(r.degree) + ", allowed: 1 and 2");
+    check_layers(r);
+    if (r.elastic_thickness < 0.0 || !(r.relaxation >= 1.0) || r.skin_thickness < 0.0)
+        refuse("elastic and skin thickness must be at least 0, the relaxation at least 1");
+    check_supports(r);
+    if (!r.detachment.empty())
+        check_detachment(r);
 }
 
 std::unique_ptr<Footwall> make_footwall(const FootwallRequest& request) {
@@ -116,7 +131,8 @@ std::unique_ptr<Footwall> make_footwall(const FootwallRequest& request) {
 }
 
 void write_series(const std::string& pvd, std::span<const std::pair<double, std::string>> moments) {
-    std::ofstream out(pvd);
+    const std::string temporary = pvd + "." + std::to_string(getpid()) + ".part";
+    std::ofstream out(temporary);
     out.precision(17);
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
            "byte_order=\"LittleEndian\">\n<Collection>\n";
@@ -124,8 +140,14 @@ void write_series(const std::string& pvd, std::span<const std::pair<double, std:
         out << "<DataSet timestep=\"" << time << "\" part=\"0\" name=\"footwall\" file=\"" << file
             << "\"/>\n";
     out << "</Collection>\n</VTKFile>\n";
-    if (!out.flush())
+    out.close();
+    std::error_code error;
+    if (out)
+        std::filesystem::rename(temporary, pvd, error);
+    if (!out || error) {
+        std::filesystem::remove(temporary, error);
         refuse("cannot write " + pvd);
+    }
 }
 
 } // namespace listric::fem

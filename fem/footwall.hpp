@@ -4,80 +4,18 @@
 // knows no discs and names no finite-element library, which lives in a plug-in that is loaded when
 // a scene asks for an elastic base.
 
+#include "fem/request.hpp"
+
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace listric::fem {
-
-/// A place, displacement, force or traction in the section: x to the right, y up; SI units.
-struct Vector {
-    double x = 0.0, y = 0.0;
-};
-
-/// Straight or circular piece of the detachment. The footwall lies to the right of its direction.
-struct Piece {
-    Vector start;           ///< m
-    double direction = 0.0; ///< of travel at the start: angle from +x, rad; downward negative
-    double length = 0.0;    ///< m
-    double curvature = 0.0; ///< 1/m; > 0 turns left, away from the footwall
-};
-
-/// Rock from a depth down to the next layer's.
-struct Layer {
-    double top_depth = 0.0;      ///< m below y = 0
-    double young_modulus = 70e9; ///< Pa
-    double poisson_ratio = 0.25; ///< below 0.5
-    double density = 2700.0;     ///< kg/m^3, for the springs and for output
-};
-
-enum class Boundary { left = 1, base = 2, right = 3, surface = 4, detachment = 5 };
-
-/// What holds a far side: nothing, no horizontal motion, or springs of the stiffness of as much
-/// rock again, (lambda + 2 mu) / width, held beyond.
-enum class Side { free, roller, elastic };
-
-enum class Solver {
-    mumps,     ///< Cholesky factors; needed for the compliance
-    boomeramg, ///< conjugate gradients with hypre's algebraic multigrid
-    gamg       ///< the same with PETSc's, which knows the rigid motions
-};
-
-struct FootwallRequest {
-    std::vector<Piece> detachment; ///< from the breakaway at (0, 0) down; none: a flat layer
-    double left = -300e3;          ///< x of the far sides, m
-    double right = 350e3;
-    double depth = 30e3; ///< of the base, m
-    Side left_side = Side::roller, right_side = Side::roller;
-
-    std::vector<Layer> layers = std::vector<Layer>(1); ///< by depth, the first from 0
-    /// Below this depth, m, rock keeps its bulk modulus and has its shear modulus divided by
-    /// `relaxation`: a crust that is no longer rigid but still incompressible. 0: nowhere.
-    double elastic_thickness = 0.0;
-    double relaxation = 100.0;
-    /// Rock within this distance of the detachment, m, is never relaxed.
-    double skin_thickness = 0.0;
-
-    /// Vertical springs at the density contrasts: Pa per m of vertical displacement, on the
-    /// horizontal projection of the boundary. rho_c g above, (rho_m - rho_c) g at the base.
-    double surface_spring = 0.0, detachment_spring = 0.0, base_spring = 0.0;
-
-    int degree = 2;                     ///< of the elements: 1 or 2
-    int refinements = 0;                ///< times that all cells are halved on top
-    double cell_size = 1000.0;          ///< near the detachment, m
-    std::vector<double> surface_breaks; ///< x where cells of a flat layer meet: edges of loads, m
-    double fine_until = 60e3;           ///< cells grow beyond this x, m
-    /// The interface ends here, m; by default one node before the right side.
-    double interface_end = std::numeric_limits<double>::infinity();
-    std::string mesh_file; ///< Gmsh .msh to use instead of the mesh made from the detachment
-    Solver solver = Solver::mumps;
-};
 
 struct InterfaceNode {
     Vector place;            ///< m
@@ -169,7 +107,8 @@ public:
     virtual const std::vector<InterfaceFace>& interface_faces() const = 0;
 
     /// Forces on the interface's nodes that are equivalent to forces at points: the shape functions
-    /// at the closest point of the trace X = sum N_i X_i, so that force and moment are kept.
+    /// at the closest point of the trace X = sum N_i X_i, so that force and moment are kept. Throws
+    /// FootwallError where a place is not finite.
     virtual std::vector<double> nodal_forces(std::span<const PointForce> forces) const = 0;
 
     /// Displacements of the interface's nodes for unit forces on them: symmetric, positive
@@ -193,16 +132,12 @@ public:
     virtual Guard guard(double rock_weight) const = 0; ///< weight of rock, N/m^3
 
     /// Refines the cells with the largest jumps of the last solution's gradient (Kelly et al.
-    /// 1983). The solution is gone; the interface has no condensed form any more.
+    /// 1983), a share from 0 to 1. The solution is gone; the interface has no condensed form any
+    /// more.
     virtual void refine(double share_of_cells) = 0;
 
     /// Writes the last solution as folder/name.vtu: displacement, stress, density, elastic moduli.
     virtual void write(const std::string& folder, const std::string& name) const = 0;
-};
-
-/// Input that makes no footwall; what() says what is wrong and what is allowed.
-struct FootwallError : std::runtime_error {
-    using std::runtime_error::runtime_error;
 };
 
 /// Refuses impossible numbers. Throws FootwallError.
@@ -212,11 +147,13 @@ void check(const FootwallRequest& request);
 /// the packages to install where the plug-in is missing.
 std::unique_ptr<Footwall> make_footwall(const FootwallRequest& request);
 
-/// A series of written fields that ParaView opens: file names beside the .pvd, and their times.
+/// A series of written fields that ParaView opens: file names beside the .pvd, and their times. The
+/// file is replaced whole or not at all. Throws FootwallError.
 void write_series(const std::string& pvd, std::span<const std::pair<double, std::string>> moments);
 
 /// The plug-in's only entry. On failure null, with the reason in `message`. Its name,
-/// LISTRIC_FEM_ENTRY, has a hash of this file: a plug-in of another build has none of that name.
+/// LISTRIC_FEM_ENTRY, has a hash of this file and of those of fem/ that it includes: a plug-in of
+/// another build has none of that name.
 extern "C" {
 using MakeFootwall = Footwall* (*)(const FootwallRequest& request, std::string& message);
 }

@@ -5,9 +5,11 @@
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 namespace listric::fem {
 
@@ -16,6 +18,11 @@ namespace {
 using dealii::Point;
 
 constexpr dealii::types::manifold_id interior_id = 10;
+
+constexpr dealii::types::manifold_id id_of(EdgeCurve curve) {
+    return curve == EdgeCurve::straight ? interior_id
+                                        : static_cast<dealii::types::manifold_id>(curve);
+}
 
 /// Places new points on a curve, in the middle by arc length.
 class CurveManifold : public dealii::Manifold<2> {
@@ -30,7 +37,7 @@ public:
                            const dealii::ArrayView<const double>& weights) const override {
         double s = 0.0;
         for (std::size_t k = 0; k < surrounding.size(); ++k)
-            s += weights[k] * curve_.nearest({surrounding[k][0], surrounding[k][1]});
+            s += weights[k] * curve_.nearest(plain(surrounding[k]));
         const Vector p = curve_.at(s);
         return {p.x, p.y};
     }
@@ -40,13 +47,79 @@ private:
 };
 
 /// Area of the quadrilateral's corner at which it is smallest.
-double least_corner(const std::array<Point<2>, 4>& v) {
-    const auto corner = [&](int at, int right, int up) {
-        const auto a = v[static_cast<std::size_t>(right)] - v[static_cast<std::size_t>(at)];
-        const auto b = v[static_cast<std::size_t>(up)] - v[static_cast<std::size_t>(at)];
-        return a[0] * b[1] - a[1] * b[0];
+double least_corner(const std::array<Vector, 4>& v) {
+    const auto corner = [&](std::size_t at, std::size_t right, std::size_t up) {
+        return cross(v[right] - v[at], v[up] - v[at]);
     };
     return std::min({corner(0, 1, 2), corner(1, 3, 0), corner(2, 0, 3), corner(3, 2, 1)});
+}
+
+std::vector<dealii::CellData<2>> coarse_cells(const BlockMesh& blocks) {
+    std::vector<dealii::CellData<2>> cells;
+    for (const BlockMesh::Cell& cell : blocks.cells) {
+        dealii::CellData<2> data;
+        std::array<Vector, 4> corners;
+        for (std::size_t k = 0; k < 4; ++k) {
+            data.vertices[k] = cell.vertices[k];
+            corners[k] = blocks.vertices[cell.vertices[k]];
+        }
+        if (!(least_corner(corners) > 0.0))
+            throw FootwallError(
+                "no mesh: cells fold over near x = " + std::to_string(corners[0].x) +
+                " m, y = " + std::to_string(corners[0].y) +
+                " m; make the skin thinner, the bends of the detachment wider or "
+                "the base deeper");
+        data.manifold_id = interior_id;
+        cells.push_back(data);
+    }
+    dealii::GridTools::consistently_order_cells(cells);
+    return cells;
+}
+
+dealii::SubCellData coarse_edges(const BlockMesh& blocks) {
+    dealii::SubCellData lines;
+    for (const BlockMesh::Edge& edge : blocks.edges) {
+        dealii::CellData<1> data;
+        data.vertices = {edge.start, edge.end};
+        data.boundary_id =
+            edge.boundary ? id_of(*edge.boundary) : dealii::numbers::internal_face_boundary_id;
+        data.manifold_id = id_of(edge.curve);
+        // Both neighbours name the strip's lower edge.
+        const bool is_known = std::ranges::any_of(lines.boundary_lines, [&](const auto& other) {
+            return (other.vertices[0] == edge.start && other.vertices[1] == edge.end) ||
+                   (other.vertices[0] == edge.end && other.vertices[1] == edge.start);
+        });
+        if (!is_known)
+            lines.boundary_lines.push_back(data);
+    }
+    return lines;
+}
+
+/// Arc lengths of a face's ends, if both are on the curve.
+template <class Face>
+std::optional<std::pair<double, double>> ends_on(const Curve& curve, const Face& face,
+                                                 double tolerance) {
+    const Vector a = plain(face.vertex(0)), b = plain(face.vertex(1));
+    const double s = curve.nearest(a), t = curve.nearest(b);
+    if (!(norm(curve.at(s) - a) < tolerance && norm(curve.at(t) - b) < tolerance))
+        return std::nullopt;
+    return std::pair(s, t);
+}
+
+void follow_curves(Mesh& mesh, const BlockMesh& blocks, double tolerance) {
+    for (const auto& cell : mesh.cells->cell_iterators_on_level(0))
+        for (const auto& face : cell->face_iterators())
+            if (face->at_boundary()) {
+                if (face->boundary_id() == id_of(Boundary::detachment) &&
+                    ends_on(blocks.detachment, *face, tolerance))
+                    face->set_manifold_id(id_of(EdgeCurve::detachment));
+            } else if (const auto ends = ends_on(blocks.skin, *face, tolerance);
+                       // an edge of the curve, not one between two of its points
+                       ends && std::abs(ends->first - ends->second) < 1.6 * face->measure()) {
+                face->set_manifold_id(id_of(EdgeCurve::skin));
+            }
+    mesh.cells->set_manifold(id_of(EdgeCurve::detachment), CurveManifold(blocks.detachment));
+    mesh.cells->set_manifold(id_of(EdgeCurve::skin), CurveManifold(blocks.skin));
 }
 
 void read_blocks(Mesh& mesh, const FootwallRequest& request) {
@@ -54,192 +127,181 @@ void read_blocks(Mesh& mesh, const FootwallRequest& request) {
     std::vector<Point<2>> vertices;
     for (const Vector& v : blocks.vertices)
         vertices.emplace_back(v.x, v.y);
-    std::vector<dealii::CellData<2>> cells;
-    for (const BlockMesh::Cell& cell : blocks.cells) {
-        dealii::CellData<2> data;
-        std::array<Point<2>, 4> corners;
-        for (std::size_t k = 0; k < 4; ++k) {
-            data.vertices[k] = cell.vertices[k];
-            corners[k] = vertices[cell.vertices[k]];
-        }
-        if (!(least_corner(corners) > 0.0))
-            throw FootwallError(
-                "no mesh: cells fold over near x = " + std::to_string(corners[0][0]) +
-                " m, y = " + std::to_string(corners[0][1]) +
-                " m; make the skin thinner, the bends of the detachment wider or "
-                "the base deeper");
-        data.manifold_id = interior_id;
-        cells.push_back(data);
-    }
-    dealii::GridTools::consistently_order_cells(cells);
-    dealii::SubCellData lines;
-    for (const BlockMesh::Edge& edge : blocks.edges) {
-        dealii::CellData<1> data;
-        data.vertices = {edge.start, edge.end};
-        data.boundary_id = edge.boundary ? static_cast<dealii::types::boundary_id>(edge.boundary)
-                                         : dealii::numbers::internal_face_boundary_id;
-        data.manifold_id = edge.curve == EdgeCurve::straight
-                               ? interior_id
-                               : static_cast<dealii::types::manifold_id>(edge.curve);
-        // Both neighbours name the strip's lower edge.
-        bool known = false;
-        for (const auto& other : lines.boundary_lines)
-            known |= (other.vertices[0] == edge.start && other.vertices[1] == edge.end) ||
-                     (other.vertices[0] == edge.end && other.vertices[1] == edge.start);
-        if (!known)
-            lines.boundary_lines.push_back(data);
-    }
     mesh.detachment = blocks.detachment;
-    mesh.cells->create_triangulation(vertices, cells, lines);
-    mesh.cells->set_all_manifold_ids(interior_id);
-    // Again, because the line above has overwritten them on the curves.
-    const double tolerance = 1e-6 * request.cell_size;
-    for (const auto& cell : mesh.cells->cell_iterators_on_level(0))
-        for (const auto& face : cell->face_iterators())
-            for (const auto& [curve, id] :
-                 {std::pair(&blocks.detachment, 1u), std::pair(&blocks.skin, 2u)}) {
-                if (curve->empty() || (id == 1 && !face->at_boundary()))
-                    continue;
-                const Point<2> a = face->vertex(0), b = face->vertex(1);
-                const double s = curve->nearest({a[0], a[1]}), t = curve->nearest({b[0], b[1]});
-                const auto off = [&](const Point<2>& p, double at) {
-                    const Vector q = curve->at(at);
-                    return std::hypot(q.x - p[0], q.y - p[1]);
-                };
-                // An edge of the curve, not one between two of its points.
-                if (off(a, s) < tolerance && off(b, t) < tolerance &&
-                    (face->at_boundary() ? face->boundary_id() == 5 && id == 1
-                                         : std::abs(s - t) < 1.6 * face->measure()))
-                    face->set_manifold_id(id);
-            }
-    if (!blocks.detachment.empty()) {
-        mesh.cells->set_manifold(1, CurveManifold(blocks.detachment));
-        mesh.cells->set_manifold(2, CurveManifold(blocks.skin));
-    }
+    mesh.cells->create_triangulation(vertices, coarse_cells(blocks), coarse_edges(blocks));
+    mesh.cells->set_all_manifold_ids(interior_id); // on the curves, too
+    if (!blocks.detachment.empty())
+        follow_curves(mesh, blocks, 1e-6 * request.cell_size);
     mesh.interior->initialize(*mesh.cells);
     mesh.cells->set_manifold(interior_id, *mesh.interior);
     mesh.cells->refine_global(blocks.halvings);
 }
 
-void read_gmsh(Mesh& mesh, const FootwallRequest& request) {
-    namespace fs = std::filesystem;
+/// Reads nodes and elements of a Gmsh file and refuses what deal.II would misread, or, like
+/// inverted cells, mend without a word.
+class MshScan {
+public:
+    explicit MshScan(const std::string& name) : name_(name), file_(name) {}
+
+    void run() {
+        std::string word;
+        double version = 0.0;
+        file_ >> word;
+        if (word != "$MeshFormat" || !(file_ >> version) || version < 2.0 || version >= 3.0)
+            refuse("is no Gmsh mesh of format 2.2; write one with gmsh -2 -format msh22");
+        while (file_ >> word)
+            if (word == "$Nodes")
+                scan_nodes();
+            else if (word == "$Elements")
+                scan_elements();
+        if (quadrilaterals_ == 0)
+            refuse("has no quadrilaterals");
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& reason) const {
+        throw FootwallError(name_ + ": " + reason);
+    }
+
+    void scan_nodes() {
+        std::size_t count = 0, number = 0;
+        double x = 0.0, y = 0.0, z = 0.0;
+        file_ >> count;
+        nodes_.resize(count + 1);
+        for (std::size_t k = 0; k < count && file_ >> number >> x >> y >> z; ++k) {
+            if (number > count)
+                refuse("node numbers have gaps; write it with gmsh's renumbering");
+            nodes_[number] = {x, y};
+        }
+    }
+
+    void scan_elements() {
+        constexpr std::size_t point = 15, line = 1, quadrilateral = 3; // Gmsh's types
+        std::size_t count = 0;
+        file_ >> count;
+        for (std::size_t k = 0; k < count; ++k) {
+            std::size_t number = 0, type = 0, tags = 0, tag = 0;
+            file_ >> number >> type >> tags;
+            for (std::size_t i = 0; i < tags; ++i)
+                file_ >> tag;
+            const std::size_t corners = type == point           ? 1
+                                        : type == line          ? 2
+                                        : type == quadrilateral ? 4
+                                                                : 0;
+            if (corners == 0)
+                refuse("element " + std::to_string(number) + " is of Gmsh type " +
+                       std::to_string(type) +
+                       ", allowed: first-order lines and quadrilaterals; recombine all surfaces");
+            std::array<std::size_t, 4> v{};
+            for (std::size_t i = 0; i < corners; ++i)
+                file_ >> v[i];
+            if (!file_)
+                refuse("ends in the middle of its elements");
+            if (type == quadrilateral)
+                check_quadrilateral(number, v);
+        }
+    }
+
+    void check_quadrilateral(std::size_t number, const std::array<std::size_t, 4>& v) {
+        ++quadrilaterals_;
+        const auto at = [&](std::size_t i) {
+            if (v[i] >= nodes_.size())
+                refuse("element " + std::to_string(number) + " names node " + std::to_string(v[i]) +
+                       ", which is not there");
+            return nodes_[v[i]];
+        };
+        if (!(least_corner({at(0), at(1), at(3), at(2)}) > 0.0))
+            refuse("element " + std::to_string(number) +
+                   " is inverted or folded: nodes must run anticlockwise around a convex "
+                   "quadrilateral");
+    }
+
+    std::string name_;
+    std::ifstream file_;
+    std::vector<Vector> nodes_; ///< by number, from 1
+    std::size_t quadrilaterals_ = 0;
+};
+
+std::string place(const Point<2>& p) {
+    return "(" + std::to_string(std::lround(p[0])) + ", " + std::to_string(std::lround(p[1])) +
+           ") m";
+}
+
+/// Refuses a face of the boundary that has no name or lies off the boundary of its name.
+template <class Face>
+void check_boundary(const Mesh& mesh, const FootwallRequest& request, const Face& face) {
     const auto refuse = [&](const std::string& reason) {
         throw FootwallError(request.mesh_file + ": " + reason);
     };
-    std::error_code error;
-    if (!fs::is_regular_file(request.mesh_file, error))
-        refuse("no such mesh file");
-
-    // deal.II turns inverted cells over without a word, so the file is looked at first.
-    std::ifstream file(request.mesh_file);
-    std::string word;
-    file >> word;
-    double version = 0.0;
-    if (word != "$MeshFormat" || !(file >> version) || version < 2.0 || version >= 3.0)
-        refuse("is no Gmsh mesh of format 2.2; write one with gmsh -2 -format msh22");
-    std::vector<Point<2>> nodes;
-    std::size_t quads = 0;
-    while (file >> word) {
-        if (word == "$Nodes") {
-            std::size_t count = 0, number = 0;
-            double x = 0.0, y = 0.0, z = 0.0;
-            file >> count;
-            nodes.resize(count + 1);
-            for (std::size_t k = 0; k < count && file >> number >> x >> y >> z; ++k) {
-                if (number > count)
-                    refuse("node numbers have gaps; write it with gmsh's renumbering");
-                nodes[number] = {x, y};
-            }
-        } else if (word == "$Elements") {
-            std::size_t count = 0;
-            file >> count;
-            for (std::size_t k = 0; k < count; ++k) {
-                std::size_t number = 0, type = 0, tags = 0, tag = 0;
-                file >> number >> type >> tags;
-                for (std::size_t i = 0; i < tags; ++i)
-                    file >> tag;
-                const std::size_t corners = type == 15 ? 1 : type == 1 ? 2 : type == 3 ? 4 : 0;
-                if (corners == 0)
-                    refuse("element " + std::to_string(number) + " is of Gmsh type " +
-                           std::to_string(type) +
-                           ", allowed: first-order lines and quadrilaterals; recombine all "
-                           "surfaces");
-                std::array<std::size_t, 4> v{};
-                for (std::size_t i = 0; i < corners; ++i)
-                    file >> v[i];
-                if (!file)
-                    refuse("ends in the middle of its elements");
-                if (type != 3)
-                    continue;
-                ++quads;
-                const auto at = [&](std::size_t i) {
-                    if (v[i] >= nodes.size())
-                        refuse("element " + std::to_string(number) + " names node " +
-                               std::to_string(v[i]) + ", which is not there");
-                    return nodes[v[i]];
-                };
-                if (!(least_corner({at(0), at(1), at(3), at(2)}) > 0.0))
-                    refuse("element " + std::to_string(number) +
-                           " is inverted or folded: nodes must run anticlockwise around a convex "
-                           "quadrilateral");
-            }
+    const auto must_lie = [&](double off, const char* what) {
+        if (std::abs(off) > 0.05 * request.cell_size)
+            refuse("does not match the scene: its " + std::string(what) + " at " +
+                   place(face.center()) + " is " + std::to_string(std::lround(std::abs(off))) +
+                   " m off");
+    };
+    for (const Vector p : {plain(face.vertex(0)), plain(face.vertex(1))})
+        switch (static_cast<Boundary>(face.boundary_id())) {
+        case Boundary::left:
+            must_lie(p.x - request.left, "left side");
+            break;
+        case Boundary::base:
+            must_lie(p.y + request.depth, "base");
+            break;
+        case Boundary::right:
+            must_lie(p.x - request.right, "right side");
+            break;
+        case Boundary::surface: // of any shape
+            break;
+        case Boundary::detachment:
+            if (mesh.detachment.empty())
+                refuse("has a detachment (physical line 5), the scene has none");
+            must_lie(mesh.detachment.distance(p), "detachment");
+            break;
+        default:
+            refuse("the edge at " + place(face.center()) +
+                   " is on no named boundary; physical lines: 1 left, 2 base, 3 right, "
+                   "4 surface, 5 detachment");
         }
-    }
-    if (quads == 0)
-        refuse("has no quadrilaterals");
+}
+
+void check_boundaries(const Mesh& mesh, const FootwallRequest& request) {
+    const bool is_flat = mesh.detachment.empty();
+    bool has_interface = false;
+    for (const auto& cell : mesh.cells->cell_iterators_on_level(0))
+        for (const auto& face : cell->face_iterators())
+            if (face->at_boundary()) {
+                check_boundary(mesh, request, *face);
+                has_interface |= face->boundary_id() ==
+                                 id_of(is_flat ? Boundary::surface : Boundary::detachment);
+            }
+    if (!has_interface)
+        throw FootwallError(request.mesh_file + (is_flat
+                                                     ? ": has no surface (physical line 4)"
+                                                     : ": has no detachment (physical line 5)"));
+}
+
+void read_gmsh(Mesh& mesh, const FootwallRequest& request) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(request.mesh_file, error))
+        throw FootwallError(request.mesh_file + ": no such mesh file");
+    MshScan(request.mesh_file).run();
     try {
         dealii::GridIn<2> reader(*mesh.cells);
         std::ifstream in(request.mesh_file);
         reader.read_msh(in);
     } catch (const std::exception& problem) {
-        refuse(std::string("cannot be read: ") + problem.what());
+        throw FootwallError(request.mesh_file + ": cannot be read: " + problem.what());
     }
-    const bool flat = request.detachment.empty();
-    if (!flat)
+    if (!request.detachment.empty())
         mesh.detachment = extended_detachment(request);
-    bool has_interface = false;
-    const double tolerance = 0.05 * request.cell_size;
+    check_boundaries(mesh, request);
+    if (mesh.detachment.empty())
+        return;
     for (const auto& cell : mesh.cells->cell_iterators_on_level(0))
-        for (const auto& face : cell->face_iterators()) {
-            if (!face->at_boundary())
-                continue;
-            const auto id = face->boundary_id();
-            const auto place = [](const Point<2>& p) {
-                return "(" + std::to_string(std::lround(p[0])) + ", " +
-                       std::to_string(std::lround(p[1])) + ") m";
-            };
-            if (id < 1 || id > 5)
-                refuse("the edge at " + place(face->center()) +
-                       " is on no named boundary; physical lines: 1 left, 2 base, 3 right, "
-                       "4 surface, 5 detachment");
-            has_interface |= id == (flat ? 4 : 5);
-            const auto must_lie = [&](double off, const char* what) {
-                if (std::abs(off) > tolerance)
-                    refuse("does not match the scene: its " + std::string(what) + " at " +
-                           place(face->center()) + " is " +
-                           std::to_string(std::lround(std::abs(off))) + " m off");
-            };
-            for (unsigned k = 0; k < 2; ++k) {
-                const Point<2> p = face->vertex(k);
-                if (id == 5) {
-                    if (flat)
-                        refuse("has a detachment (physical line 5), the scene has none");
-                    must_lie(mesh.detachment.distance({p[0], p[1]}), "detachment");
-                } else if (id == 1) {
-                    must_lie(p[0] - request.left, "left side");
-                } else if (id == 3) {
-                    must_lie(p[0] - request.right, "right side");
-                } else if (id == 2) {
-                    must_lie(p[1] + request.depth, "base");
-                }
-            }
-            if (id == 5)
-                face->set_manifold_id(1);
-        }
-    if (!has_interface)
-        refuse(flat ? "has no surface (physical line 4)" : "has no detachment (physical line 5)");
-    if (!flat)
-        mesh.cells->set_manifold(1, CurveManifold(mesh.detachment));
+        for (const auto& face : cell->face_iterators())
+            if (face->at_boundary() && face->boundary_id() == id_of(Boundary::detachment))
+                face->set_manifold_id(id_of(EdgeCurve::detachment));
+    mesh.cells->set_manifold(id_of(EdgeCurve::detachment), CurveManifold(mesh.detachment));
 }
 
 } // namespace

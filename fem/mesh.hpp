@@ -9,6 +9,12 @@
 
 namespace listric::fem {
 
+constexpr dealii::types::boundary_id id_of(Boundary boundary) {
+    return static_cast<dealii::types::boundary_id>(boundary);
+}
+
+inline Vector plain(const dealii::Point<2>& p) { return {p[0], p[1]}; }
+
 /// Cells of the footwall with the curves that new vertices come to lie on.
 struct Mesh {
     std::unique_ptr<dealii::parallel::distributed::Triangulation<2>> cells;

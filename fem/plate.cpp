@@ -1,5 +1,6 @@
 #include "fem/plate.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -17,27 +18,28 @@ double Plate::line(double x, double load) const {
 }
 
 double Plate::broken(double x, double load) const {
+    assert(x >= 0.0);
     const double a = alpha(), t = x / a;
     return load / (a * restoring) * std::exp(-t) * std::cos(t);
 }
 
 double Plate::deflection(double x, const LineLoads& loads, PlateKind kind) const {
+    assert(loads.x.size() == loads.load.size());
     const double a = alpha();
     double sum = 0.0, kink = 0.0;
     for (std::size_t k = 0; k < loads.x.size(); ++k) {
         sum += line(x - loads.x[k], loads.load[k]);
         const double t = std::abs(loads.x[k]) / a;
-        kink +=
-            loads.load[k] / (2.0 * a * restoring) * std::exp(-t) * (std::cos(t) - std::sin(t));
+        kink += loads.load[k] / (2.0 * a * restoring) * std::exp(-t) * (std::cos(t) - std::sin(t));
     }
     const double t = std::abs(x) / a;
-    return kind == PlateKind::continuous
-               ? sum
-               : sum + kink * std::exp(-t) * (std::cos(t) - std::sin(t));
+    return kind == PlateKind::continuous ? sum
+                                         : sum + kink * std::exp(-t) * (std::cos(t) - std::sin(t));
 }
 
 PlateFit fit_thickness(Plate plate, const LineLoads& loads, PlateKind kind,
                        std::span<const double> x, std::span<const double> deflection) {
+    assert(!x.empty() && x.size() == deflection.size());
     const auto misfit = [&](double logarithm) {
         plate.thickness = std::exp(logarithm);
         double square = 0.0, size = 0.0;

@@ -1,5 +1,6 @@
 // What a solution says: fields, errors, stress, reactions, the guard, files.
 
+#include "fem/byerlee.hpp"
 #include "fem/elasticity.hpp"
 
 #include <deal.II/numerics/data_out.h>
@@ -14,13 +15,16 @@ using dealii::Tensor;
 
 namespace {
 
-/// Whether a plane slides under a stress whose Mohr circle has this centre (pressure > 0) and
-/// radius, Pa: its circle crosses one of the two lines of Byerlee's law.
-bool beyond_byerlee(double pressure, double radius) {
-    const auto crosses = [&](double friction, double cohesion) {
-        return radius * std::hypot(1.0, friction) > cohesion + friction * pressure;
-    };
-    return crosses(0.85, 0.0) || crosses(0.6, 60e6);
+/// In the section, Pa; tension positive.
+struct Stress {
+    double xx, yy, xy;
+};
+
+/// Of a displacement's gradient.
+Stress stress_of(const Rock& rock, const Tensor<2, 2>& g) {
+    const double trace = rock.lambda * (g[0][0] + g[1][1]);
+    return {trace + 2.0 * rock.mu * g[0][0], trace + 2.0 * rock.mu * g[1][1],
+            rock.mu * (g[0][1] + g[1][0])};
 }
 
 /// Stress, elastic moduli and density at the points of output.
@@ -48,11 +52,13 @@ public:
             middle += p / static_cast<double>(in.evaluation_points.size());
         const Rock rock = material_.at(plain(middle));
         for (std::size_t k = 0; k < out.size(); ++k) {
-            const auto& g = in.solution_gradients[k];
-            const double trace = rock.lambda * (g[0][0] + g[1][1]);
-            out[k](0) = trace + 2.0 * rock.mu * g[0][0];
-            out[k](1) = trace + 2.0 * rock.mu * g[1][1];
-            out[k](2) = rock.mu * (g[0][1] + g[1][0]);
+            Tensor<2, 2> gradient;
+            for (unsigned component = 0; component < 2; ++component)
+                gradient[component] = in.solution_gradients[k][component];
+            const Stress stress = stress_of(rock, gradient);
+            out[k](0) = stress.xx;
+            out[k](1) = stress.yy;
+            out[k](2) = stress.xy;
             out[k](3) = rock.mu * (3.0 * rock.lambda + 2.0 * rock.mu) / (rock.lambda + rock.mu);
             out[k](4) = 0.5 * rock.lambda / (rock.lambda + rock.mu);
             out[k](5) = rock.density;
@@ -161,12 +167,11 @@ std::vector<StressPatch> ElasticFootwall::stress() const {
                 patch.corner[k] = plain(values.quadrature_point(around[k]));
                 patch.displacement[k] = {moved[around[k]][0], moved[around[k]][1]};
             }
-            const auto& g = slopes[9 + quarter];
             const Rock rock = material_.at(plain(values.quadrature_point(9 + quarter)));
-            const double trace = rock.lambda * (g[0][0] + g[1][1]);
-            patch.xx = trace + 2.0 * rock.mu * g[0][0];
-            patch.yy = trace + 2.0 * rock.mu * g[1][1];
-            patch.xy = rock.mu * (g[0][1] + g[1][0]);
+            const Stress stress = stress_of(rock, slopes[9 + quarter]);
+            patch.xx = stress.xx;
+            patch.yy = stress.yy;
+            patch.xy = stress.xy;
             result.push_back(patch);
         }
     });
@@ -184,7 +189,7 @@ Vector ElasticFootwall::reaction() const {
         for (const unsigned f : cell->face_indices()) {
             if (!cell->face(f)->at_boundary())
                 continue;
-            const int boundary = static_cast<int>(cell->face(f)->boundary_id());
+            const auto boundary = static_cast<Boundary>(cell->face(f)->boundary_id());
             values.reinit(cell, f);
             values[u].get_function_values(displacement_, found);
             for (unsigned q = 0; q < points.size(); ++q) {

@@ -1,6 +1,7 @@
 // What of the elastic footwall needs no finite elements: curves, blocks and refusals.
 
 #include "fem/blocks.hpp"
+#include "fem/byerlee.hpp"
 #include "fem/curve.hpp"
 #include "tests/verification/footwalls.hpp"
 
@@ -9,7 +10,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <set>
+#include <unistd.h>
 
 namespace listric {
 namespace {
@@ -113,10 +119,10 @@ TEST_P(Blocks, FillTheFootwall) {
             area += 0.5 * (p.x * q.y - q.x * p.y);
         }
     }
-    std::map<std::pair<unsigned, unsigned>, int> boundary;
+    std::set<std::pair<unsigned, unsigned>> boundary;
     for (const auto& edge : mesh.edges)
         if (edge.boundary)
-            boundary[std::minmax(edge.start, edge.end)] = edge.boundary;
+            boundary.insert(std::minmax(edge.start, edge.end));
     for (const auto& [edge, cells] : cells_at)
         EXPECT_EQ(cells, boundary.contains(edge) ? 1 : 2)
             << "at " << mesh.vertices[edge.first].x << ", " << mesh.vertices[edge.first].y;
@@ -205,6 +211,33 @@ TEST(FootwallCheck, MissingPlugInSaysWhatToInstall) {
                     HasSubstr("install libdeal.ii-dev petsc-dev libopenmpi-dev openmpi-bin gmsh"));
     }
     unsetenv("LISTRIC_FEM_PLUGIN");
+}
+
+TEST(Byerlee, CirclesThatTouchTheLawAreItsStrengths) {
+    for (double confining : {1e6, 50e6, 150e6, 300e6, 1e9}) {
+        const double axial = fem::byerlee_axial(confining);
+        const double centre = 0.5 * (axial + confining), radius = 0.5 * (axial - confining);
+        EXPECT_FALSE(fem::beyond_byerlee(centre, radius * (1.0 - 1e-9))) << confining;
+        EXPECT_TRUE(fem::beyond_byerlee(centre, radius * (1.0 + 1e-9))) << confining;
+    }
+}
+
+TEST(FootwallSeries, IsReplacedWhole) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::temp_directory_path() / ("series-" + std::to_string(getpid()));
+    fs::create_directory(folder);
+    const fs::path pvd = folder / "footwall.pvd";
+    std::ofstream(pvd) << "what was there before";
+    const std::pair<double, std::string> moments[] = {{0.5, "a.vtu"}, {1.0, "b.vtu"}};
+    fem::write_series(pvd.string(), moments);
+    std::ifstream file(pvd);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    EXPECT_THAT(text, HasSubstr("<DataSet timestep=\"0.5\" part=\"0\" name=\"footwall\" "
+                                "file=\"a.vtu\"/>\n"));
+    EXPECT_THAT(text, testing::EndsWith("</Collection>\n</VTKFile>\n"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1) << "nothing else stays";
+    fs::remove_all(folder);
+    EXPECT_THROW(fem::write_series(pvd.string(), moments), fem::FootwallError);
 }
 
 } // namespace

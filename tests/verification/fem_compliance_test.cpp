@@ -165,6 +165,12 @@ TEST(Interface, ForcesAndMomentsArriveWhole) {
     }
 }
 
+TEST(Interface, RefusesForcesAtNoPlace) {
+    const auto footwall = fem::make_footwall(lis1_footwall(4000.0));
+    const fem::PointForce force{{std::nan(""), -5e3}, {1.0, 0.0}};
+    EXPECT_THROW(footwall->nodal_forces({&force, 1}), fem::FootwallError);
+}
+
 TEST(Interface, NodesFollowTheDetachment) {
     const auto footwall = fem::make_footwall(lis1_footwall(2000.0));
     const auto& nodes = footwall->interface();
