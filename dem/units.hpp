@@ -4,6 +4,8 @@ namespace listric::dem {
 
 inline constexpr double pi = 3.14159265358979323846;
 
+inline constexpr double standard_gravity = 9.81; ///< m/s^2
+
 /// Seconds in a Julian year; geological time is given in years (a).
 inline constexpr double seconds_per_year = 365.25 * 86400.0;
 

@@ -1,19 +1,15 @@
 #pragma once
 
-#include "apps/scene/scene.hpp"
-#include "dem/event.hpp"
-
-#include <memory>
-#include <string>
-#include <vector>
+#include "apps/scene/scene_file.hpp"
 
 namespace listric {
 
-/// The events of a scene, in the order in which they are applied at the same moment. An effect
-/// whose table is not in the scene has no event, so it has no memory and no cost.
-std::vector<std::unique_ptr<dem::Event>> make_events(const Scene& scene);
+/// All effects that the program has (effects.cpp).
+EffectList program_effects();
 
-/// Names of the effects that are on, sorted as in make_events.
-std::vector<std::string> effect_names(const Scene& scene);
+/// A scene of the program's effects. Throws SceneError.
+inline Scene load_scene(const SceneRequest& request) {
+    return load_scene(request, program_effects());
+}
 
 } // namespace listric

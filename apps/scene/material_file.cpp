@@ -1,5 +1,9 @@
 #include "apps/scene/material_file.hpp"
 
+#include "apps/scene/pieces.hpp"
+#include "apps/scene/toml.hpp"
+#include "apps/support/spelling.hpp"
+
 #include <fmt/format.h>
 
 namespace listric {
@@ -8,14 +12,13 @@ using namespace dem;
 
 namespace {
 
-std::vector<Parameter> top_level(RockMaterial& rock) {
-    return {{"description", &rock.description, "", {}, "", "what the material stands for"}};
-}
+const Parameter description{
+    "description", at<&RockMaterial::description>, "", {}, "", "what the material stands for"};
 
 /// Reads a table that must say everything: a microproperty that was forgotten would silently be
 /// another rock's. The reading of strengths alone has a default.
-void read_whole_table(const Entry& entry, const std::vector<Parameter>& parameters) {
-    read_table(entry, parameters);
+void read_whole_table(const Entry& entry, const std::vector<Parameter>& parameters, void* object) {
+    read_table(entry, parameters, object);
     for (const Parameter& p : parameters)
         if (p.key != "strength_is" && !entry.node.as_table()->contains(p.key))
             fail(entry, fmt::format("needs {} ({}; {})", p.key, p.doc, text(p.range)));
@@ -35,14 +38,14 @@ RockMaterial read_material(const std::filesystem::path& file,
     for (const auto& [key, node] : document) {
         const Entry entry{node, std::string(key.str())};
         if (key == "description") {
-            read(entry, top_level(rock).front());
+            read(entry, description, &rock);
         } else if (key == "material") {
-            read_whole_table(entry, parameters(rock.material));
+            read_whole_table(entry, material_parameters<>(), &rock.material);
             has_material = true;
         } else if (key == "bonds") {
             rock.bonds.emplace();
             rock.material.bondable = true;
-            read_whole_table(entry, parameters(*rock.bonds));
+            read_whole_table(entry, bond_parameters<>(), &*rock.bonds);
         } else {
             fail(entry, fmt::format("unknown {}, {}", node.is_table() ? "table" : "key",
                                     advice(key.str(), {"description", "material", "bonds"})));
@@ -53,17 +56,22 @@ RockMaterial read_material(const std::filesystem::path& file,
     return rock;
 }
 
+void take_microproperties(Material& material, const RockMaterial& rock) {
+    const bool bondable = material.bondable;
+    material = rock.material;
+    material.bondable = bondable;
+}
+
 RockMaterial load_material(const std::string& name_or_path,
                            const std::vector<std::string>& changes) {
     return read_material(materials.find(name_or_path), changes);
 }
 
 std::string to_toml(const RockMaterial& rock) {
-    RockMaterial copy = rock; // parameters() binds variables
     std::string lines = fmt::format("description = {}\n\n[material]\n{}", quoted(rock.description),
-                                    write(parameters(copy.material)));
-    if (copy.bonds)
-        lines += fmt::format("\n[bonds]\n{}", write(parameters(*copy.bonds)));
+                                    write(material_parameters<>(), &rock.material));
+    if (rock.bonds)
+        lines += fmt::format("\n[bonds]\n{}", write(bond_parameters<>(), &*rock.bonds));
     return lines;
 }
 

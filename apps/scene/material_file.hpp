@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/document.hpp"
+#include "apps/scene/shelf.hpp"
 #include "dem/material.hpp"
 
 #include <filesystem>
@@ -18,6 +18,9 @@ struct RockMaterial {
     dem::Material material; ///< bondable if it has bonds
     std::optional<dem::BondStrength> bonds;
 };
+
+/// Stiffness and friction of a rock. Whether bonds heal stays as it is: that is up to the effects.
+void take_microproperties(dem::Material& material, const RockMaterial& rock);
 
 /// Where the program's materials are; the environment's LISTRIC_MATERIALS names another folder.
 inline constexpr Shelf materials{"material", "a material has at least [material]",

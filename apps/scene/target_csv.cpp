@@ -1,6 +1,7 @@
 #include "apps/scene/target_csv.hpp"
 
-#include "apps/scene/document.hpp"
+#include "apps/scene/toml.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,6 @@
-#include "apps/scene/footwall_request.hpp"
+#include "apps/model/footwall_request.hpp"
+
+#include "apps/model/effects/elastic_base_parameters.hpp"
 
 #include <cmath>
 
@@ -7,12 +9,11 @@ namespace listric {
 using namespace dem;
 using namespace coupling;
 
-fem::FootwallRequest make_footwall_request(const Scene& scene) {
-    const ElasticBaseParameters& base = *scene.elastic_base;
-    const double gravity = scene.gravity->acceleration;
+fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts& parts) {
+    const auto& base = *elastic_base(scene);
+    const double gravity = parts.physics.gravity;
     fem::FootwallRequest request;
-    const RigidBase surfaces = make_base(scene);
-    for (const Segment& s : surfaces.surfaces.front().chain)
+    for (const Segment& s : parts.base.surfaces.front().chain)
         request.detachment.push_back({{s.start.x, s.start.y},
                                       std::atan2(s.start_tangent.y, s.start_tangent.x),
                                       s.length,
@@ -45,8 +46,9 @@ fem::FootwallRequest make_footwall_request(const Scene& scene) {
     return request;
 }
 
-CouplingParameters make_coupling_parameters(const Scene& scene, double node_spacing) {
-    const ElasticBaseParameters& base = *scene.elastic_base;
+CouplingParameters make_coupling_parameters(const Scene& scene, const ModelParts& parts,
+                                            double node_spacing) {
+    const auto& base = *elastic_base(scene);
     CouplingParameters p;
     p.scheme = base.scheme;
     p.interval = base.update_interval;
@@ -54,9 +56,9 @@ CouplingParameters make_coupling_parameters(const Scene& scene, double node_spac
     p.mass_factor = base.mass_factor;
     p.swing_damping = base.swing_damping;
     p.damping = scene.cycle.damping;
-    p.contact_stiffness = node_stiffness(scene.basement, make_materials(scene), node_spacing,
+    p.contact_stiffness = node_stiffness(scene.basement, parts.materials, node_spacing,
                                          scene.hanging_wall->mean_radius);
-    p.gravity = scene.gravity->acceleration;
+    p.gravity = parts.physics.gravity;
     p.wall_x = scene.hanging_wall->length;
     return p;
 }

@@ -1,23 +1,19 @@
-#include "apps/scene/document.hpp"
+#include "apps/scene/toml.hpp"
 
-#include "apps/support/resources.hpp"
+#include "apps/scene/pieces.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
 namespace listric {
 
 using namespace dem;
-
-namespace fs = std::filesystem;
 
 // ---------------------------------------------------------------------------------------- errors
 
@@ -74,20 +70,6 @@ void fail_type(const Entry& entry, std::string_view allowed) {
     fail(entry, fmt::format("wrong type ({}), allowed: {}", type_and_value(entry.node), allowed));
 }
 
-std::string advice(std::string_view name, const std::vector<std::string_view>& allowed) {
-    if (allowed.empty())
-        return "none is allowed";
-    const auto meant = nearest(name, allowed);
-    return meant ? fmt::format("did you mean {}?", *meant)
-                 : fmt::format("allowed: {}", fmt::join(allowed, ", "));
-}
-
-std::vector<std::string_view> keys(const std::vector<Parameter>& parameters) {
-    std::vector<std::string_view> keys;
-    std::ranges::transform(parameters, std::back_inserter(keys), &Parameter::key);
-    return keys;
-}
-
 // --------------------------------------------------------------------------------------- reading
 
 namespace {
@@ -119,64 +101,74 @@ const std::string& string(const Entry& entry, const Parameter& parameter) {
 }
 
 /// Whether a parameter still has a default that it cannot keep.
-bool must_be_given(const Parameter& parameter) {
-    const auto* variable = std::get_if<double*>(&parameter.variable);
-    return variable && !parameter.range.contains(**variable * parameter.per_si);
+bool must_be_given(const Parameter& parameter, const void* object) {
+    const auto* value = std::get_if<Place<double>>(&parameter.value);
+    return value && !parameter.range.contains(value->get(object) * parameter.per_si);
 }
 
-DetachmentSegment read_segment(const Entry& entry);
+dem::DetachmentSegment read_segment(const Entry& entry);
 std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parameter);
 
-/// Reads an entry into a variable, one function for each type of variable.
+/// Reads an entry into an object, one function for each type of value.
 struct Reader {
     const Entry& entry;
     const Parameter& parameter;
+    void* object;
 
-    void operator()(double* x) const { *x = number(entry, parameter) / parameter.per_si; }
-    void operator()(std::optional<double>* x) const {
-        *x = number(entry, parameter) / parameter.per_si;
+    void operator()(const Place<double>& x) const {
+        x.reach(object) = number(entry, parameter) / parameter.per_si;
     }
-    void operator()(int* x) const { read_integer(x); }
-    void operator()(std::uint64_t* x) const { read_integer(x); }
-    void operator()(std::string* x) const { *x = string(entry, parameter); }
+    void operator()(const Place<std::optional<double>>& x) const {
+        x.reach(object) = number(entry, parameter) / parameter.per_si;
+    }
+    void operator()(const Place<int>& x) const { read_integer(x.reach(object)); }
+    void operator()(const Place<std::uint64_t>& x) const { read_integer(x.reach(object)); }
+    void operator()(const Place<std::string>& x) const {
+        x.reach(object) = string(entry, parameter);
+    }
 
     void operator()(const Choice& choice) const {
         const std::string& name = string(entry, parameter);
         if (std::ranges::find(choice.names, name) == choice.names.end())
             fail(entry,
                  fmt::format("unknown value ({}), {}", quoted(name), advice(name, choice.names)));
-        choice.set(name);
+        choice.set(object, choice.names, name);
     }
 
-    void operator()(std::vector<double>* x) const {
-        x->clear();
+    void operator()(const Place<std::vector<double>>& place) const {
+        auto& x = place.reach(object);
+        x.clear();
         for (const toml::node& node : array(entry, parameter))
-            x->push_back(number({node, item_path(x->size())}, parameter) / parameter.per_si);
+            x.push_back(number({node, item_path(x.size())}, parameter) / parameter.per_si);
     }
 
-    void operator()(std::vector<DetachmentSegment>* x) const {
-        x->clear();
+    void operator()(const Place<std::vector<dem::DetachmentSegment>>& place) const {
+        auto& x = place.reach(object);
+        x.clear();
         for (const toml::node& node : array(entry, parameter))
-            x->push_back(read_segment({node, item_path(x->size())}));
+            x.push_back(read_segment({node, item_path(x.size())}));
     }
 
-    void operator()(std::vector<TargetStage>* x) const { *x = read_target(entry, parameter); }
+    void operator()(const Place<std::vector<dem::TargetStage>>& x) const {
+        x.reach(object) = read_target(entry, parameter);
+    }
 
-    void operator()(std::vector<fem::Layer>* x) const {
-        x->clear();
+    void operator()(const Place<std::vector<fem::Layer>>& place) const {
+        auto& x = place.reach(object);
+        x.clear();
         for (const toml::node& node : array(entry, parameter)) {
             fem::Layer layer;
-            read_table({node, item_path(x->size())}, parameters(layer));
-            x->push_back(layer);
+            read_table({node, item_path(x.size())}, layer_parameters(), &layer);
+            x.push_back(layer);
         }
     }
 
 private:
-    template <class Integer> void read_integer(Integer* x) const {
+    template <class Integer> void read_integer(Integer& x) const {
         if (!entry.node.is_integer())
             fail_type(entry, type_of(parameter));
         number(entry, parameter); // checks the range
-        *x = static_cast<Integer>(entry.node.as_integer()->get());
+        x = static_cast<Integer>(entry.node.as_integer()->get());
     }
 
     std::string item_path(std::size_t index) const {
@@ -186,22 +178,27 @@ private:
 
 } // namespace
 
-void read(const Entry& entry, const Parameter& parameter) {
-    std::visit(Reader{entry, parameter}, parameter.variable);
+void read(const Entry& entry, const Parameter& parameter, void* object) {
+    std::visit(Reader{entry, parameter, object}, parameter.value);
 }
 
-void read_table(const Entry& entry, const std::vector<Parameter>& parameters) {
+void read_table(const Entry& entry, const std::vector<Parameter>& parameters, void* object,
+                const std::vector<std::string_view>& read_elsewhere) {
     if (!entry.node.is_table())
         fail_type(entry, "table");
     for (const auto& [key, node] : *entry.node.as_table()) {
         const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
         const auto parameter = std::ranges::find(parameters, key.str(), &Parameter::key);
-        if (parameter == parameters.end())
-            fail(inner, fmt::format("unknown key, {}", advice(key.str(), keys(parameters))));
-        read(inner, *parameter);
+        if (parameter != parameters.end()) {
+            read(inner, *parameter, object);
+        } else if (std::ranges::find(read_elsewhere, key.str()) == read_elsewhere.end()) {
+            std::vector<std::string_view> allowed = keys(parameters);
+            allowed.insert(allowed.end(), read_elsewhere.begin(), read_elsewhere.end());
+            fail(inner, fmt::format("unknown key, {}", advice(key.str(), allowed)));
+        }
     }
     for (const Parameter& parameter : parameters) {
-        if (must_be_given(parameter))
+        if (must_be_given(parameter, object))
             fail(entry, fmt::format("needs {} ({}; {})", parameter.key, parameter.doc,
                                     text(parameter.range)));
     }
@@ -209,8 +206,8 @@ void read_table(const Entry& entry, const std::vector<Parameter>& parameters) {
 
 namespace {
 
-DetachmentSegment read_segment(const Entry& entry) {
-    using Kind = DetachmentSegment::Kind;
+dem::DetachmentSegment read_segment(const Entry& entry) {
+    using Kind = dem::DetachmentSegment::Kind;
     const toml::table* table = entry.node.as_table();
     if (!table || table->size() != 1)
         fail(entry, "needs exactly one of arc and line, "
@@ -219,9 +216,9 @@ DetachmentSegment read_segment(const Entry& entry) {
     const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
     if (key != "arc" && key != "line")
         fail(inner, fmt::format("unknown segment, {}", advice(key.str(), {"arc", "line"})));
-    DetachmentSegment segment;
+    dem::DetachmentSegment segment;
     segment.kind = key == "arc" ? Kind::arc : Kind::line;
-    read_table(inner, parameters(segment));
+    read_table(inner, segment_parameters(segment.kind), &segment);
     return segment;
 }
 
@@ -282,9 +279,6 @@ std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parame
 
 // ----------------------------------------------------------------------- files and --set options
 
-namespace {
-
-/// `origin` is where messages say that the text comes from.
 toml::table parse(const std::string& text, const std::string& origin) {
     try {
         return toml::parse(text, origin);
@@ -292,66 +286,6 @@ toml::table parse(const std::string& text, const std::string& origin) {
         fail(fmt::format("{}:{}:{}: {}", origin, error.source().begin.line,
                          error.source().begin.column, error.description()));
     }
-}
-
-} // namespace
-
-bool is_path(const std::string& name_or_path) {
-    return name_or_path.find('/') != name_or_path.npos || name_or_path.ends_with(".toml");
-}
-
-fs::path Shelf::path() const {
-    const char* other = std::getenv(variable);
-    return other && *other ? fs::path(other) : source_folder() / folder;
-}
-
-std::vector<std::string> Shelf::names() const {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (fs::directory_iterator file(path(), error), end; !error && file != end;
-         file.increment(error)) {
-        if (file->path().extension() == ".toml")
-            names.push_back(file->path().stem().string());
-    }
-    if (error)
-        fail(fmt::format("{}: {}s folder cannot be read: {}", path().string(), kind,
-                         error.message()));
-    std::ranges::sort(names);
-    return names;
-}
-
-fs::path Shelf::find(const std::string& wanted) const {
-    const fs::path file = is_path(wanted) ? fs::path(wanted) : path() / (wanted + ".toml");
-    std::error_code error;
-    if (fs::is_directory(file, error))
-        fail(fmt::format("{}: is a directory, needs a {} file", file.string(), kind));
-    if (fs::exists(file, error))
-        return file;
-    const std::vector<std::string> shipped = names();
-    const std::vector<std::string_view> candidates(shipped.begin(), shipped.end());
-    const auto meant = nearest(is_path(wanted) ? file.stem().string() : wanted, candidates);
-    fail(fmt::format("{}: {}{} ({}s: {})", wanted.empty() ? "\"\"" : wanted,
-                     error             ? error.message()
-                     : is_path(wanted) ? std::string("no such file")
-                                       : fmt::format("no such {}", kind),
-                     meant ? fmt::format(", did you mean {}?", *meant) : "", kind,
-                     fmt::join(shipped, ", ")));
-}
-
-toml::table Shelf::read(const fs::path& path) const {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::string text;
-    std::getline(file, text, '\0'); // stops early where the file is not text
-    if (!file.is_open() || file.bad())
-        fail(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
-    if (!file.eof())
-        fail(fmt::format("{}:{}: is not a text file (it has a NUL byte); a {} is TOML in UTF-8",
-                         path.string(), 1 + std::ranges::count(text, '\n'), kind));
-    toml::table document = parse(text, path.string());
-    if (document.empty())
-        fail(fmt::format("{}: is empty; {}", path.string(), contents));
-    return document;
 }
 
 namespace {
@@ -404,87 +338,99 @@ double in_key_units(double si, double per_si) {
     return si * per_si;
 }
 
-/// Writes a variable, one function for each type; empty if there is nothing to write.
+/// Writes a value, one function for each type; empty if there is nothing to write.
 struct Writer {
+    const void* object;
     double per_si;
 
-    std::string operator()(const double* x) const { return toml_float(in_key_units(*x, per_si)); }
-    std::string operator()(const std::optional<double>* x) const {
-        return *x ? operator()(&**x) : "";
+    std::string operator()(const Place<double>& x) const { return one(x.get(object)); }
+    std::string operator()(const Place<std::optional<double>>& x) const {
+        return x.get(object) ? one(*x.get(object)) : "";
     }
-    std::string operator()(const int* x) const { return fmt::format("{}", *x); }
-    std::string operator()(const std::uint64_t* x) const { return fmt::format("{}", *x); }
-    std::string operator()(const std::string* x) const { return quoted(*x); }
-    std::string operator()(const Choice& choice) const { return quoted(std::string(choice.get())); }
-    std::string operator()(const std::vector<double>* x) const {
+    std::string operator()(const Place<int>& x) const { return fmt::format("{}", x.get(object)); }
+    std::string operator()(const Place<std::uint64_t>& x) const {
+        return fmt::format("{}", x.get(object));
+    }
+    std::string operator()(const Place<std::string>& x) const { return quoted(x.get(object)); }
+    std::string operator()(const Choice& choice) const {
+        return quoted(std::string(choice.get(object, choice.names)));
+    }
+    std::string operator()(const Place<std::vector<double>>& x) const {
         std::vector<std::string> items;
-        for (const double& item : *x)
-            items.push_back(operator()(&item));
+        for (const double item : x.get(object))
+            items.push_back(one(item));
         return fmt::format("[{}]", fmt::join(items, ", "));
     }
-    std::string operator()(const std::vector<DetachmentSegment>* x) const;
-    std::string operator()(const std::vector<fem::Layer>* x) const;
-    std::string operator()(const std::vector<TargetStage>* x) const {
-        const auto points = [](const TargetStage& stage) {
-            std::vector<std::string> items;
-            for (const Point& p : stage.points)
-                items.push_back(fmt::format("[{}, {}]", toml_float(p.x), toml_float(p.y)));
-            return fmt::format("[{}]", fmt::join(items, ", "));
-        };
-        if (x->empty())
-            return "";
-        if (x->size() == 1 && x->front().time == 0.0)
-            return points(x->front());
-        std::string lines;
-        for (const TargetStage& stage : *x)
-            lines += fmt::format("    {{time_a = {}, points = {}}},\n", toml_float(stage.time),
-                                 points(stage));
-        return fmt::format("[\n{}]", lines);
-    }
+    std::string operator()(const Place<std::vector<dem::DetachmentSegment>>& x) const;
+    std::string operator()(const Place<std::vector<fem::Layer>>& x) const;
+    std::string operator()(const Place<std::vector<dem::TargetStage>>& x) const;
+
+private:
+    std::string one(double x) const { return toml_float(in_key_units(x, per_si)); }
 };
 
-std::string write(const Parameter& parameter) {
-    return std::visit(Writer{parameter.per_si}, parameter.variable);
+std::string write(const Parameter& parameter, const void* object) {
+    return std::visit(Writer{object, parameter.per_si}, parameter.value);
 }
 
-std::string inline_table(const std::vector<Parameter>& parameters) {
+std::string inline_table(const std::vector<Parameter>& parameters, const void* object) {
     std::vector<std::string> pairs;
     for (const Parameter& parameter : parameters) {
-        if (const std::string value = write(parameter); !value.empty())
+        if (const std::string value = write(parameter, object); !value.empty())
             pairs.push_back(fmt::format("{} = {}", parameter.key, value));
     }
     return fmt::format("{{{}}}", fmt::join(pairs, ", "));
 }
 
-std::string Writer::operator()(const std::vector<DetachmentSegment>* x) const {
+std::string Writer::operator()(const Place<std::vector<dem::DetachmentSegment>>& x) const {
+    using Kind = dem::DetachmentSegment::Kind;
     std::string lines;
-    for (DetachmentSegment segment : *x)
-        lines += fmt::format("    {{{} = {}}},\n",
-                             segment.kind == DetachmentSegment::Kind::arc ? "arc" : "line",
-                             inline_table(parameters(segment)));
+    for (const dem::DetachmentSegment& segment : x.get(object))
+        lines += fmt::format("    {{{} = {}}},\n", segment.kind == Kind::arc ? "arc" : "line",
+                             inline_table(segment_parameters(segment.kind), &segment));
     return lines.empty() ? "[]" : fmt::format("[\n{}]", lines);
 }
 
-std::string Writer::operator()(const std::vector<fem::Layer>* x) const {
+std::string Writer::operator()(const Place<std::vector<fem::Layer>>& x) const {
     std::string lines;
-    for (fem::Layer layer : *x)
-        lines += fmt::format("    {},\n", inline_table(parameters(layer)));
+    for (const fem::Layer& layer : x.get(object))
+        lines += fmt::format("    {},\n", inline_table(layer_parameters(), &layer));
     return lines.empty() ? "" : fmt::format("[\n{}]", lines);
+}
+
+std::string Writer::operator()(const Place<std::vector<dem::TargetStage>>& x) const {
+    const std::vector<dem::TargetStage>& stages = x.get(object);
+    const auto points = [](const dem::TargetStage& stage) {
+        std::vector<std::string> items;
+        for (const dem::Point& p : stage.points)
+            items.push_back(fmt::format("[{}, {}]", toml_float(p.x), toml_float(p.y)));
+        return fmt::format("[{}]", fmt::join(items, ", "));
+    };
+    if (stages.empty())
+        return "";
+    if (stages.size() == 1 && stages.front().time == 0.0)
+        return points(stages.front());
+    std::string lines;
+    for (const dem::TargetStage& stage : stages)
+        lines += fmt::format("    {{time_a = {}, points = {}}},\n", toml_float(stage.time),
+                             points(stage));
+    return fmt::format("[\n{}]", lines);
 }
 
 } // namespace
 
-std::string write(const std::vector<Parameter>& parameters) {
+std::string write(const std::vector<Parameter>& parameters, const void* object) {
     std::string lines;
     for (const Parameter& parameter : parameters)
-        if (const std::string value = write(parameter); !value.empty())
+        if (const std::string value = write(parameter, object); !value.empty())
             lines += fmt::format("{:<40}  # {}\n", fmt::format("{} = {}", parameter.key, value),
                                  parameter.doc);
     return lines;
 }
 
-std::string explain(const Parameter& parameter) {
-    const std::string value = must_be_given(parameter) ? "(required)" : write(parameter);
+std::string explain(const Parameter& parameter, const void* object) {
+    const std::string value =
+        must_be_given(parameter, object) ? "(required)" : write(parameter, object);
     std::vector<std::string> facts{type_of(parameter)};
     if (!parameter.unit.empty())
         facts.back() += fmt::format(" in {}", parameter.unit);

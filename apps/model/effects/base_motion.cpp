@@ -1,0 +1,87 @@
+#include "dem/base_motion.hpp"
+
+#include "apps/scene/effect.hpp"
+#include "apps/scene/target_csv.hpp"
+
+#include <fmt/format.h>
+
+namespace listric::effects {
+
+namespace {
+
+using P = dem::BaseMotionParameters;
+
+void read_motion(Scene& scene, const std::string& file, const Refuse& refuse) {
+    P& motion = *scene.find<P>();
+    if (!motion.uplift.empty() || !motion.shift.empty())
+        refuse("base_motion.csv", "beside base_motion.uplift or shift; give one of them");
+    if (csv_has_column(file, "dx_m") || csv_has_column(file, "dy_m")) {
+        motion.shift = read_target_csv(file, "dx_m");
+        motion.uplift = read_target_csv(file, "dy_m");
+    } else {
+        motion.uplift = read_target_csv(file, "uplift_m");
+    }
+}
+
+void check(const Scene& scene, const Refuse& refuse) {
+    // Discs follow a base that moves as fast as the right wall; much faster is an impact.
+    constexpr double fastest = 5.0;
+    const P& motion = *scene.find<P>();
+    if (has_effect(scene, "elastic_base"))
+        refuse("base_motion",
+               "beside [elastic_base]; the detachment is either prescribed or responds, give one");
+    if (motion.uplift.empty() && motion.shift.empty())
+        refuse("base_motion", "needs csv, or uplift or shift");
+    const double speed = dem::greatest_base_speed(motion, scene.extension.rate);
+    if (speed > fastest)
+        refuse("base_motion",
+               fmt::format("moves {:.3g} times as fast as extension, allowed: at most {}; spread "
+                           "it over more time, or raise extension.rate_m_per_a",
+                           speed, fastest));
+}
+
+BaseDriver drive_base(const Scene& scene, const ModelParts& parts) {
+    constexpr double face = 1000.0; // m: arcs are followed to millimetres
+    return {std::make_unique<dem::BaseMotion>(*scene.find<P>(), parts.base.motion,
+                                              scene.extension.rate),
+            dem::detachment_nodes(parts.base.surfaces.front().chain, face)};
+}
+
+} // namespace
+
+const Effect& base_motion() {
+    static const Effect effect{
+        .name = "base_motion",
+        .doc = "the detachment moves as prescribed; needs no finite elements",
+        .defaults = make_defaults<P>,
+        .address = address_of<P>,
+        .parameters =
+            {
+                {"uplift", at<&P::uplift>, "", ranges::height, "",
+                 "upward displacement of the detachment: points [x, uplift] in m, or stages "
+                 "{time_a, points}; what counts is the change since time 0"},
+                {"shift", at<&P::shift>, "", ranges::height, "", "the same to the right"},
+            },
+        .files = {{"csv",
+                   "file with the motion: columns time_a, x_m and uplift_m, or dx_m and dy_m",
+                   read_motion}},
+        .needs = {"detachment"},
+        .check = check,
+        .contribute =
+            [](const Scene&, ModelParts& parts) {
+                dem::follow_nodes(parts.base, 2);
+                parts.base_moves = true;
+            },
+        .drive_base = drive_base,
+        .explain =
+            [](const Scene& scene, EffectList) {
+                return fmt::format(
+                    "the detachment moves as prescribed, at up to {:.2g} of the "
+                    "speed of extension\n",
+                    dem::greatest_base_speed(*scene.find<P>(), scene.extension.rate));
+            },
+    };
+    return effect;
+}
+
+} // namespace listric::effects

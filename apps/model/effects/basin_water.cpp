@@ -1,0 +1,68 @@
+#include "coupling/basin_water.hpp"
+
+#include "apps/model/footwall_summary.hpp"
+#include "apps/scene/effect.hpp"
+
+#include <fmt/format.h>
+
+namespace listric::effects {
+
+namespace {
+
+using P = coupling::BasinWaterParameters;
+
+coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts) {
+    return coupling::basin_water_load(*scene.find<P>(), parts.physics.gravity,
+                                      coupling::water_column_width(scene.hanging_wall->mean_radius),
+                                      scene.extension.rate);
+}
+
+/// Rows x, floor and level, m, from the shore at the breakaway on.
+std::vector<FigureLayer> draw(const Observation& now) {
+    const double width = coupling::water_column_width(now.scene.hanging_wall->mean_radius);
+    const double level = now.scene.find<P>()->level;
+    FigureLayer layer{"water", 3, {0.0, level, level}};
+    double x = 0.5 * width;
+    for (const double water : coupling::water_depths(now.state, level, width)) {
+        layer.rows.insert(layer.rows.end(), {x, level - water, level});
+        x += width;
+    }
+    return {layer};
+}
+
+} // namespace
+
+const Effect& basin_water() {
+    static const Effect effect{
+        .name = "basin_water",
+        .doc = "water fills the basin and weighs on the footwall",
+        .defaults = make_defaults<P>,
+        .address = address_of<P>,
+        .parameters =
+            {
+                {"level_m", at<&P::level>, "m", ranges::height, "",
+                 "of its surface, above the original surface"},
+                {"density_kg_per_m3", at<&P::density>, "kg/m3", ranges::density, "",
+                 "of the water"},
+                {"interval_a", at<&P::interval>, "a", ranges::years, "",
+                 "time between adaptations of its depth"},
+            },
+        .needs = {"elastic_base"},
+        .load_footwall = load_footwall,
+        .explain =
+            [](const Scene& scene, EffectList) {
+                const P& water = *scene.find<P>();
+                return fmt::format("    basin: water of {} kg/m3 up to {:g} m\n", water.density,
+                                   water.level);
+            },
+        .absence = "water",
+        .summarise =
+            [](const dem::Table& history, const dem::State&) {
+                return last_values(history, {"basin_water_n_per_m"});
+            },
+        .draw = draw,
+    };
+    return effect;
+}
+
+} // namespace listric::effects

@@ -1,0 +1,44 @@
+#include "apps/scene/effect.hpp"
+#include "apps/scene/pieces.hpp"
+
+namespace listric::effects {
+
+namespace {
+
+/// Table [bonds].
+struct RockBonds {
+    dem::BondStrength strength;
+};
+
+} // namespace
+
+const Effect& bonds() {
+    static const Effect effect{
+        .name = "bonds",
+        .doc = "contact bonds that make rock of grains",
+        .defaults = make_defaults<RockBonds>,
+        .address = address_of<RockBonds>,
+        .parameters = bond_parameters<&RockBonds::strength>(),
+        .rock = RockSource{
+            .key = "basement",
+            .file = "mat18-b",
+            .doc = "material file with the defaults of [material] and [bonds]",
+            .take =
+                [](Scene& scene, const RockMaterial& rock) {
+                    if (rock.bonds)
+                        scene.find<RockBonds>()->strength = *rock.bonds;
+                },
+            .objection = [](const RockMaterial& rock) -> std::string {
+                return rock.bonds ? ""
+                                  : "has no [bonds], but the scene does; add [bonds] to the "
+                                    "material's file or take it out of the scene";
+            },
+        },
+        .in_genesis = true,
+        .contribute = [](const Scene& scene,
+                         ModelParts& parts) { parts.bonds = scene.find<RockBonds>()->strength; },
+    };
+    return effect;
+}
+
+} // namespace listric::effects

@@ -1,0 +1,54 @@
+#include "dem/events/compaction.hpp"
+
+#include "apps/scene/effect.hpp"
+
+namespace listric::effects {
+
+const Effect& compaction() {
+    using P = dem::CompactionParameters;
+    static const Effect effect{
+        .name = "compaction",
+        .doc = "sediment loses pore space with burial",
+        .defaults = make_defaults<P>,
+        .address = address_of<P>,
+        .parameters =
+            {
+                {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_d",
+                 "time between compactions"},
+                {"coefficient_per_km",
+                 at<&P::coefficient>,
+                 "1/km",
+                 {.from = 0, .to = 10},
+                 "c",
+                 "decay of porosity with depth",
+                 1e3},
+            },
+        .needs = {"sedimentation"},
+        .contribute =
+            [](const Scene& scene, ModelParts& parts) {
+                parts.sediment->porosity_decay = scene.find<P>()->coefficient;
+            },
+        .make_events =
+            [](const Scene& scene, const ModelParts& parts, std::span<const StagedEvent>) {
+                std::vector<StagedEvent> events;
+                events.push_back(
+                    {EventStage::adjust, std::make_unique<dem::Compaction>(
+                                             *scene.find<P>(), parts.sediment->surface_porosity,
+                                             parts.sediment->surface, scene.extension.rate)});
+                return events;
+            },
+        .price =
+            [](const Scene& scene, const Workload& work) {
+                return work.years / scene.find<P>()->interval * 0.5 * work.discs;
+            },
+        // With burial sediment shrinks: lis1 takes 1.85 times the discs of a packing of the area
+        // that it fills, of which 1.1 have been counted.
+        .new_area =
+            [](const Scene& scene) {
+                return 0.75 * scene.extension.distance * scene.hanging_wall->thickness;
+            },
+    };
+    return effect;
+}
+
+} // namespace listric::effects

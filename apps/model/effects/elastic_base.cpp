@@ -1,0 +1,309 @@
+#include "apps/model/effects/elastic_base_parameters.hpp"
+
+#include "apps/model/footwall_request.hpp"
+#include "apps/model/footwall_summary.hpp"
+#include "apps/model/model.hpp"
+#include "apps/scene/effect.hpp"
+#include "apps/support/spelling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace listric::effects {
+
+namespace {
+
+using P = ElasticBaseParameters;
+
+std::vector<Parameter> parameters() {
+    return {
+        {"elastic_thickness_m",
+         at<&P::elastic_thickness>,
+         "m",
+         {.from = 100, .to = 2e5},
+         "",
+         "effective elastic thickness Te: rock below it does not carry bending"},
+        {"young_modulus_pa",
+         at<&P::young_modulus>,
+         "Pa",
+         {.from = 1e6, .to = 1e13},
+         "E",
+         "Young's modulus of the base"},
+        {"poisson_ratio",
+         at<&P::poisson_ratio>,
+         "",
+         {.from = 0, .below = 0.5},
+         "nu",
+         "Poisson's ratio of the base"},
+        {"crust_density_kg_per_m3", at<&P::crust_density>, "kg/m3", ranges::density, "rho_c",
+         "of the base, above the mantle"},
+        {"mantle_density_kg_per_m3", at<&P::mantle_density>, "kg/m3", ranges::density, "rho_m",
+         "of the mantle, on which the base floats"},
+        {"infill_density_kg_per_m3",
+         at<&P::infill_density>,
+         "kg/m3",
+         {.from = 0, .to = 20e3},
+         "",
+         "of what fills the deflection: 0 air, 1030 water, 2400 sediment"},
+        {"cells",
+         at<&P::cells>,
+         "",
+         {.from = 1, .to = 64},
+         "",
+         "elements through the elastic thickness, in a scene without discs"},
+        {"degree",
+         at<&P::degree>,
+         "",
+         {.from = 1, .to = 2},
+         "",
+         "of the elements: 2, or 1 to compare"},
+        {"left_m",
+         at<&P::left>,
+         "m",
+         {.from = -1e7, .below = 0},
+         "",
+         "x of the footwall's far side"},
+        {"right_m",
+         at<&P::right>,
+         "m",
+         {.above = 0, .to = 1e7},
+         "",
+         "x of the far side of what lies below the hanging wall"},
+        {"depth_m", at<&P::depth>, "m", ranges::length, "",
+         "to the mantle, on which the base floats"},
+        {"relaxation",
+         at<&P::relaxation>,
+         "",
+         {.from = 1, .to = 1e6},
+         "",
+         "shear modulus over that of rock below the elastic thickness; bulk moduli are the same"},
+        {"skin_thickness_m",
+         at<&P::skin_thickness>,
+         "m",
+         {.from = 0, .to = 1e5},
+         "",
+         "rock along the detachment that keeps its shear modulus below the elastic thickness"},
+        {"cell_size_m",
+         at<&P::cell_size>,
+         "m",
+         {.above = 0, .to = 1e5},
+         "",
+         "elements at the detachment; its default depends on the accuracy"},
+        {"refinements",
+         at<&P::refinements>,
+         "",
+         {.from = 0, .to = 6},
+         "",
+         "times that all elements are halved on top"},
+        {"layers",
+         at<&P::layers>,
+         "",
+         {},
+         "",
+         "rock by depth, the first from 0: {top_depth_m, young_modulus_pa, poisson_ratio, "
+         "density_kg_per_m3}; none: one of the values above"},
+        {"mesh_file",
+         at<&P::mesh_file>,
+         "",
+         {},
+         "",
+         "Gmsh mesh (.msh, format 2.2) of the footwall, instead of elements made from the "
+         "detachment"},
+        {"left_side",
+         one_of<&P::left_side>({"free", "roller", "elastic"}),
+         "",
+         {},
+         "",
+         "nothing holds it, rollers do, or springs like as much rock again"},
+        {"right_side",
+         one_of<&P::right_side>({"free", "roller", "elastic"}),
+         "",
+         {},
+         "",
+         "the same of the other far side"},
+        {"solver",
+         one_of<&P::solver>({"mumps", "boomeramg", "gamg"}),
+         "",
+         {},
+         "",
+         "factors, which a base under discs needs, or multigrid for large ones without discs"},
+        {"scheme",
+         one_of<&P::scheme>({"modal", "lumped", "staggered", "strong"}),
+         "",
+         {},
+         "",
+         "how base and discs advance together"},
+        {"update_interval_cycles",
+         at<&P::update_interval>,
+         "",
+         {.from = 1, .to = 1e6},
+         "",
+         "cycles between updates of the base"},
+        {"modes",
+         at<&P::modes>,
+         "",
+         {.from = 0, .to = 1e5},
+         "",
+         "softest modes of the base that move in scheme modal; 0: all"},
+        {"mass_factor",
+         at<&P::mass_factor>,
+         "",
+         {.from = 0.6, .to = 1e6, .reason = "below, contacts and base are unstable"},
+         "",
+         "modal mass over (stiffness + contact stiffness) times the squared update interval"},
+        {"swing_damping",
+         at<&P::swing_damping>,
+         "",
+         {.from = 0, .to = 10},
+         "",
+         "of the modes of scheme modal with the discs they carry, over critical damping"},
+        {"disc_damping",
+         one_of<&P::relative_damping>({"relative", "absolute"}),
+         "",
+         {},
+         "",
+         "against the discs' mean motion, or as PFC does, which holds sinking rock up"},
+        {"averaging_time_s",
+         at<&P::averaging_time>,
+         "s",
+         {.above = 0, .to = 1e9},
+         "",
+         "model time over which the mean motion of a disc is taken, for relative damping"},
+    };
+}
+
+void check_densities(const P& base, const Refuse& refuse) {
+    if (!(base.mantle_density >= base.crust_density) ||
+        !(base.crust_density >= base.infill_density))
+        refuse("elastic_base.crust_density_kg_per_m3",
+               fmt::format("is {}, allowed: between those of infill ({}) and mantle ({}), for the "
+                           "base to float upright",
+                           text(base.crust_density), text(base.infill_density),
+                           text(base.mantle_density)));
+}
+
+/// As a plate that carries a load of [flexure], without discs.
+void check_plate(const Scene& scene, const P& base, const Refuse& refuse) {
+    if (!(base.mantle_density > base.infill_density))
+        refuse("elastic_base.mantle_density_kg_per_m3",
+               fmt::format("is {}, allowed: above infill_density_kg_per_m3 = {}",
+                           text(base.mantle_density), text(base.infill_density)));
+    check_densities(base, refuse);
+    // Waves shorter than the base is thick do not bend it, and cells would be flat.
+    const auto refuse_short = [&](const char* key, double length, double least) {
+        if (length < least)
+            refuse(std::string("flexure.") + key,
+                   fmt::format("too short ({}), allowed: at least {}, a tenth of the elastic "
+                               "thickness",
+                               text(length), text(least)));
+    };
+    if (scene.flexure->load == FlexureLoad::sinusoid)
+        refuse_short("wavelength_m", scene.flexure->wavelength, 0.1 * base.elastic_thickness);
+    if (scene.flexure->load == FlexureLoad::strip)
+        refuse_short("half_width_m", scene.flexure->half_width, 0.1 * base.elastic_thickness);
+}
+
+/// What the footwall itself refuses, before a run prepares anything.
+void check(const Scene& scene, const Refuse& refuse) {
+    const P& base = *elastic_base(scene);
+    if (scene.flexure) {
+        check_plate(scene, base, refuse);
+        return;
+    }
+    check_densities(base, refuse);
+    const dem::Extent extent{scene.hanging_wall->length, scene.hanging_wall->thickness,
+                             scene.extension.distance};
+    if (!(base.right > extent.reach()))
+        refuse("elastic_base.right_m",
+               fmt::format("is {}, allowed: above {}, beyond the right wall's last position",
+                           text(base.right), text(extent.reach())));
+    if (base.solver != fem::Solver::mumps)
+        refuse("elastic_base.solver",
+               "makes no factors, which a base under discs is condensed with; allowed: mumps");
+    try {
+        fem::check(make_footwall_request(scene, make_parts(scene)));
+    } catch (const fem::FootwallError& error) {
+        refuse("elastic_base", error.what());
+    }
+}
+
+void contribute(const Scene& scene, ModelParts& parts) {
+    if (scene.flexure)
+        return;
+    const P& base = *elastic_base(scene);
+    dem::follow_nodes(parts.base, base.degree);
+    parts.base_moves = true;
+    if (base.relative_damping)
+        parts.physics.averaging_time = base.averaging_time;
+}
+
+/// What the footwall feels and what it does not.
+std::string explain(const Scene& scene, EffectList list) {
+    const P& base = *elastic_base(scene);
+    constexpr const char* schemes[] = {"modal", "lumped", "staggered", "strong"};
+    std::string text = fmt::format(
+        "elastic base\n"
+        "  Te {:g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "
+        "1/{:g},\n  but not within {:g} km of the detachment; scheme {}, every {} cycles\n"
+        "  loaded by what changes in the discs' forces since they settled on it\n"
+        "  loads that no disc carries\n"
+        "    right of the right wall: the weight of the undisturbed hanging wall, up to where the\n"
+        "    wall is; the wall takes this weight along\n"
+        "    springs (density x gravity) where rock of other density moves in: {} kg/m3 above the\n"
+        "    footwall and on the detachment, {} kg/m3 at the base\n"
+        "    {}\n",
+        base.elastic_thickness / 1e3, base.depth / 1e3, base.left / 1e3, base.right / 1e3,
+        base.relaxation, base.skin_thickness / 1e3, schemes[static_cast<int>(base.scheme)],
+        base.update_interval, base.crust_density, base.mantle_density - base.crust_density,
+        base.infill_density > 0.0
+            ? fmt::format("{} kg/m3 on the footwall's surface where it sinks", base.infill_density)
+            : std::string("no infill of what sinks of the footwall's surface"));
+    std::string absent;
+    for (const Effect* effect : list) {
+        if (effect->absence.empty())
+            continue;
+        if (!has_effect(scene, effect->name))
+            absent += fmt::format("{}, ", effect->absence);
+        else if (effect->explain)
+            text += effect->explain(scene, list);
+    }
+    return text + fmt::format("  not in the model: {}friction of the right wall;\n"
+                              "  what leans on the backstop above the breakaway\n",
+                              absent);
+}
+
+/// Set-up, settling of the discs, and an answer every few cycles.
+double price(const Scene& scene, const Workload& work) {
+    return 5e7 + 1.2e4 * work.at_start +
+           1350.0 * work.cycles / elastic_base(scene)->update_interval;
+}
+
+} // namespace
+
+const Effect& elastic_base() {
+    static const Effect effect{
+        .name = "elastic_base",
+        .doc = "footwall and basement bend and float",
+        .defaults = make_defaults<P>,
+        .address = address_of<P>,
+        .parameters = parameters(),
+        .files = {{"mesh_file", "",
+                   [](Scene& scene, const std::string& file, const Refuse&) {
+                       scene.find<P>()->mesh_file = std::filesystem::absolute(file).string();
+                   }}},
+        .needs = {"detachment", "gravity"},
+        .without_discs = true,
+        .scale = [](Scene& scene,
+                    const AccuracyLevel& level) { scene.find<P>()->cell_size = level.cell_size; },
+        .check = check,
+        .contribute = contribute,
+        .explain = explain,
+        .price = price,
+        .summarise = footwall_summary,
+    };
+    return effect;
+}
+
+} // namespace listric::effects

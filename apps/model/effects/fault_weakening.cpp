@@ -1,0 +1,159 @@
+#include "dem/events/fault_weakening.hpp"
+
+#include "apps/scene/effect.hpp"
+#include "dem/events/property_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric::effects {
+
+namespace {
+
+using P = dem::FaultWeakeningParameters;
+
+std::vector<Parameter> parameters() {
+    using dem::Material;
+    return {
+        {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_w",
+         "time between scans for faults"},
+        {"strain_rate_per_s", at<&P::strain_rate>, "1/s", ranges::strain_rate, "eps_cw",
+         "least shear strain rate of a fault"},
+        {"circle_diameters",
+         at<&P::circle_diameters>,
+         "",
+         {.from = 2, .to = 100},
+         "",
+         "diameter of the measure circle, in mean disc diameters"},
+        {"strained_width",
+         at<&P::strained_width>,
+         "",
+         {.above = 0, .to = 1},
+         "",
+         "width that the strain rate refers to, in circle diameters"},
+        {"spacing_diameters",
+         at<&P::spacing_diameters>,
+         "",
+         {.from = 0, .to = 1e3},
+         "l_csp",
+         "least distance to a more active fault, in mean disc diameters"},
+        {"band_diameters",
+         at<&P::band_diameters>,
+         "",
+         {.above = 0, .to = 100},
+         "",
+         "width of the weakened band, in mean disc diameters"},
+        {"sound_share",
+         at<&P::sound_share>,
+         "",
+         {.from = 0, .to = 1},
+         "",
+         "least share of sound discs in a band that is weakened"},
+        {"angles",
+         at<&P::angles>,
+         "",
+         {.from = 2, .to = 360},
+         "",
+         "fault angles tried at each sampling point"},
+        {"youngest_sediment_a",
+         at<&P::youngest_sediment>,
+         "a",
+         {.from = 0, .to = 1e9},
+         "",
+         "sediment younger than this is left alone, as loose sediment is"},
+        {"normal_stiffness_pa", at<&P::material, &Material::normal_stiffness>, "Pa",
+         ranges::stiffness, "k_n", "normal stiffness of one weakened disc"},
+        {"shear_stiffness_pa", at<&P::material, &Material::shear_stiffness>, "Pa",
+         ranges::stiffness, "k_s", "shear stiffness of one weakened disc"},
+        {"friction", at<&P::material, &Material::friction>, "", ranges::friction, "mu_d",
+         "of weakened discs"},
+        {"update_interval_a", at<&P::update_interval>, "a", ranges::years, "",
+         "time between property updates"},
+        {"mean_stress_ratio",
+         at<&P::mean_stress_ratio>,
+         "",
+         {.above = 0, .to = 2},
+         "",
+         "mean stress in a fault over lithostatic stress"},
+        {"largest_change",
+         at<&P::largest_change>,
+         "",
+         {.above = 0, .to = 0.5},
+         "",
+         "largest relative change of a radius per property update"},
+    };
+}
+
+std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts,
+                                     std::span<const StagedEvent>) {
+    const P& p = *scene.find<P>();
+    const double rate = scene.extension.rate, gravity = parts.physics.gravity;
+    const double density = scene.hanging_wall->rock_density;
+    std::vector<StagedEvent> events;
+    events.push_back(
+        {EventStage::adjust, std::make_unique<dem::PropertyUpdate>(p, rate, gravity, density)});
+    events.push_back(
+        {EventStage::weaken, std::make_unique<dem::FaultWeakening>(p, rate, gravity, density)});
+    return events;
+}
+
+/// Share of weak discs, and how far weakening has changed the volume of rock.
+EffectMeasures measure(const Observation& now) {
+    const dem::ConstDiscColumns d = dem::disc_columns(now.state);
+    const double volume =
+        dem::hanging_wall_area(*now.scene.hanging_wall, now.parts.base.surfaces.front().chain);
+    return {.numbers = {
+                {"weak_fraction", static_cast<double>(std::ranges::count(d.material, dem::weak)) /
+                                      static_cast<double>(d.x.size())},
+                {"volume_error_fraction",
+                 std::abs(dem::weakened_volume_change(now.state, now.parts.base)) / volume},
+            }};
+}
+
+std::vector<FigureLayer> draw(const Observation& now) {
+    FigureLayer layer{"discs_weak", 0, {}};
+    for (const std::uint8_t material : dem::disc_columns(now.state).material)
+        layer.rows.push_back(material == dem::weak ? 1.0 : 0.0);
+    return {layer};
+}
+
+} // namespace
+
+const Effect& fault_weakening() {
+    static const Effect effect{
+        .name = "fault_weakening",
+        .doc = "automatic fault detection (AFD) with its property update",
+        .defaults = make_defaults<P>,
+        .address = address_of<P>,
+        .parameters = parameters(),
+        .rock =
+            RockSource{
+                .key = "weakened",
+                .file = "mat18-w",
+                .doc = "material file with the defaults of weakened discs in [fault_weakening]",
+                .take =
+                    [](Scene& scene, const RockMaterial& rock) {
+                        take_microproperties(scene.find<P>()->material, rock);
+                    },
+            },
+        .contribute =
+            [](const Scene& scene, ModelParts& parts) {
+                const P& p = *scene.find<P>();
+                parts.materials[dem::weak] = p.material;
+                parts.youngest_sediment = p.youngest_sediment;
+                parts.detection_circle = p.circle_diameters;
+            },
+        .make_events = make_events,
+        .price =
+            [](const Scene& scene, const Workload& work) {
+                const P& p = *scene.find<P>();
+                return work.years / p.interval * 330.0 * work.discs +
+                       work.years / p.update_interval * 25.0 * work.discs;
+            },
+        .measure = measure,
+        .draw = draw,
+    };
+    return effect;
+}
+
+} // namespace listric::effects

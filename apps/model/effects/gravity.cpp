@@ -1,0 +1,36 @@
+#include "apps/scene/effect.hpp"
+
+namespace listric::effects {
+
+namespace {
+
+struct GravityParameters {
+    double acceleration = dem::standard_gravity; ///< m/s^2
+};
+
+} // namespace
+
+const Effect& gravity() {
+    using P = GravityParameters;
+    static const Effect effect{
+        .name = "gravity",
+        .doc = "weight of the discs",
+        .defaults = make_defaults<P>,
+        .address = address_of<P>,
+        .parameters = {{"acceleration_m_per_s2",
+                        at<&P::acceleration>,
+                        "m/s2",
+                        {.above = 0, .to = 100},
+                        "g",
+                        "gravitational acceleration"}},
+        .without_discs = true,
+        .in_genesis = true,
+        .contribute =
+            [](const Scene& scene, ModelParts& parts) {
+                parts.physics.gravity = scene.find<P>()->acceleration;
+            },
+    };
+    return effect;
+}
+
+} // namespace listric::effects

@@ -1,0 +1,101 @@
+#include "dem/events/sedimentation.hpp"
+
+#include "apps/scene/effect.hpp"
+#include "apps/scene/target_csv.hpp"
+
+namespace listric::effects {
+
+namespace {
+
+using P = dem::SedimentationParameters;
+
+std::vector<Parameter> parameters() {
+    using dem::Material;
+    return {
+        {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_s",
+         "time between sedimentations"},
+        {"level_m", at<&P::level>, "m", ranges::height, "",
+         "of the target, above the original surface, where no target line is given"},
+        {"target", at<&P::target>, "", ranges::height, "",
+         "target line: points [x, y] in m, or stages {time_a, points}; fills below, erodes above"},
+        {"surface_porosity",
+         at<&P::surface_porosity>,
+         "",
+         {.from = 0, .to = 0.9},
+         "Phi_ini",
+         "porosity of fresh sediment"},
+        {"grain_density_kg_per_m3", at<&P::grain_density>, "kg/m3", ranges::density, "",
+         "density of sediment at zero porosity"},
+        {"normal_stiffness_pa", at<&P::material, &Material::normal_stiffness>, "Pa",
+         ranges::stiffness, "k_n", "normal stiffness of one sediment disc"},
+        {"shear_stiffness_pa", at<&P::material, &Material::shear_stiffness>, "Pa",
+         ranges::stiffness, "k_s", "shear stiffness of one sediment disc"},
+        {"friction", at<&P::material, &Material::friction>, "", ranges::friction, "mu_d",
+         "of sediment discs"},
+    };
+}
+
+} // namespace
+
+const Effect& sedimentation() {
+    static const Effect effect{
+        .name = "sedimentation",
+        .doc = "adapts the surface to a target: deposits below, erodes above",
+        .defaults = make_defaults<P>,
+        .address = address_of<P>,
+        .parameters = parameters(),
+        .files = {{"target_csv",
+                   "file with the target line: columns time_a, x_m, y_m; linear between times",
+                   [](Scene& scene, const std::string& file, const Refuse& refuse) {
+                       P& p = *scene.find<P>();
+                       if (!p.target.empty())
+                           refuse("sedimentation.target_csv",
+                                  "beside sedimentation.target; give one of them");
+                       p.target = read_target_csv(file);
+                   }}},
+        .rock =
+            RockSource{
+                .key = "sediment",
+                .file = "sediment",
+                .doc = "material file with the defaults of sediment discs in [sedimentation]",
+                .take =
+                    [](Scene& scene, const RockMaterial& rock) {
+                        take_microproperties(scene.find<P>()->material, rock);
+                    },
+            },
+        .contribute =
+            [](const Scene& scene, ModelParts& parts) {
+                const P& p = *scene.find<P>();
+                parts.materials[dem::sediment] = p.material;
+                parts.sediment = {p.level, dem::Target(p.level, p.target), p.surface_porosity, {}};
+            },
+        .make_events =
+            [](const Scene& scene, const ModelParts&, std::span<const StagedEvent>) {
+                std::vector<StagedEvent> events;
+                events.push_back(
+                    {EventStage::deposit, std::make_unique<dem::Sedimentation>(
+                                              *scene.find<P>(), scene.hanging_wall->radius_ratio,
+                                              scene.extension.rate)});
+                return events;
+            },
+        .price =
+            [](const Scene& scene, const Workload& work) {
+                return work.years / scene.find<P>()->interval * (8e6 + 640.0 * work.discs);
+            },
+        // Fills distance times thickness, and small discs fill up to the target.
+        .new_area =
+            [](const Scene& scene) {
+                return 1.1 * scene.extension.distance * scene.hanging_wall->thickness;
+            },
+        .measure =
+            [](const Observation& now) {
+                const dem::Ledger& ledger = now.state.ledger;
+                return EffectMeasures{
+                    .numbers = {{"deposited_fraction", ledger.deposited / ledger.initial},
+                                {"eroded_fraction", ledger.removed / ledger.initial}}};
+            },
+    };
+    return effect;
+}
+
+} // namespace listric::effects

@@ -1,0 +1,82 @@
+#include "apps/model/model.hpp"
+
+#include "dem/events/equilibrium.hpp"
+#include "dem/events/strain.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace listric {
+
+using namespace dem;
+
+ModelParts make_parts(const Scene& scene) {
+    ModelParts parts;
+    parts.base = make_rigid_base(scene);
+    parts.physics.damping = scene.cycle.damping;
+    parts.materials.assign(3, scene.basement); // of every MaterialIndex
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->contribute)
+            part.effect->contribute(scene, parts);
+    return parts;
+}
+
+std::vector<std::unique_ptr<Event>> make_events(const Scene& scene, const ModelParts& parts) {
+    constexpr double sampling = 2500.0; // a, the paper's interval of bond healing
+    const double rate = scene.extension.rate;
+    std::vector<StagedEvent> staged;
+    const auto add = [&](StagedEvent event) {
+        const auto place = std::ranges::upper_bound(staged, event.stage, {}, &StagedEvent::stage);
+        staged.insert(place, std::move(event));
+    };
+    add({EventStage::sample, std::make_unique<Equilibrium>(sampling, rate, parts.physics.gravity)});
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->make_events)
+            for (StagedEvent& event : part.effect->make_events(scene, parts, staged))
+                add(std::move(event));
+    add({EventStage::strain, std::make_unique<Strain>(strain_window, rate)});
+    std::vector<std::unique_ptr<Event>> events;
+    std::ranges::transform(staged, std::back_inserter(events),
+                           [](StagedEvent& event) { return std::move(event.event); });
+    return events;
+}
+
+std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
+                                                        const ModelParts& parts) {
+    std::vector<coupling::FootwallLoad> loads;
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->load_footwall)
+            loads.push_back(part.effect->load_footwall(scene, parts));
+    return loads;
+}
+
+BaseDriver make_base_driver(const Scene& scene, const ModelParts& parts) {
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->drive_base)
+            return part.effect->drive_base(scene, parts);
+    return {};
+}
+
+EffectMeasures measure_effects(const Observation& now) {
+    EffectMeasures all;
+    for (const EffectPart& part : now.scene.effects) {
+        if (!part.effect->measure)
+            continue;
+        EffectMeasures measures = part.effect->measure(now);
+        std::ranges::move(measures.numbers, std::back_inserter(all.numbers));
+        std::ranges::move(measures.groups, std::back_inserter(all.groups));
+    }
+    return all;
+}
+
+Scene genesis_of(const Scene& scene) {
+    Scene start = scene;
+    start.accuracy = start.description = start.name = "";
+    start.extension = {};
+    start.output = {};
+    start.extension.distance = scene.extension.distance; // decides how far the base reaches
+    std::erase_if(start.effects, [](const EffectPart& part) { return !part.effect->in_genesis; });
+    return start;
+}
+
+} // namespace listric

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "apps/scene/effect.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace listric {
+
+/// What a scene asks for besides events: base, materials, physics, with every effect's share.
+ModelParts make_parts(const Scene& scene);
+
+/// The events of a scene, in the order in which they are applied at the same moment. An effect that
+/// is not in the scene has no event, so it has no memory and no cost. Those of the loads on an
+/// elastic footwall come with the footwall.
+std::vector<std::unique_ptr<dem::Event>> make_events(const Scene& scene, const ModelParts& parts);
+
+/// The loads on an elastic footwall, in the order in which they are applied.
+std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
+                                                        const ModelParts& parts);
+
+/// The prescribed motion of the base's nodes; without a response where none is.
+BaseDriver make_base_driver(const Scene& scene, const ModelParts& parts);
+
+/// Measures of all effects that are on.
+EffectMeasures measure_effects(const Observation& now);
+
+/// The scene as far as the hanging wall before extension depends on it.
+Scene genesis_of(const Scene& scene);
+
+} // namespace listric

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace listric {
+
+/// Defaults that trade time for detail.
+struct AccuracyLevel {
+    std::string_view name;
+    double mean_radius; ///< of the hanging wall's discs, m
+    double cell_size;   ///< of an elastic base at the detachment, m
+    double speed;       ///< of extension, m/s: unbalanced forces stay below 4e-3 of contact forces
+};
+
+std::span<const AccuracyLevel> accuracy_levels();
+
+} // namespace listric

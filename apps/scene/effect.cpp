@@ -1,0 +1,20 @@
+#include "apps/scene/effect.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace listric {
+
+bool has_effect(const Scene& scene, std::string_view name) {
+    return std::ranges::any_of(scene.effects,
+                               [&](const EffectPart& part) { return part.effect->name == name; });
+}
+
+std::vector<std::string> effect_names(const Scene& scene) {
+    std::vector<std::string> names;
+    std::ranges::transform(scene.effects, std::back_inserter(names),
+                           [](const EffectPart& part) { return std::string(part.effect->name); });
+    return names;
+}
+
+} // namespace listric

@@ -1,0 +1,180 @@
+#pragma once
+
+#include "apps/scene/accuracy.hpp"
+#include "apps/scene/material_file.hpp"
+#include "apps/scene/parameter.hpp"
+#include "apps/scene/scene.hpp"
+#include "apps/support/figure_layer.hpp"
+#include "apps/support/named_numbers.hpp"
+#include "dem/base_motion.hpp"
+#include "dem/cycle.hpp"
+#include "dem/event.hpp"
+#include "dem/target_line.hpp"
+#include "dem/units.hpp"
+
+#include <any>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+// What an effect says of itself, in one object: everything that the program does with effects is a
+// loop over such descriptions, so that no other place knows one by name.
+
+namespace listric::coupling {
+struct FootwallLoad;
+}
+
+namespace listric {
+
+/// Refuses a scene because of the value at a path of keys ("table.key"). Throws SceneError.
+using Refuse = std::function<void(const std::string& path, const std::string& message)>;
+
+/// A parameter that names a file, which is read into what it stands for when the scene is loaded,
+/// so that what a run writes stands alone.
+struct FileParameter {
+    std::string_view key;
+    std::string_view doc;
+    /// @param refuse  takes the parameter's path
+    void (*read)(Scene& scene, const std::string& file, const Refuse& refuse);
+};
+
+/// A rock whose file, named in [materials], holds defaults of the effect's parameters.
+struct RockSource {
+    std::string_view key;  ///< in [materials]
+    std::string_view file; ///< default: name on the shelf of materials
+    std::string_view doc;
+    void (*take)(Scene& scene, const RockMaterial& rock);
+    /// Why the effect cannot be on with that rock; none: it always can.
+    std::string (*objection)(const RockMaterial& rock) = nullptr;
+};
+
+/// When an event comes among those that are due at the same moment.
+enum class EventStage {
+    sample,  ///< looks at what the cycles have left
+    adjust,  ///< radii and densities follow load and depth
+    heal,    ///< bonds come
+    weaken,  ///< faults are found
+    deposit, ///< discs come and go
+    account, ///< books what the others have done
+    strain,  ///< a window starts with the discs that were deposited at its start
+    load     ///< loads on the footwall
+};
+
+struct StagedEvent {
+    EventStage stage;
+    std::unique_ptr<dem::Event> event;
+};
+
+/// Sediment as effects describe it to each other and to measures.
+struct SedimentFacts {
+    double level = 0.0;                   ///< m, y up
+    dem::Target surface{0.0};             ///< line that the surface is adapted to
+    double surface_porosity = 0.0;        ///< as deposited
+    std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
+};
+
+/// What effects put into a model besides events: each adds its share in the order of the list.
+struct ModelParts {
+    dem::RigidBase base;
+    dem::CyclePhysics physics;
+    std::vector<dem::Material> materials; ///< by MaterialIndex
+    std::optional<dem::BondStrength> bonds;
+    std::optional<SedimentFacts> sediment;
+    /// Sediment younger than this is too loose for a fault: it creeps all over, a.
+    double youngest_sediment = 2.0e5;
+    /// Diameter of the circle that faults are looked for with, mean disc diameters; none: they are
+    /// not looked for.
+    std::optional<double> detection_circle;
+    bool base_moves = false;      ///< the detachment deforms
+    bool accounts_energy = false; ///< the cycle is the plain one, on one thread
+};
+
+/// A base whose nodes move as an effect wants.
+struct BaseDriver {
+    std::unique_ptr<dem::BaseResponse> response;
+    std::vector<dem::Point> nodes; ///< before extension, m
+};
+
+/// A moment of a run, for what is measured and drawn of it.
+struct Observation {
+    const Scene& scene;
+    const ModelParts& parts;
+    const dem::State& state;
+    std::span<const std::unique_ptr<dem::Event>> events;
+};
+
+/// Measures of an effect, by the names of docs/measures.md.
+struct EffectMeasures {
+    NamedNumbers numbers;                                     ///< also columns of history.csv
+    std::vector<std::pair<std::string, NamedNumbers>> groups; ///< objects of summary.json
+};
+
+/// What a prediction multiplies prices with.
+struct Workload {
+    double discs = 0.0; ///< mean over the run
+    double at_start = 0.0;
+    double cycles = 0.0;
+    double years = 0.0;
+};
+
+struct Effect;
+using EffectList = std::span<const Effect* const>;
+
+/// An effect: a table of the scene file and all that follows from its being there. What is null
+/// does not concern the effect.
+struct Effect {
+    std::string_view name; ///< of the table
+    std::string_view doc;
+    std::any (*defaults)(); ///< parameters; see parameters_of
+    const void* (*address)(const std::any& parameters);
+    std::vector<Parameter> parameters = {};
+    std::vector<FileParameter> files = {};
+    std::optional<RockSource> rock = {};
+    std::vector<std::string_view> needs = {}; ///< tables that must be there, too
+    bool without_discs = false;               ///< makes sense in a scene of the base alone
+    bool in_genesis = false;                  ///< the hanging wall before extension depends on it
+
+    void (*scale)(Scene& scene, const AccuracyLevel& level) = nullptr; ///< defaults by accuracy
+    void (*check)(const Scene& scene, const Refuse& refuse) = nullptr;
+
+    void (*contribute)(const Scene& scene, ModelParts& parts) = nullptr;
+    /// @param others  those of the effects before, in the order in which they are applied
+    std::vector<StagedEvent> (*make_events)(const Scene& scene, const ModelParts& parts,
+                                            std::span<const StagedEvent> others) = nullptr;
+    coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
+    BaseDriver (*drive_base)(const Scene& scene, const ModelParts& parts) = nullptr;
+
+    /// Lines for `explain`. @param list  all effects that there are
+    std::string (*explain)(const Scene& scene, EffectList list) = nullptr;
+    std::string_view absence = {}; ///< what the model lacks without it, for a base that bends
+
+    /// Time that it takes, disc-steps of the bare cycle.
+    double (*price)(const Scene& scene, const Workload& work) = nullptr;
+    /// Area that comes as discs, m^2 of the packing at the start.
+    double (*new_area)(const Scene& scene) = nullptr;
+
+    EffectMeasures (*measure)(const Observation& now) = nullptr;
+    /// Numbers of summary.json that follow from columns of history.csv.
+    NamedNumbers (*summarise)(const dem::Table& history, const dem::State& now) = nullptr;
+    std::vector<FigureLayer> (*draw)(const Observation& now) = nullptr;
+};
+
+/// Whether the effect of that name is on.
+bool has_effect(const Scene& scene, std::string_view name);
+
+/// Names of the effects that are on.
+std::vector<std::string> effect_names(const Scene& scene);
+
+/// Default parameters of a type, and where an object of it is in a std::any.
+template <class Parameters> std::any make_defaults() { return Parameters{}; }
+template <class Parameters> const void* address_of(const std::any& parameters) {
+    return std::any_cast<Parameters>(&parameters);
+}
+
+} // namespace listric

@@ -1,0 +1,58 @@
+#include "apps/scene/parameter.hpp"
+
+#include "apps/support/spelling.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace listric {
+
+std::string text(const Range& range) {
+    std::vector<std::string> bounds;
+    const auto add = [&](const char* word, double bound) {
+        if (std::isfinite(bound))
+            bounds.push_back(fmt::format("{} {}", word, text(bound)));
+    };
+    add("at least", range.from);
+    add("above", range.above);
+    add("at most", range.to);
+    add("below", range.below);
+    return fmt::format("{}", fmt::join(bounds, ", "));
+}
+
+std::string type_of(const Parameter& parameter) {
+    struct {
+        std::string operator()(const Place<double>&) const { return "number"; }
+        std::string operator()(const Place<std::optional<double>>&) const { return "number"; }
+        std::string operator()(const Place<int>&) const { return "integer"; }
+        std::string operator()(const Place<std::uint64_t>&) const { return "integer"; }
+        std::string operator()(const Place<std::string>&) const { return "string"; }
+        std::string operator()(const Choice& choice) const {
+            return fmt::format("one of \"{}\"", fmt::join(choice.names, "\", \""));
+        }
+        std::string operator()(const Place<std::vector<double>>&) const {
+            return "array of numbers";
+        }
+        std::string operator()(const Place<std::vector<dem::DetachmentSegment>>&) const {
+            return "array of {arc = {...}} and {line = {...}}";
+        }
+        std::string operator()(const Place<std::vector<dem::TargetStage>>&) const {
+            return "array of points [x, y], or of {time_a = ..., points = [[x, y], ...]}";
+        }
+        std::string operator()(const Place<std::vector<fem::Layer>>&) const {
+            return "array of {top_depth_m = ..., young_modulus_pa = ..., ...}";
+        }
+    } name;
+    return std::visit(name, parameter.value);
+}
+
+std::vector<std::string_view> keys(const std::vector<Parameter>& parameters) {
+    std::vector<std::string_view> keys;
+    std::ranges::transform(parameters, std::back_inserter(keys), &Parameter::key);
+    return keys;
+}
+
+} // namespace listric

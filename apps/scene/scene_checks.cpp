@@ -1,0 +1,155 @@
+#include "apps/scene/scene_checks.hpp"
+
+#include "apps/scene/tables.hpp"
+#include "apps/support/spelling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+using namespace dem;
+
+Entry entry_at(const toml::table& document, const std::string& path) {
+    const std::string table = path.substr(0, path.find('.'));
+    const toml::node* node = document.at_path(path).node();
+    if (!node)
+        node = document.get(table);
+    return {node ? *node : document, path};
+}
+
+namespace {
+
+void check_detachment(const Scene& scene, const toml::table& document) {
+    constexpr double tolerance = 1.0; // m
+    const DetachmentParameters& detachment = *scene.detachment;
+    const double thickness = scene.hanging_wall->thickness;
+    const Entry entry = entry_at(document, "detachment.segments");
+    if (detachment.segments.empty())
+        fail(entry, "has no arc and no line, needs at least one, for example "
+                    "segments = [{arc = {radius_m = 15000.0, end_dip_deg = 0.0}}]");
+    double dip = detachment.start_dip;
+    if (const auto first = detachment.segments.front().start_dip; first && *first != dip)
+        fail(
+            entry_at(document, "detachment.segments"),
+            fmt::format("does not join: the first piece has start_dip_deg = {}, but the detachment "
+                        "start_dip_deg = {}; both are the dip at the breakaway, give one",
+                        text(*first), text(dip)));
+    for (const DetachmentSegment& segment : detachment.segments) {
+        const double start = segment.start_dip.value_or(dip);
+        const bool is_arc = segment.kind == DetachmentSegment::Kind::arc;
+        dip = is_arc ? segment.end_dip : start;
+        if (is_arc && start == dip)
+            fail(entry, fmt::format("has an arc that starts and ends with a dip of {} degrees, "
+                                    "needs an end_dip_deg that differs, or a line",
+                                    text(dip)));
+    }
+    if (dip != 0.0)
+        fail(entry, fmt::format("ends with a dip of {} degrees, allowed: 0; let the last arc have "
+                                "end_dip_deg = 0.0",
+                                text(dip)));
+    const double depth =
+        -make_rigid_base(scene).surfaces.front().chain.back().end.y; // it never rises
+    if (std::abs(depth - thickness) > tolerance)
+        fail(entry, fmt::format("reaches a depth of {:.1f} m, allowed: hanging_wall.thickness_m = "
+                                "{} within {} m; change the thickness, or radii and lengths; an "
+                                "arc of radius R from dip a to dip b descends R |cos b - cos a|",
+                                depth, text(thickness), tolerance));
+    if (!(hanging_wall_area(scene) > 0.0))
+        fail(entry, "stays at the surface up to the moving wall, needs to descend before "
+                    "hanging_wall.length_m");
+}
+
+void check_resolution(const Scene& scene, const toml::table& document) {
+    constexpr double fewest = 100, most = 5e6;
+    const double radius = scene.hanging_wall->mean_radius;
+    const double area = hanging_wall_area(scene);
+    // Counted with so many discs that the count's being whole does not matter.
+    HangingWallParameters fine = *scene.hanging_wall;
+    fine.mean_radius = 1e-4 * std::sqrt(area);
+    const double fine_discs = static_cast<double>(disc_count(fine, area));
+    const auto radius_for = [&](double discs) {
+        return fine.mean_radius * std::sqrt(fine_discs / discs);
+    };
+    const auto refuse = [&](const char* what, const char* bound, double allowed, double discs) {
+        fail(entry_at(document, "hanging_wall.mean_radius_m"),
+             fmt::format("too {} ({}), gives {} discs, allowed: at {} {:.4g} ({} discs)", what,
+                         text(radius), estimated_discs(scene), bound, allowed, text(discs)));
+    };
+    // What is advised keeps away from the bound, because it is rounded.
+    if (radius > radius_for(fewest))
+        refuse("large", "most", 0.999 * radius_for(fewest), fewest);
+    if (radius < radius_for(most))
+        refuse("small", "least", 1.001 * radius_for(most), most);
+}
+
+/// A scene without discs has no effects on discs.
+void check_flexure(const Scene& scene, const toml::table& document) {
+    const auto refuse_discs = [&](std::string_view table) {
+        fail(entry_at(document, std::string(table)),
+             "needs discs, which a scene with [flexure] does not have; leave out one of the two");
+    };
+    if (scene.hanging_wall)
+        refuse_discs("hanging_wall");
+    if (scene.detachment)
+        refuse_discs("detachment");
+    if (scene.stretching)
+        refuse_discs("stretching");
+    for (const EffectPart& part : scene.effects)
+        if (!part.effect->without_discs)
+            refuse_discs(part.effect->name);
+    if (document.contains("materials"))
+        refuse_discs("materials");
+    if (!has_effect(scene, "elastic_base"))
+        fail(entry_at(document, "flexure"), "needs [elastic_base], the plate that bends; add it");
+}
+
+/// That the base on which discs slide is there, once.
+void check_base(const Scene& scene, const toml::table& document) {
+    if (!scene.hanging_wall)
+        fail(entry_at(document, "hanging_wall"),
+             "is missing, every scene needs [hanging_wall] or [flexure]");
+    if (scene.detachment && scene.stretching)
+        fail(entry_at(document, "stretching"),
+             "stands in place of [detachment]; leave out one of the two");
+    if (!scene.detachment && !scene.stretching)
+        fail(entry_at(document, "hanging_wall"),
+             "needs [detachment], the surface on which it slides, or [stretching]; add one");
+    if (scene.detachment)
+        check_detachment(scene, document);
+}
+
+void check_needs(const Scene& scene, const toml::table& document, EffectList effects) {
+    const std::vector<SceneTable> tables = scene_tables(effects);
+    for (const EffectPart& part : scene.effects)
+        for (const std::string_view needed : part.effect->needs) {
+            const auto table = std::ranges::find(tables, needed, &SceneTable::name);
+            if (table == tables.end() || !table->in(scene))
+                fail(entry_at(document, std::string(part.effect->name)),
+                     fmt::format("needs [{1}], which the scene does not have; add [{1}] or leave "
+                                 "out [{0}]",
+                                 part.effect->name, needed));
+        }
+}
+
+} // namespace
+
+void check_scene(const Scene& scene, const toml::table& document, EffectList effects) {
+    if (scene.flexure) {
+        check_flexure(scene, document);
+    } else {
+        check_base(scene, document);
+        check_needs(scene, document, effects);
+        check_resolution(scene, document);
+    }
+    const Refuse refuse = [&](const std::string& path, const std::string& message) {
+        fail(entry_at(document, path), message);
+    };
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->check)
+            part.effect->check(scene, refuse);
+}
+
+} // namespace listric

@@ -1,0 +1,342 @@
+#include "apps/scene/scene_file.hpp"
+
+#include "apps/scene/pieces.hpp"
+#include "apps/scene/scene_checks.hpp"
+#include "apps/scene/tables.hpp"
+#include "apps/support/spelling.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+
+namespace listric {
+
+using namespace dem;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr Shelf scenes{"scene",
+                       "a scene has at least [hanging_wall] and [detachment] or [stretching], "
+                       "or [flexure] and [elastic_base]",
+                       "LISTRIC_SCENES", "apps/scenes"};
+
+[[noreturn]] void fail_unknown(const Entry& entry, const std::vector<Parameter>& top,
+                               const std::vector<SceneTable>& all) {
+    std::vector<std::string_view> allowed = keys(top);
+    allowed.push_back("materials");
+    std::ranges::transform(all, std::back_inserter(allowed), &SceneTable::name);
+    // A parameter that lacks its table is worth recognising; --set damping=0.5 is easily typed.
+    std::vector<std::string> meant;
+    if (!nearest(entry.path, allowed)) {
+        for (const SceneTable& table : all) {
+            if (const auto key = nearest(entry.path, keys(table.parameters)))
+                meant.push_back(fmt::format("{}.{}", table.name, *key));
+        }
+    }
+    fail(entry,
+         fmt::format("unknown {}, {}", entry.node.is_table() ? "table" : "key",
+                     meant.empty() ? advice(entry.path, allowed)
+                                   : fmt::format("did you mean {}?", fmt::join(meant, " or "))));
+}
+
+void drop_effects(Scene& scene, const std::vector<std::string>& without,
+                  const std::vector<SceneTable>& all) {
+    std::vector<std::string_view> names, effects;
+    for (const SceneTable& table : all) {
+        names.push_back(table.name);
+        if (table.effect && table.in(scene))
+            effects.push_back(table.name);
+    }
+    const std::string in_scene =
+        effects.empty() ? "the scene has no effects"
+                        : fmt::format("effects in the scene: {}", fmt::join(effects, ", "));
+    for (const std::string& name : without) {
+        const auto refuse = [&](std::string_view what) {
+            fail(fmt::format("--without {}: {} ({})", name, what, in_scene));
+        };
+        const auto table = std::ranges::find(all, name, &SceneTable::name);
+        if (table == all.end()) {
+            const auto meant = nearest(name, names);
+            refuse(meant ? fmt::format("unknown table, did you mean {}?", *meant)
+                         : "unknown table");
+        }
+        if (!table->effect)
+            refuse("is not an effect and cannot be left out");
+        if (std::ranges::find(effects, name) == effects.end())
+            refuse("is not in the scene");
+        table->drop(*table, scene);
+    }
+}
+
+/// A path is relative to where it is written: to the scene's file, or to where the call is made.
+std::string located(const std::string& path, const toml::node* node, const fs::path& folder) {
+    const bool in_file = node && !node->source().path->starts_with("--");
+    return in_file ? (folder / path).string() : path;
+}
+
+// ------------------------------------------------------------------------------------- materials
+
+/// Of [materials]: name or path of a rock's file.
+struct RockName {
+    std::string file;
+};
+
+constexpr RockSource basement_source{
+    "basement", "mat18-b", "material file with the defaults of [material] and [bonds]",
+    [](Scene& scene, const RockMaterial& rock) { take_microproperties(scene.basement, rock); }};
+
+/// Those of [materials], each key once.
+std::vector<Parameter> rock_names(EffectList effects) {
+    std::vector<Parameter> names;
+    const auto add = [&](const RockSource& rock) {
+        if (std::ranges::find(names, rock.key, &Parameter::key) == names.end())
+            names.push_back({rock.key, at<&RockName::file>, "", {}, "", rock.doc});
+    };
+    add(basement_source);
+    for (const Effect* effect : effects)
+        if (effect->rock)
+            add(*effect->rock);
+    return names;
+}
+
+/// Rocks by their key in [materials], read when asked for.
+class Rocks {
+public:
+    Rocks(const toml::table& document, EffectList effects, fs::path folder)
+        : table_(document.get("materials")), folder_(std::move(folder)) {
+        if (!table_)
+            return;
+        if (!table_->is_table())
+            fail_type({*table_, "materials"}, "table");
+        const std::vector<Parameter> names = rock_names(effects);
+        for (const auto& [key, node] : *table_->as_table()) {
+            const Entry entry{node, fmt::format("materials.{}", key.str())};
+            const auto declared = std::ranges::find(names, key.str(), &Parameter::key);
+            if (declared == names.end())
+                fail(entry, fmt::format("unknown key, {}", advice(key.str(), keys(names))));
+            read(entry, *declared, &names_[std::string(key.str())]);
+        }
+    }
+
+    bool is_named(std::string_view key) const { return names_.contains(key); }
+
+    const RockMaterial& of(const RockSource& source) {
+        const auto known = rocks_.find(source.key);
+        if (known != rocks_.end())
+            return known->second;
+        const auto named = names_.find(source.key);
+        const std::string name =
+            named == names_.end() ? std::string(source.file) : named->second.file;
+        const toml::node* node = table_ ? table_->as_table()->get(source.key) : nullptr;
+        fs::path file;
+        try {
+            file = materials.find(is_path(name) ? located(name, node, folder_) : name);
+        } catch (const SceneError& error) {
+            if (node)
+                fail({*node, fmt::format("materials.{}", source.key)}, error.what());
+            throw;
+        }
+        return rocks_.emplace(source.key, read_material(file)).first->second;
+    }
+
+private:
+    const toml::node* table_;
+    fs::path folder_;
+    std::map<std::string, RockName, std::less<>> names_;
+    std::map<std::string, RockMaterial, std::less<>> rocks_;
+};
+
+/// Puts what the material files say where the scene file's tables will then be read.
+void take_rocks(Scene& scene, Rocks& rocks, EffectList effects) {
+    basement_source.take(scene, rocks.of(basement_source));
+    for (const Effect* effect : effects) {
+        if (!effect->rock)
+            continue;
+        if (has_effect(scene, effect->name))
+            effect->rock->take(scene, rocks.of(*effect->rock));
+        else if (rocks.is_named(effect->rock->key))
+            rocks.of(*effect->rock); // an error in what is named is told
+    }
+}
+
+void check_rocks(const Scene& scene, Rocks& rocks, const toml::table& document) {
+    for (const EffectPart& part : scene.effects)
+        if (const auto& source = part.effect->rock; source && source->objection)
+            if (const std::string why = source->objection(rocks.of(*source)); !why.empty())
+                fail(entry_at(document, fmt::format("materials.{}", source->key)), why);
+}
+
+// --------------------------------------------------------------------------------------- tables
+
+std::vector<std::string_view> file_keys(const SceneTable& table) {
+    std::vector<std::string_view> keys;
+    if (table.effect)
+        std::ranges::transform(table.effect->files, std::back_inserter(keys), &FileParameter::key);
+    return keys;
+}
+
+/// Reads the files that a table's parameters name into what they stand for.
+void read_files(Scene& scene, const SceneTable& table, const toml::table& document,
+                const fs::path& folder) {
+    if (!table.effect || !table.in(scene))
+        return;
+    for (const FileParameter& parameter : table.effect->files) {
+        const std::string path = fmt::format("{}.{}", table.name, parameter.key);
+        const toml::node* node = document.at_path(path).node();
+        if (!node)
+            continue;
+        const Entry entry{*node, path};
+        if (!node->is_string())
+            fail_type(entry, "string");
+        const std::string& name = node->as_string()->get();
+        if (name.empty())
+            continue;
+        const std::string file = located(name, node, folder);
+        std::error_code error;
+        if (!fs::is_regular_file(file, error))
+            fail(entry, fmt::format("{}: no such file", file));
+        parameter.read(scene, file, [&](const std::string& at, const std::string& message) {
+            fail(entry_at(document, at), message);
+        });
+    }
+}
+
+/// The document that a call asks for.
+toml::table merged_document(const SceneRequest& request, const fs::path& path) {
+    toml::table document = scenes.read(path);
+    for (const std::string& assignment : request.set)
+        set(document, assignment, "--set " + assignment);
+    if (request.accuracy)
+        set(document, "accuracy=" + quoted(*request.accuracy), "--accuracy " + *request.accuracy);
+    if (request.seed) {
+        const std::string seed = std::to_string(*request.seed);
+        set(document, "seed=" + seed, "--seed " + seed);
+    }
+    return document;
+}
+
+/// Reads what stands above the tables, and puts in the tables that are there, with defaults.
+void begin_scene(Scene& scene, const toml::table& document, const std::vector<SceneTable>& all) {
+    for (const auto& [key, node] : document) {
+        const Entry entry{node, std::string(key.str())};
+        if (const auto parameter = std::ranges::find(top_level(), key.str(), &Parameter::key);
+            parameter != top_level().end())
+            read(entry, *parameter, &scene);
+        else if (key != "materials" &&
+                 std::ranges::find(all, key.str(), &SceneTable::name) == all.end())
+            fail_unknown(entry, top_level(), all);
+    }
+    for (const SceneTable& table : all)
+        if (document.contains(table.name))
+            table.add(table, scene);
+}
+
+void set_accuracy(Scene& scene) {
+    const AccuracyLevel& level =
+        *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
+    if (scene.hanging_wall)
+        scene.hanging_wall->mean_radius = level.mean_radius;
+    scene.extension.speed = level.speed;
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->scale)
+            part.effect->scale(scene, level);
+}
+
+} // namespace
+
+// ------------------------------------------------------------------------------------- interface
+
+Scene load_scene(const SceneRequest& request, EffectList effects) {
+    const fs::path path = scenes.find(request.scene);
+    const toml::table document = merged_document(request, path);
+    const std::vector<SceneTable> all = scene_tables(effects);
+    Scene scene;
+    scene.name = path.stem().string();
+    begin_scene(scene, document, all);
+    set_accuracy(scene);
+    Rocks rocks(document, effects, path.parent_path());
+    take_rocks(scene, rocks, effects);
+    for (const SceneTable& table : all)
+        if (const toml::node* node = document.get(table.name))
+            read_table({*node, std::string(table.name)}, table.parameters, table.add(table, scene),
+                       file_keys(table));
+    for (const SceneTable& table : all)
+        read_files(scene, table, document, path.parent_path());
+    drop_effects(scene, request.without, all);
+    check_scene(scene, document, effects);
+    check_rocks(scene, rocks, document);
+    return scene;
+}
+
+std::string to_toml(const Scene& scene) {
+    std::vector<const Effect*> effects;
+    std::ranges::transform(scene.effects, std::back_inserter(effects), &EffectPart::effect);
+    std::string lines = fmt::format("# All parameters in force.\n\n{}", write(top_level(), &scene));
+    for (const SceneTable& table : scene_tables(effects))
+        if (const void* part = table.find(table, scene))
+            lines += fmt::format("\n[{}]  # {}\n{}", table.name, table.doc,
+                                 write(table.parameters, part));
+    return lines;
+}
+
+std::string parameter_reference(EffectList effects) {
+    Scene scene;
+    std::string lines = "At the top of the file\n";
+    for (const Parameter& parameter : top_level())
+        lines += explain(parameter, &scene);
+    lines += "\n[materials]: files of apps/materials by name, others by path\n";
+    for (const Parameter& parameter : rock_names(effects)) {
+        RockName name{std::string(basement_source.file)};
+        for (const Effect* effect : effects)
+            if (effect->rock && effect->rock->key == parameter.key)
+                name.file = effect->rock->file;
+        lines += explain(parameter, &name);
+    }
+    for (const SceneTable& table : scene_tables(effects)) {
+        lines +=
+            fmt::format("\n[{}]{}: {}\n", table.name, table.effect ? " (effect)" : "", table.doc);
+        const void* part = table.add(table, scene);
+        for (const Parameter& parameter : table.parameters)
+            lines += explain(parameter, part);
+        if (!table.effect)
+            continue;
+        for (const FileParameter& file : table.effect->files) {
+            const Parameter parameter{file.key, at<&RockName::file>, "", {}, "", file.doc};
+            const RockName none;
+            if (std::ranges::find(table.parameters, file.key, &Parameter::key) ==
+                table.parameters.end())
+                lines += explain(parameter, &none);
+        }
+    }
+    for (const auto kind : {DetachmentSegment::Kind::arc, DetachmentSegment::Kind::line}) {
+        const DetachmentSegment segment;
+        lines += fmt::format("\nSegment {{{} = {{...}}}} of [detachment]\n",
+                             kind == DetachmentSegment::Kind::arc ? "arc" : "line");
+        for (const Parameter& parameter : segment_parameters(kind))
+            lines += explain(parameter, &segment);
+    }
+    return lines;
+}
+
+std::vector<std::pair<std::string, std::string>> list_scenes() {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const std::string& name : scenes.names()) {
+        std::string description;
+        try {
+            const toml::table document = scenes.read(scenes.path() / (name + ".toml"));
+            description = document["description"].value_or(std::string());
+        } catch (const SceneError& error) {
+            description = error.what(); // one bad file must not hide the others
+        }
+        list.emplace_back(name, description);
+    }
+    return list;
+}
+
+} // namespace listric

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "apps/scene/effect.hpp"
+#include "apps/support/error.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace listric {
+
+/// How a call modifies a scene.
+struct SceneRequest {
+    std::string scene = {};                   ///< name in the scenes folder, or a path
+    std::vector<std::string> set = {};        ///< "table.key=value"
+    std::vector<std::string> without = {};    ///< tables to drop
+    std::optional<std::string> accuracy = {}; ///< draft, standard, fine, sandbox
+    std::optional<std::int64_t> seed = {};
+};
+
+/// Reads, merges (default < accuracy level < scene file < set) and checks a scene with the effects
+/// that there are. Its name is the file's without folder and ending. Throws SceneError.
+Scene load_scene(const SceneRequest& request, EffectList effects);
+
+/// All parameters in force as TOML that load_scene reads back to the same scene.
+std::string to_toml(const Scene& scene);
+
+/// Reference of every parameter: table, key, type, default, unit, range, symbol, doc.
+std::string parameter_reference(EffectList effects);
+
+/// Scenes shipped with the program (or in the folder LISTRIC_SCENES): name and description, sorted
+/// by name.
+std::vector<std::pair<std::string, std::string>> list_scenes();
+
+} // namespace listric

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "apps/scene/parameter.hpp"
+
+// Without its assertions the parser reports a stray bracket where a value should be; with them
+// toml++ 3.3 ends the program.
+#define TOML_ASSERT(condition) static_assert(true)
+
+#include <toml++/toml.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+// TOML text on one side, declared parameters (parameter.hpp) on the other. All that fails
+// throws a SceneError of one line: "file:line: parameter: what is wrong, what is allowed".
+
+namespace listric {
+
+/// A value of the document and the path of keys that leads to it.
+struct Entry {
+    const toml::node& node;
+    std::string path;
+};
+
+[[noreturn]] void fail(std::string message);
+[[noreturn]] void fail(const Entry& entry, std::string_view message);
+[[noreturn]] void fail_type(const Entry& entry, std::string_view allowed);
+
+/// A string as TOML writes it.
+std::string quoted(const std::string& string);
+
+/// Reads an entry into the object whose parameter it is.
+void read(const Entry& entry, const Parameter& parameter, void* object);
+
+/// Reads a table: every key must be declared, every parameter without a default given.
+/// @param read_elsewhere  keys that are allowed besides
+void read_table(const Entry& entry, const std::vector<Parameter>& parameters, void* object,
+                const std::vector<std::string_view>& read_elsewhere = {});
+
+/// `origin` is where messages say that the text comes from.
+toml::table parse(const std::string& text, const std::string& origin);
+
+/// `assignment` is "table.key=value"; a value that is not TOML is a string.
+void set(toml::table& document, const std::string& assignment, const std::string& origin);
+
+/// Lines "key = value  # doc".
+std::string write(const std::vector<Parameter>& parameters, const void* object);
+
+/// A parameter of the reference: a line with its default, the value in `object`, two with meaning,
+/// type and range.
+std::string explain(const Parameter& parameter, const void* object);
+
+} // namespace listric
