@@ -88,4 +88,5 @@ def report(violations):
 
 
 def main(check):
-    sys.exit(report(check(read_tree())))
+    """Checks the tree that this file is of, or another one whose root is an argument."""
+    sys.exit(report(check(read_tree(*sys.argv[1:2]))))
