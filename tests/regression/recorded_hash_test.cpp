@@ -47,5 +47,16 @@ TEST_F(RecordedHash, HoldsForTheAccountOfEnergy) {
     EXPECT_EQ(hash_of(2, false, {"energy={}"}), recorded("state_and_energy"));
 }
 
+// every-effect-begun is the folder of a run to 100 m by version 0.1.0+283ba95, whose snapshot shall
+// stay good: users resume by a newer program.
+TEST_F(RecordedHash, HoldsForARunThatAnEarlierVersionBegan) {
+    RunOptions o = options("run");
+    std::filesystem::copy(test_scene("every-effect-begun"), o.output,
+                          std::filesystem::copy_options::recursive);
+    o.resume = true;
+    const auto summary = run(load_scene({.scene = test_scene("every-effect.toml")}), o);
+    EXPECT_EQ(summary["state_hash"], recorded("state"));
+}
+
 } // namespace
 } // namespace listric

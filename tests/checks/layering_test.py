@@ -1,0 +1,103 @@
+import unittest
+
+from layering import violations
+from source_tree import read_tree
+
+
+def included(path, *lines):
+    return {path: "".join(f"#include {line}\n" for line in lines)}
+
+
+class PlantedViolations(unittest.TestCase):
+    def found(self, *trees):
+        return violations({path: text for planted in trees for path, text in planted.items()})
+
+    def test_a_room_that_looks_up(self):
+        self.assertEqual(
+            self.found(included("apps/scene/scene.cpp", '"apps/scene/scene.hpp"',
+                                '"apps/support/error.hpp"', '"dem/base.hpp"', "<toml++/toml.h>",
+                                '"apps/model/effects.hpp"', '"apps/run/run.hpp"')),
+            ["apps/scene/scene.cpp: must not include apps/model/effects.hpp",
+             "apps/scene/scene.cpp: must not include apps/run/run.hpp"])
+
+    def test_a_sub_room_belongs_to_its_room(self):
+        self.assertEqual(
+            self.found(included("apps/model/effects/compaction.cpp", '"apps/scene/scene.hpp"',
+                                '"apps/model/effect.hpp"', '"apps/archive/snapshot.hpp"')),
+            ["apps/model/effects/compaction.cpp: must not include apps/archive/snapshot.hpp"])
+
+    def test_a_scene_in_measures(self):
+        self.assertEqual(
+            self.found(included("apps/measures/fault.hpp", '"apps/support/statistics.hpp"',
+                                '"dem/state.hpp"', "<vector>", '"apps/scene/scene.hpp"',
+                                '"fem/footwall.hpp"', "<fmt/format.h>")),
+            ["apps/measures/fault.hpp: must not include apps/scene/scene.hpp",
+             "apps/measures/fault.hpp: must not include fem/footwall.hpp",
+             "apps/measures/fault.hpp: must not include fmt/format.h"])
+
+    def test_a_file_in_no_room(self):
+        self.assertEqual(self.found({"apps/main.cpp": "", "apps/helper.cpp": "",
+                                     "apps/tools/helper.py": ""}),
+                         ["apps/helper.cpp: lies in no room",
+                          "apps/tools/helper.py: lies in no room"])
+
+    def test_a_cycle_of_units(self):
+        self.assertEqual(
+            self.found(included("dem/cycle.cpp", '"dem/cycle.hpp"', '"dem/fast.hpp"'),
+                       included("dem/cycle.hpp", "<vector>"),
+                       included("dem/fast.cpp", '"dem/fast.hpp"', '"dem/law.hpp"'),
+                       included("dem/fast.hpp", '"dem/state.hpp"'),
+                       included("dem/state.hpp"),
+                       included("dem/law.hpp", '"dem/cycle.hpp"')),
+            ["cycle of units: dem/cycle, dem/fast, dem/law"])
+
+    def test_a_header_with_its_source_is_no_cycle(self):
+        self.assertEqual(self.found(included("dem/cycle.cpp", '"dem/cycle.hpp"'),
+                                    included("dem/cycle.hpp", '"dem/state.hpp"')), [])
+
+    def test_dem_beyond_the_standard_library(self):
+        self.assertEqual(
+            self.found(included("dem/cycle.cpp", "<vector>", "<cmath>", '"dem/events/strain.hpp"',
+                                "<immintrin.h>", "<unistd.h>", '"fem/footwall.hpp"',
+                                "<fmt/core.h> // a comment", '"../apps/run.hpp"', '"state.hpp"',
+                                '"dem/../fem/mesh.hpp"', "HEADER")),
+            [f"dem/cycle.cpp: must not include {name}" for name in
+             ("unistd.h", "fem/footwall.hpp", "fmt/core.h", "../apps/run.hpp", "state.hpp",
+              "dem/../fem/mesh.hpp", "HEADER")])
+
+    def test_finite_elements_outside_the_plug_in(self):
+        self.assertEqual(
+            self.found(included("fem/mesh.cpp", '"fem/mesh.hpp"', '"fem/footwall.hpp"',
+                                "<deal.II/grid/tria.h>", "<petscksp.h>", '"dem/state.hpp"'),
+                       included("fem/plate.cpp", "<dlfcn.h>", "<deal.II/grid/tria.h>",
+                                '"fem/mesh.hpp"'),
+                       included("coupling/modes.cpp", "<Eigen/Dense>", '"fem/footwall.hpp"',
+                                '"fem/mesh.hpp"', '"apps/scene/scene.hpp"'),
+                       included("apps/model/footwall.cpp", '"fem/footwall.hpp"', "<petsc.h>",
+                                '"fem/elasticity.hpp"')),
+            ["fem/mesh.cpp: must not include dem/state.hpp",
+             "fem/plate.cpp: must not include deal.II/grid/tria.h",
+             "fem/plate.cpp: must not include fem/mesh.hpp",
+             "coupling/modes.cpp: must not include fem/mesh.hpp",
+             "coupling/modes.cpp: must not include apps/scene/scene.hpp",
+             "apps/model/footwall.cpp: must not include petsc.h",
+             "apps/model/footwall.cpp: must not include fem/elasticity.hpp"])
+
+    def test_what_is_no_include(self):
+        self.assertEqual(self.found({"dem/cycle.cpp": '// #include "apps/run/run.hpp"\n'
+                                                      'int include;\n'}), [])
+
+    def test_unusual_spelling_of_an_include(self):
+        self.assertEqual(self.found({"dem/cycle.cpp": ' #  include\t"fem/plate.hpp"'}),
+                         ["dem/cycle.cpp: must not include fem/plate.hpp"])
+
+
+class Sources(unittest.TestCase):
+    def test_keep_to_their_rooms(self):
+        sources = read_tree()
+        self.assertGreater(len(sources), 100, "no sources read")
+        self.assertEqual(violations(sources), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

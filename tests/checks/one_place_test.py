@@ -1,0 +1,81 @@
+import unittest
+
+from one_place import EFFECTS, EXCEPTIONS, LIST, Effect, Exempt, violations
+from source_tree import read_tree
+
+WEAKENING = Effect("fault_weakening", "FaultWeakeningParameters")
+BONDS = Effect("bonds", "BondStrength", trade=True)
+
+
+class PlantedViolations(unittest.TestCase):
+    def found(self, text, path="apps/run/run.cpp", effects=(WEAKENING, BONDS), exceptions=()):
+        return violations({path: text}, effects, exceptions)
+
+    def check_found(self, *lines, path="apps/run/run.cpp"):
+        for line in lines:
+            with self.subTest(line):
+                self.assertEqual(len(self.found(line, path)), 1, line)
+
+    def test_a_name_elsewhere(self):
+        self.assertEqual(self.found("int a;\n    if (scene.fault_weakening)\n"),
+                         ["fault_weakening: apps/run/run.cpp:2: if (scene.fault_weakening)"])
+        self.check_found("void draw_fault_weakening();", "// before [fault_weakening]",
+                         '#include "dem/events/fault_weakening.hpp"', 'find("fault_weakening");')
+        self.check_found('colour = layers["fault_weakening"]', path="apps/figures/python/sheet.py")
+
+    def test_a_type_elsewhere(self):
+        self.check_found("FaultWeakeningParameters p;", "const BondStrength& strength")
+        self.assertEqual(self.found("struct FaultWeakening; BondStrengthening b; auto bonds = 0;"), [])
+
+    def test_a_name_put_together_from_pieces(self):
+        self.check_found('find("fault_" "weakening");', 'find("fault_"\n     "weakening");',
+                         'find(std::string("fault") + "_weakening");',
+                         'find("fault" + \'_\' + "weakening");',
+                         'fmt::format("{}_{}", "fault", "weakening");',
+                         "auto x = s.fault_##weakening;")
+        self.check_found("name = 'fault' + '_weakening'", "name = '_'.join(('fault', 'weakening'))",
+                         path="apps/figures/python/sheet.py")
+        self.assertEqual(self.found('find("fault"); find("weakening");'), [])
+
+    def test_a_table_of_the_trade_counts_by_its_type_alone(self):
+        self.assertEqual(self.found('auto bonds = count("bonds");'), [])
+
+    def test_one_line_of_the_list(self):
+        line = "    &effects::fault_weakening,\n"
+        self.assertEqual(self.found(line, LIST), [])
+        self.assertEqual(len(self.found(line + line, LIST)), 1)
+
+    def test_own_files(self):
+        self.assertEqual(self.found("FaultWeakeningParameters fault_weakening;",
+                                    "apps/model/effects/fault_weakening.cpp"), [])
+        self.assertEqual(len(self.found("FaultWeakeningParameters p;",
+                                        "apps/model/effects/bonds.cpp")), 1)
+
+    def test_an_effect_that_is_not_checked(self):
+        self.assertEqual(self.found("", "apps/model/effects/tides.cpp"),
+                         ["apps/model/effects/tides.cpp: of no effect that this check knows"])
+
+    def test_exceptions_are_needed_and_few(self):
+        text = "materials[weak] = fault_weakening.material;"
+        exempt = Exempt("apps/run/run.cpp", "materials[weak]", "a reason")
+        self.assertEqual(self.found(text, exceptions=(exempt,)), [])
+        self.assertEqual(self.found("", exceptions=(exempt,)),
+                         ["an exception that is not needed: apps/run/run.cpp: materials[weak]"])
+        many = [exempt._replace(holds=text[:n]) for n in range(12, 18)]
+        self.assertEqual(self.found(text, exceptions=many), ["6 exceptions, at most 5"])
+
+
+class Sources(unittest.TestCase):
+    def test_an_effect_is_in_one_place(self):
+        self.assertEqual(violations(read_tree(layers=("apps",))), [])
+
+    def test_exceptions_have_reasons(self):
+        for exception in EXCEPTIONS:
+            self.assertGreater(len(exception.reason.split()), 3, exception)
+
+    def test_every_effect_has_a_table_of_its_own(self):
+        self.assertEqual(len({effect.table for effect in EFFECTS}), len(EFFECTS))
+
+
+if __name__ == "__main__":
+    unittest.main()
