@@ -13,7 +13,6 @@
 
 namespace listric {
 
-using namespace dem;
 namespace {
 
 using namespace support;

@@ -10,8 +10,6 @@
 
 namespace listric::support {
 
-using namespace dem;
-
 inline constexpr double right_angle = 0.5 * std::numbers::pi;
 inline constexpr double gravity = 9.81; ///< m/s^2
 
