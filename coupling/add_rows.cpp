@@ -3,10 +3,12 @@
 #include "coupling/modes.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace listric::coupling {
 
 void add_rows(std::span<const double> rows, std::span<const double> v, std::span<double> result) {
+    assert(rows.size() == v.size() * result.size());
     std::ranges::fill(result, 0.0);
     const std::size_t n = result.size();
     double* const __restrict sum = result.data();

@@ -1,8 +1,9 @@
 #include "coupling/basin_water.hpp"
 
-#include "coupling/footwall_loads.hpp"
+#include "coupling/interface_loads.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -27,6 +28,7 @@ double detachment_height(const ConstBaseNodeColumns& nodes, double x) {
 std::vector<double> water_depths(const State& state, double level, double column_width) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstBaseNodeColumns nodes = base_node_columns(state);
+    assert(!d.x.empty() && nodes.x.size() > 1);
     const double right = std::ranges::max(d.x);
     std::vector<double> floor(static_cast<std::size_t>(std::max(0.0, right / column_width)));
     for (std::size_t k = 0; k < floor.size(); ++k)
@@ -75,6 +77,19 @@ bool BasinWater::apply(State& state, const RigidBase&) {
             load[2 * n + 1] -= pressure * per_pascal_[k][n];
     }
     return false;
+}
+
+FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gravity,
+                              double column_width, double extension_rate) {
+    const auto make_event = [=](const LoadSolution& solution) {
+        return LoadingEvent{.event =
+                                std::make_unique<BasinWater>(solution.base.interface(), parameters,
+                                                             gravity, column_width, extension_rate),
+                            .measures = [](const State& state) {
+                                return NamedValues{{"basin_water_n_per_m", water_weight(state)}};
+                            }};
+    };
+    return {{}, make_event};
 }
 
 } // namespace listric::coupling

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/footwall_loads.hpp"
 #include "coupling/interface.hpp"
 #include "dem/event.hpp"
 
@@ -45,5 +46,8 @@ private:
     std::size_t nodes_;
     std::vector<std::vector<double>> per_pascal_; ///< by column: forces on the nodes, upward, N
 };
+
+FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gravity,
+                              double column_width, double extension_rate);
 
 } // namespace listric::coupling

@@ -44,6 +44,15 @@ struct WindowBalance {
     double cycles = 0.0;
 };
 
+/// Mean load of the discs on the base over some cycles.
+struct DiscLoad {
+    double cycles = 0.0;
+    double extension = 0.0;     ///< at their end, m
+    std::vector<double> forces; ///< on the interface's unknowns, relative to the reference, with
+                                ///< those of the virtual load, N
+    double reaction = 0.0;      ///< upward, of the base on the discs, N
+};
+
 /// An elastic footwall under the discs, condensed to the detachment and loaded by the changes of
 /// the discs' forces since the settled initial state. Its memory are the state's nodes and
 /// `base_memory`, so that it can be made anew for a resumed state.
@@ -52,6 +61,7 @@ public:
     ElasticBase(Interface interface, const CouplingParameters& parameters);
 
     const Interface& interface() const { return interface_; }
+    const CouplingParameters& parameters() const { return parameters_; }
     const Modes& modes() const { return modes_; }
 
     /// Compliance of the softest mode times the stiffness of a contact. Above 1 the staggered
@@ -65,7 +75,7 @@ public:
     /// Settles the discs while the nodes are held and makes the mean forces of the last 2,000
     /// cycles the reference load. Settled is where these change by less than 2e-5 from one 2,000
     /// to the next, and would move the base by less than `drift` m. Throws NumericalFailure if that
-    /// is not reached. The clock starts at 0 afterwards.
+    /// is not reached. The clock is as before.
     void settle(dem::State& state, const dem::RigidBase& base, const dem::CyclePhysics& physics,
                 const dem::Execution& execution,
                 const std::function<void(std::string_view, double)>& report,
@@ -73,16 +83,15 @@ public:
 
     void respond(dem::State& state, const dem::Clock& clock) override;
 
+    /// Whether advance_iterated() of the strong scheme moves it, not respond().
     bool is_iterated() const { return parameters_.scheme == CouplingScheme::strong; }
 
-    /// Advances discs and base by scheme strong: the base has no mass, and rests at the end of
-    /// every interval under the interval's mean loads, to a thousandth of its displacement or a
-    /// ten-thousandth of the discs' mean radius; to a thousandth of that where contacts that open
-    /// and close allow no better. Returns how often an interval was computed, in the mean. Throws
-    /// NumericalFailure if that is not found.
-    double advance_iterated(dem::State& state, const dem::RigidBase& base,
-                            const dem::CyclePhysics& physics, std::int64_t cycles,
-                            const dem::Execution& execution);
+    /// Takes the load of the last cycles from the nodes, where it is summed, and sets it to zero
+    /// there.
+    DiscLoad take_disc_load(dem::State& state, double cycles, double extension) const;
+
+    /// Adds a load of the discs, the effects' loads and the displacement to the window's sums.
+    void book(dem::State& state, const DiscLoad& load) const;
 
     /// Static displacement of the interface under forces on its unknowns.
     std::vector<double> displacement(std::span<const double> forces) const;
@@ -93,20 +102,21 @@ public:
     /// The same for its present displacement.
     std::vector<double> holding_forces(const dem::State& state) const;
 
-    /// Means of the window: forces of the discs relative to the reference with the virtual ones,
-    /// and displacement.
-    /// Columns force, N, and displacement, m, of the unknowns; effects, N, where loads of effects
-    /// act beside the discs.
-    dem::Table window_means(const dem::State& state) const;
+    /// Forces on the interface, of discs and of what rests on it, that hold its present
+    /// displacement together with the effects' loads elsewhere.
+    std::vector<double> interface_forces(const dem::State& state) const;
 
+    /// Means of the window that has begun.
     WindowBalance window(const dem::State& state) const;
-    void begin_window(dem::State& state) const;
+
+    /// Keeps the window's means, if it had a cycle, as those of the last window and begins another.
+    void end_window(dem::State& state) const;
 
     double seconds = 0.0; ///< wall time spent responding
 
 private:
-    double collect(dem::State& state, double cycles, double extension);
-    void book(dem::State& state, double cycles, double extension, double reaction);
+    void find_stiffness();
+    double flat_start() const;
     double carried_mass(const dem::State& state) const;
     void move_modes(dem::State& state, double step);
     void move_lumped(dem::State& state, double step);
@@ -116,7 +126,8 @@ private:
     CouplingParameters parameters_;
     Modes modes_;
     std::vector<double> stiffness_, lumped_stiffness_; ///< of scheme lumped: S by rows, sums |S|
-    std::vector<double> load_, modal_load_, modal_velocity_, velocity_; // scratch
+    std::vector<double> load_;                         ///< that moves the base: discs and effects
+    std::vector<double> modal_load_, velocity_;        // scratch
 };
 
 } // namespace listric::coupling

@@ -1,13 +1,49 @@
 #include "coupling/footwall_erosion.hpp"
 
-#include "coupling/footwall_loads.hpp"
+#include "coupling/interface_loads.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace listric::coupling {
 
 using namespace dem;
+
+namespace {
+
+/// Uplift of the knots by discs, water and the other effects' loads.
+FootwallErosion::Uplift uplift_of(const SurfaceResponse& surface, const LoadSolution& solution) {
+    std::vector<OtherLoad> others = solution.others;
+    for (OtherLoad& other : others)
+        other.work = surface.uplift_by_work(other.work);
+    return [surface, others, &base = solution.base](const State& state) {
+        std::vector<double> uplift = surface.uplift_by(base.interface_forces(state));
+        for (const OtherLoad& other : others)
+            std::ranges::transform(uplift, superpose(other.amounts(state), other.work),
+                                   uplift.begin(), std::plus());
+        return uplift;
+    };
+}
+
+} // namespace
+
+SurfaceResponse::SurfaceResponse(std::vector<double> knots, std::vector<double> displacement,
+                                 std::span<const fem::Vector> sums, std::span<const double> work)
+    : x(std::move(knots)), interface(std::move(displacement)) {
+    assert(sums.size() == x.size() && work.size() == x.size() * x.size());
+    for (const fem::Vector& sum : sums)
+        width.push_back(-sum.y);
+    uplift = uplift_by_work(work);
+}
+
+std::vector<double> SurfaceResponse::uplift_by_work(std::span<const double> work) const {
+    assert(work.size() % x.size() == 0);
+    std::vector<double> rows;
+    for (std::size_t k = 0; k < work.size(); ++k)
+        rows.push_back(-work[k] / width[k % x.size()]);
+    return rows;
+}
 
 std::vector<double> SurfaceResponse::uplift_by(std::span<const double> forces) const {
     std::vector<double> result;
@@ -21,6 +57,7 @@ std::vector<double> SurfaceResponse::uplift_by(std::span<const double> forces) c
 }
 
 std::vector<double> surface_knots(double width, double left) {
+    assert(width > 0.0 && left < 0.0);
     constexpr double closest = 2e3, growth = 0.25;
     const double end = std::min(width, -left);
     std::vector<double> knots{0.0};
@@ -58,7 +95,7 @@ fem::Load surface_load(std::vector<double> knots, std::vector<double> pressure) 
 }
 
 std::vector<double> cover_pressure(const FootwallErosionParameters& p, double gravity,
-                                   const FootwallCover& cover) {
+                                   const ConstFootwallCover& cover) {
     std::vector<double> pressure;
     for (std::size_t k = 0; k < cover.eroded.size(); ++k)
         pressure.push_back(
@@ -73,6 +110,7 @@ int adapt_footwall(const SurfaceResponse& response, const FootwallErosionParamet
     constexpr double close = 0.01; // m
     constexpr int most = 200;
     const std::size_t n = response.x.size();
+    assert(uplift.size() == n && target.size() == n && cover.eroded.size() == n);
     for (int round = 1; round <= most; ++round) {
         const std::vector<double> pressure = cover_pressure(parameters, gravity, cover);
         double change = 0.0;
@@ -112,12 +150,12 @@ void FootwallErosion::begin(State& state) {
     footwall_load(state, name(), forces_.size() / response_.x.size());
 }
 
-fem::Load FootwallErosion::load() const {
-    Table cover = memory;
-    return surface_load(
-        response_.x, cover_pressure(parameters_, gravity_,
-                                    {cover.get<double>("eroded"), cover.get<double>("deposited")}));
+std::vector<double> FootwallErosion::pressure() const {
+    return cover_pressure(parameters_, gravity_,
+                          {memory.get<double>("eroded"), memory.get<double>("deposited")});
 }
+
+fem::Load FootwallErosion::load() const { return surface_load(response_.x, pressure()); }
 
 FootwallErosion::Areas FootwallErosion::areas() const {
     Areas areas{};
@@ -135,14 +173,31 @@ bool FootwallErosion::apply(State& state, const RigidBase&) {
     for (double x : response_.x)
         heights.push_back(line.height(x));
     adapt_footwall(response_, parameters_, gravity_, uplift_(state), heights, cover);
-    const std::vector<double> pressure = cover_pressure(parameters_, gravity_, cover);
-    const std::size_t unknowns = forces_.size() / response_.x.size();
-    const std::span<double> load = footwall_load(state, name(), unknowns);
-    std::ranges::fill(load, 0.0);
-    for (std::size_t k = 0; k < pressure.size(); ++k)
-        for (std::size_t i = 0; i < unknowns; ++i)
-            load[i] += pressure[k] * forces_[k * unknowns + i];
+    const std::vector<double> now = superpose(pressure(), forces_);
+    std::ranges::copy(now, footwall_load(state, name(), now.size()).begin());
     return false;
+}
+
+FootwallLoad footwall_erosion_load(const FootwallErosionParameters& parameters, double gravity,
+                                   double left, double extension_rate) {
+    const std::vector<double> knots = surface_knots(parameters.width, left);
+    const auto make_event = [=](const LoadSolution& solution) {
+        const SurfaceResponse surface(knots, solution.interface, solution.sums, solution.work);
+        auto event = std::make_unique<FootwallErosion>(surface, solution.forces,
+                                                       uplift_of(surface, solution), parameters,
+                                                       gravity, extension_rate);
+        const FootwallErosion& erosion = *event;
+        return LoadingEvent{.event = std::move(event),
+                            .amounts = [&erosion](const State&) { return erosion.pressure(); },
+                            .load_elsewhere = [&erosion](const State&) { return erosion.load(); },
+                            .measures =
+                                [&erosion](const State&) {
+                                    const auto [eroded, deposited] = erosion.areas();
+                                    return NamedValues{{"footwall_eroded_m2", eroded},
+                                                       {"footwall_deposited_m2", deposited}};
+                                }};
+    };
+    return {surface_loads(knots), make_event};
 }
 
 } // namespace listric::coupling

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/footwall_loads.hpp"
 #include "dem/event.hpp"
 #include "dem/target_line.hpp"
 #include "fem/footwall.hpp"
@@ -29,6 +30,18 @@ struct SurfaceResponse {
     std::vector<double> interface; ///< displacement for 1 Pa downward: m rows of 2 n, m/Pa
     std::vector<double> uplift;    ///< at the column's knot for 1 Pa at the row's: m by m, m/Pa
 
+    /// From the solution for surface_loads(knots).
+    /// @param interface  displacement: m rows of 2 n, m/Pa
+    /// @param sums       of the loads, N/m
+    /// @param work       of these loads on each other's displacement: m by m, J/m
+    SurfaceResponse(std::vector<double> knots, std::vector<double> interface,
+                    std::span<const fem::Vector> sums, std::span<const double> work);
+
+    /// Uplift of the knots by loads, from their work on the displacement by the surface's loads, a
+    /// row per load, J/m; in m. (A pressure's work over its width is the mean of the boundary's
+    /// sinking there.)
+    std::vector<double> uplift_by_work(std::span<const double> work) const;
+
     /// Uplift of the knots by forces on the interface's unknowns, N. (Betti)
     std::vector<double> uplift_by(std::span<const double> forces) const;
 };
@@ -47,6 +60,13 @@ fem::Load surface_load(std::vector<double> knots, std::vector<double> pressure);
 struct FootwallCover {
     std::span<double> eroded, deposited;
 };
+struct ConstFootwallCover {
+    std::span<const double> eroded, deposited;
+
+    ConstFootwallCover(std::span<const double> rock, std::span<const double> sediment)
+        : eroded(rock), deposited(sediment) {}
+    ConstFootwallCover(const FootwallCover& c) : eroded(c.eroded), deposited(c.deposited) {}
+};
 
 /// Brings the surface to the target line, with the rebound that this causes: sediment goes before
 /// rock, and hollows are filled. Returns how often rebound was followed up.
@@ -58,7 +78,7 @@ int adapt_footwall(const SurfaceResponse& response, const FootwallErosionParamet
 
 /// Pressure of the cover on the knots relative to the start, downward, Pa.
 std::vector<double> cover_pressure(const FootwallErosionParameters& parameters, double gravity,
-                                   const FootwallCover& cover);
+                                   const ConstFootwallCover& cover);
 
 /// Adapts the footwall's surface and puts the change of weight on it. Its memory has a row per
 /// knot: x, eroded, deposited.
@@ -75,7 +95,8 @@ public:
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
-    fem::Load load() const; ///< of the cover as it is
+    std::vector<double> pressure() const; ///< of the cover as it is, on the knots, Pa
+    fem::Load load() const;               ///< the same
 
     struct Areas {
         double eroded, deposited; ///< m^2
@@ -90,5 +111,9 @@ private:
     dem::Target target_;
     double gravity_;
 };
+
+/// @param left  side of the footwall, m
+FootwallLoad footwall_erosion_load(const FootwallErosionParameters& parameters, double gravity,
+                                   double left, double extension_rate);
 
 } // namespace listric::coupling

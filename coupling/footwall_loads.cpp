@@ -1,9 +1,7 @@
 #include "coupling/footwall_loads.hpp"
 
-#include "coupling/elastic_base.hpp"
-
 #include <algorithm>
-#include <functional>
+#include <cassert>
 
 namespace listric::coupling {
 
@@ -11,105 +9,118 @@ using namespace dem;
 
 namespace {
 
-constexpr const char* elsewhere = "footwall_loads";
-constexpr const char* on_interface = "interface_loads";
-
-/// So many that the load's change with extension, h e / (b + e), is straight between them to 1e-3.
-constexpr std::size_t crust_steps = 10;
-
-std::span<double> column_of(State& state, const char* table, std::string_view effect,
-                            std::size_t unknowns) {
-    Table& loads = state.base_memory[table];
-    loads.resize(unknowns);
-    return loads.add<double>(effect, "N", 0.0);
-}
-
-void add_loads(const State& state, const char* table, std::span<double> forces) {
-    const auto loads = state.base_memory.find(table);
-    if (loads == state.base_memory.end())
-        return;
-    for (const Column& column : loads->second.columns()) {
-        const auto& values = std::get<std::vector<double>>(column.values);
-        for (std::size_t k = 0; k < forces.size(); ++k)
-            forces[k] += values[k];
-    }
+/// Forces on the interface that displace it as each of the rows does, by rows, N.
+std::vector<double> equivalent_forces(const ElasticBase& base, std::span<const double> rows) {
+    const std::size_t unknowns = base.interface().unknowns();
+    std::vector<double> forces;
+    for (std::size_t first = 0; first < rows.size(); first += unknowns)
+        std::ranges::move(base.forces_for(rows.subspan(first, unknowns)),
+                          std::back_inserter(forces));
+    return forces;
 }
 
 } // namespace
 
-std::span<double> footwall_load(State& state, std::string_view effect, std::size_t unknowns) {
-    return column_of(state, elsewhere, effect, unknowns);
-}
-
-std::span<double> interface_load(State& state, std::string_view effect, std::size_t unknowns) {
-    return column_of(state, on_interface, effect, unknowns);
-}
-
-std::vector<double> interface_loads(const State& state) {
-    const auto loads = state.base_memory.find(on_interface);
-    std::vector<double> sum(loads == state.base_memory.end() ? 0 : loads->second.rows(), 0.0);
-    add_loads(state, on_interface, sum);
-    return sum;
-}
-
-bool has_footwall_loads(const State& state) {
-    return state.base_memory.contains(elsewhere) || state.base_memory.contains(on_interface);
-}
-
-void add_footwall_loads(const State& state, std::span<double> forces) {
-    add_loads(state, elsewhere, forces);
-    add_loads(state, on_interface, forces);
-}
-
-std::vector<double> interface_forces(const ElasticBase& base, const State& state) {
-    std::vector<double> forces = base.holding_forces(state), loads(forces.size(), 0.0);
-    add_loads(state, elsewhere, loads);
-    std::ranges::transform(forces, loads, forces.begin(), std::minus());
-    return forces;
-}
-
-FootwallResponses solve_footwall_loads(fem::Footwall& footwall, std::size_t unknowns,
-                                       const FootwallErosionParameters* erosion, double left,
-                                       const LowerCrustThinningParameters* thinning,
-                                       double contrast, double distance) {
-    FootwallResponses result;
+std::vector<LoadResponse> solve_unit_loads(fem::Footwall& footwall,
+                                           std::span<const std::vector<fem::Load>> effects,
+                                           std::size_t unknowns) {
     std::vector<fem::Load> loads;
-    if (erosion) {
-        result.surface.x = surface_knots(erosion->width, left);
-        loads = surface_loads(result.surface.x);
+    std::vector<std::size_t> first = {0}; // of each effect, and the end
+    for (const std::vector<fem::Load>& effect : effects) {
+        loads.insert(loads.end(), effect.begin(), effect.end());
+        first.push_back(loads.size());
     }
-    const std::size_t knots = loads.size();
-    if (thinning) {
-        result.crust.distance = distance;
-        result.crust.steps = crust_steps;
-        for (fem::Load& load : lower_crust_loads(*thinning, contrast, distance, crust_steps))
-            loads.push_back(std::move(load));
-    }
+    std::vector<LoadResponse> result(effects.size());
     if (loads.empty())
         return result;
 
     const fem::Responses solved = footwall.responses(loads);
     const std::size_t all = 2 * footwall.interface().size();
-    SurfaceResponse& surface = result.surface;
-    for (std::size_t k = 0; k < knots; ++k)
-        for (std::size_t i = 0; i < unknowns; ++i)
-            surface.interface.push_back(solved.interface[k * all + i]);
-    for (std::size_t k = 0; k < knots; ++k)
-        surface.width.push_back(-solved.sums[k].y);
-    // A pressure's work over its width is the mean of the boundary's sinking there.
-    const auto uplift = [&](std::size_t load, std::size_t knot) {
-        return -solved.work[load * loads.size() + knot] / surface.width[knot];
-    };
-    for (std::size_t k = 0; k < knots; ++k)
-        for (std::size_t j = 0; j < knots; ++j)
-            surface.uplift.push_back(uplift(k, j));
-    for (std::size_t row = knots; row < loads.size(); ++row) {
-        for (std::size_t i = 0; i < unknowns; ++i)
-            result.crust.interface.push_back(solved.interface[row * all + i]);
-        for (std::size_t j = 0; j < knots; ++j)
-            result.crust.uplift.push_back(uplift(row, j));
+    assert(unknowns <= all);
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+        LoadResponse& response = result[e];
+        for (std::size_t k = first[e]; k < first[e + 1]; ++k) {
+            for (std::size_t i = 0; i < unknowns; ++i)
+                response.interface.push_back(solved.interface[k * all + i]);
+            response.sums.push_back(solved.sums[k]);
+        }
+        for (std::size_t other = 0; other < effects.size(); ++other) {
+            std::vector<double>& work = response.work.emplace_back();
+            for (std::size_t row = first[other]; row < first[other + 1]; ++row)
+                for (std::size_t k = first[e]; k < first[e + 1]; ++k)
+                    work.push_back(solved.work[row * loads.size() + k]);
+        }
     }
     return result;
+}
+
+std::vector<double> superpose(std::span<const double> amounts, std::span<const double> rows) {
+    assert(!amounts.empty() && rows.size() % amounts.size() == 0);
+    std::vector<double> sum(rows.size() / amounts.size(), 0.0);
+    for (std::size_t k = 0; k < amounts.size(); ++k)
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += amounts[k] * rows[k * sum.size() + i];
+    return sum;
+}
+
+FootwallLoads::FootwallLoads(fem::Footwall& footwall, const ElasticBase& base,
+                             std::span<const FootwallLoad> effects,
+                             std::vector<std::unique_ptr<Event>>& events)
+    : effects_(std::make_shared<std::vector<LoadingEvent>>()) {
+    std::vector<std::vector<fem::Load>> unit_loads;
+    for (const FootwallLoad& effect : effects)
+        unit_loads.push_back(effect.unit_loads);
+    std::vector<LoadResponse> responses =
+        solve_unit_loads(footwall, unit_loads, base.interface().unknowns());
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+        LoadResponse& response = responses[e];
+        LoadSolution solution{base,
+                              std::move(response.interface),
+                              {},
+                              std::move(response.sums),
+                              std::move(response.work[e]),
+                              {}};
+        solution.forces = equivalent_forces(base, solution.interface);
+        for (std::size_t other = 0; other < effects.size(); ++other)
+            if (other != e && !unit_loads[other].empty())
+                solution.others.push_back(
+                    {std::move(response.work[other]), [all = effects_, other](const State& state) {
+                         return (*all)[other].amounts(state);
+                     }});
+        effects_->push_back(effects[e].make_event(solution));
+        assert(unit_loads[e].empty() || effects_->back().amounts);
+    }
+    for (LoadingEvent& effect : *effects_)
+        events.push_back(std::move(effect.event));
+}
+
+fem::Load FootwallLoads::elsewhere(const State& state) const {
+    std::vector<fem::Load> loads;
+    for (const LoadingEvent& effect : *effects_)
+        if (effect.load_elsewhere)
+            loads.push_back(effect.load_elsewhere(state));
+    fem::Load sum;
+    for (const fem::Load& load : loads)
+        sum.jumps.insert(sum.jumps.end(), load.jumps.begin(), load.jumps.end());
+    if (!loads.empty())
+        sum.traction = [loads](fem::Vector place, fem::Vector normal, fem::Boundary boundary) {
+            fem::Vector traction;
+            for (const fem::Load& load : loads) {
+                const fem::Vector t = load.traction(place, normal, boundary);
+                traction.x += t.x;
+                traction.y += t.y;
+            }
+            return traction;
+        };
+    return sum;
+}
+
+NamedValues FootwallLoads::measures(const State& state) const {
+    NamedValues columns;
+    for (const LoadingEvent& effect : *effects_)
+        if (effect.measures)
+            std::ranges::move(effect.measures(state), std::back_inserter(columns));
+    return columns;
 }
 
 } // namespace listric::coupling

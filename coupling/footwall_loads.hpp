@@ -1,54 +1,95 @@
 #pragma once
 
-#include "coupling/footwall_erosion.hpp"
-#include "coupling/lower_crust_thinning.hpp"
-#include "dem/state.hpp"
+#include "coupling/elastic_base.hpp"
+#include "dem/event.hpp"
 #include "fem/footwall.hpp"
 
+#include <functional>
+#include <memory>
+#include <optional>
 #include <span>
-#include <string_view>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace listric::coupling {
 
-class ElasticBase;
+// An effect that loads the footwall is an event that puts forces on the interface's nodes (see
+// interface_loads.hpp). What it puts there may follow from unit loads elsewhere on the footwall,
+// which are solved for once, those of all effects together, and superposed in amounts that change.
 
-// Loads on the footwall that no disc brings: what thins below it, what is eroded from it, water on
-// it. Each is kept as forces on the interface's nodes, which are superposed with the discs'.
-// State::base_memory has a table for loads on the interface, "interface_loads", and one for loads
-// elsewhere, "footwall_loads": forces that displace the interface as the load itself does, C f = u.
-// Both have a column per effect, in N per m of strike: x and y of the first node, the second and
-// so on.
-
-/// Where an effect keeps its forces; adds the column if it is not there.
-std::span<double> footwall_load(dem::State& state, std::string_view effect, std::size_t unknowns);
-std::span<double> interface_load(dem::State& state, std::string_view effect, std::size_t unknowns);
-
-/// Sum of the loads on the interface itself; empty without any.
-std::vector<double> interface_loads(const dem::State& state);
-
-/// Forces on the interface, of discs and water, that hold the present displacement together with
-/// the loads elsewhere.
-std::vector<double> interface_forces(const ElasticBase& base, const dem::State& state);
-
-bool has_footwall_loads(const dem::State& state);
-
-/// Adds the forces of all effects.
-void add_footwall_loads(const dem::State& state, std::span<double> forces);
-
-/// The unit solutions that the effects superpose, solved for together.
-struct FootwallResponses {
-    SurfaceResponse surface;  ///< without knots where the surface is left alone
-    LowerCrustResponse crust; ///< without rows where the lower crust is
+/// What the unit loads of one effect do, by rows a number per load.
+struct LoadResponse {
+    std::vector<double> interface; ///< displacement of the base's unknowns: a row per load, m
+    std::vector<fem::Vector> sums; ///< of the loads, N/m
+    /// Work of the unit loads of each effect on the displacement by this one's, by number of the
+    /// effect: a row per load of that effect, a column per load of this one, J/m. (Betti: the same
+    /// as of this one's on the displacement by that one's.)
+    std::vector<std::vector<double>> work;
 };
 
-/// Solves for the loads of the effects that are there.
+/// Solves for the unit loads of several effects. Throws fem::FootwallError.
 /// @param unknowns  of the interface that is kept, which may end before the footwall's
-/// @param contrast  of mantle and crust, times gravity, Pa/m
-/// @param left      side of the footwall, m
-/// Throws fem::FootwallError.
-FootwallResponses solve_footwall_loads(fem::Footwall& footwall, std::size_t unknowns,
-                                       const FootwallErosionParameters* erosion, double left,
-                                       const LowerCrustThinningParameters* thinning,
-                                       double contrast, double distance);
+std::vector<LoadResponse> solve_unit_loads(fem::Footwall& footwall,
+                                           std::span<const std::vector<fem::Load>> effects,
+                                           std::size_t unknowns);
+
+/// Sum of rows, each times its amount: a number per column.
+std::vector<double> superpose(std::span<const double> amounts, std::span<const double> rows);
+
+/// The unit loads of another effect.
+struct OtherLoad {
+    std::vector<double> work; ///< on the displacement by this effect's: see LoadResponse::work
+    std::function<std::vector<double>(const dem::State&)> amounts; ///< that act now
+};
+
+/// What an effect's event is made from: the rows are those of its unit loads.
+struct LoadSolution {
+    const ElasticBase& base;       ///< lives as long as the event
+    std::vector<double> interface; ///< displacement of the base's unknowns: a row per load, m
+    std::vector<double> forces;    ///< on the unknowns that displace them so: a row per load, N
+    std::vector<fem::Vector> sums; ///< of the loads, N/m
+    std::vector<double> work;      ///< of the loads on each other's displacement: square, J/m
+    std::vector<OtherLoad> others; ///< of the other effects that have unit loads
+};
+
+/// Names and values, for columns of history.csv.
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+/// An effect's event and what is asked of it. The functions refer to the event.
+struct LoadingEvent {
+    std::unique_ptr<dem::Event> event;
+    /// How much of each unit load acts now; none without unit loads.
+    std::function<std::vector<double>(const dem::State&)> amounts = {};
+    /// What acts elsewhere than on the interface now; none: nothing.
+    std::function<fem::Load(const dem::State&)> load_elsewhere = {};
+    std::function<NamedValues(const dem::State&)> measures = {};
+};
+
+/// An effect that loads the footwall, before its unit loads are solved for.
+struct FootwallLoad {
+    std::vector<fem::Load> unit_loads = {};
+    std::function<LoadingEvent(const LoadSolution&)> make_event;
+};
+
+/// The effects that load a footwall, in the order in which they are applied at the same moment.
+/// Their events belong to whoever runs them, and must live as long as this.
+class FootwallLoads {
+public:
+    /// Solves for the unit loads, makes the events and appends them to `events`. They refer to the
+    /// base. Throws fem::FootwallError.
+    FootwallLoads(fem::Footwall& footwall, const ElasticBase& base,
+                  std::span<const FootwallLoad> effects,
+                  std::vector<std::unique_ptr<dem::Event>>& events);
+
+    /// What acts on the footwall elsewhere than on the interface.
+    fem::Load elsewhere(const dem::State& state) const;
+
+    NamedValues measures(const dem::State& state) const; ///< of all effects
+
+private:
+    /// By number of the effect; events find each other's amounts here.
+    std::shared_ptr<std::vector<LoadingEvent>> effects_;
+};
 
 } // namespace listric::coupling

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <functional>
 
@@ -75,6 +76,7 @@ void solve_banded(std::vector<double>& a, std::size_t n, std::size_t band, std::
 std::vector<double> tractions(const Interface& interface, std::span<const double> forces) {
     const Line line{interface.x, interface.y, static_cast<std::size_t>(interface.degree)};
     const std::size_t n = interface.x.size();
+    assert(forces.size() == interface.unknowns());
     std::vector<double> mass(n * n, 0.0);
     for (std::size_t face = 0; face < line.faces(); ++face)
         for (std::size_t q = 0; q < 3; ++q) {
@@ -91,6 +93,7 @@ std::vector<double> tractions(const Interface& interface, std::span<const double
 }
 
 double relative_difference(std::span<const double> a, std::span<const double> b) {
+    assert(a.size() == b.size());
     double square = 0.0, size = 0.0;
     for (std::size_t k = 0; k < a.size(); ++k) {
         square += std::pow(a[k] - b[k], 2);

@@ -21,11 +21,11 @@ double relative_difference(std::span<const double> a, std::span<const double> b)
 /// inverted.
 std::vector<double> tractions(const Interface& interface, std::span<const double> forces);
 
-/// Makes a footwall with elements half as large, puts the forces on it as tractions, which no mesh
-/// owns.
-/// @param forces        on the interface's unknowns, N
-///
-/// @param other         loads elsewhere
+/// Solves on a footwall with elements half as large, with the forces put on it as tractions, which
+/// no mesh owns.
+/// @param request  of the run's footwall
+/// @param forces   on the interface's unknowns, N
+/// @param other    loads elsewhere
 /// Throws fem::FootwallError.
 IndependentSolution solve_independently(fem::FootwallRequest request, const Interface& interface,
                                         std::span<const double> forces,

@@ -1,8 +1,9 @@
 #include "coupling/lower_crust_thinning.hpp"
 
-#include "coupling/footwall_loads.hpp"
+#include "coupling/interface_loads.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace listric::coupling {
 
@@ -12,6 +13,8 @@ namespace {
 
 /// Steps so short that each moves the base by metres at most.
 constexpr double interval = 2500.0; // a
+
+constexpr std::size_t steps = 10; // of lower_crust_loads()
 
 } // namespace
 
@@ -33,7 +36,7 @@ fem::Load lower_crust_load(const LowerCrustThinningParameters& p, double contras
 }
 
 std::vector<fem::Load> lower_crust_loads(const LowerCrustThinningParameters& parameters,
-                                         double contrast, double distance, std::size_t steps) {
+                                         double contrast, double distance) {
     std::vector<fem::Load> loads;
     for (std::size_t k = 0; k <= steps; ++k)
         loads.push_back(lower_crust_load(
@@ -41,33 +44,57 @@ std::vector<fem::Load> lower_crust_loads(const LowerCrustThinningParameters& par
     return loads;
 }
 
-std::vector<double> LowerCrustResponse::at(std::span<const double> rows, std::size_t steps,
-                                           double share) {
-    const std::size_t columns = rows.size() / (steps + 1);
+std::vector<double> lower_crust_amounts(double share) {
     const double row = std::clamp(share, 0.0, 1.0) * static_cast<double>(steps);
     const std::size_t before = std::min(static_cast<std::size_t>(row), steps - 1);
     const double beyond = row - static_cast<double>(before);
-    std::vector<double> result(columns);
-    for (std::size_t i = 0; i < columns; ++i)
-        result[i] =
-            (1.0 - beyond) * rows[before * columns + i] + beyond * rows[(before + 1) * columns + i];
-    return result;
+    std::vector<double> amounts(steps + 1, 0.0);
+    amounts[before] = 1.0 - beyond;
+    amounts[before + 1] = beyond;
+    return amounts;
 }
 
-LowerCrustThinning::LowerCrustThinning(const LowerCrustResponse& response,
-                                       std::vector<double> forces, double extension_rate)
-    : Event("lower_crust_thinning", {interval, extension_rate}), distance_(response.distance),
-      steps_(response.steps), forces_(std::move(forces)) {}
+LowerCrustThinning::LowerCrustThinning(std::vector<double> forces, double distance,
+                                       double extension_rate)
+    : Event("lower_crust_thinning", {interval, extension_rate}), forces_(std::move(forces)),
+      distance_(distance) {
+    assert(forces_.size() % (steps + 1) == 0 && distance > 0.0);
+}
 
 void LowerCrustThinning::begin(State& state) {
-    footwall_load(state, name(), forces_.size() / (steps_ + 1));
+    footwall_load(state, name(), forces_.size() / (steps + 1));
+}
+
+std::vector<double> LowerCrustThinning::amounts(const State& state) const {
+    return lower_crust_amounts(state.clock.extension / distance_);
 }
 
 bool LowerCrustThinning::apply(State& state, const RigidBase&) {
-    const std::vector<double> now =
-        LowerCrustResponse::at(forces_, steps_, state.clock.extension / distance_);
+    const std::vector<double> now = superpose(amounts(state), forces_);
     std::ranges::copy(now, footwall_load(state, name(), now.size()).begin());
     return false;
+}
+
+FootwallLoad lower_crust_thinning_load(const LowerCrustThinningParameters& parameters,
+                                       double contrast, double distance, double extension_rate) {
+    const auto make_event = [=](const LoadSolution& solution) {
+        auto event =
+            std::make_unique<LowerCrustThinning>(solution.forces, distance, extension_rate);
+        const LowerCrustThinning& thinning = *event;
+        return LoadingEvent{
+            .event = std::move(event),
+            .amounts = [&thinning](const State& state) { return thinning.amounts(state); },
+            .load_elsewhere =
+                [=](const State& state) {
+                    return lower_crust_load(parameters, contrast, state.clock.extension);
+                },
+            .measures =
+                [=](const State& state) {
+                    return NamedValues{{"lower_crust_thinning_m",
+                                        lower_crust_thinning(parameters, state.clock.extension)}};
+                }};
+    };
+    return {lower_crust_loads(parameters, contrast, distance), make_event};
 }
 
 } // namespace listric::coupling

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "coupling/footwall_loads.hpp"
 #include "dem/event.hpp"
 #include "fem/footwall.hpp"
 
-#include <span>
 #include <vector>
 
 namespace listric::coupling {
@@ -28,35 +28,36 @@ double lower_crust_thinning(const LowerCrustThinningParameters& parameters, doub
 fem::Load lower_crust_load(const LowerCrustThinningParameters& parameters, double contrast,
                            double extension);
 
-/// What the load does, at extensions from 0 to `distance` in equal steps: rows of numbers, to be
-/// interpolated in between.
-struct LowerCrustResponse {
-    double distance = 0.0;         ///< m
-    std::size_t steps = 0;         ///< rows less 1
-    std::vector<double> interface; ///< displacement of the interface's unknowns, m
-    std::vector<double> uplift;    ///< of the knots of a SurfaceResponse, m; empty without one
-
-    static std::vector<double> at(std::span<const double> rows, std::size_t steps, double share);
-};
-
-/// Loads of the extensions of a response's rows.
+/// Loads at extensions from 0 to `distance` in equal steps, so many that the load's change with
+/// extension, h e / (b + e), is straight between them to 1e-3.
 std::vector<fem::Load> lower_crust_loads(const LowerCrustThinningParameters& parameters,
-                                         double contrast, double distance, std::size_t steps);
+                                         double contrast, double distance);
+
+/// How much of each of those loads makes that of an extension which is this share of `distance`:
+/// two neighbours interpolated.
+std::vector<double> lower_crust_amounts(double share);
 
 /// Puts the load of the present extension on the footwall.
 class LowerCrustThinning : public dem::Event {
 public:
-    /// @param forces  equivalent to the response's interface displacements, by rows, N
-    LowerCrustThinning(const LowerCrustResponse& response, std::vector<double> forces,
-                       double extension_rate);
+    /// @param forces    equivalent to lower_crust_loads(), by rows, N
+    /// @param distance  extension of the last of them, m
+    LowerCrustThinning(std::vector<double> forces, double distance, double extension_rate);
 
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
+    /// How much of each of lower_crust_loads() acts now.
+    std::vector<double> amounts(const dem::State& state) const;
+
 private:
-    double distance_;
-    std::size_t steps_;
     std::vector<double> forces_;
+    double distance_;
 };
+
+/// @param contrast  density contrast of mantle and crust times gravity, Pa/m
+/// @param distance  extension at the end, m
+FootwallLoad lower_crust_thinning_load(const LowerCrustThinningParameters& parameters,
+                                       double contrast, double distance, double extension_rate);
 
 } // namespace listric::coupling

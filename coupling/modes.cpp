@@ -3,11 +3,13 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 
 namespace listric::coupling {
 
 Modes find_modes(std::span<const double> compliance, std::size_t unknowns, std::size_t most) {
+    assert(unknowns > 0 && compliance.size() == unknowns * unknowns);
     const auto n = static_cast<Eigen::Index>(unknowns);
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Matrix given = Eigen::Map<const Matrix>(compliance.data(), n, n);

@@ -3,6 +3,7 @@
 // Some 400 discs on an elastic base whose compliance is made up: no finite elements are needed to
 // see how the coupling behaves.
 
+#include "coupling/base_memory.hpp"
 #include "coupling/elastic_base.hpp"
 #include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
@@ -112,7 +113,7 @@ inline Coupled settled(Interface interface, CouplingParameters p = {}) {
     Coupled coupled(std::move(interface), p);
     coupled.state = state;
     // Of all modes: memory is as large as the modes that are kept.
-    coupled.state.base_memory["modes"].resize(coupled.elastic.modes().count());
+    add_mode_columns(coupled.state, coupled.elastic.modes().count());
     coupled.physics.averaging_time = 50.0;
     return coupled;
 }

@@ -1,7 +1,7 @@
 #include "apps/archive/summary.hpp"
 
 #include "apps/model/effects.hpp"
-#include "apps/model/footwall_coupling.hpp"
+#include "apps/model/footwall_summary.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

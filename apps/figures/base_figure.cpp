@@ -3,6 +3,7 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
+#include "apps/model/effects/footwall_loads.hpp"
 #include "apps/model/footwall_coupling.hpp"
 #include "apps/support/npy.hpp"
 #include "apps/support/python.hpp"
@@ -76,17 +77,17 @@ void export_section(const State& state, const std::vector<fem::StressPatch>& pat
 
 /// Recovers the footwall's field at the moments that are shown, and leaves the arrays of the last.
 void export_footwall(const fs::path& output, const RunFolder& run, const fs::path& folder) {
-    FootwallCoupling coupling(run.scene);
-    const auto events = coupling.make_events();
+    std::vector<std::unique_ptr<Event>> events;
+    FootwallCoupling coupling(run.scene, footwall_loads(run.scene), events);
     std::string table = "extension_m,x_m,uplift_m\n";
     const std::vector<fs::path> moments = shown(run.snapshots);
     for (const fs::path& path : moments) {
         Snapshot snapshot = read_snapshot(path);
         hand_over(snapshot, events);
-        const fem::Footwall& footwall = coupling.recover(snapshot.state);
-        table += uplift_rows(snapshot.state, footwall.field());
+        const RecoveredField field = coupling.recover(snapshot.state);
+        table += uplift_rows(snapshot.state, field.field());
         if (path == moments.back())
-            export_section(snapshot.state, footwall.stress(), folder);
+            export_section(snapshot.state, field.stress(), folder);
     }
     write_text(output / "footwall.csv", table);
 }

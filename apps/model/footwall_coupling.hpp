@@ -1,20 +1,20 @@
 #pragma once
 
-#include "apps/scene/scene.hpp"
+#include "apps/scene/effect.hpp"
 #include "coupling/elastic_base.hpp"
 #include "coupling/footwall_loads.hpp"
-#include "coupling/independent_solution.hpp"
 #include "dem/base.hpp"
 #include "dem/cycle.hpp"
+#include "dem/event.hpp"
 #include "dem/state.hpp"
 #include "fem/footwall.hpp"
 
+#include <cassert>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace listric {
@@ -24,17 +24,41 @@ struct BeyondElasticity : dem::NumericalFailure {
     using dem::NumericalFailure::NumericalFailure;
 };
 
+class FootwallCoupling;
+
+/// The field of the whole footwall at a moment. The footwall holds one: this is valid until
+/// another moment's is recovered.
+class RecoveredField {
+public:
+    double extension() const { return extension_; } ///< of the moment, m
+
+    fem::Field field() const { return current().field(); }
+    std::vector<fem::StressPatch> stress() const { return current().stress(); }
+    fem::Guard guard(double rock_weight) const { return current().guard(rock_weight); } ///< N/m^3
+
+private:
+    friend FootwallCoupling;
+    RecoveredField(const FootwallCoupling& source, int number, double extension)
+        : source_(&source), number_(number), extension_(extension) {}
+    const fem::Footwall& current() const;
+
+    const FootwallCoupling* source_;
+    int number_;
+    double extension_;
+};
+
 /// The elastic footwall of a run: made from the scene when the run starts or resumes. All that it
-/// remembers is in the state.
+/// remembers is in the state and in the events of its loads.
 class FootwallCoupling {
 public:
-    /// Loads the plug-in. Throws UsageError where no footwall can be made, StorageError.
-    explicit FootwallCoupling(const Scene& scene);
+    /// Loads the plug-in. Appends the events of the loads, for the run to apply, to `events`: they
+    /// and this refer to each other. Throws UsageError where no footwall can be made, StorageError.
+    FootwallCoupling(const Scene& scene, const ModelParts& parts,
+                     std::vector<std::unique_ptr<dem::Event>>& events);
+    FootwallCoupling(const FootwallCoupling&) = delete;
+    FootwallCoupling& operator=(const FootwallCoupling&) = delete;
 
     coupling::ElasticBase& base() { return *base_; }
-
-    /// Effects that load the footwall, for the run to apply: to be called once.
-    std::vector<std::unique_ptr<dem::Event>> make_events();
 
     /// Solves for the base under the mean forces of the last window on a mesh twice as fine; none
     /// before a window has ended.
@@ -48,31 +72,38 @@ public:
     /// What is said in the log about it, a line each.
     std::vector<std::string> description() const;
 
-    /// The measures of the window that ends, as columns of history.csv, and begins the next window.
-    /// Recovers the field of the whole footwall for the strains. Throws BeyondElasticity.
-    std::vector<std::pair<std::string, double>> end_window(dem::State& state,
-                                                           const dem::RigidBase& rigid);
+    struct WindowEnd {
+        coupling::NamedValues measures; ///< of the window, as columns of history.csv
+        /// Why the run must not go on: the field is beyond linear elasticity.
+        std::optional<std::string> beyond_elasticity;
+    };
+
+    /// Ends a window of extension and begins the next. Recovers the field of the whole footwall
+    /// for the strains.
+    WindowEnd end_window(dem::State& state, const dem::RigidBase& rigid);
 
     /// The field of the whole footwall at that moment.
-    const fem::Footwall& recover(const dem::State& state);
+    RecoveredField recover(const dem::State& state);
 
-    /// Writes the field below the discs, as it was recovered last, for ParaView: a file per moment
-    /// in `output`/paraview and footwall.pvd.
-    void write(const std::filesystem::path& output, const dem::State& state) const;
+    /// Writes the field below the discs for ParaView: a file per moment in `output`/paraview and
+    /// footwall.pvd. Throws StorageError.
+    void write(const std::filesystem::path& output, const RecoveredField& field) const;
 
 private:
-    double share_of_extension(const dem::State& state) const;
-    fem::Load other_loads(const dem::State& state) const;
+    friend RecoveredField;
 
-    const Scene& scene_;
-    coupling::FootwallResponses responses_;
-    const coupling::FootwallErosion* erosion_ = nullptr; ///< of the run's events
+    fem::FootwallRequest request_;
+    double rock_weight_;    ///< N/m^3
+    double extension_rate_; ///< m/a
     std::unique_ptr<fem::Footwall> footwall_;
     std::unique_ptr<coupling::ElasticBase> base_;
+    coupling::FootwallLoads loads_;
+    int solutions_ = 0; ///< number of the field that the footwall holds
 };
 
-/// The footwall's measures over a run for summary.json, from its history and its end.
-std::vector<std::pair<std::string, double>> footwall_summary(const dem::Table& history,
-                                                             const dem::State& state);
+inline const fem::Footwall& RecoveredField::current() const {
+    assert(number_ == source_->solutions_ && "another field was recovered since");
+    return *source_->footwall_;
+}
 
 } // namespace listric

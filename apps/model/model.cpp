@@ -1,5 +1,6 @@
 #include "apps/model/model.hpp"
 
+#include "coupling/footwall_loads.hpp"
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/strain.hpp"
 

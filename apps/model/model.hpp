@@ -2,6 +2,8 @@
 
 #include "apps/scene/effect.hpp"
 
+#include "coupling/footwall_loads.hpp"
+
 #include <memory>
 #include <vector>
 

@@ -9,10 +9,12 @@
 #include "apps/measures/fault_history.hpp"
 #include "apps/measures/measure.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/model/effects/footwall_loads.hpp"
 #include "apps/model/footwall_coupling.hpp"
 #include "apps/run/flexure.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/support/version.hpp"
+#include "coupling/strong_scheme.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
 #include "dem/events/energy_account.hpp"
@@ -230,10 +232,10 @@ void make_footwall(Run& run, Voice& voice) {
     if (!run.scene.elastic_base)
         return;
     const Stopwatch watch(run.record, "base");
-    run.footwall = std::make_unique<FootwallCoupling>(run.scene);
+    run.footwall =
+        std::make_unique<FootwallCoupling>(run.scene, footwall_loads(run.scene), run.events);
     for (const std::string& line : run.footwall->description())
         voice.say(line);
-    std::ranges::move(run.footwall->make_events(), std::back_inserter(run.events));
 }
 
 /// Gives a detachment whose motion is prescribed the nodes that it moves by.
@@ -365,7 +367,7 @@ void cycle_toward(Run& run, double extension) {
         how.energy = &flows;
     }
     if (base && base->is_iterated())
-        base->advance_iterated(run.state, run.base, run.physics, batch, how);
+        advance_iterated(*base, run.state, run.base, run.physics, batch, how);
     else
         advance(run.state, run.base, run.physics, batch, how, response);
     if (run.energy)
@@ -396,8 +398,12 @@ void append_history(Run& run, Voice& voice) {
     const Measures measures = measure(run.scene, run.state, run.base, run.events);
     warn_of_haste(run, measures, voice);
     auto row = history_row(run.state, measures);
-    if (run.footwall)
-        std::ranges::move(run.footwall->end_window(run.state, run.base), std::back_inserter(row));
+    std::optional<std::string> beyond_elasticity;
+    if (run.footwall) {
+        auto window = run.footwall->end_window(run.state, run.base);
+        std::ranges::move(window.measures, std::back_inserter(row));
+        beyond_elasticity = window.beyond_elasticity;
+    }
     Table& history = run.record.history;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [name, value] : row)
@@ -406,6 +412,8 @@ void append_history(Run& run, Voice& voice) {
     for (const auto& [name, value] : row)
         history.get<double>(name).back() = value;
     write_text(run.options.output / "history.csv", to_csv(history));
+    if (beyond_elasticity)
+        throw BeyondElasticity(*beyond_elasticity);
 }
 
 void save(Run& run) {
@@ -422,7 +430,7 @@ void save_field(Run& run) {
     if (!run.footwall || run.scene.output.series != SeriesFormat::paraview)
         return;
     const Stopwatch watch(run.record, "output");
-    run.footwall->write(run.options.output, run.state);
+    run.footwall->write(run.options.output, run.footwall->recover(run.state));
 }
 
 FaultReport report_faults(Run& run) {

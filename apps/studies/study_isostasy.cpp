@@ -6,6 +6,7 @@
 #include "apps/figures/figures.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/python.hpp"
+#include "coupling/base_memory.hpp"
 #include "fem/plate.hpp"
 
 #include <fmt/format.h>
@@ -30,15 +31,14 @@ struct LastWindow {
 
 LastWindow last_window(const std::filesystem::path& run) {
     const State state = read_snapshot(list_snapshots(run).back()).state;
-    const Table& means = state.base_memory.at("last_window");
+    const coupling::ConstInterfaceMeans means = coupling::last_window_means(state).value();
     LastWindow result;
     const ConstBaseNodeColumns nodes = base_node_columns(state);
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
         result.loads.x.push_back(nodes.x[k]);
-        result.loads.load.push_back(
-            means.get<double>("force")[2 * k + 1] +
-            (means.has("effects") ? means.get<double>("effects")[2 * k + 1] : 0.0));
-        result.uplift.push_back(means.get<double>("displacement")[2 * k + 1]);
+        result.loads.load.push_back(means.force[2 * k + 1] +
+                                    (means.effects.empty() ? 0.0 : means.effects[2 * k + 1]));
+        result.uplift.push_back(means.displacement[2 * k + 1]);
     }
     return result;
 }

@@ -30,7 +30,7 @@ class Effect(NamedTuple):
 
 EFFECTS = (
     Effect("gravity", "GravityParameters", trade=True),
-    Effect("bonds", "BondStrength", trade=True),
+    Effect("bonds", "RockBonds", trade=True),
     Effect("fault_weakening", "FaultWeakeningParameters"),
     Effect("bond_healing", "BondHealingParameters"),
     Effect("sedimentation", "SedimentationParameters"),

@@ -2,7 +2,8 @@
 
 #include "apps/commands/explain.hpp"
 #include "apps/scene/footwall_request.hpp"
-#include "coupling/footwall_loads.hpp"
+#include "coupling/base_memory.hpp"
+#include "coupling/interface_loads.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -106,7 +107,7 @@ TEST_F(ElasticBaseRun, WaterHoldsTheBaseDown) {
                 alone);
     EXPECT_GT(water, 0.0);
     EXPECT_LT(filled["base_resolved_difference"].get<double>(), 0.08); // as on a second mesh
-    EXPECT_TRUE(end.base_memory.at("last_window").has("effects"));
+    EXPECT_FALSE(last_window_means(end).value().effects.empty());
     EXPECT_NEAR(lower, alone, 0.25 * alone); // as for thinning
     EXPECT_FALSE(dry.contains("basin_water_n_per_m"));
 }

@@ -1,5 +1,6 @@
 // Bases much softer and much stiffer than the discs on them, afloat on strong and on weak springs.
 
+#include "coupling/strong_scheme.hpp"
 #include "tests/coupled_discs.hpp"
 #include "tests/stability/hard_case.hpp"
 
@@ -176,7 +177,7 @@ TEST(Strong, FindsThePlaceThatModalComesTo) {
         unload(*c);
     modal.go(60000);
     const double computed =
-        strong.elastic.advance_iterated(strong.state, strong.base, strong.physics, 60000, {});
+        advance_iterated(strong.elastic, strong.state, strong.base, strong.physics, 60000, {});
     std::printf("modal %.4f m, strong %.4f m, every interval computed %.1f times\n",
                 modal.greatest_displacement(), strong.greatest_displacement(), computed);
     EXPECT_GT(strong.greatest_displacement(), 0.1);

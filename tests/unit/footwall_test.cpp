@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 namespace listric {
+
 namespace {
 
 using namespace support;

@@ -1,8 +1,9 @@
 // Loads on the footwall that no disc brings, against columns of rock on springs.
 
 #include "coupling/basin_water.hpp"
-#include "coupling/footwall_loads.hpp"
+#include "coupling/footwall_erosion.hpp"
 #include "coupling/independent_solution.hpp"
+#include "coupling/lower_crust_thinning.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/footwalls.hpp"
 
@@ -38,16 +39,26 @@ double column_stiffness(const fem::FootwallRequest& request) {
 
 constexpr double round_off = 1e-9; // relative: condition of the stiffness
 
+/// All unknowns of the interface are kept.
+std::vector<LoadResponse> solve(fem::Footwall& footwall,
+                                const std::vector<std::vector<fem::Load>>& effects) {
+    return solve_unit_loads(footwall, effects, 2 * footwall.interface().size());
+}
+
+SurfaceResponse surface_response(fem::Footwall& footwall, const std::vector<double>& knots) {
+    const LoadResponse response = solve(footwall, {surface_loads(knots)}).front();
+    return {knots, response.interface, response.sums, response.work.front()};
+}
+
 TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
     const fem::FootwallRequest request = floating_crust();
     const auto footwall = fem::make_footwall(request);
     const LowerCrustThinningParameters thinning{20e3, 2000e3, 0.0};
     constexpr double distance = 10e3;
-    const FootwallResponses found =
-        solve_footwall_loads(*footwall, 2 * footwall->interface().size(), nullptr, request.left,
-                             &thinning, contrast, distance);
+    const std::vector<fem::Load> loads = lower_crust_loads(thinning, contrast, distance);
+    const LoadResponse crust = solve(*footwall, {loads}).front();
     const std::size_t unknowns = 2 * footwall->interface().size();
-    ASSERT_EQ(found.crust.interface.size(), (found.crust.steps + 1) * unknowns);
+    ASSERT_EQ(crust.interface.size(), loads.size() * unknowns);
     // Thinner by h e / (b + e).
     const double thinner = 20e3 * distance / 2010e3;
     EXPECT_DOUBLE_EQ(lower_crust_thinning(thinning, distance), thinner);
@@ -56,9 +67,9 @@ TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
     const double subsidence =
         contrast * thinner / (top + base + top * base / column_stiffness(request));
     for (std::size_t i = 0; i < unknowns; i += 2) {
-        const std::size_t last = found.crust.steps * unknowns + i;
-        EXPECT_NEAR(found.crust.interface[last], 0.0, round_off * subsidence);
-        EXPECT_NEAR(found.crust.interface[last + 1], -subsidence, round_off * subsidence);
+        const std::size_t last = (loads.size() - 1) * unknowns + i;
+        EXPECT_NEAR(crust.interface[last], 0.0, round_off * subsidence);
+        EXPECT_NEAR(crust.interface[last + 1], -subsidence, round_off * subsidence);
     }
     // Airy's, but for what the column gives: 0.2 %.
     EXPECT_NEAR(subsidence / (thinner * (mantle - crust) / mantle), 1.0, 3e-3);
@@ -70,9 +81,8 @@ TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
     request.right = 200e3;
     const auto footwall = fem::make_footwall(request);
     const LowerCrustThinningParameters thinning{20e3, 100e3, 15e3};
-    const FootwallResponses found =
-        solve_footwall_loads(*footwall, 2 * footwall->interface().size(), nullptr, request.left,
-                             &thinning, contrast, 10e3);
+    const std::vector<fem::Load> loads = lower_crust_loads(thinning, contrast, 10e3);
+    const LoadResponse crust = solve(*footwall, {loads}).front();
     // The load ends inside elements; neither its sum nor its moment depends on where.
     for (const double e : {0.7e3, 3e3, 10e3}) {
         fem::Load load = lower_crust_load(thinning, contrast, e);
@@ -93,16 +103,15 @@ TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
     const auto& nodes = footwall->interface();
     double sum = 0.0;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-        const std::size_t at = found.crust.steps * 2 * nodes.size() + 2 * k + 1;
-        sum += 0.5 * (found.crust.interface[at] + found.crust.interface[at + 2]) *
+        const std::size_t at = (loads.size() - 1) * 2 * nodes.size() + 2 * k + 1;
+        sum += 0.5 * (crust.interface[at] + crust.interface[at + 2]) *
                (nodes[k + 1].place.x - nodes[k].place.x);
     }
     EXPECT_NEAR(-sum * mantle * gravity / (contrast * 20e3 * 10e3), 1.0, 0.01);
     // In between rows are straight to 1e-3.
     const std::vector<fem::Load> half = {lower_crust_load(thinning, contrast, 5.5e3)};
     const fem::Responses exact = footwall->responses(half);
-    const std::vector<double> between =
-        LowerCrustResponse::at(found.crust.interface, found.crust.steps, 0.55);
+    const std::vector<double> between = superpose(lower_crust_amounts(0.55), crust.interface);
     double largest = 0.0;
     for (double u : exact.interface)
         largest = std::max(largest, std::abs(u));
@@ -115,9 +124,8 @@ protected:
     fem::FootwallRequest request_ = floating_crust();
     std::unique_ptr<fem::Footwall> footwall_ = fem::make_footwall(request_);
     FootwallErosionParameters erosion_ = {};
-    SurfaceResponse response_ = solve_footwall_loads(*footwall_, 2 * footwall_->interface().size(),
-                                                     &erosion_, request_.left, nullptr, 0.0, 0.0)
-                                    .surface;
+    SurfaceResponse response_ =
+        surface_response(*footwall_, surface_knots(erosion_.width, request_.left));
     std::vector<double> eroded_ = std::vector<double>(response_.x.size(), 0.0);
     std::vector<double> deposited_ = eroded_, target_ = eroded_;
     FootwallCover cover_{eroded_, deposited_};
@@ -249,10 +257,11 @@ TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
     const auto footwall = fem::make_footwall(request);
     const FootwallErosionParameters erosion;
     const LowerCrustThinningParameters thinning;
-    const FootwallResponses found =
-        solve_footwall_loads(*footwall, 2 * footwall->interface().size(), &erosion, request.left,
-                             &thinning, contrast, 10e3);
-    const SurfaceResponse& surface = found.surface;
+    const std::vector<double> knots = surface_knots(erosion.width, request.left);
+    const LoadResponse found =
+        solve(*footwall, {surface_loads(knots), lower_crust_loads(thinning, contrast, 10e3)})
+            .front();
+    const SurfaceResponse surface(knots, found.interface, found.sums, found.work[0]);
     const std::size_t n = surface.x.size();
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t j = 0; j < n; ++j) // round-off
@@ -282,7 +291,7 @@ TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
     footwall->solve(load);
     compare(surface.uplift_by(load.interface));
     footwall->solve(lower_crust_load(thinning, contrast, 10e3));
-    compare(LowerCrustResponse::at(found.crust.uplift, found.crust.steps, 1.0));
+    compare(superpose(lower_crust_amounts(1.0), surface.uplift_by_work(found.work[1])));
 }
 
 TEST(IndependentSolution, IsTheBaseOnAnotherMesh) {

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "dem/state.hpp"
+
+#include <optional>
+#include <span>
+#include <type_traits>
+
+namespace listric::coupling {
+
+// What an elastic base remembers, in State::base_memory: this header has the name and the columns
+// of each of its tables, interface_loads.hpp of those of the effects' loads. Snapshots hold the
+// names.
+
+/// Table "modes": a row per mode.
+struct ModeColumns {
+    std::span<double> displacement; ///< m
+    std::span<double> velocity;     ///< m/s
+};
+void add_mode_columns(dem::State& state, std::size_t modes);
+ModeColumns mode_columns(dem::State& state);
+
+/// Table "reference" has one number: weight of the settled discs per length over the flat of the
+/// detachment, Pa, by which the load grows where the wall leaves room to the discs.
+void set_virtual_pressure(dem::State& state, double pressure);
+double virtual_pressure(const dem::State& state);
+
+/// Table "window": a row of sums over the cycles of the window of extension that has begun.
+template <bool writable> struct BasicWindowSums {
+    using Value = std::conditional_t<writable, double&, const double&>;
+
+    Value cycles;
+    Value reaction_error; ///< base reaction over the discs' weight, less 1
+    Value net_load;       ///< N
+    Value weight_change;  ///< N
+};
+using WindowSums = BasicWindowSums<true>;
+using ConstWindowSums = BasicWindowSums<false>;
+
+WindowSums window_sums(dem::State& state);
+ConstWindowSums window_sums(const dem::State& state);
+
+/// Tables "window_means", sums over the cycles of the window that has begun, and "last_window",
+/// means over the one that ended last: a row per unknown of the interface.
+template <bool writable> struct BasicInterfaceMeans {
+    using Values = std::span<std::conditional_t<writable, double, const double>>;
+
+    Values force;        ///< of the discs, relative to the reference, with the virtual ones, N
+    Values displacement; ///< m
+    Values effects;      ///< loads of the effects, N; empty where there was none
+};
+using InterfaceMeans = BasicInterfaceMeans<true>;
+using ConstInterfaceMeans = BasicInterfaceMeans<false>;
+
+/// @param with_effects  adds their column
+InterfaceMeans interface_sums(dem::State& state, bool with_effects);
+
+/// None before a window has ended.
+std::optional<ConstInterfaceMeans> last_window_means(const dem::State& state);
+
+/// Makes the means of the window that has begun those of the last window. Needs a cycle in it.
+void keep_window_means(dem::State& state);
+
+/// Sets all sums to zero.
+/// @param unknowns  of the interface
+void begin_window_sums(dem::State& state, std::size_t unknowns);
+
+} // namespace listric::coupling
