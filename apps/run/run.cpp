@@ -12,6 +12,7 @@
 #include "apps/model/footwall_coupling.hpp"
 #include "apps/run/flexure.hpp"
 #include "apps/run/prediction.hpp"
+#include "apps/support/log.hpp"
 #include "apps/support/version.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -42,11 +42,6 @@ std::atomic<bool> stop_requested = false;
 namespace {
 
 namespace fs = std::filesystem;
-using SteadyClock = std::chrono::steady_clock;
-
-double seconds_since(SteadyClock::time_point start) {
-    return std::chrono::duration<double>(SteadyClock::now() - start).count();
-}
 
 /// A run in progress.
 struct Run {
@@ -86,54 +81,6 @@ struct Run {
     }
     /// Half a cycle's extension: events are due in the cycle nearest to their extension.
     double tolerance() const { return 0.5 * scene.extension.speed * state.clock.time_step; }
-};
-
-/// Adds the time until the end of its life to a part of the run.
-class Stopwatch {
-public:
-    Stopwatch(RunRecord& record, std::string part) : record_(record), part_(std::move(part)) {}
-    ~Stopwatch() { record_.seconds_by_part[part_] += seconds_since(start_); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-private:
-    RunRecord& record_;
-    std::string part_;
-    SteadyClock::time_point start_ = SteadyClock::now();
-};
-
-/// Progress for people on stderr, and everything said in log.txt. On a terminal the current
-/// line is rewritten; elsewhere plain lines appear, a few per minute at most.
-class Voice {
-public:
-    Voice(const fs::path& log, bool quiet)
-        : log_(log, std::ios::app), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
-
-    void say(const std::string& text) {
-        log_ << text << std::endl;
-        if (!quiet_)
-            tell(fmt::format("{}{}\n", terminal_ ? "\r\x1b[K" : "", text));
-    }
-
-    void progress(const std::string& text) {
-        const double pause = terminal_ ? 0.2 : 10.0;
-        if (quiet_ || (said_ && seconds_since(last_) < pause))
-            return;
-        said_ = true;
-        last_ = SteadyClock::now();
-        tell(fmt::format("{}{}{}", terminal_ ? "\r\x1b[K" : "", text, terminal_ ? "" : "\n"));
-    }
-
-private:
-    /// Nobody needs to listen: a closed or full stderr must not end a run.
-    static void tell(const std::string& text) {
-        std::fwrite(text.data(), 1, text.size(), stderr);
-        std::fflush(stderr);
-    }
-
-    std::ofstream log_;
-    bool quiet_, terminal_, said_ = false;
-    SteadyClock::time_point last_;
 };
 
 std::string time_left(double seconds) {
@@ -186,18 +133,18 @@ fs::path cache_path(const Scene& scene) {
     return folder / "listric" / fmt::format("genesis-{:016x}.h5", key);
 }
 
-State make_state(Run& run, Voice& voice) {
-    const Stopwatch watch(run.record, "genesis");
+State make_state(Run& run, Log& log) {
+    const Stopwatch watch(run.record.seconds_by_part["genesis"]);
     const fs::path cache = cache_path(run.scene);
     std::error_code ignored;
     if (fs::exists(cache, ignored)) {
         try {
             State state = read_snapshot(cache).state;
             state.materials = make_materials(run.scene);
-            voice.say("hanging wall: kept from an earlier run, " + cache.string());
+            log.say("hanging wall: kept from an earlier run, " + cache.string());
             return state;
         } catch (const StorageError& error) {
-            voice.say(std::string("warning: the kept hanging wall is made anew: ") + error.what());
+            log.say(std::string("warning: the kept hanging wall is made anew: ") + error.what());
         }
     }
     const Scene& s = run.scene;
@@ -213,26 +160,26 @@ State make_state(Run& run, Voice& voice) {
     State state = make_hanging_wall(request, [&](std::string_view stage, double share) {
         if (stop_requested)
             throw Interrupted{};
-        voice.progress(fmt::format("hanging wall: {} ({:.0f} %)", stage, 100.0 * share));
+        log.progress(fmt::format("hanging wall: {} ({:.0f} %)", stage, 100.0 * share));
     });
     try {
         fs::create_directories(cache.parent_path());
         write_snapshot(cache, state, {}, {});
     } catch (const std::exception& error) {
-        voice.say(std::string("warning: the hanging wall cannot be kept for later runs: ") +
-                  error.what());
+        log.say(std::string("warning: the hanging wall cannot be kept for later runs: ") +
+                error.what());
     }
     return state;
 }
 
 /// Condenses the footwall of a scene that has one.
-void make_footwall(Run& run, Voice& voice) {
+void make_footwall(Run& run, Log& log) {
     if (!run.scene.elastic_base)
         return;
-    const Stopwatch watch(run.record, "base");
+    const Stopwatch watch(run.record.seconds_by_part["base"]);
     run.footwall = std::make_unique<FootwallCoupling>(run.scene);
     for (const std::string& line : run.footwall->description())
-        voice.say(line);
+        log.say(line);
     std::ranges::move(run.footwall->make_events(), std::back_inserter(run.events));
 }
 
@@ -253,8 +200,8 @@ Execution execution(const Run& run) {
 }
 
 /// Puts the hanging wall on the elastic base and settles it there.
-void settle_on_base(Run& run, Voice& voice) {
-    const Stopwatch watch(run.record, "base");
+void settle_on_base(Run& run, Log& log) {
+    const Stopwatch watch(run.record.seconds_by_part["base"]);
     ElasticBase& base = run.footwall->base();
     base.attach(run.state);
     find_contacts(run.state, run.base);
@@ -262,18 +209,18 @@ void settle_on_base(Run& run, Voice& voice) {
                 [&](std::string_view stage, double share) {
                     if (stop_requested)
                         throw Interrupted{};
-                    voice.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
+                    log.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
                 });
     if (run.physics.averaging_time > 0.0)
         add_mean_velocities(run.state);
 }
 
-void begin(Run& run, Voice& voice) {
+void begin(Run& run, Log& log) {
     if (!run.footwall)
-        make_footwall(run, voice);
-    run.state = make_state(run, voice);
+        make_footwall(run, log);
+    run.state = make_state(run, log);
     if (run.footwall)
-        settle_on_base(run, voice);
+        settle_on_base(run, log);
     if (run.base_motion)
         attach_base_motion(run);
     for (auto& event : run.events)
@@ -281,15 +228,15 @@ void begin(Run& run, Voice& voice) {
     find_contacts(run.state, run.base);
     if (run.energy)
         run.energy->open(run.state, run.base);
-    voice.say(fmt::format("hanging wall: {} discs", run.state.discs.rows()));
+    log.say(fmt::format("hanging wall: {} discs", run.state.discs.rows()));
 }
 
 /// Continues from the newest snapshot that can be read. False if there is none.
-bool restore(Run& run, Voice& voice) {
+bool restore(Run& run, Log& log) {
     std::vector<fs::path> snapshots = list_snapshots(run.options.output);
     for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
         if (!run.footwall)
-            make_footwall(run, voice); // its effects are handed their memories
+            make_footwall(run, log); // its effects are handed their memories
         try {
             Snapshot snapshot = read_snapshot(*path);
             hand_over(snapshot, run.events);
@@ -298,11 +245,11 @@ bool restore(Run& run, Voice& voice) {
             for (const auto& [part, seconds] : run.record.seconds_by_part)
                 run.seconds_before += seconds;
             run.kept = *path;
-            voice.say(fmt::format("resuming at {:.2f} m of extension from {}",
-                                  run.state.clock.extension, path->string()));
+            log.say(fmt::format("resuming at {:.2f} m of extension from {}",
+                                run.state.clock.extension, path->string()));
             return true;
         } catch (const StorageError& error) {
-            voice.say(std::string("warning: skipped: ") + error.what());
+            log.say(std::string("warning: skipped: ") + error.what());
         }
     }
     return false;
@@ -318,7 +265,7 @@ double next_due(const Run& run) {
 void apply_due_events(Run& run) {
     bool search_due = false;
     const auto search = [&] {
-        const Stopwatch watch(run.record, "rebuild");
+        const Stopwatch watch(run.record.seconds_by_part["rebuild"]);
         find_contacts(run.state, run.base);
         search_due = false;
     };
@@ -327,7 +274,7 @@ void apply_due_events(Run& run) {
             return;
         if (search_due)
             search(); // contacts that an event has made hold energy
-        const Stopwatch watch(run.record, run.energy->name());
+        const Stopwatch watch(run.record.seconds_by_part[run.energy->name()]);
         book(*run.energy);
     };
     account([&](EnergyAccount& energy) { energy.book_cycles(run.state, run.base); });
@@ -335,7 +282,7 @@ void apply_due_events(Run& run) {
         if (static_cast<double>(event->applied + 1) * event->schedule().spacing() <=
             run.state.clock.extension + run.tolerance()) {
             {
-                const Stopwatch watch(run.record, event->name());
+                const Stopwatch watch(run.record.seconds_by_part[event->name()]);
                 search_due |= event->apply(run.state, run.base);
                 ++event->applied;
             }
@@ -349,7 +296,7 @@ void apply_due_events(Run& run) {
 
 /// Cycles toward the given extension for a fraction of a second.
 void cycle_toward(Run& run, double extension) {
-    const Stopwatch watch(run.record, "cycle");
+    const Stopwatch watch(run.record.seconds_by_part["cycle"]);
     const double per_cycle = run.scene.extension.speed * run.state.clock.time_step;
     const double wanted = (extension - run.state.clock.extension) / per_cycle;
     const auto discs = static_cast<double>(run.state.discs.rows());
@@ -379,12 +326,12 @@ void cycle_toward(Run& run, double extension) {
 
 /// Says once what makes the results doubtful, when a whole window of strain is known or at the
 /// end.
-void warn_of_haste(Run& run, const Measures& measures, Voice& voice) {
+void warn_of_haste(Run& run, const Measures& measures, Log& log) {
     const double known = std::min(strain_window, run.target()) - run.tolerance();
     if (run.warned || measures.quasi_static.value_or(true) || run.state.clock.extension < known)
         return;
     run.warned = true;
-    voice.say(fmt::format(
+    log.say(fmt::format(
         "warning: too fast to be quasi-static: unbalanced forces are {:.2g} of contact forces "
         "(at most {:g}), the inertial number is {:.2g} (at most {:g}); a smaller "
         "extension.speed_m_per_s than {:g} is needed, or more discs",
@@ -392,9 +339,9 @@ void warn_of_haste(Run& run, const Measures& measures, Voice& voice) {
         greatest_inertial_number, run.scene.extension.speed));
 }
 
-void append_history(Run& run, Voice& voice) {
+void append_history(Run& run, Log& log) {
     const Measures measures = measure(run.scene, run.state, run.base, run.events);
-    warn_of_haste(run, measures, voice);
+    warn_of_haste(run, measures, log);
     auto row = history_row(run.state, measures);
     if (run.footwall)
         std::ranges::move(run.footwall->end_window(run.state, run.base), std::back_inserter(row));
@@ -409,7 +356,7 @@ void append_history(Run& run, Voice& voice) {
 }
 
 void save(Run& run) {
-    const Stopwatch watch(run.record, "output");
+    const Stopwatch watch(run.record.seconds_by_part["output"]);
     run.kept = snapshot_path(run.options.output, run.state);
     write_snapshot(run.kept, run.state, run.events, run.record);
     if (run.scene.output.series == SeriesFormat::paraview)
@@ -421,39 +368,39 @@ void save(Run& run) {
 void save_field(Run& run) {
     if (!run.footwall || run.scene.output.series != SeriesFormat::paraview)
         return;
-    const Stopwatch watch(run.record, "output");
+    const Stopwatch watch(run.record.seconds_by_part["output"]);
     run.footwall->write(run.options.output, run.state);
 }
 
 FaultReport report_faults(Run& run) {
-    const Stopwatch watch(run.record, "measures");
+    const Stopwatch watch(run.record.seconds_by_part["measures"]);
     const std::vector<fs::path> snapshots = list_snapshots(run.options.output);
     return report_faults(run.scene, run.base, run.state, snapshots);
 }
 
-void draw(Run& run, Voice& voice) {
+void draw(Run& run, Log& log) {
     if (!run.options.figures)
         return;
     const FaultReport faults = report_faults(run);
-    const Stopwatch watch(run.record, "figures");
+    const Stopwatch watch(run.record.seconds_by_part["figures"]);
     run.drawn_at = run.state.clock.extension;
     const std::string problem = draw_figures(run.scene, run.state, run.base, run.events, faults,
                                              run.options.output / "figures");
     if (!problem.empty())
-        voice.say("warning: no figures: " + problem);
+        log.say("warning: no figures: " + problem);
 }
 
 /// The moments of the experiment on one sheet.
-void draw_sheet(Run& run, Voice& voice) {
+void draw_sheet(Run& run, Log& log) {
     if (!run.options.figures)
         return;
-    const Stopwatch watch(run.record, "figures");
+    const Stopwatch watch(run.record.seconds_by_part["figures"]);
     try {
         if (run.footwall || run.base_motion)
             draw_base(run.options.output);
         draw_experiment(run.options.output);
     } catch (const std::exception& error) {
-        voice.say(std::string("warning: no sheet of figures: ") + error.what());
+        log.say(std::string("warning: no sheet of figures: ") + error.what());
     }
 }
 
@@ -466,16 +413,16 @@ std::string quoted(const std::string& word) {
 }
 
 /// Solves for the base once more on a finer mesh.
-void check_base(Run& run, Voice& voice) {
+void check_base(Run& run, Log& log) {
     if (!run.footwall)
         return;
-    const Stopwatch watch(run.record, "base");
+    const Stopwatch watch(run.record.seconds_by_part["base"]);
     if (const auto fine = run.footwall->check(run.state)) {
         run.record.base_elements_difference = fine->elements;
         run.record.base_resolved_difference = fine->base;
-        voice.say(fmt::format("the base under the last window's mean forces, solved again with {} "
-                              "unknowns: the run's elements are {:.2f} % off, its base {:.2f} %",
-                              fine->unknowns, 100.0 * fine->elements, 100.0 * fine->base));
+        log.say(fmt::format("the base under the last window's mean forces, solved again with {} "
+                            "unknowns: the run's elements are {:.2f} % off, its base {:.2f} %",
+                            fine->unknowns, 100.0 * fine->elements, 100.0 * fine->base));
     }
 }
 
@@ -507,12 +454,12 @@ std::string retry_hint(const Scene& scene, const fs::path& output) {
                        quoted(output.string() + "-2"), 0.5 * scene.extension.speed);
 }
 
-void report(Run& run, Voice& voice) {
+void report(Run& run, Log& log) {
     const double done = run.state.clock.extension / run.target();
     const double spent = run.wall_seconds();
     const double cycling = std::max(1e-9, run.record.seconds_by_part["cycle"]);
     const double share = std::max(1e-3, done);
-    voice.progress(fmt::format(
+    log.progress(fmt::format(
         "cycle {}  extension {:.2f} of {:.2f} km  {:.1f} M disc-steps/s  {} left",
         run.state.clock.cycle, run.state.clock.extension / 1e3, run.target() / 1e3,
         run.record.disc_steps / cycling / 1e6, time_left(spent / share * (1.0 - share))));
@@ -524,7 +471,7 @@ bool near_any(const std::vector<double>& marks, double extension, double toleran
 }
 
 /// Cycles and events up to the target. Throws Interrupted after saving.
-void march(Run& run, Voice& voice) {
+void march(Run& run, Log& log) {
     State& state = run.state;
     const double window = run.scene.output.interval;
     double next_window =
@@ -536,7 +483,7 @@ void march(Run& run, Voice& voice) {
         }
         const double stop = std::min({next_due(run), next_window, run.target()});
         cycle_toward(run, stop);
-        report(run, voice);
+        report(run, log);
         if (state.clock.extension < stop - run.tolerance())
             continue;
         apply_due_events(run);
@@ -544,11 +491,11 @@ void march(Run& run, Voice& voice) {
             continue;
         next_window += window;
         {
-            const Stopwatch watch(run.record, "measures");
-            append_history(run, voice);
+            const Stopwatch watch(run.record.seconds_by_part["measures"]);
+            append_history(run, log);
         }
         if (near_any(run.scene.output.figures, state.clock.extension, 0.5 * window)) {
-            draw(run, voice);
+            draw(run, log);
             save_field(run);
         }
         save(run);
@@ -719,18 +666,17 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     const Lock lock(output);
     prepare_output(scene, options);
 
-    Voice voice(output / "log.txt", options.quiet);
-    voice.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
-                          scene.accuracy, scene.seed, output.string()));
+    Log log(output / "log.txt", options.quiet);
+    log.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
+                        scene.accuracy, scene.seed, output.string()));
     if (scene.flexure) {
         write_text(output / "scene.toml", to_toml(scene));
-        bend_base(scene, options.threads, output,
-                  [&](const std::string& text) { voice.say(text); });
+        bend_base(scene, options.threads, output, [&](const std::string& text) { log.say(text); });
         return RunOutcome::finished;
     }
     Run run(scene, options);
     try {
-        if (!options.resume || !restore(run, voice)) {
+        if (!options.resume || !restore(run, log)) {
             const std::string text = to_toml(scene);
             write_text(output / "scene.toml", text);
             run.record.scene = text;
@@ -738,30 +684,30 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
                                                    scene.energy.has_value());
             run.record.predicted_seconds =
                 speed.busy * predict(scene, speed.disc_steps_per_second, options.threads).seconds;
-            begin(run, voice);
-            append_history(run, voice);
+            begin(run, log);
+            append_history(run, log);
             save(run);
         }
-        march(run, voice);
+        march(run, log);
         if (run.drawn_at != run.state.clock.extension)
-            draw(run, voice);
+            draw(run, log);
         if (run.kept != snapshot_path(output, run.state))
             save(run);
-        draw_sheet(run, voice);
+        draw_sheet(run, log);
         const Measures measures = measure(scene, run.state, run.base, run.events);
-        warn_of_haste(run, measures, voice);
+        warn_of_haste(run, measures, log);
         const FaultReport faults = report_faults(run);
-        check_base(run, voice);
+        check_base(run, log);
         write_text(output / "summary.json",
                    summary_json(scene, options.threads, run.state, run.record, measures, faults,
                                 run.wall_seconds(), run_hash(run.state, run.events)));
-        voice.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}",
-                              run.state.clock.extension / 1e3, time_left(run.wall_seconds()),
-                              (output / "figures").string()));
+        log.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}",
+                            run.state.clock.extension / 1e3, time_left(run.wall_seconds()),
+                            (output / "figures").string()));
         return RunOutcome::finished;
     } catch (const Interrupted&) {
-        voice.say("stopped at " + fmt::format("{:.2f}", run.state.clock.extension) +
-                  " m of extension; " + resume_hint(output));
+        log.say("stopped at " + fmt::format("{:.2f}", run.state.clock.extension) +
+                " m of extension; " + resume_hint(output));
         return RunOutcome::interrupted;
     } catch (const BeyondElasticity& limit) {
         throw NumericalFailure(fmt::format("{}\n{}, and valid", limit.what(), last_good(output)));
