@@ -34,7 +34,7 @@ template <class Vector> const auto* ahead(const Vector& vector, std::size_t k) {
 
 } // namespace
 
-/// The contact law of law.hpp and cycle.cpp, as many contacts at a time as there are lanes.
+/// The contact law of law.hpp and plain_cycle.cpp, as many contacts at a time as there are lanes.
 template <bool bonded, bool frictional>
 [[gnu::always_inline]] inline void FastCycle::compute(Block& block, const double* discs,
                                                       Slot* slots) {
@@ -313,6 +313,22 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
         }
     });
     return state.clock.cycle - start.cycle;
+}
+
+void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
+                  std::int64_t cycles, int threads, BaseResponse* response) {
+    FastCycle fast(state, base, physics, threads);
+    while (cycles > 0) {
+        cycles -= fast.run(state, cycles, response);
+        if (cycles == 0)
+            break;
+        fast.unpack(state);
+        refuse_runaways(state);
+        if (update_contacts(state, base))
+            fast.pack_contacts(state);
+        fast.pack_searched_places(state);
+    }
+    fast.unpack(state);
 }
 
 } // namespace listric::dem
