@@ -120,24 +120,23 @@ void FastCycle::compute_blocks(Blocks& blocks, std::size_t begin, std::size_t en
     }
 }
 
-void FastCycle::compute_base(Strip& strip, double extension, double speed) {
+void FastCycle::compute_base(Strip& strip, BaseMoment base) {
     for (BaseContact& contact : strip.base_contacts) {
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
         const BaseContactForce f = base_contact_force(
-            *contact.surface, extension, speed,
+            *contact.surface, base,
             {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
             contact.parameters, contact.shear_force);
         slots_[contact.slot] = Slot{f.x, f.y, 0.0, f.moment};
     }
 }
 
-void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, double extension,
-                              double speed) {
+void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseMoment base) {
     for (NodeContact& node_contact : strip.node_contacts) {
         BaseContact& contact = node_contact.contact;
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
         node_contact.force = node_contact_force(
-            *contact.surface, nodes, extension, speed,
+            *contact.surface, nodes, base,
             {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
             contact.parameters, contact.shear_force, node_contact.place);
         const BaseContactForce& f = node_contact.force.force;
@@ -287,9 +286,9 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
                     break;
             }
             const double speed = base_.motion.speed_at(clock.time());
-            compute_base(strip, clock.extension, speed);
+            compute_base(strip, {clock.extension, speed});
             if (deforms_)
-                compute_nodes(strip, nodes, clock.extension, speed);
+                compute_nodes(strip, nodes, {clock.extension, speed});
             (this->*kernels.compute_boundary)(strip);
             barrier.wait();
             const auto parity = static_cast<std::size_t>(clock.cycle % 2);

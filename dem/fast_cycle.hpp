@@ -152,8 +152,8 @@ private:
         double (FastCycle::*sweep)(Strip&, double stretch_rate);
     };
     Kernels choose_kernels() const;
-    void compute_base(Strip& strip, double extension, double speed);
-    void compute_nodes(Strip& strip, const BaseNodeColumns& nodes, double extension, double speed);
+    void compute_base(Strip& strip, BaseMoment base);
+    void compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseMoment base);
     double move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
                      BaseResponse* response);
     double furthest(const Strip& strip) const;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 namespace listric::dem {
@@ -27,14 +28,22 @@ struct Account {
     std::vector<Point> of_nodes; ///< force of each node of the base on discs in it, N
 };
 
-/// Enters what a base contact, whose shear force goes from `before` to `after`, loses in a cycle,
-/// and the work of the prescribed motion of base and walls.
-/// @param node_velocity  of the base's nodes there, m/s; 0 where it is rigid
-void enter_base_flows(const Surface& surface, const Motion& base, const Clock& clock,
-                      const BaseContactDisc& disc, const ContactParameters& p,
-                      const std::optional<BaseContactMotion>& motion, Point node_velocity,
-                      const BaseContactForce& force, double before, double after,
+/// What a disc and a surface of the base do to each other in a cycle.
+struct BaseContactCycle {
+    const Surface& surface;
+    const BaseContactDisc& disc;
+    const ContactParameters& parameters;
+    std::optional<BaseContactMotion> motion; ///< none where the surface has ended
+    Point node_velocity;                     ///< of the base's nodes there, m/s; 0 if it is rigid
+    BaseContactForce force;                  ///< on the disc
+    double shear_before, shear_after;        ///< shear force, N
+};
+
+/// Enters what a base contact loses in a cycle, and the work of the prescribed motion of base and
+/// walls.
+void enter_base_flows(const BaseContactCycle& contact, const Motion& base, const Clock& clock,
                       EnergyFlows& flows) {
+    const auto& [surface, disc, p, motion, node_velocity, force, before, after] = contact;
     const double dt = clock.time_step, time = clock.time();
     const double speed = base.speed_at(time), next_speed = base.speed_at(time + dt);
     if (!motion) {
@@ -75,17 +84,8 @@ double half_step_work(const BaseNodeColumns& nodes, std::span<const Point> of_no
     return 0.5 * dt * power;
 }
 
-/// The same for a surface that deforms, whose contact has the force `f`; and the force for the work
-/// of its nodes.
-void enter_node_flows(const Surface& surface, const Motion& base, const BaseNodeColumns& nodes,
-                      const Clock& clock, const BaseContactDisc& disc, const ContactParameters& p,
-                      double place, const NodeContactForce& f, double before, double after,
-                      Account& account) {
-    const NodeContactMotion at = node_contact_motion(surface, nodes, clock.extension, disc, place);
-    enter_base_flows(
-        surface, base, clock, disc, p,
-        surface_motion(surface, at, clock.extension, base.speed_at(clock.time()), disc),
-        at.velocity, f.force, before, after, account.flows);
+/// Enters the force of a contact for the work of the nodes that it acts on.
+void enter_node_force(const Surface& surface, const NodeContactForce& f, Account& account) {
     if (surface.follows == Follows::breakaway) {
         account.of_nodes[0].x += f.force.x;
         account.of_nodes[0].y += f.force.y;
@@ -104,7 +104,7 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
     const BaseContactColumns c = base_contact_columns(state);
     std::ranges::fill(force, Force{0.0, 0.0, 0.0});
     const Clock& clock = state.clock;
-    const double speed = base.motion.speed_at(clock.time());
+    const BaseMoment moment{clock.extension, base.motion.speed_at(clock.time())};
     const BaseNodeColumns nodes = base_node_columns(state);
     const bool deforms = !nodes.x.empty();
     const auto places = deforms ? state.base_contacts.get<double>("place") : std::span<double>();
@@ -117,19 +117,25 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
         const double before = c.shear_force[k];
         BaseContactForce f;
         if (deforms && surface.follows != Follows::nothing) {
-            const NodeContactForce on_nodes = node_contact_force(
-                surface, nodes, clock.extension, speed, disc, p, c.shear_force[k], places[k]);
+            const NodeContactForce on_nodes =
+                node_contact_force(surface, nodes, moment, disc, p, c.shear_force[k], places[k]);
             add_load(nodes, on_nodes, surface.degree);
             f = on_nodes.force;
-            if constexpr (accounted)
-                enter_node_flows(surface, base.motion, nodes, clock, disc, p, places[k], on_nodes,
-                                 before, c.shear_force[k], *account);
+            if constexpr (accounted) {
+                double place = places[k]; // it has been found: to look again changes nothing
+                const NodeContactMotion at =
+                    node_contact_motion(surface, nodes, moment.extension, disc, place);
+                enter_base_flows({surface, disc, p, surface_motion(surface, at, moment, disc),
+                                  at.velocity, f, before, c.shear_force[k]},
+                                 base.motion, clock, account->flows);
+                enter_node_force(surface, on_nodes, *account);
+            }
         } else {
-            f = base_contact_force(surface, clock.extension, speed, disc, p, c.shear_force[k]);
+            f = base_contact_force(surface, moment, disc, p, c.shear_force[k]);
             if constexpr (accounted)
-                enter_base_flows(surface, base.motion, clock, disc, p,
-                                 base_contact_motion(surface, clock.extension, speed, disc), {}, f,
-                                 before, c.shear_force[k], account->flows);
+                enter_base_flows({surface, disc, p, base_contact_motion(surface, moment, disc),
+                                  Point{}, f, before, c.shear_force[k]},
+                                 base.motion, clock, account->flows);
         }
         force[i].x += f.x;
         force[i].y += f.y;

@@ -46,10 +46,11 @@ void Simulation::begin(State state) {
     find_contacts(state_, base_);
     if (energy_)
         energy_->open(state_, base_);
+    assert(is_valid(state_));
 }
 
 void Simulation::resume(State state) {
-    assert(!has_state_);
+    assert(!has_state_ && is_valid(state));
     state_ = std::move(state);
     has_state_ = true;
 }
@@ -81,8 +82,8 @@ double Simulation::tolerance() const { return 0.5 * base_.motion.speed * state_.
 template <class Work> void Simulation::timed(const std::string& part, Work&& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
-    if (on_time_spent)
-        on_time_spent(
+    if (time_report_)
+        time_report_(
             part, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
@@ -110,6 +111,7 @@ void Simulation::apply_due_events() {
     }
     if (search_due)
         search_contacts();
+    assert(is_valid(state_));
 }
 
 /// Makes a batch of cycles, at most up to the extension.

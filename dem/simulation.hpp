@@ -28,8 +28,8 @@ class EnergyAccount;
 ///
 /// An event is applied in the cycle nearest to the extension that it is due at; events due at the
 /// same moment in the order in which they were added. The bits of the result depend neither on the
-/// threads nor on how the extension is cut into calls, as long as these end where an event is due
-/// or the state is looked at and left alone.
+/// threads nor on how the extension is cut into calls; but an account of energy is booked at the
+/// end of every call, which may round its sums differently.
 class Simulation {
 public:
     /// The base's motion must have a speed.
@@ -53,6 +53,11 @@ public:
     /// deforms. What it refers to must outlive the simulation.
     void advance_by(Advance advance) { advance_ = std::move(advance); }
     void respond_by(BaseResponse& response);
+
+    /// Told how long, s of wall time, a part of the work has taken: "cycle", "rebuild" (of the
+    /// neighbour lists), or the event of that name.
+    using TimeReport = std::function<void(const std::string& part, double seconds)>;
+    void report_times_to(TimeReport report) { time_report_ = std::move(report); }
 
     /// Starts with a hanging wall before extension. To be called once, after events were added.
     void begin(State state);
@@ -95,10 +100,6 @@ public:
     /// Discs times cycles since begin() or resume().
     double disc_steps() const { return disc_steps_; }
 
-    /// Told how long, s of wall time, a part of the work has taken: "cycle", "rebuild" (of the
-    /// neighbour lists), or the event of that name.
-    std::function<void(const std::string& part, double seconds)> on_time_spent;
-
 private:
     template <class Work> void timed(const std::string& part, Work&& work);
     void apply_due_events();
@@ -111,6 +112,7 @@ private:
     std::vector<std::unique_ptr<Event>> events_;
     EnergyAccount* energy_ = nullptr; ///< one of the events, if it is on
     Advance advance_;
+    TimeReport time_report_;
     double disc_steps_ = 0.0;
     bool has_state_ = false;
 };

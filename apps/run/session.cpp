@@ -74,9 +74,9 @@ Session::Session(const Scene& scene, const RunOptions& options, Log& log)
       simulation_(make_base(scene), cycle_physics(scene)) {
     for (auto& event : make_events(scene))
         simulation_.add(std::move(event));
-    simulation_.on_time_spent = [this](const std::string& part, double seconds) {
+    simulation_.report_times_to([this](const std::string& part, double seconds) {
         record_.seconds_by_part[part] += seconds;
-    };
+    });
     if (scene.base_motion) {
         base_motion_ = std::make_unique<BaseMotion>(*scene.base_motion, simulation_.base().motion,
                                                     scene.extension.rate);

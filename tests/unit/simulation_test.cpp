@@ -87,7 +87,7 @@ TEST_F(SimulationEvents, FindContactsAgainWhereTheyMust) {
     Simulation simulation(moving_box(), {});
     simulation.add<Thief>();
     std::map<std::string, int> parts;
-    simulation.on_time_spent = [&](const std::string& part, double) { ++parts[part]; };
+    simulation.report_times_to([&](const std::string& part, double) { ++parts[part]; });
     simulation.begin(discs_at_rest());
     simulation.extend_to(2.0);
     EXPECT_EQ(simulation.discs().x.size(), 14u);
