@@ -92,6 +92,7 @@ std::vector<SlabFault> trace_births(const std::vector<DiscPlaces>& states, const
 StretchedSlab stretch_slab(const Scene& scene, const std::filesystem::path& output, int threads,
                            bool figures) {
     RunOptions options;
+    options.stop = StopToken(stop_requested);
     options.output = output;
     options.threads = threads;
     options.resume = true; // a sweep that was stopped goes on; finished runs are not made again

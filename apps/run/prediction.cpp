@@ -1,26 +1,18 @@
 #include "apps/run/prediction.hpp"
 
 #include "apps/model/effects.hpp"
+#include "apps/support/stopwatch.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 
 namespace listric {
 
 using namespace dem;
-
-namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-} // namespace
 
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted) {
     // Hexagonal lattice on a floor, as many neighbours per disc as a settled packing has on average
@@ -56,7 +48,7 @@ CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool ac
     EnergyFlows flows;
     const Execution execution{threads, Cycle::best, accounted ? &flows : nullptr};
     advance(state, base, {}, batch / 4 + 1, execution);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = SteadyClock::now();
     const std::clock_t cpu_start = std::clock(); // of all threads
     double cycles = 0.0;
     do {

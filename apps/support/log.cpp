@@ -1,0 +1,62 @@
+#include "apps/support/log.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <unistd.h>
+
+namespace listric {
+
+namespace {
+
+constexpr std::string_view clear_line = "\r\x1b[K";
+
+} // namespace
+
+std::string rough_duration(double seconds) {
+    const auto s = static_cast<long>(seconds);
+    if (s < 90)
+        return fmt::format("{} s", s);
+    if (s < 5400)
+        return fmt::format("{} min", (s + 30) / 60);
+    return fmt::format("{:.1f} h", static_cast<double>(s) / 3600.0);
+}
+
+Log::Log(const std::filesystem::path& file, bool quiet)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {
+    if (!file.empty())
+        file_.open(file, std::ios::app);
+}
+
+Log::~Log() {
+    if (shows_progress_)
+        tell(clear_line);
+}
+
+void Log::say(std::string_view message) {
+    const std::lock_guard lock(mutex_);
+    if (file_.is_open())
+        file_ << message << std::endl;
+    if (!quiet_)
+        tell(fmt::format("{}{}\n", terminal_ ? clear_line : "", message));
+    shows_progress_ = false;
+}
+
+void Log::progress(std::string_view line) {
+    const std::lock_guard lock(mutex_);
+    const double pause = terminal_ ? 0.2 : 10.0; // s
+    if (quiet_ || (has_progressed_ && seconds_since(last_progress_) < pause))
+        return;
+    has_progressed_ = true;
+    last_progress_ = SteadyClock::now();
+    tell(fmt::format("{}{}{}", terminal_ ? clear_line : "", line, terminal_ ? "" : "\n"));
+    shows_progress_ = terminal_;
+}
+
+/// A closed or full stderr must not end a run.
+void Log::tell(std::string_view text) const {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+} // namespace listric

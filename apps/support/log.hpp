@@ -1,0 +1,47 @@
+#pragma once
+
+#include "apps/support/stopwatch.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace listric {
+
+/// A duration, s, as people say it: "80 s", "12 min", "3.4 h".
+std::string rough_duration(double seconds);
+
+/// What people are told while something runs: messages, which stay, and progress, which does not.
+/// Both go to stderr unless it shall be quiet; messages also into a file, if there is one. On a
+/// terminal the line of progress is rewritten; elsewhere it appears as plain lines, a few per
+/// minute at most. Threads may share one.
+class Log {
+public:
+    /// Without a file.
+    explicit Log(bool quiet) : Log({}, quiet) {}
+
+    /// Appends to a file. One that cannot be written is no error: nobody needs to listen.
+    Log(const std::filesystem::path& file, bool quiet);
+
+    /// Removes what is left of the progress.
+    ~Log();
+    Log(const Log&) = delete;
+    Log& operator=(const Log&) = delete;
+
+    void say(std::string_view message);
+    void progress(std::string_view line);
+
+private:
+    void tell(std::string_view text) const;
+
+    std::mutex mutex_;
+    std::ofstream file_;
+    bool quiet_, terminal_;
+    bool shows_progress_ = false; ///< on the terminal's current line
+    bool has_progressed_ = false;
+    SteadyClock::time_point last_progress_; ///< that was shown
+};
+
+} // namespace listric
