@@ -1,10 +1,9 @@
 #include "apps/run/flexure.hpp"
 
-#include "apps/archive/snapshot.hpp"
-#include "apps/figures/figures.hpp"
+#include "apps/figures/flexure_figure.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/run/run.hpp"
-#include "apps/support/python.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
 #include "fem/plate.hpp"
@@ -309,12 +308,6 @@ void bend_base(const Scene& scene, int threads, const fs::path& output,
     say(fmt::format("deflection {:.2f} m, thin plate {:.2f} m{}; figure in {}", w0, analytic,
                     exact_w ? fmt::format(", exact layer {:.2f} m", exact.at_centre()) : "",
                     (output / "figures").string()));
-}
-
-std::string draw_flexure(const fs::path& output) {
-    std::error_code error;
-    fs::create_directories(output / "figures", error);
-    return run_drawing_script("flexure.py", {output.string(), (output / "figures").string()});
 }
 
 } // namespace listric
