@@ -23,6 +23,7 @@
 
 namespace listric::support {
 
+using namespace archive;
 using namespace dem;
 
 /// A scene that the tests ship, in tests/scenes.

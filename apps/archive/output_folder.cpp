@@ -17,7 +17,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace listric {
+namespace listric::archive {
 
 namespace fs = std::filesystem;
 
@@ -164,4 +164,4 @@ void prepare_output(const Scene& scene, const fs::path& output, ExistingRun exis
     fs::remove(output / "summary.json", error); // of a run that now goes on
 }
 
-} // namespace listric
+} // namespace listric::archive

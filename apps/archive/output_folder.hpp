@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace listric {
+namespace listric::archive {
 
 /// Keeps other runs out of an output folder while it lives. Where files cannot be locked it keeps
 /// nobody out.
@@ -33,4 +33,4 @@ bool check_output(const Scene& scene, const std::filesystem::path& output, Exist
 /// that was killed has left half done. Throws StorageError if nothing can be written there.
 void prepare_output(const Scene& scene, const std::filesystem::path& output, ExistingRun existing);
 
-} // namespace listric
+} // namespace listric::archive

@@ -14,6 +14,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 
 namespace fs = std::filesystem;

@@ -2,6 +2,7 @@
 
 #include "apps/archive/examine.hpp"
 #include "apps/archive/run_folder.hpp"
+#include "apps/archive/run_history.hpp"
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/flexure_figure.hpp"
@@ -10,9 +11,12 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace listric {
+
+using namespace archive;
 
 namespace fs = std::filesystem;
 
@@ -24,30 +28,32 @@ bool is_drawn_at(const Scene& scene, double extension) {
 
 namespace {
 
-/// A run's folder, to be drawn again.
-struct Drawing : RunFolder {
-    /// @param history  earlier snapshots in which the faults' history is looked up
-    void add(FigureFrames& frames, const fs::path& path, std::span<const fs::path> history) const {
-        const Moment moment = read(path);
-        frames.add(scene, moment.state, base, moment.events,
-                   report_faults(scene, base, moment.state, history));
-    }
-
-    /// Snapshots at the scene's figure extensions, and the newest.
-    std::vector<fs::path> chosen() const {
-        std::vector<fs::path> paths;
-        for (const fs::path& path : snapshots)
-            if (path == snapshots.back() || is_drawn_at(scene, snapshot_extension(path)))
-                paths.push_back(path);
-        return paths;
-    }
-};
-
 /// Throws UsageError if there is nothing to draw.
-Drawing open_drawing(const fs::path& output) {
+RunFolder open_run(const fs::path& output) {
     if (list_snapshots(output).empty())
         throw UsageError(output.string() + ": no snapshots to draw; is this a run's folder?");
-    return Drawing{RunFolder(output)};
+    return RunFolder(output);
+}
+
+/// Snapshots at the scene's figure extensions, and the newest.
+std::vector<fs::path> chosen_snapshots(const RunFolder& run) {
+    std::vector<fs::path> paths;
+    for (const fs::path& path : run.snapshots)
+        if (path == run.snapshots.back() || is_drawn_at(run.scene, snapshot_extension(path)))
+            paths.push_back(path);
+    return paths;
+}
+
+void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
+               const RunHistory& history) {
+    frames.add(run.scene, moment.state, run.base, moment.events,
+               report_faults(run.scene, run.base, moment.state, history));
+}
+
+void add_frames(FigureFrames& frames, const RunFolder& run, std::span<const fs::path> snapshots,
+                const RunHistory& history) {
+    for (const fs::path& path : snapshots)
+        add_frame(frames, run, run.read(path), history);
 }
 
 } // namespace
@@ -59,37 +65,37 @@ void draw_run(const fs::path& output) {
             throw StorageError(problem);
         return;
     }
-    const Drawing drawing = open_drawing(output);
-    const std::vector<fs::path> chosen = drawing.chosen();
+    const RunFolder run = open_run(output);
+    const std::vector<fs::path> chosen = chosen_snapshots(run);
     FigureFrames frames(output / "figures");
-    for (const fs::path& path : chosen)
-        drawing.add(frames, path, drawing.snapshots);
+    add_frames(frames, run, chosen, RunHistory(run.snapshots));
     frames.draw("sections");
     if (chosen.size() > 1)
         frames.draw("experiment");
-    if (drawing.scene.elastic_base || drawing.scene.base_motion)
+    if (run.scene.elastic_base || run.scene.base_motion)
         draw_base(output);
 }
 
-void draw_experiment(const fs::path& output) {
-    const Drawing drawing = open_drawing(output);
-    const std::vector<fs::path> chosen = drawing.chosen();
+void draw_experiment(const fs::path& output, const RunHistory& history) {
+    const RunFolder run = open_run(output);
+    const std::vector<fs::path> chosen = chosen_snapshots(run);
     if (chosen.size() < 2)
         return;
     FigureFrames frames(output / "figures");
-    for (const fs::path& path : chosen)
-        drawing.add(frames, path, drawing.snapshots);
+    add_frames(frames, run, chosen, history);
     frames.draw("experiment");
 }
 
 void animate_run(const fs::path& output) {
-    const Drawing drawing = open_drawing(output);
+    const RunFolder run = open_run(output);
     FigureFrames frames(output / "figures");
-    for (std::size_t k = 0; k < drawing.snapshots.size(); ++k) {
-        // The window before shows where the faults are; their history is not drawn.
-        const std::size_t before = std::min<std::size_t>(k, 1);
-        drawing.add(frames, drawing.snapshots[k],
-                    std::span(drawing.snapshots).subspan(k - before, before));
+    // The window before shows where the faults are; their history is not drawn.
+    RunHistory window;
+    for (const fs::path& path : run.snapshots) {
+        const Moment moment = run.read(path);
+        add_frame(frames, run, moment, window);
+        window = {};
+        window.add(DiscPlaces(moment.state));
     }
     frames.draw("animation");
 }

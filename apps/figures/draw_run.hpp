@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/archive/run_history.hpp"
 #include "apps/scene/scene.hpp"
 
 #include <filesystem>
@@ -14,7 +15,8 @@ bool is_drawn_at(const Scene& scene, double extension);
 void draw_run(const std::filesystem::path& output);
 
 /// Draws the same moments on one sheet, if there are at least two. Throws as draw_run.
-void draw_experiment(const std::filesystem::path& output);
+/// @param history  the run's past, up to its end
+void draw_experiment(const std::filesystem::path& output, const archive::RunHistory& history);
 
 /// Draws every snapshot of a run's folder as a frame of an animation: MP4 with ffmpeg, else GIF.
 /// Throws as draw_run.

@@ -16,6 +16,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 
 namespace {

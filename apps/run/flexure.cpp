@@ -4,6 +4,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "dem/hash.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
 #include "fem/plate.hpp"
@@ -12,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -189,13 +189,6 @@ std::optional<std::vector<double>> exact_deflection(const FlexureParameters& fle
     });
 }
 
-std::uint64_t hash(const std::vector<double>& numbers) {
-    std::uint64_t key = 1469598103934665603u; // FNV-1a, a number at a time
-    for (double number : numbers)
-        key = (key ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u;
-    return key;
-}
-
 const char* name_of(FlexureLoad load) {
     constexpr const char* names[] = {"line", "broken", "strip", "sinusoid"};
     return names[static_cast<int>(load)];
@@ -259,7 +252,7 @@ void bend_base(const Scene& scene, int threads, const fs::path& output,
         {"predicted_wall_s", 3.0}, // loading the plug-in, solving, drawing
         {"disc_steps_per_s", 0.0},
         {"finished", true},
-        {"state_hash", fmt::format("{:016x}", hash(d.w))},
+        {"state_hash", fmt::format("{:016x}", fnv1a(d.w))},
         {"extension_m", 0.0},
         {"load", name_of(flexure.load)},
         {"elastic_thickness_m", scene.elastic_base->elastic_thickness},

@@ -20,6 +20,7 @@
 #include "dem/events/energy_account.hpp"
 #include "dem/events/strain.hpp"
 #include "dem/genesis.hpp"
+#include "dem/hash.hpp"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 using namespace coupling;
 
@@ -167,11 +169,8 @@ fs::path cache_path(const Scene& scene) {
     start.footwall_erosion.reset();
     start.base_motion.reset();
     start.energy.reset();
-    std::uint64_t key = 1469598103934665603u; // FNV-1a
-    const auto stir = [&](std::string_view text) {
-        for (char letter : text)
-            key = (key ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-    };
+    std::uint64_t key = fnv1a_start;
+    const auto stir = [&](std::string_view text) { key = fnv1a(text, key); };
     stir(to_toml(start));
     // The time step is that of the stiffest material, also of those that discs become later.
     stir(fmt::format("{}", stable_time_step(1.0, make_materials(scene), 0.0, 1.0)));
@@ -429,7 +428,7 @@ void save_field(Run& run) {
 FaultReport report_faults(Run& run) {
     const Stopwatch watch(run.record, "measures");
     const std::vector<fs::path> snapshots = list_snapshots(run.options.output);
-    return report_faults(run.scene, run.base, run.state, snapshots);
+    return report_faults(run.scene, run.base, run.state, RunHistory(snapshots));
 }
 
 void draw(Run& run, Voice& voice) {
@@ -452,7 +451,7 @@ void draw_sheet(Run& run, Voice& voice) {
     try {
         if (run.footwall || run.base_motion)
             draw_base(run.options.output);
-        draw_experiment(run.options.output);
+        draw_experiment(run.options.output, RunHistory(list_snapshots(run.options.output)));
     } catch (const std::exception& error) {
         voice.say(std::string("warning: no sheet of figures: ") + error.what());
     }
@@ -466,18 +465,19 @@ std::string quoted(const std::string& word) {
     return result + "'";
 }
 
-/// Solves for the base once more on a finer mesh.
-void check_base(Run& run, Voice& voice) {
+/// Solves for the base once more on a finer mesh; its differences for the summary.
+std::vector<std::pair<std::string, double>> check_base(Run& run, Voice& voice) {
     if (!run.footwall)
-        return;
+        return {};
     const Stopwatch watch(run.record, "base");
     if (const auto fine = run.footwall->check(run.state)) {
-        run.record.base_elements_difference = fine->elements;
-        run.record.base_resolved_difference = fine->base;
         voice.say(fmt::format("the base under the last window's mean forces, solved again with {} "
                               "unknowns: the run's elements are {:.2f} % off, its base {:.2f} %",
                               fine->unknowns, 100.0 * fine->elements, 100.0 * fine->base));
+        return {{"base_elements_difference", fine->elements},
+                {"base_resolved_difference", fine->base}};
     }
+    return {};
 }
 
 /// How to run the scene of a folder.
@@ -603,10 +603,21 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
         const Measures measures = measure(scene, run.state, run.base, run.events);
         warn_of_haste(run, measures, voice);
         const FaultReport faults = report_faults(run);
-        check_base(run, voice);
+        auto numbers = footwall_summary(run.record.history, run.state);
+        std::ranges::move(check_base(run, voice), std::back_inserter(numbers));
         write_text(output / "summary.json",
-                   summary_json(scene, options.threads, run.state, run.record, measures, faults,
-                                run.wall_seconds(), run_hash(run.state, run.events)));
+                   summary_json({.scene = scene.name,
+                                 .accuracy = scene.accuracy,
+                                 .seed = scene.seed,
+                                 .threads = options.threads,
+                                 .state = run.state,
+                                 .record = run.record,
+                                 .measures = measures,
+                                 .faults = faults,
+                                 .effects = effect_names(scene),
+                                 .numbers = std::move(numbers),
+                                 .wall_seconds = run.wall_seconds(),
+                                 .state_hash = run_hash(run.state, run.events)}));
         voice.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}",
                               run.state.clock.extension / 1e3, time_left(run.wall_seconds()),
                               (output / "figures").string()));

@@ -19,6 +19,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 
 namespace {

@@ -24,6 +24,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 namespace {
 

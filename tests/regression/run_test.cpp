@@ -30,6 +30,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 namespace {
 
