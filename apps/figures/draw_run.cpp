@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -50,12 +49,6 @@ void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
                report_faults(run.scene, run.base, moment.state, history));
 }
 
-void add_frames(FigureFrames& frames, const RunFolder& run, std::span<const fs::path> snapshots,
-                const RunHistory& history) {
-    for (const fs::path& path : snapshots)
-        add_frame(frames, run, run.read(path), history);
-}
-
 } // namespace
 
 void draw_run(const fs::path& output) {
@@ -68,11 +61,17 @@ void draw_run(const fs::path& output) {
     const RunFolder run = open_run(output);
     const std::vector<fs::path> chosen = chosen_snapshots(run);
     FigureFrames frames(output / "figures");
-    add_frames(frames, run, chosen, RunHistory(run.snapshots));
+    const RunHistory history(run.snapshots);
+    bool base_moves = false;
+    for (const fs::path& path : chosen) {
+        const Moment moment = run.read(path);
+        base_moves |= moment.state.base_nodes.rows() > 0;
+        add_frame(frames, run, moment, history);
+    }
     frames.draw("sections");
     if (chosen.size() > 1)
         frames.draw("experiment");
-    if (run.scene.elastic_base || run.scene.base_motion)
+    if (base_moves)
         draw_base(output);
 }
 
@@ -82,7 +81,8 @@ void draw_experiment(const fs::path& output, const RunHistory& history) {
     if (chosen.size() < 2)
         return;
     FigureFrames frames(output / "figures");
-    add_frames(frames, run, chosen, history);
+    for (const fs::path& path : chosen)
+        add_frame(frames, run, run.read(path), history);
     frames.draw("experiment");
 }
 
