@@ -1,5 +1,7 @@
 #include "dem/state.hpp"
 
+#include "dem/hash.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -205,11 +207,7 @@ bool is_valid(const State& state) {
 
 namespace {
 
-void mix(std::uint64_t& h, std::uint64_t word) {
-    h = std::rotl(h ^ word, 23) * 0x9e3779b97f4a7c15u;
-    h ^= h >> 32;
-}
-
+void mix(std::uint64_t& h, std::uint64_t word) { h = mixed(h, word); }
 void mix(std::uint64_t& h, double value) { mix(h, std::bit_cast<std::uint64_t>(value)); }
 void mix(std::uint64_t& h, float value) {
     mix(h, static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(value)));

@@ -2,6 +2,7 @@
 
 // Runs of small scenes, in-process, in a folder of their own and without pictures.
 
+#include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/run/run.hpp"
 #include "tests/small_halfgraben.hpp"
@@ -22,6 +23,7 @@
 
 namespace listric::support {
 
+using namespace archive;
 using namespace dem;
 
 /// A scene that the tests ship, in tests/scenes.

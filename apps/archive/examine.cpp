@@ -8,31 +8,23 @@
 #include <cmath>
 #include <map>
 
-namespace listric {
+namespace listric::archive {
 
 using namespace dem;
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Shorter than a window of the run, and longer than the rest that a stopped run leaves.
+double least_window(const Scene& scene) { return 0.75 * scene.output.interval; }
+
+} // namespace
+
 FaultReport report_faults(const Scene& scene, const RigidBase& base, const State& now,
-                          std::span<const std::filesystem::path> snapshots) {
-    std::vector<DiscPlaces> older;
-    // The newest first, so that an extra snapshot of a stopped run cannot make a window too short.
-    double next = now.clock.extension;
-    const double least = 0.75 * scene.output.interval;
-    for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
-        try {
-            const DiscPlaces places(read_snapshot(*path).state);
-            if (next - places.extension < least)
-                continue;
-            next = places.extension;
-            older.push_back(places);
-        } catch (const StorageError&) {
-            continue;
-        }
-    }
-    std::ranges::reverse(older);
-    return report_faults(scene, base, now, older);
+                          const RunHistory& history) {
+    return listric::report_faults(scene, base, now,
+                                  history.before(now.clock.extension, least_window(scene)));
 }
 
 std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
@@ -54,7 +46,7 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
         const State& now = moment.state;
         if (wanted.contains(path)) {
             const Measures measures = measure(run.scene, now, run.base, moment.events);
-            const FaultReport faults = report_faults(run.scene, run.base, now, places);
+            const FaultReport faults = listric::report_faults(run.scene, run.base, now, places);
             NamedNumbers numbers = history_row(now, measures);
             std::erase_if(numbers, [](const auto& n) { return std::isnan(n.second); });
             const NamedNumbers more =
@@ -64,7 +56,7 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
         }
         // A snapshot of a stopped run must not make a window too short.
         if (!past.empty() &&
-            now.clock.extension - past.back().places.extension < 0.75 * run.scene.output.interval)
+            now.clock.extension - past.back().places.extension < least_window(run.scene))
             continue;
         Past next{DiscPlaces(now), find_basins(measure_profile(run.scene, now, run.base)), {}};
         if (!past.empty())
@@ -76,4 +68,4 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
     return found;
 }
 
-} // namespace listric
+} // namespace listric::archive

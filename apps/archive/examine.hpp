@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/archive/run_history.hpp"
 #include "apps/measures/fault_history.hpp"
 #include "apps/measures/structure.hpp"
 
@@ -8,16 +9,15 @@
 #include <utility>
 #include <vector>
 
-namespace listric {
+namespace listric::archive {
 
-/// The faults of a state, with the earlier states read from snapshots (oldest first; those that are
-/// not older or cannot be read are passed over).
+/// The faults of a state, with the earlier moments of its run.
 FaultReport report_faults(const Scene& scene, const dem::RigidBase& base, const dem::State& now,
-                          std::span<const std::filesystem::path> snapshots);
+                          const RunHistory& history);
 
 /// All measures of a finished run at the given extensions (m; the snapshots nearest to them),
 /// recomputed from its snapshots. Throws SceneError, StorageError.
 std::vector<std::pair<double, NamedNumbers>> examine_run(const std::filesystem::path& output,
                                                          std::span<const double> extensions);
 
-} // namespace listric
+} // namespace listric::archive

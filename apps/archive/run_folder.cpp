@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace listric {
+namespace listric::archive {
 
 using namespace dem;
 
@@ -55,4 +55,4 @@ Moment RunFolder::read(const fs::path& path) const {
     return moment;
 }
 
-} // namespace listric
+} // namespace listric::archive

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::archive {
 
 /// Snapshots of a run, oldest first.
 std::vector<std::filesystem::path> list_snapshots(const std::filesystem::path& output);
@@ -40,4 +40,4 @@ struct RunFolder {
     Moment read(const std::filesystem::path& snapshot) const;
 };
 
-} // namespace listric
+} // namespace listric::archive

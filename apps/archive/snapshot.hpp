@@ -1,18 +1,16 @@
 #pragma once
 
-#include "apps/support/error.hpp"
-#include "apps/support/file.hpp"
 #include "dem/event.hpp"
 #include "dem/state.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 
-namespace listric {
+namespace listric::archive {
 
 /// What a run carries along besides the state.
 struct RunRecord {
@@ -21,8 +19,6 @@ struct RunRecord {
     std::map<std::string, double> seconds_by_part; ///< wall time spent so far
     double disc_steps = 0.0;                       ///< discs times cycles so far
     double predicted_seconds = 0.0;                ///< of the whole run
-    std::optional<double> base_elements_difference,
-        base_resolved_difference; ///< at the end of a run with an elastic base
 };
 
 /// Everything that the run needs to go on as if it had never stopped.
@@ -46,4 +42,4 @@ std::uint64_t run_hash(const dem::State& state,
                        std::span<const std::unique_ptr<dem::Event>> events);
 std::uint64_t run_hash(const Snapshot& snapshot);
 
-} // namespace listric
+} // namespace listric::archive

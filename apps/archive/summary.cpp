@@ -1,15 +1,15 @@
 #include "apps/archive/summary.hpp"
 
-#include "apps/model/effects.hpp"
-#include "apps/model/footwall_summary.hpp"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <initializer_list>
+#include <map>
 
-namespace listric {
+namespace listric::archive {
 
 using namespace dem;
 
@@ -73,56 +73,130 @@ template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
     visit("energy_residual", work != 0.0 ? std::optional(e.residual() / work) : std::nullopt);
 }
 
-/// The faults, and what they have in common.
-void add_faults(nlohmann::ordered_json& json, const FaultReport& report) {
-    const auto put = [&](const char* name, std::optional<double> value) {
-        if (value && std::isfinite(*value))
-            json[name] = *value;
+using Json = nlohmann::ordered_json;
+
+void put(Json& json, const std::string& name, std::optional<double> value) {
+    if (value && std::isfinite(*value))
+        json[name] = *value;
+}
+
+Json object(const NamedNumbers& numbers) {
+    Json json = Json::object();
+    for (const auto& [name, value] : numbers)
+        json[name] = value;
+    return json;
+}
+
+Json list(const std::vector<NamedNumbers>& objects) {
+    Json json = Json::array();
+    for (const NamedNumbers& numbers : objects)
+        json.push_back(object(numbers));
+    return json;
+}
+
+Json summary_head(const SummaryContent& content) {
+    const RunRecord& record = content.record;
+    return {
+        {"scene", content.scene},
+        {"accuracy", content.accuracy},
+        {"seed", content.seed},
+        {"threads", content.threads},
+        {"discs", content.state.discs.rows()},
+        {"cycles", content.state.clock.cycle},
+        {"wall_s", content.wall_seconds},
+        {"predicted_wall_s", record.predicted_seconds},
+        {"disc_steps_per_s", record.disc_steps / content.wall_seconds},
+        {"finished", true},
+        {"state_hash", fmt::format("{:016x}", content.state_hash)},
+        {"extension_m", content.state.clock.extension},
     };
-    put("fault_width_diameters", report.width);
-    put("antithetic_foot_x_m", report.antithetic_foot);
+}
+
+void add_numbers(Json& json, const SummaryContent& content) {
+    const Measures& m = content.measures;
+    for_each_measure(
+        m, [&](const char* name, std::optional<double> value) { put(json, name, value); });
+    for (const auto& [name, value] : content.numbers)
+        put(json, name, value);
+    if (m.quasi_static)
+        json["quasi_static"] = *m.quasi_static;
+    if (m.energy)
+        json["energy_by_event_j_per_m"] =
+            object({m.energy->by_event.begin(), m.energy->by_event.end()});
+    for (const auto& [name, numbers] : content.objects)
+        json[name] = object(numbers);
+}
+
+/// Wall time by part, s; what no part has counted is `other`.
+Json seconds_by_part(const std::map<std::string, double>& parts, double wall_seconds) {
+    Json json = Json::object();
+    double named = 0.0;
+    for (const auto& [part, seconds] : parts) {
+        json[part] = seconds;
+        named += seconds;
+    }
+    json["other"] = std::max(0.0, wall_seconds - named);
+    return json;
+}
+
+Json depocentre_list(const std::vector<Depocentre>& depocentres) {
+    std::vector<NamedNumbers> rows;
+    for (const Depocentre& d : depocentres)
+        rows.push_back(
+            {{"x_m", d.x}, {"thickness_m", d.thickness}, {"prominence_m", d.prominence}});
+    return list(rows);
+}
+
+Json fault_object(const Fault& f) {
+    const Point top = f.trace.points.front(), bottom = f.trace.points.back();
+    Json throws = Json::object();
+    for (const auto& [stratum, value] : f.throws)
+        throws[fmt::format("{}", stratum)] = value;
+    Json points = Json::array();
+    for (Point p : f.trace.points)
+        points.push_back({std::round(p.x), std::round(-p.y)});
+    Json json = {{"x_top_m", top.x},
+                 {"z_top_m", -top.y},
+                 {"x_bottom_m", bottom.x},
+                 {"z_bottom_m", -bottom.y},
+                 {"length_m", f.trace.length()},
+                 {"dip_deg", f.dip},
+                 {"sense", f.normal ? "normal" : "reverse"},
+                 {"attitude", f.synthetic ? "synthetic" : "antithetic"},
+                 {"rate_mm_per_a", f.rate},
+                 {"width_diameters", f.width},
+                 {"curvature_per_m", f.curvature},
+                 {"born_at_m", f.born_at},
+                 {"dip_at_birth_deg", f.dip_at_birth},
+                 {"traced_since_m", f.traced_since},
+                 {"footwall_turn_deg", f.footwall_turn},
+                 {"foot_x_m", f.foot.x},
+                 {"foot_z_m", -f.foot.y},
+                 {"throw_m", throws},
+                 {"points_m", points}};
+    if (f.pre_rift_throw)
+        json["pre_rift_throw_m"] = *f.pre_rift_throw;
+    return json;
+}
+
+/// The faults, and what they have in common.
+void add_faults(Json& json, const FaultReport& report) {
+    put(json, "fault_width_diameters", report.width);
+    put(json, "antithetic_foot_x_m", report.antithetic_foot);
     if (report.main_antithetic)
         json["main_antithetic_fault"] = *report.main_antithetic;
     if (report.main_synthetic)
         json["main_synthetic_fault"] = *report.main_synthetic;
-    put("sediment_weak_off_fault_fraction", report.sediment_weak_off_fault_fraction);
-    auto& list = json["faults"] = nlohmann::ordered_json::array();
-    for (const Fault& f : report.faults) {
-        const Point top = f.trace.points.front(), bottom = f.trace.points.back();
-        auto throws = nlohmann::ordered_json::object();
-        for (const auto& [stratum, value] : f.throws)
-            throws[fmt::format("{}", stratum)] = value;
-        auto points = nlohmann::ordered_json::array();
-        for (Point p : f.trace.points)
-            points.push_back({std::round(p.x), std::round(-p.y)});
-        list.push_back({{"x_top_m", top.x},
-                        {"z_top_m", -top.y},
-                        {"x_bottom_m", bottom.x},
-                        {"z_bottom_m", -bottom.y},
-                        {"length_m", f.trace.length()},
-                        {"dip_deg", f.dip},
-                        {"sense", f.normal ? "normal" : "reverse"},
-                        {"attitude", f.synthetic ? "synthetic" : "antithetic"},
-                        {"rate_mm_per_a", f.rate},
-                        {"width_diameters", f.width},
-                        {"curvature_per_m", f.curvature},
-                        {"born_at_m", f.born_at},
-                        {"dip_at_birth_deg", f.dip_at_birth},
-                        {"traced_since_m", f.traced_since},
-                        {"footwall_turn_deg", f.footwall_turn},
-                        {"foot_x_m", f.foot.x},
-                        {"foot_z_m", -f.foot.y},
-                        {"throw_m", throws},
-                        {"points_m", points}});
-        if (f.pre_rift_throw)
-            list.back()["pre_rift_throw_m"] = *f.pre_rift_throw;
-    }
+    put(json, "sediment_weak_off_fault_fraction", report.sediment_weak_off_fault_fraction);
+    Json& faults = json["faults"] = Json::array();
+    for (const Fault& f : report.faults)
+        faults.push_back(fault_object(f));
 }
 
 } // namespace
 
-std::vector<std::pair<std::string, double>> history_row(const State& state, const Measures& m) {
-    std::vector<std::pair<std::string, double>> row = {
+NamedNumbers history_row(const State& state, const Measures& m) {
+    NamedNumbers row = {
         {"extension_m", state.clock.extension},
         {"cycle", static_cast<double>(state.clock.cycle)},
         {"discs", static_cast<double>(state.discs.rows())},
@@ -151,56 +225,16 @@ std::string to_csv(const Table& table) {
     return text;
 }
 
-std::string summary_json(const Scene& scene, int threads, const State& state,
-                         const RunRecord& record, const Measures& m, const FaultReport& faults,
-                         double wall_seconds, std::uint64_t state_hash) {
-    nlohmann::ordered_json json = {
-        {"scene", scene.name},
-        {"accuracy", scene.accuracy},
-        {"seed", scene.seed},
-        {"threads", threads},
-        {"discs", state.discs.rows()},
-        {"cycles", state.clock.cycle},
-        {"wall_s", wall_seconds},
-        {"predicted_wall_s", record.predicted_seconds},
-        {"disc_steps_per_s", record.disc_steps / wall_seconds},
-        {"finished", true},
-        {"state_hash", fmt::format("{:016x}", state_hash)},
-        {"extension_m", state.clock.extension},
-    };
-    for_each_measure(m, [&](const char* name, std::optional<double> value) {
-        if (value && std::isfinite(*value))
-            json[name] = *value;
-    });
-    for (const auto& [name, value] : footwall_summary(record.history, state))
-        if (std::isfinite(value))
-            json[name] = value;
-    if (record.base_elements_difference)
-        json["base_elements_difference"] = *record.base_elements_difference;
-    if (record.base_resolved_difference)
-        json["base_resolved_difference"] = *record.base_resolved_difference;
-    if (m.quasi_static)
-        json["quasi_static"] = *m.quasi_static;
-    if (m.energy) {
-        auto& list = json["energy_by_event_j_per_m"] = nlohmann::ordered_json::object();
-        for (const auto& [event, work] : m.energy->by_event)
-            list[event] = work;
-    }
-    json["effects"] = effect_names(scene);
-    double named = 0.0;
-    auto& parts = json["time_by_part_s"] = nlohmann::ordered_json::object();
-    for (const auto& [part, seconds] : record.seconds_by_part) {
-        parts[part] = seconds;
-        named += seconds;
-    }
-    parts["other"] = std::max(0.0, wall_seconds - named);
-    if (m.depocentres) {
-        auto& list = json["depocentres"] = nlohmann::ordered_json::array();
-        for (const Depocentre& d : *m.depocentres)
-            list.push_back(
-                {{"x_m", d.x}, {"thickness_m", d.thickness}, {"prominence_m", d.prominence}});
-    }
-    add_faults(json, faults);
+std::string summary_json(const SummaryContent& content) {
+    Json json = summary_head(content);
+    add_numbers(json, content);
+    json["effects"] = content.effects;
+    json["time_by_part_s"] = seconds_by_part(content.record.seconds_by_part, content.wall_seconds);
+    if (content.measures.depocentres)
+        json["depocentres"] = depocentre_list(*content.measures.depocentres);
+    for (const auto& [name, objects] : content.lists)
+        json[name] = list(objects);
+    add_faults(json, content.faults);
     return json.dump(2) + "\n";
 }
 
@@ -213,4 +247,4 @@ std::optional<double> summary_extension(const std::filesystem::path& summary) {
     return json["extension_m"].get<double>();
 }
 
-} // namespace listric
+} // namespace listric::archive

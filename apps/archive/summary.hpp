@@ -3,29 +3,50 @@
 #include "apps/archive/snapshot.hpp"
 #include "apps/measures/fault.hpp"
 #include "apps/measures/measure.hpp"
-#include "apps/scene/scene.hpp"
+#include "dem/column.hpp"
+#include "dem/state.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace listric {
+namespace listric::archive {
+
+/// Numbers by name, in the order in which they are written.
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
 /// The measures of one moment as named numbers, in the order of history.csv.
-std::vector<std::pair<std::string, double>> history_row(const dem::State& state,
-                                                        const Measures& measures);
+NamedNumbers history_row(const dem::State& state, const Measures& measures);
 
 /// Table as CSV; numbers without meaning are left empty.
 std::string to_csv(const dem::Table& table);
 
-/// summary.json: names and units are part of the program's contract (docs/measures.md).
-std::string summary_json(const Scene& scene, int threads, const dem::State& state,
-                         const RunRecord& record, const Measures& measures,
-                         const FaultReport& faults, double wall_seconds, std::uint64_t state_hash);
+/// What summary.json says of a finished run. What is referred to must outlive the call.
+struct SummaryContent {
+    std::string scene = {}, accuracy = {}; ///< names
+    std::uint64_t seed = 0;
+    int threads = 1;
+    const dem::State& state; ///< at the end
+    const RunRecord& record;
+    const Measures& measures;
+    const FaultReport& faults;
+    std::vector<std::string> effects = {}; ///< names of those that were on
+    NamedNumbers numbers = {};             ///< besides the measures
+    std::vector<std::pair<std::string, NamedNumbers>> objects =
+        {}; ///< numbers that belong together
+    std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {}; ///< of such objects
+    double wall_seconds = 0.0;
+    std::uint64_t state_hash = 0;
+};
+
+/// summary.json: names and units are part of the program's contract (docs/measures.md). Numbers
+/// that are not finite are left out.
+std::string summary_json(const SummaryContent& content);
 
 /// Extension that a finished run reached, m. None if the file is not a finished run's summary.
 std::optional<double> summary_extension(const std::filesystem::path& summary);
 
-} // namespace listric
+} // namespace listric::archive

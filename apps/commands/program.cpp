@@ -1,6 +1,7 @@
 #include "apps/commands/program.hpp"
 
 #include "apps/commands/explain.hpp"
+#include "apps/figures/draw_run.hpp"
 #include "apps/laboratory/calibration.hpp"
 #include "apps/laboratory/laboratory.hpp"
 #include "apps/run/run.hpp"

@@ -15,6 +15,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 
 namespace fs = std::filesystem;

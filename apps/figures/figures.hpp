@@ -28,6 +28,7 @@ public:
     /// @param folder  where the pictures go
     explicit FigureFrames(const std::filesystem::path& folder);
 
+    /// Throws StorageError.
     void add(const Scene& scene, const dem::State& state, const dem::RigidBase& base,
              std::span<const std::unique_ptr<dem::Event>> events, const FaultReport& faults);
 

@@ -1,6 +1,6 @@
 #include "apps/figures/paraview.hpp"
 
-#include "apps/archive/snapshot.hpp"
+#include "apps/support/file.hpp"
 #include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
 #include "dem/law.hpp"
@@ -234,20 +234,11 @@ std::optional<SeriesFile> series_file(const std::string& name) {
     return {};
 }
 
-} // namespace
-
-void write_paraview(const fs::path& output, const State& state, const RigidBase& base,
-                    double extension_rate) {
-    const fs::path folder = output / "paraview";
+/// Of all moments in output/paraview. @param extension_rate  m/a
+void write_series(const fs::path& output, double extension_rate) {
     std::error_code error;
-    fs::create_directories(folder, error);
-    const std::string moment = fmt::format("{:08.2f}m.vtp", state.clock.extension);
-    write_text(folder / ("discs-" + moment), discs_file(state, base));
-    write_text(folder / ("contacts-" + moment), contacts_file(state));
-    write_text(folder / ("base-" + moment), base_file(state, base));
-
     std::vector<SeriesFile> files;
-    for (const auto& entry : fs::directory_iterator(folder, error))
+    for (const auto& entry : fs::directory_iterator(output / "paraview", error))
         if (const auto file = series_file(entry.path().filename().string()))
             files.push_back(*file);
     std::ranges::sort(files);
@@ -259,6 +250,20 @@ void write_paraview(const fs::path& output, const State& state, const RigidBase&
             fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"paraview/{}\"/>\n",
                         extension / extension_rate / 1e6, part, parts[part], name);
     write_text(output / "paraview.pvd", series + "</Collection>\n</VTKFile>\n");
+}
+
+} // namespace
+
+void write_paraview(const fs::path& output, const State& state, const RigidBase& base,
+                    double extension_rate) {
+    const fs::path folder = output / "paraview";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    const std::string moment = fmt::format("{:08.2f}m.vtp", state.clock.extension);
+    write_text(folder / ("discs-" + moment), discs_file(state, base));
+    write_text(folder / ("contacts-" + moment), contacts_file(state));
+    write_text(folder / ("base-" + moment), base_file(state, base));
+    write_series(output, extension_rate);
 }
 
 } // namespace listric

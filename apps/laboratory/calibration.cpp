@@ -1,8 +1,8 @@
 #include "apps/laboratory/calibration.hpp"
 
-#include "apps/archive/snapshot.hpp"
 #include "apps/laboratory/laboratory.hpp"
 #include "apps/run/run.hpp"
+#include "apps/support/file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

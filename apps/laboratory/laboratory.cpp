@@ -1,9 +1,9 @@
 #include "apps/laboratory/laboratory.hpp"
 
-#include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/laboratory/pure_shear.hpp"
 #include "apps/run/run.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
 #include "dem/contacts.hpp"
 #include "dem/monitor.hpp"

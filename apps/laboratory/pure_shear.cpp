@@ -1,5 +1,6 @@
 #include "apps/laboratory/pure_shear.hpp"
 
+#include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/run.hpp"
@@ -15,6 +16,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 
 namespace {

@@ -1,10 +1,11 @@
 #include "apps/run/flexure.hpp"
 
-#include "apps/archive/snapshot.hpp"
-#include "apps/figures/figures.hpp"
+#include "apps/figures/flexure_figure.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/support/python.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/stopwatch.hpp"
+#include "dem/hash.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
 #include "fem/plate.hpp"
@@ -13,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -184,13 +184,6 @@ std::optional<std::vector<double>> exact_deflection(const FlexureParameters& fle
     });
 }
 
-std::uint64_t hash(const std::vector<double>& numbers) {
-    std::uint64_t key = 1469598103934665603u; // FNV-1a, a number at a time
-    for (double number : numbers)
-        key = (key ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u;
-    return key;
-}
-
 const char* name_of(FlexureLoad load) {
     constexpr const char* names[] = {"line", "broken", "strip", "sinusoid"};
     return names[static_cast<int>(load)];
@@ -294,7 +287,7 @@ nlohmann::ordered_json summary(const Scene& scene, int threads, const Case& c, c
         {"predicted_wall_s", 3.0}, // loading the plug-in, solving, drawing
         {"disc_steps_per_s", 0.0},
         {"finished", true},
-        {"state_hash", fmt::format("{:016x}", hash(bent.deflection.w))},
+        {"state_hash", fmt::format("{:016x}", dem::fnv1a(bent.deflection.w))},
         {"extension_m", 0.0},
         {"load", name_of(flexure.load)},
         {"elastic_thickness_m", scene.elastic_base->elastic_thickness},
@@ -348,12 +341,6 @@ void bend_base(const Scene& scene, int threads, const fs::path& output,
                     theory.layer ? fmt::format(", exact layer {:.2f} m", theory.layer->at_centre())
                                  : "",
                     (output / "figures").string()));
-}
-
-std::string draw_flexure(const fs::path& output) {
-    std::error_code error;
-    fs::create_directories(output / "figures", error);
-    return run_drawing_script("flexure.py", {output.string(), (output / "figures").string()});
 }
 
 } // namespace listric

@@ -14,8 +14,4 @@ namespace listric {
 void bend_base(const Scene& scene, int threads, const std::filesystem::path& output,
                const std::function<void(const std::string&)>& say);
 
-/// Draws figures/flexure.png from deflection.csv and summary.json. Returns an empty string, or why
-/// it could not.
-std::string draw_flexure(const std::filesystem::path& output);
-
 } // namespace listric

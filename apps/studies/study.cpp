@@ -1,9 +1,9 @@
 #include "apps/studies/study.hpp"
 
-#include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scene/declaration.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
 #include "apps/support/version.hpp"
 

@@ -2,6 +2,7 @@
 
 #include "apps/studies/study.hpp"
 
+#include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/run/run.hpp"
@@ -19,6 +20,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 
 namespace {

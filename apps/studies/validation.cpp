@@ -29,6 +29,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 
 namespace {
@@ -306,7 +307,8 @@ private:
             const Moment moment = folder.read(path);
             folder.scene.description = fmt::format("{}, seed {}, {}", name, seed, extension(at));
             figure.add(folder.scene, moment.state, folder.base, moment.events,
-                       report_faults(folder.scene, folder.base, moment.state, folder.snapshots));
+                       report_faults(folder.scene, folder.base, moment.state,
+                                     RunHistory(folder.snapshots)));
         }
         figure.draw("gallery");
         fs::rename(beside_ / "gallery.png", file);

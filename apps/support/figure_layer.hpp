@@ -6,11 +6,11 @@
 
 namespace listric {
 
-/// Numbers of one moment for the drawing scripts: the array NAME.npy of a frame.
+/// An array that a figure shows besides what every figure does: NAME.npy for the drawing scripts.
 struct FigureLayer {
     std::string name;
-    std::size_t columns = 0; ///< of a row; 0: a plain list
-    std::vector<double> rows;
+    std::size_t columns = 0;  ///< 0: one dimension
+    std::vector<double> rows; ///< one after the other; units as the script that reads them says
 };
 
 } // namespace listric

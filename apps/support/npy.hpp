@@ -1,20 +1,23 @@
 #pragma once
 
-#include <cstdint>
+#include "apps/support/error.hpp"
+
+#include <cassert>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 
 namespace listric {
 
 /// Writes values as a NumPy array (format version 1.0, little endian), with `columns` > 0 as a
-/// matrix of that many columns.
+/// matrix of that many columns. Throws StorageError.
 template <class T>
 void write_npy(const std::filesystem::path& path, std::span<const T> values,
                std::size_t columns = 0) {
+    assert(columns == 0 || values.size() % columns == 0);
     const char kind = std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u';
     const std::string shape =
         columns == 0 ? std::to_string(values.size()) + ","
@@ -31,7 +34,7 @@ void write_npy(const std::filesystem::path& path, std::span<const T> values,
     out.write(reinterpret_cast<const char*>(values.data()),
               static_cast<std::streamsize>(values.size_bytes()));
     if (!out.flush())
-        throw std::runtime_error("cannot write " + path.string());
+        throw StorageError(path.string() + ": cannot write");
 }
 
 } // namespace listric

@@ -1,7 +1,7 @@
 // The scene flexure from the call to the files: names, numbers and what bad input leads to.
 
-#include "apps/archive/snapshot.hpp"
 #include "apps/run/run.hpp"
+#include "apps/support/file.hpp"
 #include "fem/elastic_layer.hpp"
 
 #include <gmock/gmock.h>

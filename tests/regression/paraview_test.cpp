@@ -1,5 +1,6 @@
 // The series for ParaView, opened and drawn by ParaView's own libraries (or VTK's, its readers).
 
+#include "apps/archive/run_folder.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/run.hpp"
 #include "dem/contacts.hpp"
@@ -23,6 +24,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 namespace {
 

@@ -1,6 +1,7 @@
 // Runs from beginning to end: reproducible, resumable after anything, honest about what fails.
 // Most runs are made in-process; where signals and exit codes matter, by the program.
 
+#include "apps/archive/run_folder.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/run.hpp"
 #include "dem/cycle.hpp"
@@ -29,6 +30,7 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 namespace {
 

@@ -66,8 +66,8 @@ inline double total_mass(const State& state) {
 inline State restarted(const State& state) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) /
                                        ("listric-hard-" + std::to_string(getpid()) + ".h5");
-    write_snapshot(file, state, {}, {});
-    State again = read_snapshot(file).state;
+    archive::write_snapshot(file, state, {}, {});
+    State again = archive::read_snapshot(file).state;
     std::filesystem::remove(file);
     return again;
 }

@@ -13,7 +13,11 @@ namespace {
 using nlohmann::json;
 
 json summary(const FaultReport& report) {
-    return json::parse(summary_json({}, 1, empty_state(), {}, {}, report, 1.0, 0));
+    return json::parse(archive::summary_json({.state = empty_state(),
+                                              .record = {},
+                                              .measures = {},
+                                              .faults = report,
+                                              .wall_seconds = 1.0}));
 }
 
 TEST(Summary, Faults) {

@@ -1,0 +1,40 @@
+#include "apps/archive/run_history.hpp"
+
+#include "apps/archive/snapshot.hpp"
+#include "apps/support/error.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace listric::archive {
+
+RunHistory::RunHistory(std::span<const std::filesystem::path> snapshots) {
+    for (const std::filesystem::path& path : snapshots) {
+        try {
+            add(DiscPlaces(read_snapshot(path).state));
+        } catch (const StorageError&) {
+            continue;
+        }
+    }
+}
+
+void RunHistory::add(DiscPlaces places) {
+    while (!moments_.empty() && moments_.back().extension >= places.extension)
+        moments_.pop_back();
+    moments_.push_back(std::move(places));
+}
+
+std::vector<DiscPlaces> RunHistory::before(double extension, double window) const {
+    std::vector<DiscPlaces> found;
+    double next = extension;
+    for (auto moment = moments_.rbegin(); moment != moments_.rend(); ++moment) {
+        if (next - moment->extension < window)
+            continue;
+        next = moment->extension;
+        found.push_back(*moment);
+    }
+    std::ranges::reverse(found);
+    return found;
+}
+
+} // namespace listric::archive

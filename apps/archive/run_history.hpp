@@ -1,0 +1,32 @@
+#pragma once
+
+#include "apps/measures/shear_field.hpp"
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace listric::archive {
+
+/// Where the discs were at the past moments of a run: what the faults' history needs of its
+/// snapshots, kept so that they are read once.
+class RunHistory {
+public:
+    RunHistory() = default;
+
+    /// The moments of snapshots, oldest first. Those that cannot be read are passed over.
+    explicit RunHistory(std::span<const std::filesystem::path> snapshots);
+
+    /// Adds a moment, and forgets those that are not older: the run has gone back.
+    void add(DiscPlaces places);
+
+    /// Moments before `extension`, oldest first. They are at least `window` apart, counted back
+    /// from there, so that an extra snapshot of a stopped run does not make a window too short.
+    /// Both in m of extension.
+    std::vector<DiscPlaces> before(double extension, double window) const;
+
+private:
+    std::vector<DiscPlaces> moments_; ///< by extension
+};
+
+} // namespace listric::archive

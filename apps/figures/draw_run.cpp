@@ -1,0 +1,103 @@
+#include "apps/figures/draw_run.hpp"
+
+#include "apps/archive/examine.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/run_history.hpp"
+#include "apps/figures/base_figure.hpp"
+#include "apps/figures/figures.hpp"
+#include "apps/figures/flexure_figure.hpp"
+#include "apps/support/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+using namespace archive;
+
+namespace fs = std::filesystem;
+
+bool is_drawn_at(const Scene& scene, double extension) {
+    return std::ranges::any_of(scene.output.figures, [&](double mark) {
+        return std::abs(mark - extension) <= 0.5 * scene.output.interval;
+    });
+}
+
+namespace {
+
+/// Throws UsageError if there is nothing to draw.
+RunFolder open_run(const fs::path& output) {
+    if (list_snapshots(output).empty())
+        throw UsageError(output.string() + ": no snapshots to draw; is this a run's folder?");
+    return RunFolder(output);
+}
+
+/// Snapshots at the scene's figure extensions, and the newest.
+std::vector<fs::path> chosen_snapshots(const RunFolder& run) {
+    std::vector<fs::path> paths;
+    for (const fs::path& path : run.snapshots)
+        if (path == run.snapshots.back() || is_drawn_at(run.scene, snapshot_extension(path)))
+            paths.push_back(path);
+    return paths;
+}
+
+void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
+               const RunHistory& history) {
+    frames.add(run.scene, moment.state, run.base, moment.events,
+               report_faults(run.scene, run.base, moment.state, history));
+}
+
+} // namespace
+
+void draw_run(const fs::path& output) {
+    std::error_code error;
+    if (fs::exists(output / "deflection.csv", error)) {
+        if (const std::string problem = draw_flexure(output); !problem.empty())
+            throw StorageError(problem);
+        return;
+    }
+    const RunFolder run = open_run(output);
+    const std::vector<fs::path> chosen = chosen_snapshots(run);
+    FigureFrames frames(output / "figures");
+    const RunHistory history(run.snapshots);
+    bool base_moves = false;
+    for (const fs::path& path : chosen) {
+        const Moment moment = run.read(path);
+        base_moves |= moment.state.base_nodes.rows() > 0;
+        add_frame(frames, run, moment, history);
+    }
+    frames.draw("sections");
+    if (chosen.size() > 1)
+        frames.draw("experiment");
+    if (base_moves)
+        draw_base(output);
+}
+
+void draw_experiment(const fs::path& output, const RunHistory& history) {
+    const RunFolder run = open_run(output);
+    const std::vector<fs::path> chosen = chosen_snapshots(run);
+    if (chosen.size() < 2)
+        return;
+    FigureFrames frames(output / "figures");
+    for (const fs::path& path : chosen)
+        add_frame(frames, run, run.read(path), history);
+    frames.draw("experiment");
+}
+
+void animate_run(const fs::path& output) {
+    const RunFolder run = open_run(output);
+    FigureFrames frames(output / "figures");
+    // The window before shows where the faults are; their history is not drawn.
+    RunHistory window;
+    for (const fs::path& path : run.snapshots) {
+        const Moment moment = run.read(path);
+        add_frame(frames, run, moment, window);
+        window = {};
+        window.add(DiscPlaces(moment.state));
+    }
+    frames.draw("animation");
+}
+
+} // namespace listric

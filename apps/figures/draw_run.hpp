@@ -1,0 +1,25 @@
+#pragma once
+
+#include "apps/archive/run_history.hpp"
+#include "apps/scene/scene.hpp"
+
+#include <filesystem>
+
+namespace listric {
+
+/// Whether a scene wants pictures at this extension (m), to half a window.
+bool is_drawn_at(const Scene& scene, double extension);
+
+/// Draws the figures of all snapshots of a run's folder at the scene's figure extensions and of
+/// the newest one. Throws UsageError if there is nothing to draw, SceneError, StorageError.
+void draw_run(const std::filesystem::path& output);
+
+/// Draws the same moments on one sheet, if there are at least two. Throws as draw_run.
+/// @param history  the run's past, up to its end
+void draw_experiment(const std::filesystem::path& output, const archive::RunHistory& history);
+
+/// Draws every snapshot of a run's folder as a frame of an animation: MP4 with ffmpeg, else GIF.
+/// Throws as draw_run.
+void animate_run(const std::filesystem::path& output);
+
+} // namespace listric

@@ -1,0 +1,225 @@
+#include "apps/figures/frame.hpp"
+
+#include "apps/measures/kinematics.hpp"
+#include "apps/measures/measure.hpp"
+#include "apps/measures/rock_behaviour.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+#include "apps/support/npy.hpp"
+#include "dem/base_place.hpp"
+#include "dem/contacts.hpp"
+#include "dem/events/strain.hpp"
+#include "dem/power_cell.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <optional>
+
+namespace listric {
+
+using namespace dem;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes into the folder of one frame.
+class FrameWriter {
+public:
+    /// Makes the folder. Throws StorageError.
+    explicit FrameWriter(const fs::path& folder) : folder_(folder) {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        if (error)
+            throw StorageError(folder.string() + ": cannot be made: " + error.message());
+    }
+
+    /// @param columns  0: one dimension
+    template <class T>
+    void array(const std::string& name, std::span<const T> values, std::size_t columns = 0) const {
+        write_npy<T>(folder_ / (name + ".npy"), values, columns);
+    }
+    void array(const std::string& name, const std::vector<double>& values,
+               std::size_t columns = 0) const {
+        array(name, std::span(values), columns);
+    }
+    void points(const std::string& name, const std::vector<Point>& line) const {
+        std::vector<double> rows;
+        for (const Point p : line)
+            rows.insert(rows.end(), {p.x, p.y});
+        array(name, rows, 2);
+    }
+
+    void json(const nlohmann::json& frame) const {
+        write_text(folder_ / "frame.json", frame.dump(1));
+    }
+
+private:
+    fs::path folder_;
+};
+
+double right_wall(const FrameContent& frame) {
+    return frame.scene.hanging_wall->length + frame.state.clock.extension;
+}
+
+void write_discs(const FrameWriter& writer, const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    writer.array("discs_x", d.x);
+    writer.array("discs_y", d.y);
+    writer.array("discs_radius", rock_radii(state));
+    writer.array("discs_stratum", d.stratum);
+    std::vector<double> depth;
+    for (const double y : d.start_y)
+        depth.push_back(-y);
+    writer.array("discs_start_depth", depth);
+}
+
+void write_strain(const FrameWriter& writer, const FrameContent& frame) {
+    const Event* const strain = find_event(frame.events, "strain");
+    if (strain && strain->applied > 0)
+        writer.array("discs_shear_strain", frame.state.discs.get<double>("window_strain"));
+    else // the first window has not ended
+        writer.array("discs_shear_strain", shear_strain(frame.state));
+    writer.array("discs_total_shear_strain", frame.state.discs.get<double>("total_strain"));
+}
+
+/// Contacts as lines: x and y of both discs, and 1 where both are sediment.
+void write_bonds(const FrameWriter& writer, const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const std::vector<bool> touches = touching(state);
+    std::vector<double> broken, bonded;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        if (!touches[k] && !c.bonded[k])
+            continue;
+        const auto i = static_cast<std::size_t>(c.first[k]);
+        const auto j = static_cast<std::size_t>(c.second[k]);
+        const bool in_sediment = d.stratum[i] > 0 && d.stratum[j] > 0;
+        auto& lines = c.bonded[k] ? bonded : broken;
+        lines.insert(lines.end(), {d.x[i], d.y[i], d.x[j], d.y[j], in_sediment ? 1.0 : 0.0});
+    }
+    writer.array("broken", broken, 5);
+    writer.array("bonded", bonded, 5);
+}
+
+void write_behaviour(const FrameWriter& writer, const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const std::vector<double> unbonded = measures::unbonded_shares(state);
+    std::vector<std::int32_t> classes;
+    for (const auto behaviour : measures::rock_behaviour(unbonded, d.stratum, d.material))
+        classes.push_back(static_cast<std::int32_t>(behaviour));
+    writer.array("discs_unbonded_share", unbonded);
+    writer.array("discs_behaviour", std::span<const std::int32_t>(classes));
+}
+
+/// The detachment where it stands now, up to the wall.
+void write_base(const FrameWriter& writer, const FrameContent& frame) {
+    const Chain standing = standing_base(frame.base, frame.state).surfaces.front().chain;
+    double length = 0.0;
+    for (const Segment& segment : standing)
+        length += segment.length;
+    std::vector<Point> line;
+    constexpr int steps = 2000;
+    for (int k = 0; k <= steps; ++k) {
+        const Point p = point_at(standing, length * k / steps);
+        if (p.x <= right_wall(frame))
+            line.push_back(p);
+    }
+    writer.points("detachment", line);
+}
+
+void write_profile(const FrameWriter& writer, const FrameContent& frame) {
+    const Profile profile = measure_profile(frame.scene, frame.state, frame.base);
+    std::vector<double> rows;
+    for (std::size_t k = 0; k < profile.x.size(); ++k)
+        rows.insert(rows.end(),
+                    {profile.x[k], profile.pre_rift_top[k], profile.sediment_thickness[k]});
+    writer.array("profile", rows, 3);
+}
+
+/// Tops that the kinematic constructions predict over the detachment as it was at the start.
+void write_predictions(const FrameWriter& writer, const FrameContent& frame,
+                       double inclined_shear_angle) {
+    const Chain& detachment = frame.base.surfaces.front().chain;
+    const double extension = frame.state.clock.extension, wall = right_wall(frame);
+    writer.points("predicted_shear",
+                  inclined_shear_top(detachment, extension, inclined_shear_angle, wall));
+    writer.points("predicted_normals", normals_top(detachment, extension, wall));
+}
+
+void write_depocentres(const FrameWriter& writer, const std::vector<Depocentre>& depocentres) {
+    std::vector<double> rows;
+    for (const Depocentre& c : depocentres)
+        rows.insert(rows.end(), {c.x, c.thickness, c.prominence});
+    writer.array("depocentres", rows, 3);
+}
+
+/// Points of the traces: number of the fault, x, y and the fault's slip rate.
+void write_faults(const FrameWriter& writer, const std::vector<Fault>& faults) {
+    std::vector<double> rows;
+    for (std::size_t k = 0; k < faults.size(); ++k)
+        for (const Point p : faults[k].trace.points)
+            rows.insert(rows.end(), {static_cast<double>(k), p.x, p.y, faults[k].rate});
+    writer.array("faults", rows, 4);
+}
+
+nlohmann::json frame_json(const FrameContent& content, const Measures& m) {
+    const Scene& scene = content.scene;
+    const State& state = content.state;
+    const ConstDiscColumns d = disc_columns(state);
+    nlohmann::json frame = {
+        {"scene", scene.name},
+        {"title", scene.description},
+        {"extension_m", state.clock.extension},
+        {"time_a", state.clock.extension / scene.extension.rate},
+        {"level_m", 0.0},
+        {"mean_radius_m", state.mean_radius},
+        {"right_wall_x_m", right_wall(content)},
+        {"strata", d.stratum.empty() ? 0 : *std::ranges::max_element(d.stratum)},
+        {"layer_m", 1000.0},
+        {"seed", scene.seed},
+        {"accuracy", scene.accuracy},
+        {"effects", content.effects},
+        {"strain_window_m", strain_window},
+        {"thickness_m", scene.hanging_wall->thickness},
+    };
+    const auto add = [&](const char* name, const std::optional<double>& value) {
+        if (value)
+            frame[name] = *value;
+    };
+    add("inclined_shear_angle_deg", m.inclined_shear_angle);
+    add("area_balance", m.area_balance);
+    add("halfgraben_area_share", m.halfgraben_area_share);
+    add("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
+    add("rollover_tilt_deg", m.rollover_tilt);
+    add("predicted_tilt_deg", m.predicted_tilt);
+    for (const auto& [name, value] : content.numbers)
+        frame[name] = value;
+    return frame;
+}
+
+} // namespace
+
+void write_frame(const FrameContent& frame, const fs::path& folder) {
+    const FrameWriter writer(folder);
+    write_discs(writer, frame.state);
+    write_strain(writer, frame);
+    if (frame.scene.bonds) {
+        write_bonds(writer, frame.state);
+        write_behaviour(writer, frame.state);
+    }
+    write_base(writer, frame);
+    write_profile(writer, frame);
+    const Measures m = measure(frame.scene, frame.state, frame.base, frame.events);
+    if (m.inclined_shear_angle)
+        write_predictions(writer, frame, *m.inclined_shear_angle);
+    if (m.depocentres)
+        write_depocentres(writer, *m.depocentres);
+    write_faults(writer, frame.faults.faults);
+    for (const FigureLayer& layer : frame.layers)
+        writer.array(layer.name, layer.rows, layer.columns);
+    writer.json(frame_json(frame, m));
+}
+
+} // namespace listric

@@ -1,0 +1,42 @@
+#include "apps/measures/rock_behaviour.hpp"
+
+#include "dem/contacts.hpp"
+#include "dem/material.hpp"
+
+#include <cassert>
+
+namespace listric::measures {
+
+std::vector<double> unbonded_shares(const dem::State& state) {
+    const dem::ConstContactColumns c = dem::contact_columns(state);
+    const std::vector<bool> touches = dem::touching(state);
+    std::vector<double> contacts(state.discs.rows(), 0.0), unbonded(state.discs.rows(), 0.0);
+    for (std::size_t k = 0; k < touches.size(); ++k)
+        if (touches[k] || c.bonded[k])
+            for (const std::int32_t disc : {c.first[k], c.second[k]}) {
+                contacts[static_cast<std::size_t>(disc)] += 1.0;
+                unbonded[static_cast<std::size_t>(disc)] += !c.bonded[k];
+            }
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+        unbonded[i] = contacts[i] > 0.0 ? unbonded[i] / contacts[i] : 1.0;
+    return unbonded;
+}
+
+std::vector<RockBehaviour> rock_behaviour(std::span<const double> unbonded_share,
+                                          std::span<const std::int32_t> stratum,
+                                          std::span<const std::uint8_t> material) {
+    assert(stratum.size() == unbonded_share.size() && material.size() == unbonded_share.size());
+    constexpr double cracked = 0.25, loose = 0.5; // of contacts
+    std::vector<RockBehaviour> behaviour(unbonded_share.size(), RockBehaviour::elastic);
+    for (std::size_t i = 0; i < behaviour.size(); ++i) {
+        if (material[i] == dem::weak)
+            behaviour[i] = RockBehaviour::weakened;
+        else if (stratum[i] > 0 && unbonded_share[i] > loose)
+            behaviour[i] = RockBehaviour::unconsolidated;
+        else if (unbonded_share[i] > cracked)
+            behaviour[i] = RockBehaviour::plastic;
+    }
+    return behaviour;
+}
+
+} // namespace listric::measures
