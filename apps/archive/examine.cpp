@@ -45,12 +45,12 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
         const Moment moment = run.read(path);
         const State& now = moment.state;
         if (wanted.contains(path)) {
-            const Measures measures = measure(run.scene, now, run.base, moment.events);
-            const FaultReport faults = listric::report_faults(run.scene, run.base, now, places);
+            const Measures measures = measure(run.scene, now, run.parts.base, moment.events);
+            const FaultReport faults = listric::report_faults(run.scene, run.parts.base, now, places);
             NamedNumbers numbers = history_row(now, measures);
             std::erase_if(numbers, [](const auto& n) { return std::isnan(n.second); });
             const NamedNumbers more =
-                measure_structure(run.scene, run.base, now, moment.events, faults, measures, past);
+                measure_structure(run.scene, run.parts.base, now, moment.events, faults, measures, past);
             numbers.insert(numbers.end(), more.begin(), more.end());
             found.emplace_back(wanted[path], std::move(numbers));
         }
@@ -58,10 +58,10 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
         if (!past.empty() &&
             now.clock.extension - past.back().places.extension < least_window(run.scene))
             continue;
-        Past next{DiscPlaces(now), find_basins(measure_profile(run.scene, now, run.base)), {}};
+        Past next{DiscPlaces(now), find_basins(measure_profile(run.scene, now, run.parts.base)), {}};
         if (!past.empty())
             next.throw_correlations =
-                throw_age_correlations(run.scene, run.base, now, past.back().places);
+                throw_age_correlations(run.scene, run.parts.base, now, past.back().places);
         past.push_back(std::move(next));
         places.push_back(past.back().places);
     }

@@ -1,6 +1,7 @@
 #include "apps/archive/run_folder.hpp"
 
 #include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -44,12 +45,12 @@ RunFolder::RunFolder(const fs::path& output) : snapshots(list_snapshots(output))
     SceneRequest request;
     request.scene = (output / "scene.toml").string();
     scene = load_scene(request);
-    base = make_base(scene);
+    parts = make_parts(scene);
 }
 
 Moment RunFolder::read(const fs::path& path) const {
     Snapshot snapshot = read_snapshot(path);
-    Moment moment{{}, make_events(scene)};
+    Moment moment{{}, make_events(scene, parts)};
     hand_over(snapshot, moment.events);
     moment.state = std::move(snapshot.state);
     return moment;

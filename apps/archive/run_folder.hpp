@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/archive/snapshot.hpp"
-#include "apps/scene/scene.hpp"
+#include "apps/scene/effect.hpp"
 #include "dem/base.hpp"
 #include "dem/event.hpp"
 
@@ -30,7 +30,7 @@ struct Moment {
 /// What a run left: its scene and its snapshots, oldest first.
 struct RunFolder {
     Scene scene;
-    dem::RigidBase base;
+    ModelParts parts;
     std::vector<std::filesystem::path> snapshots;
 
     /// Throws SceneError, and StorageError if there is no snapshot.

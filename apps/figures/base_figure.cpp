@@ -3,7 +3,6 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
-#include "apps/model/effects/footwall_loads.hpp"
 #include "apps/model/footwall_coupling.hpp"
 #include "apps/support/npy.hpp"
 #include "apps/support/python.hpp"
@@ -33,7 +32,7 @@ std::vector<fs::path> shown(const std::vector<fs::path>& snapshots) {
         paths.push_back(*std::ranges::min_element(snapshots, {}, [&](const fs::path& path) {
             return std::abs(snapshot_extension(path) - share * end);
         }));
-    paths.erase(std::ranges::unique(paths).begin(), paths.end());
+    paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
     return paths;
 }
 
@@ -54,7 +53,7 @@ std::string uplift_rows(const State& state, const fem::Field& field) {
 }
 
 /// Plain arrays for the drawing script: corners x, y and displacements of the patches, stress xx,
-/// yy, xy; discs x, y, radius, stratum.
+/// yy, xy; discs x, y, radius, stratum, y at the start.
 void export_section(const State& state, const std::vector<fem::StressPatch>& patches,
                     const fs::path& folder) {
     const ConstDiscColumns d = disc_columns(state);
@@ -79,7 +78,7 @@ void export_section(const State& state, const std::vector<fem::StressPatch>& pat
 /// Recovers the footwall's field at the moments that are shown, and leaves the arrays of the last.
 void export_footwall(const fs::path& output, const RunFolder& run, const fs::path& folder) {
     std::vector<std::unique_ptr<Event>> events;
-    FootwallCoupling coupling(run.scene, footwall_loads(run.scene), events);
+    FootwallCoupling coupling(run.scene, run.parts, events);
     std::string table = "extension_m,x_m,uplift_m\n";
     const std::vector<fs::path> moments = shown(run.snapshots);
     for (const fs::path& path : moments) {
@@ -108,7 +107,7 @@ void draw_base(const fs::path& output) {
     const fs::path figures = output / "figures";
     std::string problem = run_drawing_script("base.py", {output.string(), figures.string()});
     const RunFolder run(output);
-    if (problem.empty() && run.scene.elastic_base) {
+    if (problem.empty() && has_effect(run.scene, "elastic_base")) {
         const TemporaryFolder data(figures);
         export_footwall(output, run, data.path);
         problem = run_drawing_script("footwall.py",

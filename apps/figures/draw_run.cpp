@@ -45,8 +45,8 @@ std::vector<fs::path> chosen_snapshots(const RunFolder& run) {
 
 void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
                const RunHistory& history) {
-    frames.add(run.scene, moment.state, run.base, moment.events,
-               report_faults(run.scene, run.base, moment.state, history));
+    frames.add({run.scene, run.parts, moment.state, moment.events},
+               report_faults(run.scene, run.parts.base, moment.state, history));
 }
 
 } // namespace

@@ -1,8 +1,6 @@
 #include "apps/figures/figures.hpp"
 
 #include "apps/figures/frame.hpp"
-#include "apps/model/effects.hpp"
-#include "apps/model/figure_layers.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/python.hpp"
 
@@ -12,17 +10,12 @@
 
 namespace listric {
 
-using namespace dem;
-
 namespace fs = std::filesystem;
 
 FigureFrames::FigureFrames(const fs::path& folder) : folder_(folder), data_(folder) {}
 
-void FigureFrames::add(const Scene& scene, const State& state, const RigidBase& base,
-                       std::span<const std::unique_ptr<Event>> events, const FaultReport& faults) {
-    write_frame({scene, state, base, events, faults, effect_names(scene),
-                 figure_layers(scene, state), figure_numbers(scene)},
-                data_.path / fmt::format("{:06d}", frames_++));
+void FigureFrames::add(const Observation& now, const FaultReport& faults) {
+    write_frame(now, faults, data_.path / fmt::format("{:06d}", frames_++));
 }
 
 void FigureFrames::draw(const std::string& kind) const {
@@ -32,12 +25,11 @@ void FigureFrames::draw(const std::string& kind) const {
         throw StorageError(problem);
 }
 
-std::string draw_figures(const Scene& scene, const State& state, const RigidBase& base,
-                         std::span<const std::unique_ptr<Event>> events, const FaultReport& faults,
+std::string draw_figures(const Observation& now, const FaultReport& faults,
                          const fs::path& folder) {
     try {
         FigureFrames frames(folder);
-        frames.add(scene, state, base, events, faults);
+        frames.add(now, faults);
         frames.draw("sections");
     } catch (const std::exception& error) {
         return error.what();

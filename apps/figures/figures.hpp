@@ -1,25 +1,18 @@
 #pragma once
 
 #include "apps/measures/fault.hpp"
-#include "apps/scene/scene.hpp"
+#include "apps/scene/effect.hpp"
 #include "apps/support/file.hpp"
-#include "dem/base.hpp"
-#include "dem/event.hpp"
-#include "dem/state.hpp"
 
 #include <filesystem>
-#include <memory>
-#include <span>
 #include <string>
-#include <vector>
 
 namespace listric {
 
 /// Draws the pictures of one state into `folder`. Returns an empty string, or why it could not:
 /// pictures are worth a warning, not the run.
-std::string draw_figures(const Scene& scene, const dem::State& state, const dem::RigidBase& base,
-                         std::span<const std::unique_ptr<dem::Event>> events,
-                         const FaultReport& faults, const std::filesystem::path& folder);
+std::string draw_figures(const Observation& now, const FaultReport& faults,
+                         const std::filesystem::path& folder);
 
 /// Pictures of several moments of a run: the arrays that the drawing script reads, in a folder that
 /// vanishes with this object.
@@ -29,8 +22,7 @@ public:
     explicit FigureFrames(const std::filesystem::path& folder);
 
     /// Throws StorageError.
-    void add(const Scene& scene, const dem::State& state, const dem::RigidBase& base,
-             std::span<const std::unique_ptr<dem::Event>> events, const FaultReport& faults);
+    void add(const Observation& now, const FaultReport& faults);
 
     /// @param kind  "sections" of every frame, one "experiment" sheet, an "animation" or
     ///              a "gallery", gallery.png

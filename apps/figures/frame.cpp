@@ -59,8 +59,8 @@ private:
     fs::path folder_;
 };
 
-double right_wall(const FrameContent& frame) {
-    return frame.scene.hanging_wall->length + frame.state.clock.extension;
+double right_wall(const Observation& now) {
+    return now.scene.hanging_wall->length + now.state.clock.extension;
 }
 
 void write_discs(const FrameWriter& writer, const State& state) {
@@ -75,31 +75,27 @@ void write_discs(const FrameWriter& writer, const State& state) {
     writer.array("discs_start_depth", depth);
 }
 
-void write_strain(const FrameWriter& writer, const FrameContent& frame) {
-    const Event* const strain = find_event(frame.events, "strain");
+void write_strain(const FrameWriter& writer, const Observation& now) {
+    const Event* const strain = find_event(now.events, "strain");
     if (strain && strain->applied > 0)
-        writer.array("discs_shear_strain", frame.state.discs.get<double>("window_strain"));
+        writer.array("discs_shear_strain", now.state.discs.get<double>("window_strain"));
     else // the first window has not ended
-        writer.array("discs_shear_strain", shear_strain(frame.state));
-    writer.array("discs_total_shear_strain", frame.state.discs.get<double>("total_strain"));
+        writer.array("discs_shear_strain", shear_strain(now.state));
 }
 
-/// Contacts as lines: x and y of both discs, and 1 where both are sediment.
+/// Bonded contacts as lines: x and y of both discs, and 1 where both are sediment.
 void write_bonds(const FrameWriter& writer, const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
-    const std::vector<bool> touches = touching(state);
-    std::vector<double> broken, bonded;
-    for (std::size_t k = 0; k < touches.size(); ++k) {
-        if (!touches[k] && !c.bonded[k])
+    std::vector<double> bonded;
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        if (!c.bonded[k])
             continue;
         const auto i = static_cast<std::size_t>(c.first[k]);
         const auto j = static_cast<std::size_t>(c.second[k]);
         const bool in_sediment = d.stratum[i] > 0 && d.stratum[j] > 0;
-        auto& lines = c.bonded[k] ? bonded : broken;
-        lines.insert(lines.end(), {d.x[i], d.y[i], d.x[j], d.y[j], in_sediment ? 1.0 : 0.0});
+        bonded.insert(bonded.end(), {d.x[i], d.y[i], d.x[j], d.y[j], in_sediment ? 1.0 : 0.0});
     }
-    writer.array("broken", broken, 5);
     writer.array("bonded", bonded, 5);
 }
 
@@ -109,13 +105,12 @@ void write_behaviour(const FrameWriter& writer, const State& state) {
     std::vector<std::int32_t> classes;
     for (const auto behaviour : measures::rock_behaviour(unbonded, d.stratum, d.material))
         classes.push_back(static_cast<std::int32_t>(behaviour));
-    writer.array("discs_unbonded_share", unbonded);
     writer.array("discs_behaviour", std::span<const std::int32_t>(classes));
 }
 
 /// The detachment where it stands now, up to the wall.
-void write_base(const FrameWriter& writer, const FrameContent& frame) {
-    const Chain standing = standing_base(frame.base, frame.state).surfaces.front().chain;
+void write_base(const FrameWriter& writer, const Observation& now) {
+    const Chain standing = standing_base(now.parts.base, now.state).surfaces.front().chain;
     double length = 0.0;
     for (const Segment& segment : standing)
         length += segment.length;
@@ -123,14 +118,14 @@ void write_base(const FrameWriter& writer, const FrameContent& frame) {
     constexpr int steps = 2000;
     for (int k = 0; k <= steps; ++k) {
         const Point p = point_at(standing, length * k / steps);
-        if (p.x <= right_wall(frame))
+        if (p.x <= right_wall(now))
             line.push_back(p);
     }
     writer.points("detachment", line);
 }
 
-void write_profile(const FrameWriter& writer, const FrameContent& frame) {
-    const Profile profile = measure_profile(frame.scene, frame.state, frame.base);
+void write_profile(const FrameWriter& writer, const Observation& now) {
+    const Profile profile = measure_profile(now.scene, now.state, now.parts.base);
     std::vector<double> rows;
     for (std::size_t k = 0; k < profile.x.size(); ++k)
         rows.insert(rows.end(),
@@ -139,10 +134,10 @@ void write_profile(const FrameWriter& writer, const FrameContent& frame) {
 }
 
 /// Tops that the kinematic constructions predict over the detachment as it was at the start.
-void write_predictions(const FrameWriter& writer, const FrameContent& frame,
+void write_predictions(const FrameWriter& writer, const Observation& now,
                        double inclined_shear_angle) {
-    const Chain& detachment = frame.base.surfaces.front().chain;
-    const double extension = frame.state.clock.extension, wall = right_wall(frame);
+    const Chain& detachment = now.parts.base.surfaces.front().chain;
+    const double extension = now.state.clock.extension, wall = right_wall(now);
     writer.points("predicted_shear",
                   inclined_shear_top(detachment, extension, inclined_shear_angle, wall));
     writer.points("predicted_normals", normals_top(detachment, extension, wall));
@@ -164,23 +159,22 @@ void write_faults(const FrameWriter& writer, const std::vector<Fault>& faults) {
     writer.array("faults", rows, 4);
 }
 
-nlohmann::json frame_json(const FrameContent& content, const Measures& m) {
-    const Scene& scene = content.scene;
-    const State& state = content.state;
+nlohmann::json frame_json(const Observation& now, const Measures& m) {
+    const Scene& scene = now.scene;
+    const State& state = now.state;
     const ConstDiscColumns d = disc_columns(state);
     nlohmann::json frame = {
         {"scene", scene.name},
         {"title", scene.description},
         {"extension_m", state.clock.extension},
         {"time_a", state.clock.extension / scene.extension.rate},
-        {"level_m", 0.0},
         {"mean_radius_m", state.mean_radius},
-        {"right_wall_x_m", right_wall(content)},
+        {"right_wall_x_m", right_wall(now)},
         {"strata", d.stratum.empty() ? 0 : *std::ranges::max_element(d.stratum)},
         {"layer_m", 1000.0},
         {"seed", scene.seed},
         {"accuracy", scene.accuracy},
-        {"effects", content.effects},
+        {"effects", effect_names(scene)},
         {"strain_window_m", strain_window},
         {"thickness_m", scene.hanging_wall->thickness},
     };
@@ -194,32 +188,34 @@ nlohmann::json frame_json(const FrameContent& content, const Measures& m) {
     add("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
     add("rollover_tilt_deg", m.rollover_tilt);
     add("predicted_tilt_deg", m.predicted_tilt);
-    for (const auto& [name, value] : content.numbers)
-        frame[name] = value;
+    if (now.parts.sediment)
+        frame["level_m"] = now.parts.sediment->level;
     return frame;
 }
 
 } // namespace
 
-void write_frame(const FrameContent& frame, const fs::path& folder) {
+void write_frame(const Observation& now, const FaultReport& faults, const fs::path& folder) {
     const FrameWriter writer(folder);
-    write_discs(writer, frame.state);
-    write_strain(writer, frame);
-    if (frame.scene.bonds) {
-        write_bonds(writer, frame.state);
-        write_behaviour(writer, frame.state);
+    write_discs(writer, now.state);
+    write_strain(writer, now);
+    if (now.parts.bonds) {
+        write_bonds(writer, now.state);
+        write_behaviour(writer, now.state);
     }
-    write_base(writer, frame);
-    write_profile(writer, frame);
-    const Measures m = measure(frame.scene, frame.state, frame.base, frame.events);
+    write_base(writer, now);
+    write_profile(writer, now);
+    const Measures m = measure(now.scene, now.state, now.parts.base, now.events);
     if (m.inclined_shear_angle)
-        write_predictions(writer, frame, *m.inclined_shear_angle);
+        write_predictions(writer, now, *m.inclined_shear_angle);
     if (m.depocentres)
         write_depocentres(writer, *m.depocentres);
-    write_faults(writer, frame.faults.faults);
-    for (const FigureLayer& layer : frame.layers)
-        writer.array(layer.name, layer.rows, layer.columns);
-    writer.json(frame_json(frame, m));
+    write_faults(writer, faults.faults);
+    for (const EffectPart& part : now.scene.effects)
+        if (part.effect->draw)
+            for (const FigureLayer& layer : part.effect->draw(now))
+                writer.array(layer.name, layer.rows, layer.columns);
+    writer.json(frame_json(now, m));
 }
 
 } // namespace listric

@@ -13,13 +13,18 @@ using namespace dem;
 
 ModelParts make_parts(const Scene& scene) {
     ModelParts parts;
-    parts.base = make_rigid_base(scene);
+    if (scene.hanging_wall)
+        parts.base = make_rigid_base(scene);
     parts.physics.damping = scene.cycle.damping;
     parts.materials.assign(3, scene.basement); // of every MaterialIndex
     for (const EffectPart& part : scene.effects)
         if (part.effect->contribute)
             part.effect->contribute(scene, parts);
     return parts;
+}
+
+double gravity_of(const Scene& scene) {
+    return has_effect(scene, "gravity") ? make_parts(scene).physics.gravity : standard_gravity;
 }
 
 std::vector<std::unique_ptr<Event>> make_events(const Scene& scene, const ModelParts& parts) {

@@ -1,7 +1,8 @@
 #include "apps/run/flexure.hpp"
 
 #include "apps/figures/flexure_figure.hpp"
-#include "apps/model/effects.hpp"
+#include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/stopwatch.hpp"
@@ -66,8 +67,8 @@ struct Case {
 
 Case make_case(const Scene& scene) {
     const FlexureParameters& flexure = *scene.flexure;
-    const ElasticBaseParameters& base = *scene.elastic_base;
-    const double gravity = scene.gravity.value_or(GravityParameters{}).acceleration;
+    const auto& base = *elastic_base(scene);
+    const double gravity = gravity_of(scene);
     const double te = base.elastic_thickness;
     Case c{};
     c.request.layers = {{0.0, base.young_modulus, base.poisson_ratio, base.crust_density}};
@@ -290,9 +291,9 @@ nlohmann::ordered_json summary(const Scene& scene, int threads, const Case& c, c
         {"state_hash", fmt::format("{:016x}", dem::fnv1a(bent.deflection.w))},
         {"extension_m", 0.0},
         {"load", name_of(flexure.load)},
-        {"elastic_thickness_m", scene.elastic_base->elastic_thickness},
-        {"young_modulus_pa", scene.elastic_base->young_modulus},
-        {"poisson_ratio", scene.elastic_base->poisson_ratio},
+        {"elastic_thickness_m", elastic_base(scene)->elastic_thickness},
+        {"young_modulus_pa", elastic_base(scene)->young_modulus},
+        {"poisson_ratio", elastic_base(scene)->poisson_ratio},
         {"restoring_pa_per_m", c.plate.restoring},
         {"alpha_m", c.plate.alpha()},
         {"w0_m", w0},

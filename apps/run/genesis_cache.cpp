@@ -1,8 +1,11 @@
 #include "apps/run/genesis_cache.hpp"
 
 #include "apps/archive/snapshot.hpp"
+#include "apps/model/model.hpp"
+#include "apps/scene/scene_file.hpp"
 #include "apps/support/version.hpp"
 #include "dem/genesis.hpp"
+#include "dem/hash.hpp"
 
 #include <fmt/format.h>
 
@@ -14,19 +17,21 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 
 namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<State> recall(const fs::path& cache, const Scene& scene, Log& log) {
+std::optional<State> recall(const fs::path& cache, const std::vector<Material>& materials,
+                            Log& log) {
     std::error_code ignored;
     if (!fs::exists(cache, ignored))
         return std::nullopt;
     try {
         State state = read_snapshot(cache).state;
-        state.materials = make_materials(scene);
+        state.materials = materials;
         log.say("hanging wall: kept from an earlier run, " + cache.string());
         return state;
     } catch (const StorageError& error) {
@@ -47,34 +52,12 @@ void keep(const State& state, const fs::path& cache, Log& log) {
 
 } // namespace
 
-fs::path genesis_cache_path(const Scene& scene) {
-    Scene start = scene;
-    start.accuracy = start.description = start.name = "";
-    start.extension = {};
-    start.output = {};
-    start.extension.distance = scene.extension.distance; // decides how far the base reaches
-    start.fault_weakening.reset();
-    start.bond_healing.reset();
-    start.sedimentation.reset();
-    start.compaction.reset();
-    start.elastic_base.reset();
-    start.lower_crust_thinning.reset();
-    start.basin_water.reset();
-    start.footwall_erosion.reset();
-    start.base_motion.reset();
-    start.energy.reset();
-    std::uint64_t key = 1469598103934665603u; // FNV-1a
-    const auto stir = [&](std::string_view text) {
-        for (char letter : text)
-            key = (key ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-    };
-    stir(to_toml(start));
+fs::path genesis_cache_path(const Scene& scene, const ModelParts& parts) {
+    std::uint64_t key = fnv1a(to_toml(genesis_of(scene)));
     // The time step is that of the stiffest material, also of those that discs become later.
-    stir(fmt::format("{}", stable_time_step(1.0, make_materials(scene), 0.0, 1.0)));
-    stir(source_hash);
-    stir(compiler);
-    stir(build_flags);
-    stir(instruction_set);
+    key = fnv1a(fmt::format("{}", stable_time_step(1.0, parts.materials, 0.0, 1.0)), key);
+    for (const std::string_view text : {source_hash, compiler, build_flags, instruction_set})
+        key = fnv1a(text, key);
     const char* cache = std::getenv("XDG_CACHE_HOME");
     const char* home = std::getenv("HOME");
     const fs::path folder = cache && *cache ? fs::path(cache)
@@ -83,18 +66,18 @@ fs::path genesis_cache_path(const Scene& scene) {
     return folder / "listric" / fmt::format("genesis-{:016x}.h5", key);
 }
 
-State make_or_recall_hanging_wall(const Scene& scene, const RigidBase& base, Log& log,
+State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, Log& log,
                                   StopToken stop) {
-    const fs::path cache = genesis_cache_path(scene);
-    if (auto state = recall(cache, scene, log))
+    const fs::path cache = genesis_cache_path(scene, parts);
+    if (auto state = recall(cache, parts.materials, log))
         return std::move(*state);
+    // The hanging wall comes to rest on a base that does too, so its mean motion is none.
     const GenesisRequest request{
         .hanging_wall = *scene.hanging_wall,
-        .base = base,
-        .materials = make_materials(scene),
-        .bonds = scene.bonds,
-        .physics = {.damping = scene.cycle.damping,
-                    .gravity = scene.gravity ? scene.gravity->acceleration : 0.0},
+        .base = parts.base,
+        .materials = parts.materials,
+        .bonds = parts.bonds,
+        .physics = {.damping = parts.physics.damping, .gravity = parts.physics.gravity},
         .time_step_safety = scene.cycle.time_step_safety,
         .inertial_mass_floor = scene.cycle.inertial_mass_floor,
         .skin = scene.cycle.skin,

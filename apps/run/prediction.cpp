@@ -1,6 +1,6 @@
 #include "apps/run/prediction.hpp"
 
-#include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
@@ -74,35 +74,35 @@ double price_of_genesis(const HangingWallParameters& h, double discs) {
     return discs * (30000.0 + 30.0 * h.thickness / h.mean_radius);
 }
 
-/// Events, and windows of history and snapshots.
-double price_of_events(const Scene& s, double discs) {
-    const double years = s.extension.distance / s.extension.rate;
+/// Windows of history and snapshots, and samples of how quasi-static the run is.
+double price_of_windows(const Scene& s, const Workload& work) {
     const double windows = s.extension.distance / s.output.interval;
-    double price = windows * (1.1e7 + 600.0 * discs) + years / 2500.0 * 10.0 * discs;
-    if (s.fault_weakening)
-        price += years / s.fault_weakening->interval * 330.0 * discs +
-                 years / s.fault_weakening->update_interval * 25.0 * discs;
-    if (s.bond_healing)
-        price += years / s.bond_healing->interval * 5.0 * discs;
-    if (s.sedimentation)
-        price += years / s.sedimentation->interval * (8e6 + 640.0 * discs);
-    if (s.compaction)
-        price += years / s.compaction->interval * 0.5 * discs;
+    return windows * (1.1e7 + 600.0 * work.discs) + work.years / 2500.0 * 10.0 * work.discs;
+}
+
+double price_of_effects(const Scene& s, const Workload& work) {
+    double price = 0.0;
+    for (const EffectPart& part : s.effects)
+        if (part.effect->price)
+            price += part.effect->price(s, work);
     return price;
 }
 
 /// Pictures at the moments asked for and at the end, and the sheet with all moments.
-double price_of_figures(const Scene& s, double discs) {
+double price_of_figures(const Scene& s, double discs, bool base_moves) {
     const double end = s.extension.distance;
     const auto before_end = static_cast<double>(std::ranges::count_if(
         s.output.figures, [&](double at) { return at < end - 0.5 * s.output.interval; }));
-    const bool of_base = s.elastic_base || s.base_motion;
-    return (before_end + 1.0) * (2.6e8 + 3000.0 * discs) + (of_base ? 6e8 : 3e8);
+    return (before_end + 1.0) * (2.6e8 + 3000.0 * discs) + (base_moves ? 6e8 : 3e8);
 }
 
-/// Set-up, settling of the discs, and an answer every few cycles.
-double price_of_elastic_base(const ElasticBaseParameters& b, double discs, double cycles) {
-    return 5e7 + 1.2e4 * discs + 1350.0 * cycles / b.update_interval;
+/// Discs that effects bring until the end.
+std::size_t new_discs(const Scene& s) {
+    double area = 0.0;
+    for (const EffectPart& part : s.effects)
+        if (part.effect->new_area)
+            area += part.effect->new_area(s);
+    return area > 0.0 ? disc_count(*s.hanging_wall, area) : 0;
 }
 
 } // namespace
@@ -114,29 +114,27 @@ Prediction predict(const Scene& scene, double rate, int threads) {
     const double smallest = 2.0 / (1.0 + h.radius_ratio);
     const double floor = scene.cycle.inertial_mass_floor > 0.0 ? scene.cycle.inertial_mass_floor
                                                                : smallest * smallest;
+    const ModelParts parts = make_parts(scene);
     Prediction p;
-    p.time_step = stable_time_step(floor * mean_mass, make_materials(scene), scene.cycle.damping,
+    p.time_step = stable_time_step(floor * mean_mass, parts.materials, scene.cycle.damping,
                                    scene.cycle.time_step_safety);
     p.discs_at_start = estimated_discs(scene);
-    p.discs_at_end = p.discs_at_start;
-    // Sediment fills distance times thickness. With burial it shrinks, and small discs fill up to
-    // the target: lis1 takes 1.85 times the discs of a packing of that area.
-    if (scene.sedimentation)
-        p.discs_at_end +=
-            disc_count(h, scene.extension.distance * h.thickness * (scene.compaction ? 1.85 : 1.1));
+    p.discs_at_end = p.discs_at_start + new_discs(scene);
     const double time =
         scene.extension.distance / scene.extension.speed + 0.5 * scene.extension.ramp;
     p.cycles = static_cast<std::int64_t>(time / p.time_step);
     p.disc_steps = 0.5 * static_cast<double>(p.discs_at_start + p.discs_at_end) *
                    static_cast<double>(p.cycles);
     const auto start = static_cast<double>(p.discs_at_start);
-    const double mean_discs = 0.5 * (start + static_cast<double>(p.discs_at_end));
+    const Workload work{.discs = 0.5 * (start + static_cast<double>(p.discs_at_end)),
+                        .at_start = start,
+                        .cycles = static_cast<double>(p.cycles),
+                        .years = scene.extension.distance / scene.extension.rate};
     // All but the cycle takes one thread.
-    double serial = price_of_genesis(h, start) + price_of_events(scene, mean_discs) +
-                    price_of_figures(scene, mean_discs);
-    if (scene.elastic_base)
-        serial += price_of_elastic_base(*scene.elastic_base, start, static_cast<double>(p.cycles));
-    const double cycling_threads = scene.energy ? 1.0 : threads;
+    const double serial = price_of_genesis(h, start) + price_of_windows(scene, work) +
+                          price_of_effects(scene, work) +
+                          price_of_figures(scene, work.discs, parts.base_moves);
+    const double cycling_threads = parts.accounts_energy ? 1.0 : threads;
     p.seconds = (cycle_price * p.disc_steps + serial * cycling_threads) / rate;
     // Columns of a disc, three contacts each, and the neighbour search's copies.
     p.memory = 20e6 + static_cast<double>(p.discs_at_end) * (25 * 8.0 + 3 * 29.0 * 2.0 + 100.0);
