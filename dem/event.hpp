@@ -3,6 +3,8 @@
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 
+#include <memory>
+#include <span>
 #include <string>
 
 namespace listric::dem {
@@ -41,5 +43,13 @@ private:
     std::string name_;
     Schedule schedule_;
 };
+
+/// The first event of a type; null: there is none.
+template <class E> const E* find(std::span<const std::unique_ptr<Event>> events) {
+    for (const auto& event : events)
+        if (const auto* found = dynamic_cast<const E*>(event.get()))
+            return found;
+    return nullptr;
+}
 
 } // namespace listric::dem

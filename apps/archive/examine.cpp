@@ -1,8 +1,10 @@
 #include "apps/archive/examine.hpp"
 
 #include "apps/archive/run_folder.hpp"
+#include "apps/archive/setting.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/archive/summary.hpp"
+#include "apps/measures/evolution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 
 namespace fs = std::filesystem;
 
@@ -19,11 +22,11 @@ FaultReport report_faults(const Scene& scene, const RigidBase& base, const State
     std::vector<DiscPlaces> older;
     // The newest first, so that an extra snapshot of a stopped run cannot make a window too short.
     double next = now.clock.extension;
-    const double least = 0.75 * scene.output.interval;
+    const Setting setting = make_setting(scene);
     for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
         try {
             const DiscPlaces places(read_snapshot(*path).state);
-            if (next - places.extension < least)
+            if (!setting.is_window(places.extension, next))
                 continue;
             next = places.extension;
             older.push_back(places);
@@ -32,12 +35,13 @@ FaultReport report_faults(const Scene& scene, const RigidBase& base, const State
         }
     }
     std::ranges::reverse(older);
-    return report_faults(scene, base, now, older);
+    return report_faults(setting, base, now, older);
 }
 
 std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
                                                          std::span<const double> extensions) {
     const RunFolder run(output);
+    const Setting setting = make_setting(run.scene);
     const auto nearest_snapshot = [&](double extension) {
         return *std::ranges::min_element(run.snapshots, {}, [&](const fs::path& path) {
             return std::abs(snapshot_extension(path) - extension);
@@ -53,24 +57,17 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
         const Moment moment = run.read(path);
         const State& now = moment.state;
         if (wanted.contains(path)) {
-            const Measures measures = measure(run.scene, now, run.base, moment.events);
-            const FaultReport faults = report_faults(run.scene, run.base, now, places);
+            const Measures measures = measure(setting, now, run.base, moment.events);
+            const FaultReport faults = report_faults(setting, run.base, now, places);
             NamedNumbers numbers = history_row(now, measures);
             std::erase_if(numbers, [](const auto& n) { return std::isnan(n.second); });
-            const NamedNumbers more =
-                measure_structure(run.scene, run.base, now, moment.events, faults, measures, past);
-            numbers.insert(numbers.end(), more.begin(), more.end());
+            append(numbers, measure_evolution(setting, run.base, now, faults, measures,
+                                              fault_segments(moment.events), past));
             found.emplace_back(wanted[path], std::move(numbers));
         }
-        // A snapshot of a stopped run must not make a window too short.
-        if (!past.empty() &&
-            now.clock.extension - past.back().places.extension < 0.75 * run.scene.output.interval)
+        if (!past.empty() && !setting.is_window(past.back().places.extension, now.clock.extension))
             continue;
-        Past next{DiscPlaces(now), find_basins(measure_profile(run.scene, now, run.base)), {}};
-        if (!past.empty())
-            next.throw_correlations =
-                throw_age_correlations(run.scene, run.base, now, past.back().places);
-        past.push_back(std::move(next));
+        past.push_back(remember(setting, run.base, now, past));
         places.push_back(past.back().places);
     }
     return found;

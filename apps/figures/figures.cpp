@@ -1,8 +1,10 @@
 #include "apps/figures/figures.hpp"
 
+#include "apps/archive/setting.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/measures/kinematics.hpp"
-#include "apps/measures/measure.hpp"
+#include "apps/measures/measures.hpp"
+#include "apps/measures/profile.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/support/npy.hpp"
 #include "apps/support/python.hpp"
@@ -22,6 +24,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 using namespace coupling;
 
 namespace {
@@ -111,13 +114,14 @@ void export_frame(const Scene& scene, const State& state, const RigidBase& base,
         put<double>(folder, "water", rows, 3);
         rows.clear();
     }
-    const Profile profile = measure_profile(scene, state, base);
+    const Setting setting = make_setting(scene);
+    const Profile profile = measure_profile(setting, state, base);
     for (std::size_t k = 0; k < profile.x.size(); ++k)
         rows.insert(rows.end(),
                     {profile.x[k], profile.pre_rift_top[k], profile.sediment_thickness[k]});
     put<double>(folder, "profile", rows, 3);
 
-    const Measures m = measure(scene, state, base, events);
+    const Measures m = measure(setting, state, base, events);
     if (m.inclined_shear_angle) {
         const auto put_curve = [&](const char* name, const std::vector<Point>& curve) {
             rows.clear();

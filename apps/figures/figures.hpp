@@ -19,7 +19,7 @@ namespace listric {
 /// pictures are worth a warning, not the run.
 std::string draw_figures(const Scene& scene, const dem::State& state, const dem::RigidBase& base,
                          std::span<const std::unique_ptr<dem::Event>> events,
-                         const FaultReport& faults, const std::filesystem::path& folder);
+                         const measures::FaultReport& faults, const std::filesystem::path& folder);
 
 /// Pictures of several moments of a run: the arrays that the drawing script reads, in a folder that
 /// vanishes with this object.
@@ -29,7 +29,8 @@ public:
     explicit FigureFrames(const std::filesystem::path& folder);
 
     void add(const Scene& scene, const dem::State& state, const dem::RigidBase& base,
-             std::span<const std::unique_ptr<dem::Event>> events, const FaultReport& faults);
+             std::span<const std::unique_ptr<dem::Event>> events,
+             const measures::FaultReport& faults);
 
     /// @param kind  "sections" of every frame, one "experiment" sheet, an "animation" or
     ///              a "gallery", gallery.png

@@ -16,6 +16,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 
 namespace {
 

@@ -2,12 +2,13 @@
 
 #include "apps/archive/examine.hpp"
 #include "apps/archive/run_folder.hpp"
+#include "apps/archive/setting.hpp"
 #include "apps/archive/summary.hpp"
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/paraview.hpp"
 #include "apps/measures/fault_history.hpp"
-#include "apps/measures/measure.hpp"
+#include "apps/measures/measures.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/footwall_coupling.hpp"
 #include "apps/run/flexure.hpp"
@@ -35,6 +36,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 using namespace coupling;
 
 std::atomic<bool> stop_requested = false;
@@ -393,7 +395,7 @@ void warn_of_haste(Run& run, const Measures& measures, Voice& voice) {
 }
 
 void append_history(Run& run, Voice& voice) {
-    const Measures measures = measure(run.scene, run.state, run.base, run.events);
+    const Measures measures = measure(make_setting(run.scene), run.state, run.base, run.events);
     warn_of_haste(run, measures, voice);
     auto row = history_row(run.state, measures);
     if (run.footwall)
@@ -748,7 +750,7 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
         if (run.kept != snapshot_path(output, run.state))
             save(run);
         draw_sheet(run, voice);
-        const Measures measures = measure(scene, run.state, run.base, run.events);
+        const Measures measures = measure(make_setting(scene), run.state, run.base, run.events);
         warn_of_haste(run, measures, voice);
         const FaultReport faults = report_faults(run);
         check_base(run, voice);
