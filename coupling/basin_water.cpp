@@ -1,6 +1,7 @@
 #include "coupling/basin_water.hpp"
 
 #include "coupling/interface_loads.hpp"
+#include "dem/base_place.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -11,20 +12,6 @@ namespace listric::coupling {
 
 using namespace dem;
 
-namespace {
-
-/// Height of the detachment, as it has moved, at x, m.
-double detachment_height(const ConstBaseNodeColumns& nodes, double x) {
-    std::size_t k = 1;
-    while (k + 1 < nodes.x.size() && nodes.x[k] + nodes.ux[k] < x)
-        ++k;
-    const double x0 = nodes.x[k - 1] + nodes.ux[k - 1], x1 = nodes.x[k] + nodes.ux[k];
-    const double y0 = nodes.y[k - 1] + nodes.uy[k - 1], y1 = nodes.y[k] + nodes.uy[k];
-    return y0 + (y1 - y0) * std::clamp((x - x0) / (x1 - x0), 0.0, 1.0);
-}
-
-} // namespace
-
 std::vector<double> water_depths(const State& state, double level, double column_width) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstBaseNodeColumns nodes = base_node_columns(state);
@@ -32,7 +19,7 @@ std::vector<double> water_depths(const State& state, double level, double column
     const double right = std::ranges::max(d.x);
     std::vector<double> floor(static_cast<std::size_t>(std::max(0.0, right / column_width)));
     for (std::size_t k = 0; k < floor.size(); ++k)
-        floor[k] = detachment_height(nodes, (static_cast<double>(k) + 0.5) * column_width);
+        floor[k] = height_at(nodes, (static_cast<double>(k) + 0.5) * column_width);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (const double column = std::floor(d.x[i] / column_width);
             column >= 0.0 && column < static_cast<double>(floor.size())) {

@@ -9,9 +9,6 @@ namespace listric::dem {
 
 namespace {
 
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 Point left_normal(Point tangent) { return {-tangent.y, tangent.x}; }
 
 Point centre(const Segment& s) {
@@ -149,6 +146,22 @@ double greatest_translation(const RigidBase& base) {
     for (const Surface& surface : base.surfaces)
         greatest = std::max(greatest, std::hypot(surface.translation.x, surface.translation.y));
     return greatest;
+}
+
+double length_of(const Chain& chain) {
+    double sum = 0.0;
+    for (const Segment& s : chain)
+        sum += s.length;
+    return sum;
+}
+
+double height_at(const Chain& chain, double x) {
+    double low = 0.0, high = length_of(chain);
+    for (int n = 0; n < 60; ++n) { // to round-off
+        const double middle = 0.5 * (low + high);
+        (point_at(chain, middle).x < x ? low : high) = middle;
+    }
+    return point_at(chain, low).y;
 }
 
 Point point_at(const Chain& chain, double arc_length) {

@@ -1,17 +1,13 @@
 #pragma once
 
 #include "dem/material.hpp"
+#include "dem/point.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace listric::dem {
-
-struct Point {
-    double x = 0.0, y = 0.0; ///< m
-    bool operator==(const Point&) const = default;
-};
 
 /// Straight or circular piece of a chain. The material lies to the left of its direction.
 struct Segment {
@@ -47,7 +43,12 @@ std::optional<Foot> nearest(const Chain& chain, Point p);
 /// The same with its place on the chain.
 std::optional<FootPoint> foot_point(const Chain& chain, Point p);
 
+double length_of(const Chain& chain); ///< m
+
 Point point_at(const Chain& chain, double arc_length);
+
+/// Height of a chain whose x ascends, at x, m; that of its end where x is beyond.
+double height_at(const Chain& chain, double x);
 
 /// What a surface takes part in where the base deforms (State::base_nodes).
 enum class Follows {

@@ -1,6 +1,7 @@
 #include "dem/base_place.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace listric::dem {
@@ -54,6 +55,16 @@ RigidBase standing_base(const RigidBase& base, const State& state) {
         surface.follows = Follows::nothing;
     }
     return standing;
+}
+
+double height_at(const ConstBaseNodeColumns& nodes, double x) {
+    assert(nodes.x.size() > 1);
+    std::size_t k = 1;
+    while (k + 1 < nodes.x.size() && nodes.x[k] + nodes.ux[k] < x)
+        ++k;
+    const double x0 = nodes.x[k - 1] + nodes.ux[k - 1], x1 = nodes.x[k] + nodes.ux[k];
+    const double y0 = nodes.y[k - 1] + nodes.uy[k - 1], y1 = nodes.y[k] + nodes.uy[k];
+    return y0 + (y1 - y0) * std::clamp((x - x0) / (x1 - x0), 0.0, 1.0);
 }
 
 double greatest_node_displacement(const BasePlace& place) {

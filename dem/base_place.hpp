@@ -27,6 +27,10 @@ std::optional<Foot> nearest(const Surface& surface, const BasePlace& place, Poin
 /// The base as it stands, with chains of lines for what is deformed: for measuring and drawing.
 RigidBase standing_base(const RigidBase& base, const State& state);
 
+/// Height of the nodes as they have moved, at x, m: straight between them, that of the first and
+/// the last beyond. At least two nodes, x ascending.
+double height_at(const ConstBaseNodeColumns& nodes, double x);
+
 /// Greatest displacement of a node, m.
 double greatest_node_displacement(const BasePlace& place);
 

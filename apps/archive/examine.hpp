@@ -1,8 +1,11 @@
 #pragma once
 
 #include "apps/archive/run_history.hpp"
-#include "apps/measures/fault_history.hpp"
-#include "apps/measures/structure.hpp"
+#include "apps/measures/fault.hpp"
+#include "apps/measures/setting.hpp"
+#include "apps/support/named_numbers.hpp"
+#include "dem/base.hpp"
+#include "dem/state.hpp"
 
 #include <filesystem>
 #include <span>
@@ -12,8 +15,8 @@
 namespace listric::archive {
 
 /// The faults of a state, with the earlier moments of its run.
-FaultReport report_faults(const Scene& scene, const dem::RigidBase& base, const dem::State& now,
-                          const RunHistory& history);
+measures::FaultReport report_faults(const measures::Setting& setting, const dem::RigidBase& base,
+                                    const dem::State& now, const RunHistory& history);
 
 /// All measures of a finished run at the given extensions (m; the snapshots nearest to them),
 /// recomputed from its snapshots. Throws SceneError, StorageError.

@@ -8,6 +8,8 @@
 
 namespace listric::archive {
 
+using namespace measures;
+
 RunHistory::RunHistory(std::span<const std::filesystem::path> snapshots) {
     for (const std::filesystem::path& path : snapshots) {
         try {
@@ -24,11 +26,11 @@ void RunHistory::add(DiscPlaces places) {
     moments_.push_back(std::move(places));
 }
 
-std::vector<DiscPlaces> RunHistory::before(double extension, double window) const {
+std::vector<DiscPlaces> RunHistory::before(double extension, const Setting& setting) const {
     std::vector<DiscPlaces> found;
     double next = extension;
     for (auto moment = moments_.rbegin(); moment != moments_.rend(); ++moment) {
-        if (next - moment->extension < window)
+        if (!setting.is_window(moment->extension, next))
             continue;
         next = moment->extension;
         found.push_back(*moment);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/measures/setting.hpp"
 #include "apps/measures/shear_field.hpp"
 
 #include <filesystem>
@@ -18,15 +19,15 @@ public:
     explicit RunHistory(std::span<const std::filesystem::path> snapshots);
 
     /// Adds a moment, and forgets those that are not older: the run has gone back.
-    void add(DiscPlaces places);
+    void add(measures::DiscPlaces places);
 
-    /// Moments before `extension`, oldest first. They are at least `window` apart, counted back
-    /// from there, so that an extra snapshot of a stopped run does not make a window too short.
-    /// Both in m of extension.
-    std::vector<DiscPlaces> before(double extension, double window) const;
+    /// Moments before `extension`, m, oldest first. They are whole windows apart, counted back from
+    /// there, so that an extra snapshot of a stopped run does not make a window too short.
+    std::vector<measures::DiscPlaces> before(double extension,
+                                             const measures::Setting& setting) const;
 
 private:
-    std::vector<DiscPlaces> moments_; ///< by extension
+    std::vector<measures::DiscPlaces> moments_; ///< by extension
 };
 
 } // namespace listric::archive

@@ -12,65 +12,16 @@
 namespace listric::archive {
 
 using namespace dem;
+using namespace measures;
 
 namespace {
 
-/// Visits every measure that is a number: name and value, if it has one.
-template <class Visit> void for_each_measure(const Measures& m, Visit&& visit) {
-    visit("basin_area_m2", std::optional(m.basin_area));
-    visit("area_balance", m.area_balance);
-    visit("cutoff_x_m", m.cutoff ? std::optional(m.cutoff->x) : std::nullopt);
-    visit("cutoff_z_m", m.cutoff ? std::optional(m.cutoff->y) : std::nullopt);
-    visit("rollover_tilt_deg", m.rollover_tilt);
-    visit("breakaway_rotation_deg", m.breakaway_rotation);
-    visit("toe_rotation_deg", m.toe_rotation);
-    visit("lower_block_rotation_deg", m.lower_block_rotation);
-    const auto visit_point = [&](const char* x, const char* z, const std::optional<Point>& p) {
-        visit(x, p ? std::optional(p->x) : std::nullopt);
-        visit(z, p ? std::optional(p->y) : std::nullopt);
-    };
-    visit_point("intervening_high_x_m", "intervening_high_z_m", m.intervening_high);
-    visit("halfgraben_area_share", m.halfgraben_area_share);
-    visit("dilation_area_m2", m.dilation_area);
-    visit("depth_to_detachment_m", m.depth_to_detachment);
-    visit("inclined_shear_angle_deg", m.inclined_shear_angle);
-    visit("inclined_shear_misfit_m", m.inclined_shear_misfit);
-    visit("normals_misfit_m", m.normals_misfit);
-    visit("predicted_tilt_deg", m.predicted_tilt);
-    visit_point("predicted_cutoff_x_m", "predicted_cutoff_z_m", m.predicted_cutoff);
-    visit("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
-    visit("strain_top10", m.strain_top10);
-    visit("strain_top10_cumulative", m.strain_top10_cumulative);
-    visit("strain_gini", m.strain_gini);
-    visit("basement_unbonded_fraction", m.basement_unbonded_fraction);
-    visit("old_sediment_bonded_fraction", m.old_sediment_bonded_fraction);
-    visit("weak_fraction", m.weak_fraction);
-    visit("volume_error_fraction", m.volume_error_fraction);
-    visit("deposited_fraction", m.deposited_fraction);
-    visit("eroded_fraction", m.eroded_fraction);
-    visit("mass_error_fraction", std::optional(m.mass_error_fraction));
-    visit("unbalanced_ratio_mean", std::optional(m.unbalanced_ratio_mean));
-    visit("unbalanced_ratio_max", std::optional(m.unbalanced_ratio_max));
-    visit("inertial_number", std::optional(m.inertial_number));
-    if (!m.energy)
-        return;
-    const EnergyBalance& e = *m.energy;
-    const double work = e.boundary_work + e.gravity_work;
-    for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
-             {"energy_boundary_work_j_per_m", e.boundary_work},
-             {"energy_gravity_work_j_per_m", e.gravity_work},
-             {"energy_events_j_per_m", e.events},
-             {"energy_kinetic_j_per_m", e.stored.kinetic},
-             {"energy_strain_normal_j_per_m", e.stored.normal_strain},
-             {"energy_strain_shear_j_per_m", e.stored.shear_strain},
-             {"energy_stored_change_j_per_m", e.stored_change},
-             {"energy_friction_j_per_m", e.friction},
-             {"energy_damping_j_per_m", e.damping},
-             {"energy_bond_breaking_j_per_m", e.bond_breaking},
-             {"energy_stepping_j_per_m", e.stepping}})
-        visit(name, std::optional(value));
-    visit("energy_base_work_j_per_m", e.base_work);
-    visit("energy_residual", work != 0.0 ? std::optional(e.residual() / work) : std::nullopt);
+/// Every measure that is a number; NaN: no meaning in this run.
+NamedNumbers numbers_of(const Measures& m) {
+    NamedNumbers numbers;
+    for (const MeasureName& measure : measure_names())
+        numbers.emplace_back(measure.name, measure.value(m).value_or(std::nan("")));
+    return numbers;
 }
 
 using Json = nlohmann::ordered_json;
@@ -114,15 +65,12 @@ Json summary_head(const SummaryContent& content) {
 
 void add_numbers(Json& json, const SummaryContent& content) {
     const Measures& m = content.measures;
-    for_each_measure(
-        m, [&](const char* name, std::optional<double> value) { put(json, name, value); });
+    for (const auto& [name, value] : numbers_of(m))
+        put(json, name, value);
     for (const auto& [name, value] : content.numbers)
         put(json, name, value);
     if (m.quasi_static)
         json["quasi_static"] = *m.quasi_static;
-    if (m.energy)
-        json["energy_by_event_j_per_m"] =
-            object({m.energy->by_event.begin(), m.energy->by_event.end()});
     for (const auto& [name, numbers] : content.objects)
         json[name] = object(numbers);
 }
@@ -201,9 +149,7 @@ NamedNumbers history_row(const State& state, const Measures& m) {
         {"cycle", static_cast<double>(state.clock.cycle)},
         {"discs", static_cast<double>(state.discs.rows())},
     };
-    for_each_measure(m, [&](const char* name, std::optional<double> value) {
-        row.emplace_back(name, value.value_or(std::nan("")));
-    });
+    append(row, numbers_of(m));
     return row;
 }
 

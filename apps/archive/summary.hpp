@@ -2,7 +2,8 @@
 
 #include "apps/archive/snapshot.hpp"
 #include "apps/measures/fault.hpp"
-#include "apps/measures/measure.hpp"
+#include "apps/measures/measures.hpp"
+#include "apps/support/named_numbers.hpp"
 #include "dem/column.hpp"
 #include "dem/state.hpp"
 
@@ -15,11 +16,8 @@
 
 namespace listric::archive {
 
-/// Numbers by name, in the order in which they are written.
-using NamedNumbers = std::vector<std::pair<std::string, double>>;
-
 /// The measures of one moment as named numbers, in the order of history.csv.
-NamedNumbers history_row(const dem::State& state, const Measures& measures);
+NamedNumbers history_row(const dem::State& state, const measures::Measures& measures);
 
 /// Table as CSV; numbers without meaning are left empty.
 std::string to_csv(const dem::Table& table);
@@ -31,8 +29,8 @@ struct SummaryContent {
     int threads = 1;
     const dem::State& state; ///< at the end
     const RunRecord& record;
-    const Measures& measures;
-    const FaultReport& faults;
+    const measures::Measures& measures;
+    const measures::FaultReport& faults;
     std::vector<std::string> effects = {}; ///< names of those that were on
     NamedNumbers numbers = {};             ///< besides the measures
     std::vector<std::pair<std::string, NamedNumbers>> objects =

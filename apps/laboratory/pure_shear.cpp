@@ -18,6 +18,7 @@ namespace listric {
 
 using namespace archive;
 using namespace dem;
+using namespace measures;
 
 namespace {
 

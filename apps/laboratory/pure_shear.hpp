@@ -46,7 +46,8 @@ std::optional<double> healed_share(const dem::State& start, const dem::State& en
 /// Normal faults between the states of a run, oldest first, each as it was when first traced: the
 /// ridges of shear strain between two states that follow no trace of the states before. A ridge
 /// needs less contrast here than beside a detachment, since other shear zones are all around.
-std::vector<SlabFault> trace_births(const std::vector<DiscPlaces>& states, const dem::Chain& base);
+std::vector<SlabFault> trace_births(const std::vector<measures::DiscPlaces>& states,
+                                    const dem::Chain& base);
 
 /// Runs the scene, or goes on with a run in the folder, and measures.
 /// Throws what run_scene throws, and UsageError if it is interrupted.

@@ -6,7 +6,10 @@
 #include <optional>
 #include <vector>
 
-namespace listric {
+namespace listric::measures {
+
+/// A main fault dips by this at least, degrees.
+inline constexpr double least_main_dip = 30.0;
 
 /// An active fault with its history (docs/measures.md defines the numbers).
 struct Fault {
@@ -31,7 +34,7 @@ struct Fault {
 /// What the faults of a state have in common.
 struct FaultReport {
     std::vector<Fault> faults; ///< the longest first
-    /// Index of the main fault: normal, steeper than 30 degrees, if possible reaching the lower
+    /// Index of the main fault: normal, as steep as least_main_dip, if possible reaching the lower
     /// half of the hanging wall, and of those the one with most slip rate times length.
     std::optional<std::size_t> main_antithetic, main_synthetic;
     std::optional<double> antithetic_foot; ///< x of the main antithetic fault's foot at birth,
@@ -40,4 +43,4 @@ struct FaultReport {
     std::optional<double> sediment_weak_off_fault_fraction;
 };
 
-} // namespace listric
+} // namespace listric::measures

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "apps/measures/fault_trace.hpp"
+#include "apps/measures/polyline.hpp"
 #include "dem/state.hpp"
 
 #include <map>
 #include <optional>
 
-namespace listric {
+namespace listric::measures {
 
 /// Throw of every stratum that the fault cuts, m by stratum number; 0 is the pre-rift top. Positive
 /// where the side above the fault lies deeper: normal.
@@ -15,12 +15,12 @@ namespace listric {
 /// trace crosses the stratum, as two parallel lines, one per side; their distance is the throw. The
 /// trace is extended upward by up to 15 diameters along its upper end, since young sediment slips
 /// too little to be traced.
-std::map<int, double> fault_throws(const dem::State& state, const std::vector<dem::Point>& trace);
+std::map<int, double> fault_throws(const dem::State& state, const Polyline& trace);
 
 /// Throw of the pre-rift layers, m: median over the layers that the trace cuts on both sides. Where
 /// a layer meets the trace follows from the rigid motion since the start of the discs 3 to 9
 /// diameters beside it. Unlike the throw of the pre-rift top it is there however far the two sides
 /// have parted. Positive: normal. None if no layer is on both sides.
-std::optional<double> pre_rift_throw(const dem::State& state, const std::vector<dem::Point>& trace);
+std::optional<double> pre_rift_throw(const dem::State& state, const Polyline& trace);
 
-} // namespace listric
+} // namespace listric::measures

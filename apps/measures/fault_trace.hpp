@@ -1,24 +1,26 @@
 #pragma once
 
+#include "apps/measures/polyline.hpp"
 #include "apps/measures/shear_field.hpp"
+#include "dem/events/strain.hpp"
 
 #include <vector>
 
-namespace listric {
+namespace listric::measures {
 
 /// A shear zone as a line: the ridge of the shear strain, from its upper to its lower end.
 struct FaultTrace {
-    std::vector<dem::Point> points; ///< one mean diameter apart, m, y up
-    std::vector<double> slip;       ///< of the window at each point, m; > 0: the left side of the
-                                    ///< downward direction moves down
-    std::vector<double> width;      ///< full width at half maximum of the shear profile, m
+    Polyline points;           ///< one mean diameter apart, m, y up
+    std::vector<double> slip;  ///< of the window at each point, m; > 0: the left side of the
+                               ///< downward direction moves down
+    std::vector<double> width; ///< full width at half maximum of the shear profile, m
 
-    double length() const; ///< m
+    double length() const { return length_of(points); } ///< m
 };
 
 /// What counts as a trace.
 struct FaultTraceOptions {
-    double least_strain = 0.05;    ///< shear strain per 500 m of extension along a trace
+    double least_strain = 0.05;    ///< shear strain per strain_window of extension along a trace
     double certain_strain = 0.15;  ///< and somewhere on it: about AFD's threshold
     double least_length = 12.0;    ///< mean diameters
     double spacing = 3.5;          ///< of parallel traces, mean diameters
@@ -27,6 +29,11 @@ struct FaultTraceOptions {
     /// diameters wide; wider ones, and the chance crests of diffuse strain, are no lines.
     double least_contrast = 3.5;
     double profile_reach = 20.0; ///< of the shear profile to either side, mean diameters
+
+    /// least_strain of a window of that many m of extension.
+    double least_strain_in(double window) const {
+        return least_strain * window / dem::strain_window;
+    }
 };
 
 /// Follows the ridges of the shear strain; the longest trace first. Zones that run along the
@@ -34,18 +41,4 @@ struct FaultTraceOptions {
 std::vector<FaultTrace> trace_faults(const ShearField& field, const dem::Chain& detachment,
                                      const FaultTraceOptions& options = {});
 
-/// Dip of the best straight line through the points, degrees in [0, 90].
-double dip_of(const std::vector<dem::Point>& points);
-
-/// Curvature of the best parabola over the points' chord, 1/m; > 0: convex upward.
-double curvature_of(const std::vector<dem::Point>& points);
-
-/// Distance from the polyline, m, and where the closest point is.
-struct PolylinePlace {
-    double distance = 0.0; ///< > 0 on the left of the polyline's direction
-    double along = 0.0;    ///< m from the first point
-    bool beyond = false;   ///< the closest point is an end
-};
-PolylinePlace place_on(const std::vector<dem::Point>& points, dem::Point p);
-
-} // namespace listric
+} // namespace listric::measures

@@ -3,23 +3,18 @@
 #include "dem/units.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
-namespace listric {
+namespace listric::measures {
 
 using namespace dem;
 
 namespace {
 
-constexpr double spacing = 25.0; ///< of samples, m
-
-double length_of(const Chain& chain) {
-    double sum = 0.0;
-    for (const Segment& s : chain)
-        sum += s.length;
-    return sum;
-}
+constexpr double spacing = 25.0;                                     ///< of samples, m
+constexpr double nowhere = -std::numeric_limits<double>::infinity(); ///< height of no curve, m
 
 /// Unit vector along the chain.
 Point tangent_at(const Chain& chain, double arc_length) {
@@ -63,7 +58,7 @@ private:
 
 /// Height of a curve at every column: its highest point there; -infinity where it is not.
 std::vector<double> heights(const std::vector<Point>& curve, std::span<const double> x) {
-    std::vector<double> y(x.size(), -std::numeric_limits<double>::infinity());
+    std::vector<double> y(x.size(), nowhere);
     for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
         Point a = curve[k], b = curve[k + 1];
         if (b.x < a.x)
@@ -153,9 +148,7 @@ double misfit(const Chain& detachment, const std::vector<Point>& prediction,
     std::vector<double> exposed = heights(curve, x), predicted = heights(prediction, x);
     double sum = 0.0, count = 0.0;
     for (std::size_t k = 0; k < x.size() && x[k] <= last; ++k) {
-        const double y = std::max(predicted[k], x[k] < prediction.front().x
-                                                    ? exposed[k]
-                                                    : -std::numeric_limits<double>::infinity());
+        const double y = std::max(predicted[k], x[k] < prediction.front().x ? exposed[k] : nowhere);
         if (!std::isfinite(y))
             continue;
         sum += (y - top[k]) * (y - top[k]);
@@ -176,4 +169,24 @@ InclinedShearFit fit_inclined_shear(const Chain& detachment, double extension,
     return best;
 }
 
-} // namespace listric
+KinematicPrediction predict_kinematics(const Chain& detachment, double extension,
+                                       const Profile& profile) {
+    assert(extension > 0.0);
+    const double right = profile.x.back();
+    const Point cutoff = point_at(detachment, extension);
+    KinematicPrediction found;
+    found.shear = fit_inclined_shear(detachment, extension, profile.x, profile.pre_rift_top);
+    found.tilt = normals_tilt(detachment, extension);
+    found.cutoff = Point{cutoff.x, -cutoff.y};
+    if (const double share = normals_halfgraben_share(detachment, extension, right); share > 0.0)
+        found.halfgraben_share = share;
+    const std::vector<Point> normals = normals_top(detachment, extension, right);
+    if (!normals.empty()) {
+        // Beyond the block that rotates, the hanging wall collapses.
+        const double last = cutoff.x + 0.5 * (detachment.front().end.x - cutoff.x);
+        found.normals_misfit = misfit(detachment, normals, profile.x, profile.pre_rift_top, last);
+    }
+    return found;
+}
+
+} // namespace listric::measures

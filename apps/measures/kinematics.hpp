@@ -1,11 +1,13 @@
 #pragma once
 
+#include "apps/measures/profile.hpp"
 #include "dem/base.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::measures {
 
 // Where rigid footwall and slip alone would put the pre-rift top, for a detachment that is a chain
 // of lines and arcs from the breakaway at the origin downward. y up, extension in m.
@@ -44,4 +46,17 @@ InclinedShearFit fit_inclined_shear(const dem::Chain& detachment, double extensi
 double misfit(const dem::Chain& detachment, const std::vector<dem::Point>& prediction,
               std::span<const double> x, std::span<const double> top, double last);
 
-} // namespace listric
+/// What the constructions say of a basin.
+struct KinematicPrediction {
+    InclinedShearFit shear;               ///< that fits the pre-rift top best
+    std::optional<double> normals_misfit; ///< of the head block, m
+    double tilt = 0.0;                    ///< of the head block, degrees
+    dem::Point cutoff;                    ///< x and depth, m
+    std::optional<double> halfgraben_share;
+};
+
+/// @param extension  above 0, m
+KinematicPrediction predict_kinematics(const dem::Chain& detachment, double extension,
+                                       const Profile& profile);
+
+} // namespace listric::measures

@@ -3,10 +3,12 @@
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace listric {
+namespace listric::measures {
 
 /// Where the discs of a state are: what the history of faults needs of it.
 struct DiscPlaces {
@@ -18,6 +20,22 @@ struct DiscPlaces {
     std::vector<std::int64_t> id;     ///< of the disc in the row
     std::vector<std::int32_t> row_of; ///< of the disc with the id; -1: none
     std::vector<double> age;          ///< extension since the disc was deposited, m; basement: all
+};
+
+/// Shear strain in the plane, whatever the direction, or a sum of such.
+struct PlaneShear {
+    double stretch = 0.0; ///< u_xx - u_yy
+    double turn = 0.0;    ///< u_xy + u_yx
+
+    /// Engineering shear strain on the plane of largest shear, without sign.
+    double size() const { return std::hypot(stretch, turn); }
+
+    /// Engineering shear strain on a plane of direction t (unit vector): > 0 where the left side
+    /// moves along t relative to the right side.
+    double along(dem::Point t) const {
+        // n = (-t.y, t.x): n (grad u) t + t (grad u) n, the first the change of u_t with n.
+        return turn * (t.x * t.x - t.y * t.y) - 2.0 * t.x * t.y * stretch;
+    }
 };
 
 /// Displacement gradient of discs between two states of a run.
@@ -33,14 +51,12 @@ struct ShearField {
     double window = 0.0;                ///< extension between the states, m
 
     /// Engineering shear strain of disc k, without sign.
-    double shear(std::size_t k) const;
+    double shear(std::size_t k) const { return components(k).size(); }
 
-    /// Shear strain of disc k resolved on a plane of direction t (unit vector): > 0 where the left
-    /// side moves along t relative to the right side.
-    double shear_along(std::size_t k, dem::Point t) const;
+    PlaneShear components(std::size_t k) const { return {xx[k] - yy[k], xy[k] + yx[k]}; }
 };
 
 /// Discs of both states that are `least_age` m of extension old in `now` or belong to the basement.
 ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age);
 
-} // namespace listric
+} // namespace listric::measures

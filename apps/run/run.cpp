@@ -1,30 +1,26 @@
 #include "apps/run/run.hpp"
 
-#include "apps/archive/examine.hpp"
+#include "apps/archive/output_folder.hpp"
 #include "apps/archive/run_folder.hpp"
-#include "apps/archive/summary.hpp"
-#include "apps/figures/base_figure.hpp"
-#include "apps/figures/figures.hpp"
-#include "apps/measures/fault_history.hpp"
+#include "apps/model/footwall_coupling.hpp"
 #include "apps/run/flexure.hpp"
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/run/session.hpp"
+#include "apps/scene/scene_file.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <new>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
 
 std::atomic<bool> stop_requested = false;
@@ -32,11 +28,6 @@ std::atomic<bool> stop_requested = false;
 namespace {
 
 namespace fs = std::filesystem;
-
-bool near_any(const std::vector<double>& marks, double extension, double tolerance) {
-    return std::ranges::any_of(
-        marks, [&](double mark) { return std::abs(mark - extension) <= tolerance; });
-}
 
 RunOutcome run_session(const Scene& scene, const RunOptions& options, Log& log) {
     Session session(scene, options, log);
@@ -65,7 +56,7 @@ MemoryError out_of_memory(const Scene& scene, int threads) {
     const double bytes = scene.hanging_wall ? predict(scene, 1.0, threads).memory : 0.0;
     const std::string discs =
         bytes > 0.0 ? fmt::format("the run needs about {:.0f} MB{}", std::ceil(bytes / 1e6),
-                                  scene.elastic_base ? " and what its footwall takes" : "")
+                                  has_effect(scene, "elastic_base") ? " and what its footwall takes" : "")
                     : "the elastic base takes more than there is";
     return MemoryError("memory is short: " + discs);
 }
@@ -73,13 +64,17 @@ MemoryError out_of_memory(const Scene& scene, int threads) {
 } // namespace
 
 RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
-    if (check_output(scene, options))
-        return RunOutcome::finished;
     const fs::path& output = options.output;
+    const ExistingRun existing = options.force    ? ExistingRun::replaced
+                                 : options.resume ? ExistingRun::resumed
+                                                  : ExistingRun::refused;
+    const double target = std::min(scene.extension.distance, options.until.value_or(1e300));
+    if (check_output(scene, output, existing, target))
+        return RunOutcome::finished;
     std::error_code error;
     fs::create_directories(output, error);
-    const Lock lock(output);
-    prepare_output(scene, options);
+    const FolderLock lock(output);
+    prepare_output(scene, output, existing);
 
     Log log(output / "log.txt", options.quiet);
     log.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,

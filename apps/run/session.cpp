@@ -2,15 +2,16 @@
 
 #include "apps/archive/examine.hpp"
 #include "apps/archive/run_folder.hpp"
+#include "apps/archive/setting.hpp"
 #include "apps/archive/summary.hpp"
 #include "apps/figures/base_figure.hpp"
+#include "apps/figures/draw_run.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/paraview.hpp"
-#include "apps/measures/fault_history.hpp"
-#include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
 #include "apps/run/prediction.hpp"
-#include "apps/run/run.hpp"
+#include "apps/scene/scene_file.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/strain.hpp"
 
@@ -25,7 +26,9 @@
 
 namespace listric {
 
+using namespace archive;
 using namespace dem;
+using namespace measures;
 using namespace coupling;
 
 namespace {
@@ -36,23 +39,8 @@ fs::path snapshot_path(const fs::path& output, double extension) {
     return output / "snapshots" / fmt::format("extension-{:08.2f}m.h5", extension);
 }
 
-bool near_any(const std::vector<double>& marks, double extension, double tolerance) {
-    return std::ranges::any_of(
-        marks, [&](double mark) { return std::abs(mark - extension) <= tolerance; });
-}
-
-CyclePhysics cycle_physics(const Scene& scene) {
-    CyclePhysics physics{.damping = scene.cycle.damping,
-                         .gravity = scene.gravity ? scene.gravity->acceleration : 0.0};
-    if (scene.elastic_base && scene.elastic_base->relative_damping)
-        physics.averaging_time = scene.elastic_base->averaging_time;
-    return physics;
-}
-
-/// Gives a detachment whose motion is prescribed the nodes that it moves by.
-void attach_base_motion(State& state, const RigidBase& base) {
-    constexpr double face = 1000.0; // m: arcs are followed to millimetres
-    const auto nodes = detachment_nodes(base.surfaces.front().chain, face);
+/// Gives a base that is driven the nodes that it moves by.
+void attach(const std::vector<Point>& nodes, State& state) {
     std::vector<double> x, y;
     for (const Point& node : nodes) {
         x.push_back(node.x);
@@ -61,27 +49,19 @@ void attach_base_motion(State& state, const RigidBase& base) {
     add_base_nodes(state, x, y);
 }
 
-FaultReport faults_now(const Scene& scene, const RunOptions& options,
-                       const Simulation& simulation) {
-    const std::vector<fs::path> snapshots = list_snapshots(options.output);
-    return report_faults(scene, simulation.base(), simulation.state(), snapshots);
-}
-
 } // namespace
 
 Session::Session(const Scene& scene, const RunOptions& options, Log& log)
     : scene_(scene), options_(options), log_(log),
-      simulation_(make_base(scene), cycle_physics(scene)) {
-    for (auto& event : make_events(scene))
+      parts_(make_parts(scene)), setting_(make_setting(scene, parts_)),
+      simulation_(parts_.base, parts_.physics), driver_(make_base_driver(scene, parts_)) {
+    for (auto& event : make_events(scene, parts_))
         simulation_.add(std::move(event));
     simulation_.report_times_to([this](const std::string& part, double seconds) {
         record_.seconds_by_part[part] += seconds;
     });
-    if (scene.base_motion) {
-        base_motion_ = std::make_unique<BaseMotion>(*scene.base_motion, simulation_.base().motion,
-                                                    scene.extension.rate);
-        simulation_.respond_by(*base_motion_);
-    }
+    if (driver_.response)
+        simulation_.respond_by(*driver_.response);
 }
 
 double Session::wall_seconds() const { return seconds_before_ + seconds_since(started_); }
@@ -96,13 +76,14 @@ Execution Session::execution() const {
 
 /// Condenses the footwall of a scene that has one.
 void Session::make_footwall() {
-    if (!scene_.elastic_base || footwall_)
+    if (!has_effect(scene_, "elastic_base") || footwall_)
         return;
     const Stopwatch watch(record_.seconds_by_part["base"]);
-    footwall_ = std::make_unique<FootwallCoupling>(scene_);
+    std::vector<std::unique_ptr<Event>> loads;
+    footwall_ = std::make_unique<FootwallCoupling>(scene_, parts_, loads);
     for (const std::string& line : footwall_->description())
         log_.say(line);
-    for (auto& event : footwall_->make_events())
+    for (auto& event : loads)
         simulation_.add(std::move(event));
     simulation_.advance_by([this](State& state, const RigidBase& rigid, const CyclePhysics& physics,
                                   std::int64_t cycles, const Execution& how) {
@@ -129,6 +110,7 @@ bool Session::resume() {
             for (const auto& [part, seconds] : record_.seconds_by_part)
                 seconds_before_ += seconds;
             kept_ = *path;
+            history_ = RunHistory(std::span(snapshots.begin(), path.base()));
             log_.say(fmt::format("resuming at {:.2f} m of extension from {}", extension(),
                                  path->string()));
             return true;
@@ -143,7 +125,7 @@ void Session::begin() {
     record_.scene = to_toml(scene_);
     write_text(options_.output / "scene.toml", record_.scene);
     const CycleSpeed speed =
-        measure_speed(estimated_discs(scene_), options_.threads, 0.3, scene_.energy.has_value());
+        measure_speed(estimated_discs(scene_), options_.threads, 0.3, parts_.accounts_energy);
     record_.predicted_seconds =
         speed.busy * predict(scene_, speed.disc_steps_per_second, options_.threads).seconds;
 
@@ -151,12 +133,12 @@ void Session::begin() {
     State state;
     {
         const Stopwatch watch(record_.seconds_by_part["genesis"]);
-        state = make_or_recall_hanging_wall(scene_, simulation_.base(), log_, options_.stop);
+        state = make_or_recall_hanging_wall(scene_, parts_, log_, options_.stop);
     }
     if (footwall_)
         state = settled_on_base(std::move(state));
-    if (base_motion_)
-        attach_base_motion(state, simulation_.base());
+    if (driver_.response)
+        attach(driver_.nodes, state);
     simulation_.begin(std::move(state));
     log_.say(fmt::format("hanging wall: {} discs", simulation_.state().discs.rows()));
     append_history();
@@ -209,7 +191,7 @@ void Session::end_window() {
         const Stopwatch watch(record_.seconds_by_part["measures"]);
         append_history();
     }
-    if (near_any(scene_.output.figures, extension(), 0.5 * scene_.output.interval)) {
+    if (is_drawn_at(scene_, extension())) {
         draw();
         save_field();
     }
@@ -226,8 +208,17 @@ void Session::report_progress() {
                     rough_duration(wall_seconds() / share * (1.0 - share))));
 }
 
-Measures Session::measure_now() {
-    return measure(scene_, simulation_.state(), simulation_.base(), simulation_.events());
+Observation Session::now() const {
+    return {scene_, parts_, simulation_.state(), simulation_.events()};
+}
+
+Measures Session::measure_now() const {
+    return measure(setting_, simulation_.state(), parts_.base, simulation_.events());
+}
+
+FaultReport Session::faults_now() {
+    const Stopwatch watch(record_.seconds_by_part["measures"]);
+    return report_faults(setting_, parts_.base, simulation_.state(), history_);
 }
 
 /// Says once what makes the results doubtful, when a whole window of strain is known or at the end.
@@ -247,10 +238,14 @@ void Session::warn_of_haste(const Measures& measures) {
 void Session::append_history() {
     const Measures measures = measure_now();
     warn_of_haste(measures);
-    auto row = history_row(simulation_.state(), measures);
-    if (footwall_)
-        std::ranges::move(footwall_->end_window(simulation_.state(), simulation_.base()),
-                          std::back_inserter(row));
+    NamedNumbers row = history_row(simulation_.state(), measures);
+    append(row, measure_effects(now()).numbers);
+    std::optional<std::string> beyond_elasticity;
+    if (footwall_) {
+        auto window = footwall_->end_window(simulation_.state(), simulation_.base());
+        append(row, window.measures);
+        beyond_elasticity = window.beyond_elasticity;
+    }
     Table& history = record_.history;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [name, value] : row)
@@ -259,6 +254,8 @@ void Session::append_history() {
     for (const auto& [name, value] : row)
         history.get<double>(name).back() = value;
     write_text(options_.output / "history.csv", to_csv(history));
+    if (beyond_elasticity)
+        throw BeyondElasticity(*beyond_elasticity);
 }
 
 void Session::save() {
@@ -266,6 +263,7 @@ void Session::save() {
     const State& state = simulation_.state();
     kept_ = snapshot_path(options_.output, extension());
     write_snapshot(kept_, state, simulation_.events(), record_);
+    history_.add(DiscPlaces(state));
     if (scene_.output.series == SeriesFormat::paraview)
         write_paraview(options_.output, state, simulation_.base(), scene_.extension.rate);
 }
@@ -275,22 +273,16 @@ void Session::save_field() {
     if (!footwall_ || scene_.output.series != SeriesFormat::paraview)
         return;
     const Stopwatch watch(record_.seconds_by_part["output"]);
-    footwall_->write(options_.output, simulation_.state());
+    footwall_->write(options_.output, footwall_->recover(simulation_.state()));
 }
 
 void Session::draw() {
     if (!options_.figures)
         return;
-    FaultReport faults;
-    {
-        const Stopwatch watch(record_.seconds_by_part["measures"]);
-        faults = faults_now(scene_, options_, simulation_);
-    }
+    const FaultReport faults = faults_now();
     const Stopwatch watch(record_.seconds_by_part["figures"]);
     drawn_at_ = extension();
-    const std::string problem =
-        draw_figures(scene_, simulation_.state(), simulation_.base(), simulation_.events(), faults,
-                     options_.output / "figures");
+    const std::string problem = draw_figures(now(), faults, options_.output / "figures");
     if (!problem.empty())
         log_.say("warning: no figures: " + problem);
 }
@@ -301,9 +293,9 @@ void Session::draw_sheet() {
         return;
     const Stopwatch watch(record_.seconds_by_part["figures"]);
     try {
-        if (footwall_ || base_motion_)
+        if (parts_.base_moves)
             draw_base(options_.output);
-        draw_experiment(options_.output);
+        draw_experiment(options_.output, history_);
     } catch (const std::exception& error) {
         log_.say(std::string("warning: no sheet of figures: ") + error.what());
     }
@@ -315,12 +307,22 @@ void Session::check_base() {
         return;
     const Stopwatch watch(record_.seconds_by_part["base"]);
     if (const auto fine = footwall_->check(simulation_.state())) {
-        record_.base_elements_difference = fine->elements;
-        record_.base_resolved_difference = fine->base;
+        base_check_ = {{"base_elements_difference", fine->elements},
+                       {"base_resolved_difference", fine->base}};
         log_.say(fmt::format("the base under the last window's mean forces, solved again with {} "
                              "unknowns: the run's elements are {:.2f} % off, its base {:.2f} %",
                              fine->unknowns, 100.0 * fine->elements, 100.0 * fine->base));
     }
+}
+
+/// What summary.json has besides the measures of this moment.
+NamedNumbers Session::summary_numbers(const NamedNumbers& of_effects) const {
+    NamedNumbers numbers = of_effects;
+    for (const EffectPart& part : scene_.effects)
+        if (part.effect->summarise)
+            append(numbers, part.effect->summarise(record_.history, simulation_.state()));
+    append(numbers, base_check_);
+    return numbers;
 }
 
 void Session::finish() {
@@ -332,15 +334,23 @@ void Session::finish() {
     draw_sheet();
     const Measures measures = measure_now();
     warn_of_haste(measures);
-    FaultReport faults;
-    {
-        const Stopwatch watch(record_.seconds_by_part["measures"]);
-        faults = faults_now(scene_, options_, simulation_);
-    }
+    const FaultReport faults = faults_now();
     check_base();
+    const EffectMeasures of_effects = measure_effects(now());
     write_text(output / "summary.json",
-               summary_json(scene_, options_.threads, simulation_.state(), record_, measures,
-                            faults, wall_seconds(), simulation_.hash()));
+               summary_json({.scene = scene_.name,
+                             .accuracy = scene_.accuracy,
+                             .seed = scene_.seed,
+                             .threads = options_.threads,
+                             .state = simulation_.state(),
+                             .record = record_,
+                             .measures = measures,
+                             .faults = faults,
+                             .effects = effect_names(scene_),
+                             .numbers = summary_numbers(of_effects.numbers),
+                             .objects = of_effects.groups,
+                             .wall_seconds = wall_seconds(),
+                             .state_hash = simulation_.hash()}));
     log_.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}", extension() / 1e3,
                          rough_duration(wall_seconds()), (output / "figures").string()));
 }

@@ -1,12 +1,13 @@
 #pragma once
 
+#include "apps/archive/run_history.hpp"
 #include "apps/archive/snapshot.hpp"
-#include "apps/measures/measure.hpp"
+#include "apps/measures/fault.hpp"
+#include "apps/measures/measures.hpp"
 #include "apps/model/footwall_coupling.hpp"
 #include "apps/run/options.hpp"
-#include "apps/scene/scene.hpp"
+#include "apps/scene/effect.hpp"
 #include "apps/support/log.hpp"
-#include "dem/base_motion.hpp"
 #include "dem/simulation.hpp"
 
 #include <filesystem>
@@ -44,8 +45,11 @@ private:
     double wall_seconds() const;
 
     void report_progress();
-    Measures measure_now();
-    void warn_of_haste(const Measures& measures);
+    Observation now() const;
+    measures::Measures measure_now() const;
+    measures::FaultReport faults_now();
+    NamedNumbers summary_numbers(const NamedNumbers& of_effects) const;
+    void warn_of_haste(const measures::Measures& measures);
     void append_history();
     void end_window();
     void save();
@@ -57,10 +61,14 @@ private:
     const Scene& scene_;
     const RunOptions& options_;
     Log& log_;
+    ModelParts parts_;
+    measures::Setting setting_;
     dem::Simulation simulation_;
     std::unique_ptr<FootwallCoupling> footwall_;   ///< none: the base does not respond
-    std::unique_ptr<dem::BaseMotion> base_motion_; ///< none: it is not prescribed
-    RunRecord record_;
+    BaseDriver driver_;                            ///< without a response: nothing drives it
+    archive::RunRecord record_;
+    archive::RunHistory history_;                  ///< moments that have been saved
+    NamedNumbers base_check_;                      ///< of the base solved once more
     SteadyClock::time_point started_ = SteadyClock::now();
     double seconds_before_ = 0.0; ///< wall time of the sessions that this one resumes
     std::filesystem::path kept_;  ///< snapshot of the present state, if there is one

@@ -3,11 +3,10 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/laboratory/laboratory.hpp"
-#include "apps/measures/fault_history.hpp"
-#include "apps/measures/structure.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scene/declaration.hpp"
 #include "apps/studies/validation_plan.hpp"
+#include "apps/support/statistics.hpp"
 #include "apps/support/version.hpp"
 
 #include "apps/archive/examine.hpp"

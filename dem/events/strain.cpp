@@ -1,6 +1,7 @@
 #include "dem/events/strain.hpp"
 
 #include "dem/cells.hpp"
+#include "dem/gradient.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,9 @@
 namespace listric::dem {
 
 namespace {
+
+/// The circle holds some twenty discs, so only those of a few that lie on a line are left out.
+constexpr double flattest = 1e-6;
 
 void remember(State& state) {
     const DiscColumns d = disc_columns(state);
@@ -43,30 +47,17 @@ std::vector<double> shear_strain(const State& state) {
         if (!in_window[i])
             continue;
         // Neighbours now; gradient with respect to where they were.
-        double xx = 0.0, xy = 0.0, yy = 0.0, uxx = 0.0, uxy = 0.0, uyx = 0.0, uyy = 0.0;
+        GradientFit fit;
         const double ux_i = d.x[i] - old_x[i], uy_i = d.y[i] - old_y[i];
         cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
             const auto j = static_cast<std::size_t>(row);
             if (!in_window[j] || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
                 return;
-            const double dx = old_x[j] - old_x[i], dy = old_y[j] - old_y[i];
-            const double ux = d.x[j] - old_x[j] - ux_i, uy = d.y[j] - old_y[j] - uy_i;
-            xx += dx * dx;
-            xy += dx * dy;
-            yy += dy * dy;
-            uxx += ux * dx;
-            uxy += ux * dy;
-            uyx += uy * dx;
-            uyy += uy * dy;
+            fit.add(old_x[j] - old_x[i], old_y[j] - old_y[i], d.x[j] - old_x[j] - ux_i,
+                    d.y[j] - old_y[j] - uy_i);
         });
-        const double determinant = xx * yy - xy * xy;
-        if (determinant <= 1e-6 * xx * yy)
-            continue;
-        const double gxx = (uxx * yy - uxy * xy) / determinant;
-        const double gxy = (uxy * xx - uxx * xy) / determinant;
-        const double gyx = (uyx * yy - uyy * xy) / determinant;
-        const double gyy = (uyy * xx - uyx * xy) / determinant;
-        strain[i] = std::hypot(gxx - gyy, gxy + gyx);
+        if (const auto gradient = fit.gradient(flattest))
+            strain[i] = gradient->shear();
     }
     return strain;
 }

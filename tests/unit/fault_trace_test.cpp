@@ -8,6 +8,7 @@
 #include "apps/measures/fault_history.hpp"
 #include "apps/measures/fault_throw.hpp"
 #include "apps/measures/fault_trace.hpp"
+#include "apps/measures/rock.hpp"
 #include "dem/events/property_update.hpp"
 #include "tests/support.hpp"
 
@@ -20,6 +21,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 namespace {
 
 using namespace support;
@@ -264,12 +266,13 @@ TEST(FaultThrow, FallsWithYoungerAge) {
 struct Story {
     std::vector<DiscPlaces> places;
     State now;
-    Scene scene;
+    Setting setting;
     RigidBase base;
 
     /// @param turn  of the footwall per window, degrees, counter-clockwise
     Story(int windows, int birth, double turn) {
-        scene.extension.rate = 0.01;
+        setting.extension_rate = 0.01;
+        setting.youngest_sediment = 2e3;
         base.surfaces = {{"detachment", {line({0.0, -1e5}, {3e5, -1e5})}, 0.0}};
         now = Block([](Point) { return Point{}; }).now;
         now.clock.extension = 0.0;
@@ -298,7 +301,7 @@ struct Story {
                 places.emplace_back(now);
         }
     }
-    FaultReport report() const { return report_faults(scene, base, now, places); }
+    FaultReport report() const { return report_faults(setting, base, now, places); }
 };
 
 TEST(FaultHistory, TranslatedWithoutRotation) {
@@ -336,7 +339,7 @@ TEST(FaultHistory, RotatedWithItsFootwall) {
 
 TEST(FaultHistory, NothingBeforeTheFirstWindow) {
     const Story story(1, 1, 0.0);
-    EXPECT_TRUE(report_faults(story.scene, story.base, story.now, std::span<const DiscPlaces>())
+    EXPECT_TRUE(report_faults(story.setting, story.base, story.now, std::span<const DiscPlaces>())
                     .faults.empty());
 }
 

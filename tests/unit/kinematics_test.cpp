@@ -11,6 +11,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 namespace {
 
 constexpr double degree = pi / 180.0;

@@ -8,6 +8,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 namespace {
 
 using nlohmann::json;

@@ -1,7 +1,11 @@
 // Concentration measures on densities whose answers are known, and depocentres of a drawn profile.
 // Piecewise constant densities are exact; the linear one, sampled in n cells, is off by O(1/n^2).
 
-#include "apps/measures/measure.hpp"
+#include "apps/archive/setting.hpp"
+#include "apps/measures/blocks.hpp"
+#include "apps/measures/cohesion.hpp"
+#include "apps/measures/localisation.hpp"
+#include "apps/measures/measures.hpp"
 #include "apps/model/effects.hpp"
 #include "tests/support.hpp"
 
@@ -13,6 +17,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 namespace {
 
 constexpr std::size_t n = 1000;
@@ -196,7 +201,7 @@ TEST(RampFlatRamp, RotationsOfItsParts) {
     turn(state, 80.0, at_breakaway);
     turn(state, 43.0, below_flat);
     turn(state, -15.0, [&](Point p) { return !at_breakaway(p) && !below_flat(p); });
-    const Measures m = measure(scene, state, base, {});
+    const Measures m = measure(make_setting(scene), state, base, {});
     EXPECT_NEAR(m.breakaway_rotation.value(), 80.0, 1e-9);
     EXPECT_NEAR(m.lower_block_rotation.value(), 43.0, 1e-9);
     EXPECT_NEAR(m.toe_rotation.value(), -15.0, 1e-9);
@@ -210,7 +215,7 @@ TEST(RampFlatRamp, OtherDetachmentsHaveNoSuchParts) {
     State state = lattice(scene, base);
     state.clock.extension = 1000.0;
     turn(state, 19.1, [](Point) { return true; });
-    const Measures m = measure(scene, state, base, {});
+    const Measures m = measure(make_setting(scene), state, base, {});
     EXPECT_FALSE(m.breakaway_rotation || m.toe_rotation || m.lower_block_rotation);
     EXPECT_NEAR(m.rollover_tilt.value(), 19.1, 1e-9);
 }
@@ -232,7 +237,7 @@ TEST(Cutoff, OfTheConstantSlipOfLis2) {
         d.x[i] = centre.x + cosine * x - sine * y;
         d.y[i] = centre.y + sine * x + cosine * y;
     }
-    const Measures m = measure(scene, state, base, {});
+    const Measures m = measure(make_setting(scene), state, base, {});
     EXPECT_NEAR(m.cutoff.value().x, 6.34e3, 250.0);
     EXPECT_NEAR(m.cutoff.value().y, 7.67e3, 250.0);
     EXPECT_NEAR(m.rollover_tilt.value(), 19.0986, 1e-3);

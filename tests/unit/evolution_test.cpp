@@ -1,7 +1,10 @@
 // Structural measures of states whose structure is known.
 
+#include "apps/archive/setting.hpp"
+#include "apps/measures/evolution.hpp"
 #include "apps/measures/fault_throw.hpp"
-#include "apps/measures/structure.hpp"
+#include "apps/measures/main_faults.hpp"
+#include "apps/measures/rock.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "tests/support.hpp"
 
@@ -13,6 +16,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 namespace {
 
 using namespace support;
@@ -128,13 +132,9 @@ TEST(Compaction, PorosityBesideThatOfTheDepth) {
         porosity[i] = 0.5 * std::exp(-0.4);
     }
     porosity[3] = 0.5 * std::exp(-0.8);
-    Scene scene;
-    scene.hanging_wall.emplace();
-    scene.sedimentation.emplace();
-    scene.compaction.emplace();
-    RigidBase base;
-    base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
-    const NamedNumbers found = measure_structure(scene, base, state, {}, {}, {}, {});
+    Setting setting;
+    setting.sediment = {0.0, Target(0.0), 0.5, 4e-4};
+    const NamedNumbers found = measure_effects(setting, state);
     const std::map<std::string, double> numbers(found.begin(), found.end());
     EXPECT_NEAR(numbers.at("porosity_error"), 0.1 * (1.0 - std::exp(-0.4)), 1e-12);
     EXPECT_NEAR(numbers.at("porosity_off_fraction"), 0.1, 1e-12);
@@ -168,8 +168,9 @@ TEST(InnerFault, StepsTowardTheBreakaway) {
 /// with the right wall since.
 TEST(Grabens, TheOneThatIsThereFirst) {
     for (double alone : {30e3, 20e3}) {
-        Scene scene;
-        scene.hanging_wall.emplace();
+        Setting setting;
+        setting.length = 40e3;
+        setting.thickness = 15e3;
         RigidBase base;
         base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
         State state = make_state(row(20, r));
@@ -184,7 +185,7 @@ TEST(Grabens, TheOneThatIsThereFirst) {
         const std::vector<Past> story{past(0.0, {}), past(1e3, {alone, alone + 1e3}),
                                       past(2e3, {alone}), past(3e3, {20e3, 30e3})};
         state.clock.extension = 4e3;
-        const NamedNumbers found = measure_structure(scene, base, state, {}, {}, {}, story);
+        const NamedNumbers found = measure_evolution(setting, base, state, {}, {}, {}, story);
         const std::map<std::string, double> numbers(found.begin(), found.end());
         EXPECT_EQ(numbers.at("first_graben_at_m"), 1e3);
         EXPECT_EQ(numbers.at("second_graben_at_m"), 3e3);
@@ -242,7 +243,8 @@ TEST(ReverseFaults, AboveTheKink) {
          {arc({0.0, 0.0}, {0.0, -1.0}, 7e3, 90.0 * degree), line({7e3, -7e3}, {12e3, -7e3}),
           arc({12e3, -7e3}, {0.0, -1.0}, 8e3, 90.0 * degree), line({20e3, -15e3}, {100e3, -15e3})},
          0.0}};
-    const NamedNumbers found = measure_structure(scene, base, state, events, {}, {}, past);
+    const NamedNumbers found =
+        measure_evolution(make_setting(scene), base, state, {}, {}, fault_segments(events), past);
     const std::map<std::string, double> numbers(found.begin(), found.end());
     EXPECT_NEAR(numbers.at("kink_reverse_strain_share"), 1.0, 1e-9);
     EXPECT_NEAR(numbers.at("kink_reverse_fault_share"),

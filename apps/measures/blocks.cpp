@@ -1,0 +1,133 @@
+#include "apps/measures/blocks.hpp"
+
+#include "apps/measures/rigid_motion.hpp"
+#include "dem/units.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace listric::measures {
+
+using namespace dem;
+
+namespace {
+
+constexpr double head_block_width = 5e3;      ///< m from the detachment
+constexpr double block_size = 1.5e3;          ///< of what turns as one on a ramp-flat-ramp, m
+constexpr double toe_dip = 15.0 * pi / 180.0; ///< of the upper ramp below the toe, at most
+
+/// Rotation, degrees, of the least-squares rigid motion of a block of discs.
+std::optional<double> rotation_of(const State& state, std::span<const std::size_t> block) {
+    const ConstDiscColumns d = disc_columns(state);
+    if (block.size() < 3)
+        return std::nullopt;
+    std::vector<Displaced> discs;
+    // Sums over n, where RigidMotion sums n-ths: the last digits of the two differ.
+    Point before, after;
+    for (std::size_t i : block) {
+        discs.emplace_back(Point{d.start_x[i], d.start_y[i]}, Point{d.x[i], d.y[i]});
+        before = before + discs.back().first;
+        after = after + discs.back().second;
+    }
+    const auto n = static_cast<double>(block.size());
+    return rotation_about(discs, {before.x / n, before.y / n}, {after.x / n, after.y / n}) * 180.0 /
+           pi;
+}
+
+/// Mean rotation, degrees, of the square patches of a block that deforms.
+std::optional<double> mean_rotation(const State& state, std::span<const std::size_t> block,
+                                    double patch) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::size_t>> patches;
+    for (std::size_t i : block)
+        patches[{std::llround(d.start_x[i] / patch), std::llround(d.start_y[i] / patch)}].push_back(
+            i);
+    double sum = 0.0, discs = 0.0;
+    for (const auto& [place, members] : patches) {
+        constexpr std::size_t fewest = 4; // slivers at the block's edge tell nothing
+        if (members.size() < fewest)
+            continue;
+        sum += *rotation_of(state, members) * static_cast<double>(members.size());
+        discs += static_cast<double>(members.size());
+    }
+    return discs > 0.0 ? std::optional(sum / discs) : std::nullopt;
+}
+
+/// Rows of the pre-rift discs of whose start `chosen(start, foot on the detachment)` is true.
+template <class Chosen>
+std::vector<std::size_t> block_of(const State& state, const Chain& detachment, Chosen&& chosen) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::size_t> block;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] == 0)
+            if (const Point start{d.start_x[i], d.start_y[i]};
+                chosen(start, foot_point(detachment, start)))
+                block.push_back(i);
+    return block;
+}
+
+} // namespace
+
+std::optional<RampFlatRamp> find_ramp_flat_ramp(const Chain& detachment) {
+    constexpr double level = 1e-6; // of a unit tangent's y
+    constexpr double least_depth = 1.0;
+    const auto flat = [](Point tangent) { return std::abs(tangent.y) < level; };
+    RampFlatRamp found;
+    double at = 0.0;
+    bool on_flat = false, in_kink = false;
+    for (const Segment& s : detachment) {
+        if (in_kink && s.curvature >= 0.0)
+            break;
+        if (on_flat && !in_kink && !(flat(s.start_tangent) && flat(s.end_tangent))) {
+            in_kink = true;
+            found.flat_end = at;
+            if (s.curvature >= 0.0) { // a corner
+                found.lower_start = at;
+                break;
+            }
+        }
+        if (in_kink)
+            found.lower_start = at + s.length;
+        if (!on_flat && flat(s.end_tangent) && s.end.y < -least_depth) {
+            on_flat = true;
+            found.flat_depth = -s.end.y;
+            found.flat_start = flat(s.start_tangent) ? at : at + s.length;
+        }
+        at += s.length;
+    }
+    return in_kink ? std::optional(found) : std::nullopt;
+}
+
+std::vector<std::size_t> lower_block(const State& state, const Chain& detachment,
+                                     const RampFlatRamp& parts) {
+    const double height = -detachment.back().end.y - parts.flat_depth;
+    return block_of(state, detachment, [&](Point start, const auto& foot) {
+        return -start.y > parts.flat_depth && foot && foot->arc_length > parts.lower_start &&
+               foot->normal.x > 1e-6 && foot->distance < 0.5 * height;
+    });
+}
+
+std::optional<double> head_block_tilt(const State& state, const Chain& detachment,
+                                      double thickness) {
+    return rotation_of(state, block_of(state, detachment, [&](Point start, const auto& foot) {
+                           return -start.y <= 0.5 * thickness &&
+                                  (foot ? foot->distance : start.x) < head_block_width;
+                       }));
+}
+
+RampFlatRampRotations measure_ramp_flat_ramp(const State& state, const Chain& detachment,
+                                             const RampFlatRamp& parts) {
+    const auto breakaway = block_of(state, detachment, [](Point start, const auto&) {
+        return std::hypot(start.x, start.y) < block_size;
+    });
+    const auto toe = block_of(state, detachment, [&](Point, const auto& foot) {
+        return foot && foot->arc_length < parts.flat_start &&
+               std::atan2(foot->normal.x, foot->normal.y) < toe_dip && foot->distance < block_size;
+    });
+    return {rotation_of(state, breakaway), rotation_of(state, toe),
+            mean_rotation(state, lower_block(state, detachment, parts), block_size)};
+}
+
+} // namespace listric::measures

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/state.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace listric::measures {
+
+/// Where a detachment that descends to a flat and then further has its parts, m along the chain.
+struct RampFlatRamp {
+    double flat_start = 0.0;  ///< the upper ramp soles out
+    double flat_end = 0.0;    ///< the kink begins
+    double lower_start = 0.0; ///< the kink ends
+    double flat_depth = 0.0;  ///< m
+};
+
+/// None for a detachment that soles out once.
+std::optional<RampFlatRamp> find_ramp_flat_ramp(const dem::Chain& detachment);
+
+/// Rows of the pre-rift discs of a ramp-flat-ramp hanging wall that started below the flat's level,
+/// on the lower ramp and within half its height.
+std::vector<std::size_t> lower_block(const dem::State& state, const dem::Chain& detachment,
+                                     const RampFlatRamp& parts);
+
+/// Rotation, degrees, positive toward the detachment, of the block that started next to the
+/// detachment in the upper half of the thickness, m. None for fewer than three discs.
+std::optional<double> head_block_tilt(const dem::State& state, const dem::Chain& detachment,
+                                      double thickness);
+
+/// Rotations of three parts of the hanging wall, degrees, positive toward the detachment.
+struct RampFlatRampRotations {
+    std::optional<double> breakaway, toe, lower_block;
+};
+RampFlatRampRotations measure_ramp_flat_ramp(const dem::State& state, const dem::Chain& detachment,
+                                             const RampFlatRamp& parts);
+
+} // namespace listric::measures

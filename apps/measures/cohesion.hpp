@@ -1,0 +1,20 @@
+#pragma once
+
+#include "dem/state.hpp"
+
+#include <optional>
+
+namespace listric::measures {
+
+/// From this depth, m, and this age, a, on sediment is old: it should be rock.
+inline constexpr double old_sediment_depth = 1500.0, old_sediment_age = 2e5;
+
+/// Share of the touching pairs of pre-rift discs without bond. None if there are no such pairs.
+std::optional<double> unbonded_share_of_basement(const dem::State& state);
+
+/// Bonded share of the touching pairs of sediment discs that are both deeper than `depth` m below
+/// the level and older than `age` m of extension. None if there are no such pairs.
+std::optional<double> bonded_share_of_old_sediment(const dem::State& state, double level,
+                                                   double depth, double age);
+
+} // namespace listric::measures

@@ -1,0 +1,38 @@
+#include "apps/measures/evolution.hpp"
+
+#include "apps/measures/grabens.hpp"
+#include "apps/measures/hinge.hpp"
+#include "apps/measures/lower_block.hpp"
+#include "apps/measures/main_faults.hpp"
+#include "apps/measures/rock.hpp"
+#include "apps/measures/syncline.hpp"
+
+namespace listric::measures {
+
+using namespace dem;
+
+Past remember(const Setting& setting, const RigidBase& base, const State& now,
+              std::span<const Past> past) {
+    Past moment{DiscPlaces(now), find_basins(measure_profile(setting, now, base)), {}};
+    if (!past.empty())
+        moment.throw_correlations = throw_age_correlations(setting, base, now, past.back().places);
+    return moment;
+}
+
+NamedNumbers measure_evolution(const Setting& setting, const RigidBase& base, const State& now,
+                               const FaultReport& faults, const Measures& measures,
+                               std::span<const FaultSegment> segments, std::span<const Past> past) {
+    const RunSoFar run(setting, base, now, past);
+    NamedNumbers numbers = measure_main_faults(run, faults, measures.rollover_tilt);
+    append(numbers, measure_rock(setting, now));
+    append(numbers, measure_grabens(run, measures.intervening_high));
+    append(numbers, measure_hinge(run));
+    if (const auto parts = find_ramp_flat_ramp(run.detachment); parts && !past.empty()) {
+        append(numbers, measure_kink(run, *parts, faults.faults, segments));
+        append(numbers, measure_syncline(run, *parts));
+        append(numbers, measure_lower_block(run, *parts, faults.faults));
+    }
+    return numbers;
+}
+
+} // namespace listric::measures

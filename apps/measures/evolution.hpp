@@ -1,0 +1,26 @@
+#pragma once
+
+#include "apps/measures/fault.hpp"
+#include "apps/measures/kink.hpp"
+#include "apps/measures/measures.hpp"
+#include "apps/measures/run_so_far.hpp"
+#include "apps/support/named_numbers.hpp"
+
+#include <span>
+
+namespace listric::measures {
+
+/// What later moments will need of this one.
+/// @param past  earlier moments, oldest first
+Past remember(const Setting& setting, const dem::RigidBase& base, const dem::State& now,
+              std::span<const Past> past);
+
+/// Measures of one moment that need the run's past, its faults, or both.
+/// @param segments  of faults that detection found so far
+/// @param past      earlier moments, oldest first
+NamedNumbers measure_evolution(const Setting& setting, const dem::RigidBase& base,
+                               const dem::State& now, const FaultReport& faults,
+                               const Measures& measures, std::span<const FaultSegment> segments,
+                               std::span<const Past> past);
+
+} // namespace listric::measures

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "apps/measures/blocks.hpp"
+#include "apps/measures/fault.hpp"
+#include "apps/measures/run_so_far.hpp"
+#include "apps/support/named_numbers.hpp"
+
+#include <span>
+
+namespace listric::measures {
+
+/// Whether faults surround the block on the lower ramp of a ramp-flat-ramp, and how many gentle
+/// ones are near it. Nothing if hardly any of the block is left.
+NamedNumbers measure_lower_block(const RunSoFar& run, const RampFlatRamp& parts,
+                                 std::span<const Fault> faults);
+
+} // namespace listric::measures

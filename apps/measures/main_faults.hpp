@@ -1,0 +1,31 @@
+#pragma once
+
+#include "apps/measures/fault.hpp"
+#include "apps/measures/run_so_far.hpp"
+#include "apps/support/named_numbers.hpp"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace listric::measures {
+
+/// The faults as a whole, and the two main ones with their history.
+/// @param rollover_tilt  of the head block, degrees
+NamedNumbers measure_main_faults(const RunSoFar& run, const FaultReport& report,
+                                 std::optional<double> rollover_tilt);
+
+/// How far nearer to the breakaway a steep normal fault has come up than those born 2 km of
+/// extension before it, m: distance from the nearest of them, at the height of its middle. Steep:
+/// 45 degrees. 0: none has.
+double inner_fault_step(const std::vector<Fault>& faults);
+
+/// Rank correlation of a fault's throws with the strata's numbers (Spearman), -1 where throw falls
+/// from each stratum to the next younger. None for fewer than five strata.
+std::optional<double> throw_age_correlation(const std::map<int, double>& throws);
+
+/// The same for every normal fault steeper than 30 degrees that slid between two states.
+std::vector<double> throw_age_correlations(const Setting& setting, const dem::RigidBase& base,
+                                           const dem::State& now, const DiscPlaces& before);
+
+} // namespace listric::measures

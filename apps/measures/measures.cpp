@@ -1,0 +1,174 @@
+#include "apps/measures/measures.hpp"
+
+#include "apps/measures/blocks.hpp"
+#include "apps/measures/cohesion.hpp"
+#include "apps/measures/kinematics.hpp"
+#include "apps/measures/localisation.hpp"
+#include "apps/measures/profile.hpp"
+#include "dem/base_place.hpp"
+#include "dem/events/equilibrium.hpp"
+#include "dem/events/strain.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace listric::measures {
+
+using namespace dem;
+
+namespace {
+
+using Events = std::span<const std::unique_ptr<Event>>;
+
+void add_area(Measures& m, const Setting& setting, const State& state, const Profile& profile) {
+    const double extension = state.clock.extension;
+    m.basin_area = area_above(profile, profile.x.size(), 2.0 * state.mean_radius);
+    if (extension > 0.0)
+        m.area_balance = m.basin_area / (extension * setting.thickness);
+}
+
+void add_rotations(Measures& m, const Setting& setting, const State& state,
+                   const Chain& detachment) {
+    m.rollover_tilt = head_block_tilt(state, detachment, setting.thickness);
+    if (const auto parts = find_ramp_flat_ramp(detachment)) {
+        const auto rotations = measure_ramp_flat_ramp(state, detachment, *parts);
+        m.breakaway_rotation = rotations.breakaway;
+        m.toe_rotation = rotations.toe;
+        m.lower_block_rotation = rotations.lower_block;
+    }
+}
+
+void add_prediction(Measures& m, const Setting& setting, const Chain& detachment, double extension,
+                    const Profile& profile) {
+    m.dilation_area = extension * setting.thickness - m.basin_area;
+    m.depth_to_detachment = m.basin_area / extension;
+    const KinematicPrediction predicted = predict_kinematics(detachment, extension, profile);
+    m.inclined_shear_angle = predicted.shear.angle;
+    m.inclined_shear_misfit = predicted.shear.misfit;
+    m.normals_misfit = predicted.normals_misfit;
+    m.predicted_tilt = predicted.tilt;
+    m.predicted_cutoff = predicted.cutoff;
+    m.predicted_halfgraben_area_share = predicted.halfgraben_share;
+}
+
+void add_intervening_high(Measures& m, const Profile& profile, double column) {
+    const std::vector<double> depth = smoothed_depth(profile);
+    if (const auto high = find_intervening_high(profile.x, depth, depocentre_prominence)) {
+        m.intervening_high = Point{profile.x[*high], depth[*high]};
+        m.halfgraben_area_share = area_above(profile, *high + 1, column) / m.basin_area;
+    }
+}
+
+void add_sediment(Measures& m, const Setting& setting, const State& state, const Profile& profile) {
+    if (!setting.sediment)
+        return;
+    if (setting.has_bonds)
+        m.old_sediment_bonded_fraction =
+            bonded_share_of_old_sediment(state, setting.sediment->level, old_sediment_depth,
+                                         old_sediment_age * setting.extension_rate);
+    m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, depocentre_prominence);
+}
+
+void add_localisation(Measures& m, const Setting& setting, const State& state, Events events) {
+    const auto* strain = find<Strain>(events);
+    if (!strain || state.clock.extension <= 0.0)
+        return;
+    const Localisation found = measure_localisation(setting, state, *strain);
+    m.strain_top10 = found.top10;
+    m.strain_top10_cumulative = found.top10_cumulative;
+    m.strain_gini = found.gini;
+    m.inertial_number = found.inertial_number;
+}
+
+/// After the localisation.
+void add_quietness(Measures& m, const Setting& setting, Events events) {
+    if (const auto* equilibrium = find<Equilibrium>(events);
+        equilibrium && equilibrium->applied > 0) {
+        const Table& t = equilibrium->memory;
+        m.unbalanced_ratio_mean = t.get<double>("mean_ratio_sum")[0] / t.get<double>("samples")[0];
+        m.unbalanced_ratio_max = t.get<double>("max_ratio")[0];
+    }
+    if (setting.gravity > 0.0)
+        m.quasi_static = m.unbalanced_ratio_mean <= greatest_unbalanced_ratio &&
+                         m.inertial_number <= greatest_inertial_number;
+}
+
+void add_conservation(Measures& m, const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const Ledger& ledger = state.ledger;
+    const double mass = std::accumulate(d.mass.begin(), d.mass.end(), 0.0);
+    m.mass_error_fraction =
+        std::abs(mass - (ledger.initial + ledger.deposited - ledger.removed)) / ledger.initial;
+}
+
+std::optional<double> x_of(const std::optional<Point>& p) {
+    return p ? std::optional(p->x) : std::nullopt;
+}
+std::optional<double> y_of(const std::optional<Point>& p) {
+    return p ? std::optional(p->y) : std::nullopt;
+}
+
+} // namespace
+
+Measures measure(const Setting& setting, const State& state, const RigidBase& base, Events events) {
+    assert(!base.surfaces.empty());
+    const Chain& detachment = base.surfaces.front().chain;
+    const double extension = state.clock.extension;
+    const Profile profile = measure_profile(setting, state, base);
+    Measures m;
+    add_area(m, setting, state, profile);
+    if (extension > 0.0 && setting.has_detachment) {
+        m.cutoff = find_cutoff(state, standing_base(base, state).surfaces.front().chain);
+        add_rotations(m, setting, state, detachment);
+        add_prediction(m, setting, detachment, extension, profile);
+        add_intervening_high(m, profile, 2.0 * state.mean_radius);
+    }
+    add_sediment(m, setting, state, profile);
+    add_localisation(m, setting, state, events);
+    if (setting.has_bonds)
+        m.basement_unbonded_fraction = unbonded_share_of_basement(state);
+    add_conservation(m, state);
+    add_quietness(m, setting, events);
+    return m;
+}
+
+std::span<const MeasureName> measure_names() {
+    using M = const Measures&;
+    using Value = std::optional<double>;
+    static constexpr MeasureName names[] = {
+        {"basin_area_m2", "m2", [](M m) -> Value { return m.basin_area; }},
+        {"area_balance", "1", [](M m) { return m.area_balance; }},
+        {"cutoff_x_m", "m", [](M m) { return x_of(m.cutoff); }},
+        {"cutoff_z_m", "m", [](M m) { return y_of(m.cutoff); }},
+        {"rollover_tilt_deg", "deg", [](M m) { return m.rollover_tilt; }},
+        {"breakaway_rotation_deg", "deg", [](M m) { return m.breakaway_rotation; }},
+        {"toe_rotation_deg", "deg", [](M m) { return m.toe_rotation; }},
+        {"lower_block_rotation_deg", "deg", [](M m) { return m.lower_block_rotation; }},
+        {"intervening_high_x_m", "m", [](M m) { return x_of(m.intervening_high); }},
+        {"intervening_high_z_m", "m", [](M m) { return y_of(m.intervening_high); }},
+        {"halfgraben_area_share", "1", [](M m) { return m.halfgraben_area_share; }},
+        {"dilation_area_m2", "m2", [](M m) { return m.dilation_area; }},
+        {"depth_to_detachment_m", "m", [](M m) { return m.depth_to_detachment; }},
+        {"inclined_shear_angle_deg", "deg", [](M m) { return m.inclined_shear_angle; }},
+        {"inclined_shear_misfit_m", "m", [](M m) { return m.inclined_shear_misfit; }},
+        {"normals_misfit_m", "m", [](M m) { return m.normals_misfit; }},
+        {"predicted_tilt_deg", "deg", [](M m) { return m.predicted_tilt; }},
+        {"predicted_cutoff_x_m", "m", [](M m) { return x_of(m.predicted_cutoff); }},
+        {"predicted_cutoff_z_m", "m", [](M m) { return y_of(m.predicted_cutoff); }},
+        {"predicted_halfgraben_area_share", "1",
+         [](M m) { return m.predicted_halfgraben_area_share; }},
+        {"strain_top10", "1", [](M m) { return m.strain_top10; }},
+        {"strain_top10_cumulative", "1", [](M m) { return m.strain_top10_cumulative; }},
+        {"strain_gini", "1", [](M m) { return m.strain_gini; }},
+        {"basement_unbonded_fraction", "1", [](M m) { return m.basement_unbonded_fraction; }},
+        {"old_sediment_bonded_fraction", "1", [](M m) { return m.old_sediment_bonded_fraction; }},
+        {"mass_error_fraction", "1", [](M m) -> Value { return m.mass_error_fraction; }},
+        {"unbalanced_ratio_mean", "1", [](M m) -> Value { return m.unbalanced_ratio_mean; }},
+        {"unbalanced_ratio_max", "1", [](M m) -> Value { return m.unbalanced_ratio_max; }},
+        {"inertial_number", "1", [](M m) -> Value { return m.inertial_number; }},
+    };
+    return names;
+}
+
+} // namespace listric::measures

@@ -1,0 +1,122 @@
+#include "apps/measures/rock.hpp"
+
+#include "apps/measures/polyline.hpp"
+#include "dem/contacts.hpp"
+#include "dem/events/property_update.hpp"
+#include "dem/genesis.hpp"
+#include "dem/power_cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace listric::measures {
+
+using namespace dem;
+
+namespace {
+
+constexpr double porosity_tolerance = 0.02; ///< from which on porosity is off, relative
+
+/// Share of the touching pairs of discs of different strata, one above the other within 45 degrees,
+/// whose younger disc is on top. None if there are no such pairs.
+std::optional<double> superposition(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const std::vector<bool> touches = touching(state);
+    double all = 0.0, right = 0.0;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]);
+        const auto j = static_cast<std::size_t>(c.second[k]);
+        const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+        if (!touches[k] || d.stratum[i] == d.stratum[j] || std::abs(dx) > std::abs(dy))
+            continue;
+        all += 1.0;
+        right += (d.stratum[j] > d.stratum[i]) == (dy > 0.0);
+    }
+    return all > 0.0 ? std::optional(right / all) : std::nullopt;
+}
+
+} // namespace
+
+NamedNumbers weak_shares(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const std::vector<double> rock = rock_radii(state);
+    double area[2] = {}, weak_area[2] = {}; // basement, sediment
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const std::size_t kind = d.stratum[i] == 0 ? 0 : 1;
+        area[kind] += rock[i] * rock[i];
+        weak_area[kind] += d.material[i] == weak ? rock[i] * rock[i] : 0.0;
+    }
+    NamedNumbers shares;
+    add(shares, "basement_weak_fraction", weak_area[0] / area[0]);
+    add(shares, "sediment_weak_fraction", weak_area[1] / area[1]); // not finite without sediment
+    return shares;
+}
+
+std::optional<double> weak_off_faults(const State& state, std::span<const Fault> faults,
+                                      double distance) {
+    const ConstDiscColumns d = disc_columns(state);
+    double all = 0.0, off = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        if (d.stratum[i] == 0)
+            continue;
+        const double area = d.radius[i] * d.radius[i];
+        all += area;
+        if (d.material[i] == weak && std::ranges::none_of(faults, [&](const Fault& f) {
+                return std::abs(place_on(f.trace.points, {d.x[i], d.y[i]}).distance) <= distance;
+            }))
+            off += area;
+    }
+    return all > 0.0 ? std::optional(off / all) : std::nullopt;
+}
+
+
+NamedNumbers measure_layering(const State& state, const TargetLine& surface) {
+    const ConstDiscColumns d = disc_columns(state);
+    NamedNumbers numbers;
+    add(numbers, "superposition_fraction", superposition(state));
+    double above = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        above += surface.above({d.x[i], d.y[i]}) > d.radius[i];
+    add(numbers, "discs_above_target", above);
+    return numbers;
+}
+
+NamedNumbers measure_porosity(const State& state, const TargetLine& surface,
+                              double surface_porosity, double porosity_decay) {
+    const ConstDiscColumns d = disc_columns(state);
+    const auto porosity = state.discs.get<double>("porosity");
+    double all = 0.0, error = 0.0, beyond = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        if (d.stratum[i] == 0)
+            continue;
+        const double depth = std::max(0.0, surface.height(d.x[i]) - d.y[i]);
+        const double expected = surface_porosity * std::exp(-porosity_decay * depth);
+        const double off = std::abs(porosity[i] / expected - 1.0);
+        all += d.mass[i];
+        error += d.mass[i] * off;
+        beyond += off > porosity_tolerance ? d.mass[i] : 0.0;
+    }
+    NamedNumbers numbers; // not finite without sediment
+    add(numbers, "porosity_error", error / all);
+    add(numbers, "porosity_off_fraction", beyond / all);
+    return numbers;
+}
+
+NamedNumbers measure_rock(const Setting& setting, const State& state) {
+    NamedNumbers numbers;
+    if (setting.detection_circle)
+        append(numbers, weak_shares(state));
+    if (!setting.sediment)
+        return numbers;
+    const Sediment& sediment = *setting.sediment;
+    const TargetLine surface = sediment.target.at(state.clock.extension / setting.extension_rate);
+    if (sediment.porosity_decay)
+        append(numbers, measure_porosity(state, surface, sediment.surface_porosity,
+                                         *sediment.porosity_decay));
+    append(numbers, measure_layering(state, surface));
+    return numbers;
+}
+
+} // namespace listric::measures

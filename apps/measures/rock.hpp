@@ -1,0 +1,36 @@
+#pragma once
+
+#include "apps/measures/fault.hpp"
+#include "apps/measures/setting.hpp"
+#include "apps/support/named_numbers.hpp"
+#include "dem/state.hpp"
+
+#include <optional>
+#include <span>
+
+namespace listric::measures {
+
+// What faults and burial have made of rock and sediment.
+
+/// Weak share, by area, of the pre-rift rock and of the sediment: basement_weak_fraction,
+/// sediment_weak_fraction.
+NamedNumbers weak_shares(const dem::State& state);
+
+/// Share of the sediment's discs, by area, that are weak and further than `distance` m from every
+/// trace. None without sediment.
+std::optional<double> weak_off_faults(const dem::State& state, std::span<const Fault> faults,
+                                      double distance);
+
+/// Whether sediment lies as it should, the younger on top and none above the surface that it is
+/// adapted to: superposition_fraction, discs_above_target.
+NamedNumbers measure_layering(const dem::State& state, const dem::TargetLine& surface);
+
+/// Porosity of sediment beside that expected in its depth: porosity_error, porosity_off_fraction.
+/// Discs that have risen since keep what they had.
+NamedNumbers measure_porosity(const dem::State& state, const dem::TargetLine& surface,
+                              double surface_porosity, double porosity_decay);
+
+/// All of these that have a meaning in the setting.
+NamedNumbers measure_rock(const Setting& setting, const dem::State& state);
+
+} // namespace listric::measures

@@ -1,0 +1,58 @@
+#include "apps/measures/run_so_far.hpp"
+
+#include <cassert>
+
+namespace listric::measures {
+
+using namespace dem;
+
+namespace {
+
+/// Discs of an earlier field that are still there.
+ShearField only_present(ShearField field, const DiscPlaces& now) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < field.x.size(); ++k) {
+        if (now.row_of[static_cast<std::size_t>(field.id[k])] < 0)
+            continue;
+        field.id[kept] = field.id[k];
+        for (auto* values : {&field.x, &field.y, &field.xx, &field.xy, &field.yx, &field.yy})
+            (*values)[kept] = (*values)[k];
+        ++kept;
+    }
+    for (auto* values : {&field.x, &field.y, &field.xx, &field.xy, &field.yx, &field.yy})
+        values->resize(kept);
+    field.id.resize(kept);
+    return field;
+}
+
+} // namespace
+
+RunSoFar::RunSoFar(const Setting& the_setting, const RigidBase& the_base, const State& state,
+                   std::span<const Past> before)
+    : setting(the_setting), base(the_base), detachment(the_base.surfaces.front().chain), now(state),
+      past(before), discs(disc_columns(state)), places(state),
+      profile(measure_profile(the_setting, state, the_base)), diameter(2.0 * state.mean_radius),
+      extension(state.clock.extension) {
+    if (!past.empty())
+        last_window = shear_field(past.back().places, places, setting.youngest_sediment);
+}
+
+ShearField RunSoFar::window(std::size_t k) const {
+    assert(k < past.size());
+    return k + 1 < past.size() ? only_present(shear_field(past[k].places, past[k + 1].places,
+                                                          setting.youngest_sediment),
+                                              places)
+                               : last_window;
+}
+
+double RunSoFar::end_of_window(std::size_t k) const {
+    return k + 1 < past.size() ? past[k + 1].places.extension : extension;
+}
+
+std::size_t RunSoFar::row(const ShearField& field, std::size_t k) const {
+    const std::int32_t row = places.row_of[static_cast<std::size_t>(field.id[k])];
+    assert(row >= 0);
+    return static_cast<std::size_t>(row);
+}
+
+} // namespace listric::measures

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "apps/measures/depocentres.hpp"
+#include "apps/measures/profile.hpp"
+#include "apps/measures/setting.hpp"
+#include "apps/measures/shear_field.hpp"
+#include "dem/base.hpp"
+#include "dem/state.hpp"
+
+#include <span>
+#include <vector>
+
+namespace listric::measures {
+
+/// What the measures of a moment need of an earlier one.
+struct Past {
+    DiscPlaces places;
+    std::vector<Depocentre> basins;         ///< see find_basins
+    std::vector<double> throw_correlations; ///< of the faults of the window that ends here
+};
+
+/// A run up to one of its moments: what measures that need its past look at. It refers to what it
+/// was made from, which must outlive it.
+struct RunSoFar {
+    /// @param past  earlier moments, oldest first
+    RunSoFar(const Setting& setting, const dem::RigidBase& base, const dem::State& now,
+             std::span<const Past> past);
+
+    const Setting& setting;
+    const dem::RigidBase& base;
+    const dem::Chain& detachment; ///< as it was at the start
+    const dem::State& now;
+    std::span<const Past> past;
+    dem::ConstDiscColumns discs; ///< now
+    DiscPlaces places;           ///< now
+    Profile profile;             ///< now
+    double diameter = 0.0;       ///< mean, of the basement, m
+    double extension = 0.0;      ///< m
+    ShearField last_window;      ///< since the last of the past; empty if there is none
+
+    /// Shear from past[k] to the moment after it, of the discs that are still there.
+    ShearField window(std::size_t k) const;
+
+    /// Extension at the end of that window, m.
+    double end_of_window(std::size_t k) const;
+
+    /// Row now of the disc k of a field; it must still be there.
+    std::size_t row(const ShearField& field, std::size_t k) const;
+};
+
+} // namespace listric::measures

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "dem/target_line.hpp"
+
+#include <optional>
+
+namespace listric::measures {
+
+/// Sediment that comes and goes at the surface.
+struct Sediment {
+    double level = 0.0;                   ///< m, y up
+    dem::Target target{level};            ///< line that the surface is adapted to
+    double surface_porosity = 0.0;        ///< as deposited
+    std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
+};
+
+/// What measures need to know of a run beside its states.
+struct Setting {
+    double length = 0.0;          ///< of the hanging wall at the start, m
+    double thickness = 0.0;       ///< of the hanging wall, m
+    bool has_detachment = false;  ///< else the hanging wall is a box that stretches
+    bool has_bonds = false;       ///< contacts of rock can be bonded
+    double gravity = 0.0;         ///< m/s^2; 0: none
+    double extension_rate = 0.01; ///< geological, m/a
+    double extension_speed = 1.0; ///< in the model, m/s
+    double output_interval = 0.0; ///< extension between states that are kept, m
+    /// Sediment younger than this, m of extension, is too loose for a fault: it creeps all over.
+    double youngest_sediment = 0.0;
+    /// Diameter of the circle that fault detection (AFD) measures with, mean disc diameters; none:
+    /// faults are not looked for and do not weaken.
+    std::optional<double> detection_circle;
+    std::optional<Sediment> sediment; ///< none: nothing is deposited
+
+    /// Whether strain between states at two extensions, m, is of a whole window: an extra state of
+    /// a run that was stopped is too near to the one before.
+    bool is_window(double from, double to) const { return to - from >= 0.75 * output_interval; }
+};
+
+} // namespace listric::measures
