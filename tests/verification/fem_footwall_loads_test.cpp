@@ -50,6 +50,25 @@ SurfaceResponse surface_response(fem::Footwall& footwall, const std::vector<doub
     return {knots, response.interface, response.sums, response.work.front()};
 }
 
+TEST(UnitLoads, AreSplitByEffect) {
+    const auto footwall = fem::make_footwall(floating_crust());
+    EXPECT_TRUE(solve(*footwall, {{}}).front().work.front().empty());
+    const std::vector<fem::Load> one = surface_loads({-50e3, 0.0});
+    const std::vector<fem::Load> two = lower_crust_loads({20e3, 50e3, -50e3}, contrast, 10e3);
+    const std::vector<LoadResponse> together = solve(*footwall, {one, {}, two});
+    const LoadResponse alone = solve(*footwall, {two}).front();
+    EXPECT_EQ(together[2].interface, alone.interface);
+    EXPECT_EQ(together[2].work[2], alone.work[0]);
+    EXPECT_TRUE(together[1].interface.empty() && together[2].work[1].empty());
+    ASSERT_EQ(together[0].work[2].size(), two.size() * one.size());
+    // Betti: who works on whom does not matter.
+    const double largest = std::abs(together[0].work[2].back());
+    for (std::size_t i = 0; i < one.size(); ++i)
+        for (std::size_t k = 0; k < two.size(); ++k)
+            EXPECT_NEAR(together[0].work[2][k * one.size() + i],
+                        together[2].work[0][i * two.size() + k], round_off * largest);
+}
+
 TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
     const fem::FootwallRequest request = floating_crust();
     const auto footwall = fem::make_footwall(request);
