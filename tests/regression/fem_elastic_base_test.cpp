@@ -14,6 +14,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace coupling;
 namespace {
 
 namespace fs = std::filesystem;

@@ -17,8 +17,6 @@
 #include <unistd.h>
 
 namespace listric {
-
-using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;
