@@ -30,13 +30,10 @@ std::vector<LoadResponse> solve_unit_loads(fem::Footwall& footwall,
         loads.insert(loads.end(), effect.begin(), effect.end());
         first.push_back(loads.size());
     }
-    std::vector<LoadResponse> result(effects.size());
-    if (loads.empty())
-        return result;
-
-    const fem::Responses solved = footwall.responses(loads);
+    const fem::Responses solved = loads.empty() ? fem::Responses{} : footwall.responses(loads);
     const std::size_t all = 2 * footwall.interface().size();
     assert(unknowns <= all);
+    std::vector<LoadResponse> result(effects.size());
     for (std::size_t e = 0; e < effects.size(); ++e) {
         LoadResponse& response = result[e];
         for (std::size_t k = first[e]; k < first[e + 1]; ++k) {

@@ -8,6 +8,8 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <map>
 #include <sstream>
 #include <sys/wait.h>
 
@@ -146,6 +148,22 @@ TEST_F(ElasticBaseRun, StopsWhereLinearElasticityEnds) {
                           HasSubstr("last good state is"), Not(HasSubstr("time_step_safety"))));
     }
     EXPECT_FALSE(list_snapshots(folder / "soft").empty());
+    // The window in which it ended is the last row: its strain or rotation is beyond.
+    std::ifstream file(folder / "soft" / "history.csv");
+    std::vector<std::map<std::string, double>> rows;
+    std::string head, line, name, value;
+    std::getline(file, head);
+    while (std::getline(file, line)) {
+        std::istringstream names(head), values(line);
+        rows.emplace_back();
+        while (std::getline(names, name, ',') && std::getline(values, value, ','))
+            rows.back()[name] = std::strtod(value.c_str(), nullptr);
+    }
+    ASSERT_GT(rows.size(), 1u);
+    const auto& last = rows.back();
+    EXPECT_TRUE(last.at("strong_rock_strain_max") > 0.10 ||
+                last.at("relaxed_rock_strain_max") > 0.10 ||
+                last.at("rock_rotation_max_deg") > 11.4);
 }
 
 TEST_F(ElasticBaseRun, ASecondMeshGivesTheSameBase) {

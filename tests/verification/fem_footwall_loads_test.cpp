@@ -50,15 +50,34 @@ SurfaceResponse surface_response(fem::Footwall& footwall, const std::vector<doub
     return {knots, response.interface, response.sums, response.work.front()};
 }
 
+TEST(UnitLoads, AreSplitByEffect) {
+    const auto footwall = fem::make_footwall(floating_crust());
+    EXPECT_TRUE(solve(*footwall, {{}}).front().work.front().empty());
+    const std::vector<fem::Load> one = surface_loads({-50e3, 0.0});
+    const std::vector<fem::Load> two = lower_crust_loads({20e3, 50e3, -50e3}, contrast, 10e3);
+    const std::vector<LoadResponse> together = solve(*footwall, {one, {}, two});
+    const LoadResponse alone = solve(*footwall, {two}).front();
+    EXPECT_EQ(together[2].interface, alone.interface);
+    EXPECT_EQ(together[2].work[2], alone.work[0]);
+    EXPECT_TRUE(together[1].interface.empty() && together[2].work[1].empty());
+    ASSERT_EQ(together[0].work[2].size(), two.size() * one.size());
+    // Betti: who works on whom does not matter.
+    const double largest = std::abs(together[0].work[2].back());
+    for (std::size_t i = 0; i < one.size(); ++i)
+        for (std::size_t k = 0; k < two.size(); ++k)
+            EXPECT_NEAR(together[0].work[2][k * one.size() + i],
+                        together[2].work[0][i * two.size() + k], round_off * largest);
+}
+
 TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
     const fem::FootwallRequest request = floating_crust();
     const auto footwall = fem::make_footwall(request);
     const LowerCrustThinningParameters thinning{20e3, 2000e3, 0.0};
     constexpr double distance = 10e3;
     const std::vector<fem::Load> loads = lower_crust_loads(thinning, contrast, distance);
-    const LoadResponse crust = solve(*footwall, {loads}).front();
+    const LoadResponse response = solve(*footwall, {loads}).front();
     const std::size_t unknowns = 2 * footwall->interface().size();
-    ASSERT_EQ(crust.interface.size(), loads.size() * unknowns);
+    ASSERT_EQ(response.interface.size(), loads.size() * unknowns);
     // Thinner by h e / (b + e).
     const double thinner = 20e3 * distance / 2010e3;
     EXPECT_DOUBLE_EQ(lower_crust_thinning(thinning, distance), thinner);
@@ -68,8 +87,8 @@ TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
         contrast * thinner / (top + base + top * base / column_stiffness(request));
     for (std::size_t i = 0; i < unknowns; i += 2) {
         const std::size_t last = (loads.size() - 1) * unknowns + i;
-        EXPECT_NEAR(crust.interface[last], 0.0, round_off * subsidence);
-        EXPECT_NEAR(crust.interface[last + 1], -subsidence, round_off * subsidence);
+        EXPECT_NEAR(response.interface[last], 0.0, round_off * subsidence);
+        EXPECT_NEAR(response.interface[last + 1], -subsidence, round_off * subsidence);
     }
     // Airy's, but for what the column gives: 0.2 %.
     EXPECT_NEAR(subsidence / (thinner * (mantle - crust) / mantle), 1.0, 3e-3);
@@ -82,7 +101,7 @@ TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
     const auto footwall = fem::make_footwall(request);
     const LowerCrustThinningParameters thinning{20e3, 100e3, 15e3};
     const std::vector<fem::Load> loads = lower_crust_loads(thinning, contrast, 10e3);
-    const LoadResponse crust = solve(*footwall, {loads}).front();
+    const LoadResponse response = solve(*footwall, {loads}).front();
     // The load ends inside elements; neither its sum nor its moment depends on where.
     for (const double e : {0.7e3, 3e3, 10e3}) {
         fem::Load load = lower_crust_load(thinning, contrast, e);
@@ -104,14 +123,14 @@ TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
     double sum = 0.0;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
         const std::size_t at = (loads.size() - 1) * 2 * nodes.size() + 2 * k + 1;
-        sum += 0.5 * (crust.interface[at] + crust.interface[at + 2]) *
+        sum += 0.5 * (response.interface[at] + response.interface[at + 2]) *
                (nodes[k + 1].place.x - nodes[k].place.x);
     }
     EXPECT_NEAR(-sum * mantle * gravity / (contrast * 20e3 * 10e3), 1.0, 0.01);
     // In between rows are straight to 1e-3.
     const std::vector<fem::Load> half = {lower_crust_load(thinning, contrast, 5.5e3)};
     const fem::Responses exact = footwall->responses(half);
-    const std::vector<double> between = superpose(lower_crust_amounts(0.55), crust.interface);
+    const std::vector<double> between = superpose(lower_crust_amounts(0.55), response.interface);
     double largest = 0.0;
     for (double u : exact.interface)
         largest = std::max(largest, std::abs(u));
@@ -257,11 +276,10 @@ TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
     const auto footwall = fem::make_footwall(request);
     const FootwallErosionParameters erosion;
     const LowerCrustThinningParameters thinning;
-    const std::vector<double> knots = surface_knots(erosion.width, request.left);
+    const std::vector<double> at = surface_knots(erosion.width, request.left);
     const LoadResponse found =
-        solve(*footwall, {surface_loads(knots), lower_crust_loads(thinning, contrast, 10e3)})
-            .front();
-    const SurfaceResponse surface(knots, found.interface, found.sums, found.work[0]);
+        solve(*footwall, {surface_loads(at), lower_crust_loads(thinning, contrast, 10e3)}).front();
+    const SurfaceResponse surface(at, found.interface, found.sums, found.work[0]);
     const std::size_t n = surface.x.size();
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t j = 0; j < n; ++j) // round-off
