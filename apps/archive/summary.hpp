@@ -33,9 +33,9 @@ struct SummaryContent {
     const measures::FaultReport& faults;
     std::vector<std::string> effects = {}; ///< names of those that were on
     NamedNumbers numbers = {};             ///< besides the measures
-    std::vector<std::pair<std::string, NamedNumbers>> objects =
-        {}; ///< numbers that belong together
-    std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {}; ///< of such objects
+    /// Numbers that belong together, and lists of such objects, by name.
+    std::vector<std::pair<std::string, NamedNumbers>> objects = {};
+    std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {};
     double wall_seconds = 0.0;
     std::uint64_t state_hash = 0;
 };

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace listric {
 
 using namespace dem;
@@ -63,6 +65,25 @@ TEST(Summary, WithoutFaults) {
     for (const char* name : {"fault_width_diameters", "antithetic_foot_x_m",
                              "main_antithetic_fault", "sediment_weak_off_fault_fraction"})
         EXPECT_FALSE(all.contains(name)) << name;
+}
+
+TEST(Summary, WhatEffectsAdd) {
+    const json all = json::parse(archive::summary_json({
+        .state = empty_state(),
+        .record = {},
+        .measures = {},
+        .faults = {},
+        .effects = {"tides"},
+        .numbers = {{"tide_m", 2.5}, {"never_measured_m", std::nan("")}},
+        .objects = {{"tide_by_moon_m", {{"io", 1.0}, {"europa", 1.5}}}},
+        .lists = {{"shores", {{{"x_m", 3.0}}, {{"x_m", 4.0}}}}},
+        .wall_seconds = 1.0,
+    }));
+    EXPECT_EQ(all["effects"], json({"tides"}));
+    EXPECT_EQ(all["tide_m"], 2.5);
+    EXPECT_FALSE(all.contains("never_measured_m"));
+    EXPECT_EQ(all["tide_by_moon_m"], json({{"io", 1.0}, {"europa", 1.5}}));
+    EXPECT_EQ(all["shores"][1]["x_m"], 4.0);
 }
 
 } // namespace
