@@ -1,6 +1,5 @@
 #include "apps/measures/blocks.hpp"
 
-#include "apps/measures/rigid_motion.hpp"
 #include "dem/units.hpp"
 
 #include <cmath>
@@ -18,22 +17,29 @@ constexpr double head_block_width = 5e3;      ///< m from the detachment
 constexpr double block_size = 1.5e3;          ///< of what turns as one on a ramp-flat-ramp, m
 constexpr double toe_dip = 15.0 * pi / 180.0; ///< of the upper ramp below the toe, at most
 
-/// Rotation, degrees, of the least-squares rigid motion of a block of discs.
+/// Rotation, degrees, of the least-squares rigid motion of a block of discs. RigidMotion finds the
+/// same but for the last digits: it sums n-ths, and g++ 12 fuses products of its pairs, which lie
+/// side by side (see floating_point_flags).
 std::optional<double> rotation_of(const State& state, std::span<const std::size_t> block) {
     const ConstDiscColumns d = disc_columns(state);
     if (block.size() < 3)
         return std::nullopt;
-    std::vector<Displaced> discs;
-    // Sums over n, where RigidMotion sums n-ths: the last digits of the two differ.
     Point before, after;
     for (std::size_t i : block) {
-        discs.emplace_back(Point{d.start_x[i], d.start_y[i]}, Point{d.x[i], d.y[i]});
-        before = before + discs.back().first;
-        after = after + discs.back().second;
+        before = {before.x + d.start_x[i], before.y + d.start_y[i]};
+        after = {after.x + d.x[i], after.y + d.y[i]};
     }
     const auto n = static_cast<double>(block.size());
-    return rotation_about(discs, {before.x / n, before.y / n}, {after.x / n, after.y / n}) * 180.0 /
-           pi;
+    before = {before.x / n, before.y / n};
+    after = {after.x / n, after.y / n};
+    double sine = 0.0, cosine = 0.0;
+    for (std::size_t i : block) {
+        const double ax = d.start_x[i] - before.x, ay = d.start_y[i] - before.y;
+        const double bx = d.x[i] - after.x, by = d.y[i] - after.y;
+        sine += ax * by - ay * bx;
+        cosine += ax * bx + ay * by;
+    }
+    return std::atan2(sine, cosine) * 180.0 / pi;
 }
 
 /// Mean rotation, degrees, of the square patches of a block that deforms.

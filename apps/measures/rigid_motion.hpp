@@ -2,42 +2,34 @@
 
 #include "dem/point.hpp"
 
+#include <cassert>
 #include <cmath>
-#include <span>
 #include <utility>
 #include <vector>
 
 namespace listric::measures {
 
-/// Where a point was and where it is, m.
-using Displaced = std::pair<dem::Point, dem::Point>;
-
-/// Least-squares rotation of points, rad in (-pi, pi], counter-clockwise, about the centres of
-/// where they were and where they are.
-inline double rotation_about(std::span<const Displaced> points, dem::Point from, dem::Point to) {
-    double sine = 0.0, cosine = 0.0;
-    for (const auto& [before, after] : points) {
-        const dem::Point a = before - from, b = after - to;
-        sine += cross(a, b);
-        cosine += dot(a, b);
-    }
-    return std::atan2(sine, cosine);
-}
-
-/// Least-squares rigid motion of points: add pairs, then fit once, then ask.
+/// Least-squares rigid motion of points: add at least one pair, then fit once, then ask.
 class RigidMotion {
 public:
-    void add(dem::Point from, dem::Point to) { points_.emplace_back(from, to); }
-    std::size_t size() const { return points_.size(); }
+    void add(dem::Point from, dem::Point to) { pairs_.emplace_back(from, to); }
+    std::size_t size() const { return pairs_.size(); }
 
     void fit() {
-        const auto n = static_cast<double>(points_.size());
-        from_ = to_ = {};
-        for (const auto& [a, b] : points_) {
+        assert(!pairs_.empty());
+        const auto n = static_cast<double>(pairs_.size());
+        for (const auto& [a, b] : pairs_) {
             from_ = {from_.x + a.x / n, from_.y + a.y / n};
             to_ = {to_.x + b.x / n, to_.y + b.y / n};
         }
-        angle_ = rotation_about(points_, from_, to_);
+        double sine = 0.0, cosine = 0.0;
+        for (const auto& [a, b] : pairs_) {
+            const double ax = a.x - from_.x, ay = a.y - from_.y;
+            const double bx = b.x - to_.x, by = b.y - to_.y;
+            sine += ax * by - ay * bx;
+            cosine += ax * bx + ay * by;
+        }
+        angle_ = std::atan2(sine, cosine);
     }
 
     double angle() const { return angle_; } ///< rad, counter-clockwise
@@ -48,7 +40,7 @@ public:
     }
 
 private:
-    std::vector<Displaced> points_;
+    std::vector<std::pair<dem::Point, dem::Point>> pairs_;
     dem::Point from_, to_;
     double angle_ = 0.0;
 };
