@@ -44,17 +44,23 @@ public:
     }
 };
 
+constexpr double time_step = 1e-3;      ///< s
 constexpr double cycle_extension = 0.3; ///< m: spacings are no multiples of it
 
 RigidBase moving_box() {
     RigidBase base = support::box(400.0, 400.0);
-    base.motion = {.speed = 1.0, .ramp = 0.0};
+    base.motion = {.speed = cycle_extension / time_step, .ramp = 0.0};
     return base;
 }
 
 State discs_at_rest() {
-    State state = support::make_state(support::hexagonal(4, 4, 10.0));
-    state.clock.time_step = cycle_extension;
+    std::vector<support::Disc> discs = support::hexagonal(4, 4, 10.0);
+    for (support::Disc& disc : discs) {
+        disc.x += 100.0; // from the walls
+        disc.y += 100.0;
+    }
+    State state = support::make_state(discs);
+    state.clock.time_step = time_step;
     return state;
 }
 
