@@ -1,6 +1,7 @@
 #include "apps/laboratory/compression.hpp"
 
 #include "apps/laboratory/servo.hpp"
+#include "apps/support/statistics.hpp"
 #include "dem/contacts.hpp"
 #include "dem/law.hpp"
 #include "dem/monitor.hpp"
@@ -131,18 +132,6 @@ private:
     std::vector<double> x_, y_; ///< of the discs at zero strain, m
     std::vector<std::size_t> inner_;
 };
-
-double least_squares_slope(const std::vector<double>& x, const std::vector<double>& y) {
-    const auto n = static_cast<double>(x.size());
-    const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
-    const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
-    double square = 0.0, product = 0.0;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        square += (x[k] - mean_x) * (x[k] - mean_x);
-        product += (x[k] - mean_x) * (y[k] - mean_y);
-    }
-    return product / square;
-}
 
 } // namespace
 

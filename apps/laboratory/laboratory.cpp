@@ -19,7 +19,6 @@
 #include <exception>
 #include <iostream>
 #include <mutex>
-#include <numeric>
 #include <thread>
 #include <unistd.h>
 
@@ -447,15 +446,6 @@ std::vector<double> stresses(const LaboratoryRequest& request, std::vector<doubl
 }
 
 } // namespace
-
-Spread spread(const std::vector<double>& values) {
-    const auto n = static_cast<double>(values.size());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-    double square = 0.0;
-    for (double v : values)
-        square += (v - mean) * (v - mean);
-    return {mean, values.size() > 1 ? std::sqrt(square / (n - 1.0)) : 0.0};
-}
 
 void for_each_on_threads(std::size_t count, int threads,
                          const std::function<void(std::size_t)>& work) {

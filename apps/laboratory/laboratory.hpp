@@ -4,6 +4,7 @@
 #include "apps/laboratory/sample.hpp"
 #include "apps/laboratory/shear_box.hpp"
 #include "apps/scene/material_file.hpp"
+#include "apps/support/statistics.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -35,12 +36,6 @@ struct LaboratoryRequest {
     std::vector<double> healing_rates = {};   ///< ones
     bool quiet = false;
 };
-
-/// Mean and standard deviation over samples.
-struct Spread {
-    double mean = 0.0, deviation = 0.0;
-};
-Spread spread(const std::vector<double>& values);
 
 /// Calls work(k) for k = 0 .. count - 1, on several threads. The first exception in order of k is
 /// thrown again.

@@ -3,6 +3,7 @@
 #include "apps/measures/fault_throw.hpp"
 #include "apps/measures/rigid_motion.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/support/statistics.hpp"
 #include "dem/base_place.hpp"
 #include "dem/cells.hpp"
 #include "dem/events/strain.hpp"
@@ -17,12 +18,6 @@ namespace listric {
 using namespace dem;
 
 namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 /// Sediment that a trace may rest on must be older than this, m of extension: looser sediment
 /// creeps all over.

@@ -1,6 +1,7 @@
 #include "apps/measures/fault_throw.hpp"
 
 #include "apps/measures/rigid_motion.hpp"
+#include "apps/support/statistics.hpp"
 #include "dem/cells.hpp"
 
 #include <algorithm>
@@ -141,9 +142,7 @@ std::optional<double> pre_rift_throw(const State& state, const std::vector<Point
         }
     if (throws.size() < 4)
         return std::nullopt;
-    const auto middle = throws.begin() + static_cast<std::ptrdiff_t>(throws.size() / 2);
-    std::ranges::nth_element(throws, middle);
-    return *middle;
+    return median(std::move(throws));
 }
 
 } // namespace listric

@@ -4,6 +4,7 @@
 #include "apps/measures/fault_throw.hpp"
 #include "apps/measures/kinematics.hpp"
 #include "apps/measures/rigid_motion.hpp"
+#include "apps/support/statistics.hpp"
 #include "dem/cells.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/strain.hpp"
@@ -23,12 +24,6 @@ namespace listric {
 using namespace dem;
 
 namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 /// The trace's points below the pre-rift top.
 std::vector<Point> in_basement(const std::vector<Point>& trace, const Profile& profile) {

@@ -3,6 +3,7 @@
 #include "apps/measures/fault.hpp"
 #include "apps/measures/measure.hpp"
 #include "apps/measures/shear_field.hpp"
+#include "apps/support/named_numbers.hpp"
 
 #include <optional>
 #include <span>
@@ -11,9 +12,6 @@
 #include <vector>
 
 namespace listric {
-
-/// Measures by the names of docs/measures.md; those without meaning are absent.
-using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
 /// What a moment's structure needs of an earlier one.
 struct Past {

@@ -8,6 +8,7 @@
 #include "apps/run/run.hpp"
 #include "apps/scene/declaration.hpp"
 #include "apps/studies/validation_plan.hpp"
+#include "apps/support/statistics.hpp"
 #include "apps/support/version.hpp"
 
 #include "apps/archive/examine.hpp"
