@@ -1,5 +1,7 @@
 #pragma once
 
+#include "apps/support/stop.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -27,12 +29,13 @@ struct CalibrationRequest {
     int threads = 1;
     bool resume = false;
     std::filesystem::path output = {}; ///< empty: out/calibrate-NAME
+    StopToken stop = {};
 };
 
 /// Finds microproperties in the paper's sequence: stiffness, stiffness ratio, strengths, weakened
 /// rock. Writes NAME.toml (and NAME-weak.toml), history.json with every evaluation, which --resume
 /// reads back, and summary.json with the validation on seeds that the fit has not seen.
-/// Throws UsageError, NumericalFailure, StorageError.
+/// Throws UsageError, NumericalFailure, StorageError, Interrupted: what was measured is kept.
 void run_calibration(const CalibrationRequest& request);
 
 } // namespace listric

@@ -13,6 +13,7 @@
 #include "apps/run/flexure.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/memory.hpp"
 #include "apps/support/version.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
@@ -36,8 +37,6 @@ namespace listric {
 
 using namespace dem;
 using namespace coupling;
-
-std::atomic<bool> stop_requested = false;
 
 namespace {
 
@@ -158,8 +157,7 @@ State make_state(Run& run, Log& log) {
                                  s.cycle.skin,
                                  s.seed};
     State state = make_hanging_wall(request, [&](std::string_view stage, double share) {
-        if (stop_requested)
-            throw Interrupted{};
+        run.options.stop.check();
         log.progress(fmt::format("hanging wall: {} ({:.0f} %)", stage, 100.0 * share));
     });
     try {
@@ -207,8 +205,7 @@ void settle_on_base(Run& run, Log& log) {
     find_contacts(run.state, run.base);
     base.settle(run.state, run.base, run.physics, execution(run),
                 [&](std::string_view stage, double share) {
-                    if (stop_requested)
-                        throw Interrupted{};
+                    run.options.stop.check();
                     log.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
                 });
     if (run.physics.averaging_time > 0.0)
@@ -477,7 +474,7 @@ void march(Run& run, Log& log) {
     double next_window =
         (std::floor((state.clock.extension + run.tolerance()) / window) + 1.0) * window;
     while (state.clock.extension < run.target() - run.tolerance()) {
-        if (stop_requested) {
+        if (run.options.stop.requested()) {
             save(run);
             throw Interrupted{};
         }
@@ -674,6 +671,7 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
         bend_base(scene, options.threads, output, [&](const std::string& text) { log.say(text); });
         return RunOutcome::finished;
     }
+    note_memory_need(predict(scene, 1.0, options.threads).memory);
     Run run(scene, options);
     try {
         if (!options.resume || !restore(run, log)) {

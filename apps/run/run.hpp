@@ -3,8 +3,8 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/stop.hpp"
 
-#include <atomic>
 #include <filesystem>
 #include <optional>
 
@@ -20,12 +20,10 @@ struct RunOptions {
     bool force = false;
     bool quiet = false;
     bool figures = true; ///< drawn at the scene's extensions and at the end
+    StopToken stop;      ///< requested: the run saves and ends at the next opportunity
 };
 
 enum class RunOutcome { finished, interrupted };
-
-/// Set from a signal handler: the run saves and stops at the next opportunity.
-extern std::atomic<bool> stop_requested;
 
 /// Runs a scene from genesis or from its newest good snapshot to its end, leaving scene.toml,
 /// summary.json, history.csv, snapshots, figures and log.txt in the output folder.

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "apps/support/error.hpp"
+
+#include <cassert>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 
@@ -15,6 +17,7 @@ namespace listric {
 template <class T>
 void write_npy(const std::filesystem::path& path, std::span<const T> values,
                std::size_t columns = 0) {
+    assert(columns == 0 || values.size() % columns == 0);
     const char kind = std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u';
     const std::string shape =
         columns == 0 ? std::to_string(values.size()) + ","
@@ -31,7 +34,7 @@ void write_npy(const std::filesystem::path& path, std::span<const T> values,
     out.write(reinterpret_cast<const char*>(values.data()),
               static_cast<std::streamsize>(values.size_bytes()));
     if (!out.flush())
-        throw std::runtime_error("cannot write " + path.string());
+        throw StorageError(path.string() + ": cannot be written");
 }
 
 } // namespace listric
