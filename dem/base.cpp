@@ -1,7 +1,9 @@
 #include "dem/base.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace listric::dem {
 
@@ -76,6 +78,8 @@ Segment line(Point start, Point end) {
 }
 
 Segment arc(Point start, Point tangent, double radius, double turn) {
+    assert(radius > 0.0 && std::abs(turn) < std::numbers::pi);
+    assert(std::abs(dot(tangent, tangent) - 1.0) < 1e-9);
     const double side = turn > 0.0 ? 1.0 : -1.0;
     const Point n = left_normal(tangent);
     const Point c{start.x + side * radius * n.x, start.y + side * radius * n.y};
@@ -148,6 +152,7 @@ double greatest_translation(const RigidBase& base) {
 }
 
 Point point_at(const Chain& chain, double arc_length) {
+    assert(!chain.empty());
     for (std::size_t k = 0; k < chain.size(); ++k) {
         const Segment& s = chain[k];
         if (arc_length > s.length && k + 1 < chain.size()) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/cycle.hpp"
+#include "dem/cycle_physics.hpp"
 #include "dem/target_line.hpp"
 
 namespace listric::dem {

@@ -1,6 +1,7 @@
 #include "dem/column.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace listric::dem {
 
@@ -35,6 +36,9 @@ void Table::resize(std::size_t rows) {
 }
 
 void Table::reorder(std::span<const std::int32_t> order) {
+    assert(std::ranges::all_of(order, [&](std::int32_t row) {
+        return row >= 0 && static_cast<std::size_t>(row) < rows_;
+    }));
     for (Column& column : columns_)
         std::visit(
             [&](auto& values) {

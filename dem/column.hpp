@@ -26,6 +26,9 @@ struct Column {
 
 /// Columns of equal length. Sorting, growing, saving, resuming and hashing are one loop over
 /// columns each, so memory that an effect keeps in a column is never forgotten by any of them.
+///
+/// A span of a column lives until rows come, go or are reordered, or the column is set or removed;
+/// other columns may be added meanwhile.
 class Table {
 public:
     std::size_t rows() const { return rows_; }

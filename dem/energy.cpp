@@ -80,9 +80,9 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
             double place = state.base_contacts.get<double>("place")[k];
             motion = surface_motion(
                 surface, node_contact_motion(surface, nodes, clock.extension, disc, place),
-                clock.extension, speed, disc);
+                {clock.extension, speed}, disc);
         } else {
-            motion = base_contact_motion(surface, clock.extension, speed, disc);
+            motion = base_contact_motion(surface, {clock.extension, speed}, disc);
         }
         const auto foot_before =
             nearest(surface, before, {d.x[i] - d.vx[i] * dt, d.y[i] - d.vy[i] * dt});

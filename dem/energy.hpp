@@ -37,6 +37,16 @@ struct EnergyFlows {
     double damping = 0.0;       ///< lost by local damping, J/m
     double bond_breaking = 0.0; ///< what springs lost of what they held when bonds broke, J/m
     double stepping = 0.0;      ///< lost by contacts that close or open within a step, J/m
+
+    EnergyFlows& operator+=(const EnergyFlows& other) {
+        boundary_work += other.boundary_work;
+        base_work += other.base_work;
+        friction += other.friction;
+        damping += other.damping;
+        bond_breaking += other.bond_breaking;
+        stepping += other.stepping;
+        return *this;
+    }
 };
 
 /// What a state holds.

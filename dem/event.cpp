@@ -2,8 +2,24 @@
 
 #include "dem/units.hpp"
 
+#include <bit>
+
 namespace listric::dem {
 
 double Schedule::seconds() const { return interval * seconds_per_year; }
+
+std::uint64_t hash(const State& state, const std::map<std::string_view, std::uint64_t>& memories) {
+    std::uint64_t h = hash(state);
+    for (const auto& [name, memory] : memories)
+        h = std::rotl(h ^ memory, 29) * 0x9e3779b97f4a7c15u;
+    return h;
+}
+
+std::uint64_t hash(const State& state, std::span<const std::unique_ptr<Event>> events) {
+    std::map<std::string_view, std::uint64_t> memories;
+    for (const auto& event : events)
+        memories[event->name()] = hash(event->memory);
+    return hash(state, memories);
+}
 
 } // namespace listric::dem

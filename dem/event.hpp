@@ -3,7 +3,13 @@
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace listric::dem {
 
@@ -16,6 +22,8 @@ struct Schedule {
     double seconds() const;                                      ///< s of geological time
 };
 
+inline constexpr Schedule never{std::numeric_limits<double>::infinity(), 1.0};
+
 /// Something rare that happens to the state between cycles: an effect is one or more events.
 ///
 /// What an event must remember per disc or contact it keeps in a column of the state; anything
@@ -27,6 +35,9 @@ public:
 
     const std::string& name() const { return name_; }
     const Schedule& schedule() const { return schedule_; }
+
+    /// Extension at which it is to be applied next, m.
+    double next_due() const { return static_cast<double>(applied + 1) * schedule_.spacing(); }
 
     /// Adds the event's columns to a state in which extension has not begun.
     virtual void begin(State&) {}
@@ -41,5 +52,24 @@ private:
     std::string name_;
     Schedule schedule_;
 };
+
+/// An event that only looks: nothing that a cycle depends on is other for it.
+class Observer : public Event {
+public:
+    using Event::Event;
+};
+
+/// The first of the events that is an E; null if there is none.
+template <class E> E* find(std::span<const std::unique_ptr<Event>> events) {
+    for (const auto& event : events)
+        if (E* const found = dynamic_cast<E*>(event.get()))
+            return found;
+    return nullptr;
+}
+
+/// Hash of a state and of what events remember, from the hashes of their memories by name: equal
+/// for equal runs.
+std::uint64_t hash(const State& state, const std::map<std::string_view, std::uint64_t>& memories);
+std::uint64_t hash(const State& state, std::span<const std::unique_ptr<Event>> events);
 
 } // namespace listric::dem

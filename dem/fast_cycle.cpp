@@ -34,7 +34,7 @@ template <class Vector> const auto* ahead(const Vector& vector, std::size_t k) {
 
 } // namespace
 
-/// The contact law of law.hpp and cycle.cpp, as many contacts at a time as there are lanes.
+/// The contact law of law.hpp and plain_cycle.cpp, as many contacts at a time as there are lanes.
 template <bool bonded, bool frictional>
 [[gnu::always_inline]] inline void FastCycle::compute(Block& block, const double* discs,
                                                       Slot* slots) {
@@ -120,24 +120,23 @@ void FastCycle::compute_blocks(Blocks& blocks, std::size_t begin, std::size_t en
     }
 }
 
-void FastCycle::compute_base(Strip& strip, double extension, double speed) {
+void FastCycle::compute_base(Strip& strip, BaseMoment base) {
     for (BaseContact& contact : strip.base_contacts) {
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
         const BaseContactForce f = base_contact_force(
-            *contact.surface, extension, speed,
+            *contact.surface, base,
             {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
             contact.parameters, contact.shear_force);
         slots_[contact.slot] = Slot{f.x, f.y, 0.0, f.moment};
     }
 }
 
-void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, double extension,
-                              double speed) {
+void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseMoment base) {
     for (NodeContact& node_contact : strip.node_contacts) {
         BaseContact& contact = node_contact.contact;
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
         node_contact.force = node_contact_force(
-            *contact.surface, nodes, extension, speed,
+            *contact.surface, nodes, base,
             {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
             contact.parameters, contact.shear_force, node_contact.place);
         const BaseContactForce& f = node_contact.force.force;
@@ -287,9 +286,9 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
                     break;
             }
             const double speed = base_.motion.speed_at(clock.time());
-            compute_base(strip, clock.extension, speed);
+            compute_base(strip, {clock.extension, speed});
             if (deforms_)
-                compute_nodes(strip, nodes, clock.extension, speed);
+                compute_nodes(strip, nodes, {clock.extension, speed});
             (this->*kernels.compute_boundary)(strip);
             barrier.wait();
             const auto parity = static_cast<std::size_t>(clock.cycle % 2);
@@ -313,6 +312,22 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
         }
     });
     return state.clock.cycle - start.cycle;
+}
+
+void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
+                  std::int64_t cycles, int threads, BaseResponse* response) {
+    FastCycle fast(state, base, physics, threads);
+    while (cycles > 0) {
+        cycles -= fast.run(state, cycles, response);
+        if (cycles == 0)
+            break;
+        fast.unpack(state);
+        refuse_runaways(state);
+        if (update_contacts(state, base))
+            fast.pack_contacts(state);
+        fast.pack_searched_places(state);
+    }
+    fast.unpack(state);
 }
 
 } // namespace listric::dem

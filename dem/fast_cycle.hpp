@@ -3,7 +3,7 @@
 #include "dem/aligned_vector.hpp"
 #include "dem/base.hpp"
 #include "dem/base_contact.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle_physics.hpp"
 #include "dem/law.hpp"
 #include "dem/simd.hpp"
 #include "dem/state.hpp"
@@ -14,7 +14,7 @@
 
 namespace listric::dem {
 
-// The plain cycle (cycle.cpp) in the layout of the machine, with the same bits.
+// The plain cycle (plain_cycle.cpp) in the layout of the machine, with the same bits.
 //
 // Why it gives the same bits: every contact is computed by the same operations in the same order,
 // eight at a time; and every disc adds its forces in the same order, base contacts first, then
@@ -38,6 +38,10 @@ namespace listric::dem {
 
 /// What the velocity of a disc is damped against.
 enum class DampedAgainst { rest, mean_motion, stretching };
+
+/// The same as advance_plainly() without an account of energy. `threads` >= 1.
+void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
+                  std::int64_t cycles, int threads, BaseResponse* response);
 
 class FastCycle {
 public:
@@ -148,8 +152,8 @@ private:
         double (FastCycle::*sweep)(Strip&, double stretch_rate);
     };
     Kernels choose_kernels() const;
-    void compute_base(Strip& strip, double extension, double speed);
-    void compute_nodes(Strip& strip, const BaseNodeColumns& nodes, double extension, double speed);
+    void compute_base(Strip& strip, BaseMoment base);
+    void compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseMoment base);
     double move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
                      BaseResponse* response);
     double furthest(const Strip& strip) const;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/base.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle_physics.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>

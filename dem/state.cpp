@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -99,6 +100,7 @@ ConstBaseNodeColumns base_node_columns(const State& s) {
 }
 
 void add_base_nodes(State& state, std::span<const double> x, std::span<const double> y) {
+    assert(x.size() == y.size());
     Table& nodes = state.base_nodes;
     nodes = {};
     nodes.resize(x.size());
@@ -176,6 +178,29 @@ void sort_discs(State& state) {
         return d.y[i] != d.y[j] ? d.y[i] < d.y[j] : d.id[i] < d.id[j];
     });
     reorder_discs(state, order);
+}
+
+bool is_valid(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const ConstBaseContactColumns b = base_contact_columns(state);
+    const auto is_disc = [&](std::int32_t row) {
+        return row >= 0 && static_cast<std::size_t>(row) < d.x.size();
+    };
+    std::vector<std::int64_t> ids(d.id.begin(), d.id.end());
+    std::ranges::sort(ids);
+    bool valid = std::ranges::adjacent_find(ids) == ids.end() &&
+                 (ids.empty() || (ids.front() >= 0 && ids.back() < state.next_id));
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        valid &= d.radius[i] > 0.0 && d.mass[i] > 0.0 && d.material[i] < state.materials.size();
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        valid &= is_disc(c.first[k]) && is_disc(c.second[k]) && c.first[k] < c.second[k];
+        valid &= k == 0 ||
+                 std::pair(c.first[k - 1], c.second[k - 1]) < std::pair(c.first[k], c.second[k]);
+    }
+    for (const std::int32_t disc : b.disc)
+        valid &= is_disc(disc);
+    return valid;
 }
 
 namespace {

@@ -104,6 +104,9 @@ using ConstBaseContactColumns = BasicBaseContactColumns<false>;
 using BaseNodeColumns = BasicBaseNodeColumns<true>;
 using ConstBaseNodeColumns = BasicBaseNodeColumns<false>;
 
+// The spans of all of these live as those of their tables: those of discs until add_discs,
+// reorder_discs or sort_discs; those of contacts also until neighbours are searched.
+
 /// A state without discs but with all core columns.
 State empty_state();
 
@@ -128,6 +131,10 @@ void reorder_discs(State& state, std::span<const std::int32_t> order);
 /// Sorts discs into vertical strips, so that discs near each other are near in memory: a strip
 /// runs along the short side of the hanging wall and neighbours are at most two strips away.
 void sort_discs(State& state);
+
+/// Whether ids are unique, contacts in order and of discs that there are, and discs of a size, a
+/// mass and a material. For assertions: it takes as long as a few cycles.
+bool is_valid(const State& state);
 
 /// Hash of every name, type and value of a table.
 std::uint64_t hash(const Table& table);

@@ -1,9 +1,15 @@
 #include "dem/target_line.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace listric::dem {
+
+TargetLine::TargetLine(std::vector<Point> points) : points_(std::move(points)) {
+    assert(!points_.empty() && std::ranges::is_sorted(points_, {}, &Point::x));
+}
 
 double TargetLine::height(double x) const {
     const auto next = std::ranges::upper_bound(points_, x, {}, &Point::x);
@@ -36,6 +42,7 @@ double TargetLine::above(Point p) const {
 Target::Target(double level, std::vector<TargetStage> stages) : stages_(std::move(stages)) {
     if (stages_.empty())
         stages_.push_back({0.0, {{0.0, level}}});
+    assert(std::ranges::is_sorted(stages_, {}, &TargetStage::time));
 }
 
 TargetLine Target::at(double time) const {

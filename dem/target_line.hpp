@@ -11,7 +11,7 @@ namespace listric::dem {
 class TargetLine {
 public:
     /// @param points  by ascending x, m; at least one
-    explicit TargetLine(std::vector<Point> points) : points_(std::move(points)) {}
+    explicit TargetLine(std::vector<Point> points);
 
     double height(double x) const; ///< m
 

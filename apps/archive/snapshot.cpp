@@ -319,13 +319,6 @@ bool verify_checksum(const fs::path& path) {
     return true;
 }
 
-std::uint64_t run_hash(std::uint64_t state,
-                       const std::map<std::string_view, std::uint64_t>& memories) {
-    for (const auto& [name, memory] : memories)
-        state = std::rotl(state ^ memory, 29) * 0x9e3779b97f4a7c15u;
-    return state;
-}
-
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 } // namespace
@@ -405,17 +398,14 @@ Snapshot read_snapshot(const fs::path& path) {
 }
 
 std::uint64_t run_hash(const State& state, std::span<const std::unique_ptr<Event>> events) {
-    std::map<std::string_view, std::uint64_t> memories;
-    for (const auto& event : events)
-        memories[event->name()] = hash(event->memory);
-    return run_hash(hash(state), memories);
+    return hash(state, events);
 }
 
 std::uint64_t run_hash(const Snapshot& snapshot) {
     std::map<std::string_view, std::uint64_t> memories;
     for (const auto& [name, memory] : snapshot.event_memory)
         memories[name] = hash(memory);
-    return run_hash(hash(snapshot.state), memories);
+    return hash(snapshot.state, memories);
 }
 
 } // namespace listric

@@ -172,6 +172,7 @@ int run(const SceneRequest& request, RunOptions options, const std::optional<std
     if (until)
         options.until = parse_length(*until);
     options.output = output.empty() ? "out/" + scene.name : output;
+    options.stop = StopToken(stop_requested);
     stop_on_signals();
     return run_scene(scene, options) == RunOutcome::finished ? done : stopped;
 }
@@ -344,6 +345,8 @@ int program(int argc, char** argv) {
     } catch (const NumericalFailure& error) {
         return complain(error, numerics_failed);
     } catch (const StorageError& error) {
+        return complain(error, storage_failed);
+    } catch (const MemoryError& error) {
         return complain(error, storage_failed);
     } catch (const std::filesystem::filesystem_error& error) {
         return complain(error, storage_failed);

@@ -3,8 +3,8 @@
 #include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/run/run.hpp"
 #include "apps/support/python.hpp"
+#include "apps/support/stopwatch.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
 #include "fem/plate.hpp"
@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -26,11 +25,6 @@ using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 /// Downward deflection along the middle of the base.
 struct Deflection {
@@ -202,53 +196,93 @@ const char* name_of(FlexureLoad load) {
     return names[static_cast<int>(load)];
 }
 
-} // namespace
+/// How the base bends, and the forces on it.
+struct Bent {
+    Deflection deflection;
+    fem::Vector reaction, load; ///< N/m
+};
 
-void bend_base(const Scene& scene, int threads, const fs::path& output,
-               const std::function<void(const std::string&)>& say) {
-    const double start = now();
-    const FlexureParameters& flexure = *scene.flexure;
-    Deflection d, plate, exact;
-    fem::Vector reaction, total;
-    const Case c = make_case(scene);
-    try {
-        const std::unique_ptr<fem::Footwall> base = fem::make_footwall(c.request);
-        say(fmt::format("elastic base: {} elements, {} unknowns", base->mesh().cells,
-                        base->mesh().unknowns));
-        base->solve(make_load(flexure, c, *base));
-        const fem::Field field = base->field();
-        const double middle = -0.5 * c.request.depth;
-        for (std::size_t k = 0; k < field.place.size(); ++k)
-            if (std::abs(field.place[k].y - middle) < 1e-3 * c.request.cell_size &&
-                std::abs(field.place[k].x) <= c.compared_to * (1.0 + 1e-9)) {
-                d.x.push_back(field.place[k].x);
-                d.w.push_back(-field.displacement[k].y);
-            }
-        if (d.x.empty())
-            throw UsageError(
-                "elastic_base.cells: elements of degree 1 need an even number, so that "
-                "nodes lie on the middle of the base");
-        reaction = base->reaction();
-        total = base->total_load();
-        base->write(output.string(), "footwall");
-        const std::pair<double, std::string> moment{0.0, "footwall.vtu"};
-        fem::write_series((output / "footwall.pvd").string(), {&moment, 1});
-    } catch (const fem::FootwallError& error) {
-        throw UsageError(fmt::format("elastic_base: {}", error.what()));
-    }
-    const double solved = now();
+/// Solves, and writes the field. Throws UsageError, fem::FootwallError.
+Bent bend(const FlexureParameters& flexure, const Case& c, const fs::path& output,
+          const std::function<void(const std::string&)>& say) {
+    const std::unique_ptr<fem::Footwall> base = fem::make_footwall(c.request);
+    say(fmt::format("elastic base: {} elements, {} unknowns", base->mesh().cells,
+                    base->mesh().unknowns));
+    base->solve(make_load(flexure, c, *base));
+    const fem::Field field = base->field();
+    const double middle = -0.5 * c.request.depth;
+    Deflection d;
+    for (std::size_t k = 0; k < field.place.size(); ++k)
+        if (std::abs(field.place[k].y - middle) < 1e-3 * c.request.cell_size &&
+            std::abs(field.place[k].x) <= c.compared_to * (1.0 + 1e-9)) {
+            d.x.push_back(field.place[k].x);
+            d.w.push_back(-field.displacement[k].y);
+        }
+    if (d.x.empty())
+        throw UsageError("elastic_base.cells: elements of degree 1 need an even number, so that "
+                         "nodes lie on the middle of the base");
+    base->write(output.string(), "footwall");
+    const std::pair<double, std::string> moment{0.0, "footwall.vtu"};
+    fem::write_series((output / "footwall.pvd").string(), {&moment, 1});
+    return {d, base->reaction(), base->total_load()};
+}
 
-    plate.x = exact.x = d.x;
-    for (double x : d.x)
-        plate.w.push_back(plate_deflection(flexure, c.plate, x));
-    const auto exact_w = exact_deflection(flexure, c.layer, d.x);
-    std::string csv = exact_w ? "x_m,deflection_m,plate_m,layer_m\n" : "x_m,deflection_m,plate_m\n";
+/// What theory says at the same places.
+struct Theory {
+    Deflection plate;
+    std::optional<Deflection> layer; ///< exact
+};
+
+Theory theory_of(const FlexureParameters& flexure, const Case& c, const std::vector<double>& x) {
+    Theory theory;
+    theory.plate.x = x;
+    for (double place : x)
+        theory.plate.w.push_back(plate_deflection(flexure, c.plate, place));
+    if (const auto w = exact_deflection(flexure, c.layer, x))
+        theory.layer = Deflection{x, *w};
+    return theory;
+}
+
+std::string deflection_csv(const Deflection& d, const Theory& theory) {
+    std::string csv =
+        theory.layer ? "x_m,deflection_m,plate_m,layer_m\n" : "x_m,deflection_m,plate_m\n";
     for (std::size_t k = 0; k < d.x.size(); ++k)
-        csv += fmt::format("{},{},{}{}\n", d.x[k], d.w[k], plate.w[k],
-                           exact_w ? fmt::format(",{}", (*exact_w)[k]) : "");
-    write_text(output / "deflection.csv", csv);
+        csv += fmt::format("{},{},{}{}\n", d.x[k], d.w[k], theory.plate.w[k],
+                           theory.layer ? fmt::format(",{}", theory.layer->w[k]) : "");
+    return csv;
+}
 
-    const double w0 = d.at_centre(), analytic = plate_deflection(flexure, c.plate, 0.0);
+/// Adds how the solution compares with theory.
+void add_comparison(const FlexureParameters& flexure, const Bent& bent, const Theory& theory,
+                    nlohmann::ordered_json& json) {
+    const Deflection& d = bent.deflection;
+    if (theory.layer) {
+        double worst = 0.0;
+        for (std::size_t k = 0; k < d.x.size(); ++k)
+            worst = std::max(worst, std::abs(d.w[k] - theory.layer->w[k]));
+        json["exact_w0_m"] = theory.layer->at_centre();
+        json["exact_relative_error"] = worst / std::abs(theory.layer->at_centre());
+    }
+    if (flexure.load == FlexureLoad::sinusoid)
+        return;
+    const auto add_bulge = [&](const std::string& prefix, const Deflection& of) {
+        if (const auto top = bulge(of)) {
+            json[prefix + "bulge_m"] = top->height;
+            json[prefix + "bulge_x_m"] = top->x;
+        }
+    };
+    add_bulge("", d);
+    add_bulge("analytic_", theory.plate);
+    if (theory.layer)
+        add_bulge("exact_", *theory.layer);
+    json["reaction_error"] = std::abs(bent.reaction.y / bent.load.y + 1.0);
+}
+
+nlohmann::ordered_json summary(const Scene& scene, int threads, const Case& c, const Bent& bent,
+                               const Theory& theory) {
+    const FlexureParameters& flexure = *scene.flexure;
+    const double w0 = bent.deflection.at_centre();
+    const double analytic = plate_deflection(flexure, c.plate, 0.0);
     nlohmann::ordered_json json = {
         {"scene", scene.name},
         {"accuracy", scene.accuracy},
@@ -260,7 +294,7 @@ void bend_base(const Scene& scene, int threads, const fs::path& output,
         {"predicted_wall_s", 3.0}, // loading the plug-in, solving, drawing
         {"disc_steps_per_s", 0.0},
         {"finished", true},
-        {"state_hash", fmt::format("{:016x}", hash(d.w))},
+        {"state_hash", fmt::format("{:016x}", hash(bent.deflection.w))},
         {"extension_m", 0.0},
         {"load", name_of(flexure.load)},
         {"elastic_thickness_m", scene.elastic_base->elastic_thickness},
@@ -272,42 +306,47 @@ void bend_base(const Scene& scene, int threads, const fs::path& output,
         {"analytic_w0_m", analytic},
         {"relative_error", std::abs(w0 / analytic - 1.0)},
     };
-    if (exact_w) {
-        exact.w = *exact_w;
-        double worst = 0.0;
-        for (std::size_t k = 0; k < d.x.size(); ++k)
-            worst = std::max(worst, std::abs(d.w[k] - exact.w[k]));
-        json["exact_w0_m"] = exact.at_centre();
-        json["exact_relative_error"] = worst / std::abs(exact.at_centre());
-    }
-    if (flexure.load != FlexureLoad::sinusoid) {
-        const auto put = [&](const std::string& prefix, const Deflection& of) {
-            if (const auto top = bulge(of)) {
-                json[prefix + "bulge_m"] = top->height;
-                json[prefix + "bulge_x_m"] = top->x;
-            }
-        };
-        put("", d);
-        put("analytic_", plate);
-        if (exact_w)
-            put("exact_", exact);
-        json["reaction_error"] = std::abs(reaction.y / total.y + 1.0);
-    }
+    add_comparison(flexure, bent, theory, json);
     json["effects"] = effect_names(scene);
+    return json;
+}
+
+} // namespace
+
+void bend_base(const Scene& scene, int threads, const fs::path& output,
+               const std::function<void(const std::string&)>& say) {
+    const auto start = SteadyClock::now();
+    const FlexureParameters& flexure = *scene.flexure;
+    const Case c = make_case(scene);
+    const Bent bent = [&] {
+        try {
+            return bend(flexure, c, output, say);
+        } catch (const fem::FootwallError& error) {
+            throw UsageError(fmt::format("elastic_base: {}", error.what()));
+        }
+    }();
+    const double solving = seconds_since(start);
+
+    const Theory theory = theory_of(flexure, c, bent.deflection.x);
+    write_text(output / "deflection.csv", deflection_csv(bent.deflection, theory));
+    nlohmann::ordered_json json = summary(scene, threads, c, bent, theory);
     const auto write_summary = [&](double drawing) {
-        json["wall_s"] = now() - start;
-        json["time_by_part_s"] = {{"base", solved - start},
+        const double all = seconds_since(start);
+        json["wall_s"] = all;
+        json["time_by_part_s"] = {{"base", solving},
                                   {"figures", drawing},
-                                  {"other", std::max(0.0, now() - solved - drawing)}};
+                                  {"other", std::max(0.0, all - solving - drawing)}};
         write_text(output / "summary.json", json.dump(2) + "\n");
     };
     write_summary(0.0); // the picture's legend reads it
-    const double drawing = now();
+    const auto drawing = SteadyClock::now();
     if (const std::string problem = draw_flexure(output); !problem.empty())
         say("warning: no figure: " + problem);
-    write_summary(now() - drawing);
-    say(fmt::format("deflection {:.2f} m, thin plate {:.2f} m{}; figure in {}", w0, analytic,
-                    exact_w ? fmt::format(", exact layer {:.2f} m", exact.at_centre()) : "",
+    write_summary(seconds_since(drawing));
+    say(fmt::format("deflection {:.2f} m, thin plate {:.2f} m{}; figure in {}",
+                    bent.deflection.at_centre(), plate_deflection(flexure, c.plate, 0.0),
+                    theory.layer ? fmt::format(", exact layer {:.2f} m", theory.layer->at_centre())
+                                 : "",
                     (output / "figures").string()));
 }
 

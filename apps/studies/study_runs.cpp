@@ -113,6 +113,7 @@ std::optional<Json> summary_of_run(const StudyRequest& request, const StudyRun& 
     scene_request.without = run.without;
     const Scene scene = load_scene(scene_request);
     RunOptions options;
+    options.stop = StopToken(stop_requested);
     options.output = folder_of_run(request, run, seed);
     options.threads = request.threads;
     options.resume = true;

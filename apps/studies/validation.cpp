@@ -197,6 +197,7 @@ private:
             scene.accuracy = accuracy_of(run);
             scene.seed = seed;
             RunOptions options;
+            options.stop = StopToken(stop_requested);
             options.output = folder_of(run, seed);
             options.threads = request_.threads;
             options.resume = true;

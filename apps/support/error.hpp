@@ -19,6 +19,11 @@ struct StorageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// There is less memory than is needed; what() says how much that is.
+struct MemoryError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Somebody asked for an end, and what was under way has been left in order.
 struct Interrupted {};
 

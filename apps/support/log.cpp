@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <string>
 #include <unistd.h>
 
 namespace listric {
@@ -13,6 +12,15 @@ namespace {
 constexpr std::string_view clear_line = "\r\x1b[K";
 
 } // namespace
+
+std::string rough_duration(double seconds) {
+    const auto s = static_cast<long>(seconds);
+    if (s < 90)
+        return fmt::format("{} s", s);
+    if (s < 5400)
+        return fmt::format("{} min", (s + 30) / 60);
+    return fmt::format("{:.1f} h", static_cast<double>(s) / 3600.0);
+}
 
 Log::Log(const std::filesystem::path& file, bool quiet)
     : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {

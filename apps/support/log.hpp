@@ -5,9 +5,13 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <string>
 #include <string_view>
 
 namespace listric {
+
+/// A duration, s, as people say it: "80 s", "12 min", "3.4 h".
+std::string rough_duration(double seconds);
 
 /// What people are told while something runs: messages, which stay, and progress, which does not.
 /// Both go to stderr unless it shall be quiet; messages also into a file, if there is one. On a

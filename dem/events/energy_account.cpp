@@ -1,7 +1,5 @@
 #include "dem/events/energy_account.hpp"
 
-#include <limits>
-
 namespace listric::dem {
 
 namespace {
@@ -11,7 +9,7 @@ const std::string prefix = "event_";
 } // namespace
 
 EnergyAccount::EnergyAccount(double gravity, bool base_deforms, std::span<const std::string> events)
-    : Event("energy", {std::numeric_limits<double>::infinity(), 1.0}), gravity_(gravity) {
+    : Observer("energy", never), gravity_(gravity) {
     for (const char* name : {"initial", "stored", "potential", "boundary_work", "gravity_work",
                              "friction", "damping", "bond_breaking", "stepping"})
         memory.add<double>(name, "J/m", 0.0);

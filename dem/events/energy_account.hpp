@@ -30,14 +30,14 @@ struct EnergyBalance {
     }
 };
 
-/// Keeps the account of energy. It is never due: the run books cycles and events into it as they
-/// happen. The work of an event (radii, stiffnesses, masses and bonds that change, discs that come
-/// and go) is the change of kinetic and strain energy over it.
+/// Keeps the account of energy. It is never due: the simulation books cycles and events into it as
+/// they happen. The work of an event (radii, stiffnesses, masses and bonds that change, discs that
+/// come and go) is the change of kinetic and strain energy over it.
 ///
 /// Its memory has one row: initial, stored, potential, boundary_work, gravity_work, friction,
 /// damping, bond_breaking, stepping, base_work of a base that deforms and, for each event,
 /// event_NAME.
-class EnergyAccount : public Event {
+class EnergyAccount final : public Observer {
 public:
     /// @param events  names of those that change the state
     EnergyAccount(double gravity, bool base_deforms, std::span<const std::string> events);

@@ -7,7 +7,7 @@ namespace listric::dem {
 /// Samples how quasi-static the run is [paper: mean unbalanced against mean contact force].
 ///
 /// Its memory has one row: samples, mean_ratio_sum, max_ratio, last_ratio, touching.
-class Equilibrium : public Event {
+class Equilibrium : public Observer {
 public:
     Equilibrium(double interval, double extension_rate, double gravity);
 

@@ -2,7 +2,7 @@
 
 #include "dem/cells.hpp"
 #include "dem/contacts.hpp"
-#include "dem/events/property_update.hpp"
+#include "dem/events/weakened_discs.hpp"
 #include "dem/power_cell.hpp"
 #include "dem/units.hpp"
 

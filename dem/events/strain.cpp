@@ -19,7 +19,7 @@ void remember(State& state) {
 } // namespace
 
 Strain::Strain(double window, double extension_rate)
-    : Event("strain", {window / extension_rate, extension_rate}) {}
+    : Observer("strain", {window / extension_rate, extension_rate}) {}
 
 void Strain::begin(State& state) {
     state.discs.add<double>("window_x", "m", 0.0);

@@ -14,7 +14,7 @@ inline constexpr double strain_window = 500.0;
 /// Columns: window_strain (largest shear strain, gamma, of the last window) and total_strain (their
 /// sum). The displacement gradient of a disc is a least-squares fit to its neighbours'
 /// displacements within 2.6 mean diameters.
-class Strain : public Event {
+class Strain : public Observer {
 public:
     /// @param window  extension between updates, m
     Strain(double window, double extension_rate);

@@ -153,8 +153,8 @@ void FaultWeakening::begin(State&) { std::abort(); }
 bool FaultWeakening::apply(State&, const RigidBase&) { std::abort(); }""",
     "property_update": """PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& p, double rate,
     double, double) : Event("", {p.update_interval, rate}), parameters_(p) {}
-bool PropertyUpdate::apply(State&, const RigidBase&) { std::abort(); }
-double weakened_volume_change(const State&, const RigidBase&) { std::abort(); }""",
+bool PropertyUpdate::apply(State&, const RigidBase&) { std::abort(); }""",
+    "weakened_discs": """double weakened_volume_change(const State&, const RigidBase&) { std::abort(); }""",
     "sedimentation": """Sedimentation::Sedimentation(const SedimentationParameters& p, double ratio,
     double rate) : Event("", {p.interval, rate}), target_(p.level, p.target), radius_ratio_(ratio) {}
 bool Sedimentation::apply(State&, const RigidBase&) { std::abort(); }""",
@@ -164,7 +164,7 @@ bool Sedimentation::apply(State&, const RigidBase&) { std::abort(); }""",
 void Compaction::begin(State&) { std::abort(); }
 bool Compaction::apply(State&, const RigidBase&) { std::abort(); }""",
     "energy_account": """EnergyAccount::EnergyAccount(double, bool, std::span<const std::string>)
-    : Event("", {1.0, 1.0}) {}
+    : Observer("", never) {}
 void EnergyAccount::open(const State&, const RigidBase&) { std::abort(); }
 EnergyFlows EnergyAccount::flows() const { std::abort(); }
 void EnergyAccount::put(const EnergyFlows&) { std::abort(); }
@@ -179,9 +179,9 @@ def build_without_effects(preset, tree):
     shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns("build", "out", ".git", "*.png"))
     for name, text in STUBS.items():
         (tree / "dem/events" / f"{name}.cpp").write_text(
-            f'#include "dem/events/{name}.hpp"\n#include <cstdlib>\nnamespace listric {{\n{text}\n}}\n')
+            f'#include "dem/events/{name}.hpp"\n#include <cstdlib>\nnamespace listric::dem {{\n{text}\n}}\n')
     (tree / "dem/energy.cpp").unlink()
-    cycle = tree / "dem/cycle.cpp"
+    cycle = tree / "dem/plain_cycle.cpp"
     text, found = re.subn(r"cycle_plainly<true>\(.*?\);", "std::abort();", cycle.read_text(), flags=re.S)
     assert found == 1
     cycle.write_text(text.replace("#include <cmath>", "#include <cmath>\n#include <cstdlib>", 1))

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "apps/scene/scene.hpp"
+#include "apps/support/log.hpp"
+#include "apps/support/stop.hpp"
+#include "dem/base.hpp"
+#include "dem/state.hpp"
+
+#include <filesystem>
+
+namespace listric {
+
+/// Where the hanging wall of a scene is kept: genesis is the same for every scene with the same
+/// hanging wall, whatever happens to it afterwards.
+std::filesystem::path genesis_cache_path(const Scene& scene);
+
+/// The hanging wall of a scene before extension: the one that an earlier run has kept, or a new one
+/// that is kept for later runs. Throws Interrupted, NumericalFailure.
+dem::State make_or_recall_hanging_wall(const Scene& scene, const dem::RigidBase& base, Log& log,
+                                       StopToken stop);
+
+} // namespace listric

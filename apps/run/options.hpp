@@ -1,0 +1,25 @@
+#pragma once
+
+#include "apps/support/stop.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace listric {
+
+/// How a scene is run.
+struct RunOptions {
+    std::filesystem::path output;
+    std::optional<double> until; ///< extension at which the run ends, m
+    int threads = 1;
+    bool plain = false; ///< the scalar cycle instead of the fast one, for comparison
+    bool resume = false;
+    bool force = false;
+    bool quiet = false;
+    bool figures = true; ///< drawn at the scene's extensions and at the end
+    StopToken stop;      ///< where it is requested, the run saves and stops as soon as it can
+};
+
+enum class RunOutcome { finished, interrupted };
+
+} // namespace listric

@@ -1,0 +1,348 @@
+#include "apps/run/session.hpp"
+
+#include "apps/archive/examine.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/summary.hpp"
+#include "apps/figures/base_figure.hpp"
+#include "apps/figures/figures.hpp"
+#include "apps/figures/paraview.hpp"
+#include "apps/measures/fault_history.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/run/genesis_cache.hpp"
+#include "apps/run/prediction.hpp"
+#include "apps/run/run.hpp"
+#include "dem/contacts.hpp"
+#include "dem/events/strain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+using namespace dem;
+using namespace coupling;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path snapshot_path(const fs::path& output, double extension) {
+    return output / "snapshots" / fmt::format("extension-{:08.2f}m.h5", extension);
+}
+
+bool near_any(const std::vector<double>& marks, double extension, double tolerance) {
+    return std::ranges::any_of(
+        marks, [&](double mark) { return std::abs(mark - extension) <= tolerance; });
+}
+
+CyclePhysics cycle_physics(const Scene& scene) {
+    CyclePhysics physics{.damping = scene.cycle.damping,
+                         .gravity = scene.gravity ? scene.gravity->acceleration : 0.0};
+    if (scene.elastic_base && scene.elastic_base->relative_damping)
+        physics.averaging_time = scene.elastic_base->averaging_time;
+    return physics;
+}
+
+/// Gives a detachment whose motion is prescribed the nodes that it moves by.
+void attach_base_motion(State& state, const RigidBase& base) {
+    constexpr double face = 1000.0; // m: arcs are followed to millimetres
+    const auto nodes = detachment_nodes(base.surfaces.front().chain, face);
+    std::vector<double> x, y;
+    for (const Point& node : nodes) {
+        x.push_back(node.x);
+        y.push_back(node.y);
+    }
+    add_base_nodes(state, x, y);
+}
+
+FaultReport faults_now(const Scene& scene, const RunOptions& options,
+                       const Simulation& simulation) {
+    const std::vector<fs::path> snapshots = list_snapshots(options.output);
+    return report_faults(scene, simulation.base(), simulation.state(), snapshots);
+}
+
+} // namespace
+
+Session::Session(const Scene& scene, const RunOptions& options, Log& log)
+    : scene_(scene), options_(options), log_(log),
+      simulation_(make_base(scene), cycle_physics(scene)) {
+    for (auto& event : make_events(scene))
+        simulation_.add(std::move(event));
+    simulation_.report_times_to([this](const std::string& part, double seconds) {
+        record_.seconds_by_part[part] += seconds;
+    });
+    if (scene.base_motion) {
+        base_motion_ = std::make_unique<BaseMotion>(*scene.base_motion, simulation_.base().motion,
+                                                    scene.extension.rate);
+        simulation_.respond_by(*base_motion_);
+    }
+}
+
+double Session::wall_seconds() const { return seconds_before_ + seconds_since(started_); }
+
+double Session::target() const {
+    return std::min(scene_.extension.distance, options_.until.value_or(1e300));
+}
+
+Execution Session::execution() const {
+    return {options_.threads, options_.plain ? Cycle::plain : Cycle::best};
+}
+
+/// Condenses the footwall of a scene that has one.
+void Session::make_footwall() {
+    if (!scene_.elastic_base || footwall_)
+        return;
+    const Stopwatch watch(record_.seconds_by_part["base"]);
+    footwall_ = std::make_unique<FootwallCoupling>(scene_);
+    for (const std::string& line : footwall_->description())
+        log_.say(line);
+    for (auto& event : footwall_->make_events())
+        simulation_.add(std::move(event));
+    simulation_.advance_by([this](State& state, const RigidBase& rigid, const CyclePhysics& physics,
+                                  std::int64_t cycles, const Execution& how) {
+        ElasticBase& base = footwall_->base();
+        const double before = base.seconds;
+        if (base.is_iterated())
+            base.advance_iterated(state, rigid, physics, cycles, how);
+        else
+            advance(state, rigid, physics, cycles, how, &base);
+        record_.seconds_by_part["base"] += base.seconds - before;
+        record_.seconds_by_part["cycle"] -= base.seconds - before;
+    });
+}
+
+bool Session::resume() {
+    const std::vector<fs::path> snapshots = list_snapshots(options_.output);
+    for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
+        make_footwall(); // its effects are handed their memories
+        try {
+            Snapshot snapshot = read_snapshot(*path);
+            hand_over(snapshot, simulation_.events());
+            simulation_.resume(std::move(snapshot.state));
+            record_ = std::move(snapshot.record);
+            for (const auto& [part, seconds] : record_.seconds_by_part)
+                seconds_before_ += seconds;
+            kept_ = *path;
+            log_.say(fmt::format("resuming at {:.2f} m of extension from {}", extension(),
+                                 path->string()));
+            return true;
+        } catch (const StorageError& error) {
+            log_.say(std::string("warning: skipped: ") + error.what());
+        }
+    }
+    return false;
+}
+
+void Session::begin() {
+    record_.scene = to_toml(scene_);
+    write_text(options_.output / "scene.toml", record_.scene);
+    const CycleSpeed speed =
+        measure_speed(estimated_discs(scene_), options_.threads, 0.3, scene_.energy.has_value());
+    record_.predicted_seconds =
+        speed.busy * predict(scene_, speed.disc_steps_per_second, options_.threads).seconds;
+
+    make_footwall();
+    State state;
+    {
+        const Stopwatch watch(record_.seconds_by_part["genesis"]);
+        state = make_or_recall_hanging_wall(scene_, simulation_.base(), log_, options_.stop);
+    }
+    if (footwall_)
+        state = settled_on_base(std::move(state));
+    if (base_motion_)
+        attach_base_motion(state, simulation_.base());
+    simulation_.begin(std::move(state));
+    log_.say(fmt::format("hanging wall: {} discs", simulation_.state().discs.rows()));
+    append_history();
+    save();
+}
+
+/// Puts the hanging wall on the elastic base and settles it there.
+State Session::settled_on_base(State state) {
+    const Stopwatch watch(record_.seconds_by_part["base"]);
+    const RigidBase& rigid = simulation_.base();
+    const ElasticBase& base = footwall_->base();
+    base.attach(state);
+    find_contacts(state, rigid);
+    base.settle(state, rigid, simulation_.physics(), execution(),
+                [&](std::string_view stage, double share) {
+                    if (options_.stop.requested())
+                        throw Interrupted{};
+                    log_.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
+                });
+    if (simulation_.physics().averaging_time > 0.0)
+        add_mean_velocities(state);
+    return state;
+}
+
+void Session::extend() {
+    const double window = scene_.output.interval;
+    const double tolerance = simulation_.tolerance();
+    const double steps_before = record_.disc_steps;
+    double next_window = (std::floor((extension() + tolerance) / window) + 1.0) * window;
+    while (extension() < target() - tolerance) {
+        if (options_.stop.requested()) {
+            save();
+            throw Interrupted{};
+        }
+        simulation_.extend_to(std::min(next_window, target()), execution(),
+                              [&](const Simulation& s) {
+                                  record_.disc_steps = steps_before + s.disc_steps();
+                                  report_progress();
+                                  return !options_.stop.requested();
+                              });
+        if (extension() < next_window - tolerance)
+            continue;
+        next_window += window;
+        end_window();
+    }
+}
+
+void Session::end_window() {
+    {
+        const Stopwatch watch(record_.seconds_by_part["measures"]);
+        append_history();
+    }
+    if (near_any(scene_.output.figures, extension(), 0.5 * scene_.output.interval)) {
+        draw();
+        save_field();
+    }
+    save();
+}
+
+void Session::report_progress() {
+    const double share = std::max(1e-3, extension() / target());
+    const double cycling = std::max(1e-9, record_.seconds_by_part["cycle"]);
+    log_.progress(
+        fmt::format("cycle {}  extension {:.2f} of {:.2f} km  {:.1f} M disc-steps/s  {} left",
+                    simulation_.state().clock.cycle, extension() / 1e3, target() / 1e3,
+                    record_.disc_steps / cycling / 1e6,
+                    rough_duration(wall_seconds() / share * (1.0 - share))));
+}
+
+Measures Session::measure_now() {
+    return measure(scene_, simulation_.state(), simulation_.base(), simulation_.events());
+}
+
+/// Says once what makes the results doubtful, when a whole window of strain is known or at the end.
+void Session::warn_of_haste(const Measures& measures) {
+    const double known = std::min(strain_window, target()) - simulation_.tolerance();
+    if (has_warned_ || measures.quasi_static.value_or(true) || extension() < known)
+        return;
+    has_warned_ = true;
+    log_.say(fmt::format(
+        "warning: too fast to be quasi-static: unbalanced forces are {:.2g} of contact forces "
+        "(at most {:g}), the inertial number is {:.2g} (at most {:g}); a smaller "
+        "extension.speed_m_per_s than {:g} is needed, or more discs",
+        measures.unbalanced_ratio_mean, greatest_unbalanced_ratio, measures.inertial_number,
+        greatest_inertial_number, scene_.extension.speed));
+}
+
+void Session::append_history() {
+    const Measures measures = measure_now();
+    warn_of_haste(measures);
+    auto row = history_row(simulation_.state(), measures);
+    if (footwall_)
+        std::ranges::move(footwall_->end_window(simulation_.state(), simulation_.base()),
+                          std::back_inserter(row));
+    Table& history = record_.history;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [name, value] : row)
+        history.add<double>(name, "", nan);
+    history.resize(history.rows() + 1);
+    for (const auto& [name, value] : row)
+        history.get<double>(name).back() = value;
+    write_text(options_.output / "history.csv", to_csv(history));
+}
+
+void Session::save() {
+    const Stopwatch watch(record_.seconds_by_part["output"]);
+    const State& state = simulation_.state();
+    kept_ = snapshot_path(options_.output, extension());
+    write_snapshot(kept_, state, simulation_.events(), record_);
+    if (scene_.output.series == SeriesFormat::paraview)
+        write_paraview(options_.output, state, simulation_.base(), scene_.extension.rate);
+}
+
+/// The field below the discs: at the figures' moments, for a file of it is larger than the discs'.
+void Session::save_field() {
+    if (!footwall_ || scene_.output.series != SeriesFormat::paraview)
+        return;
+    const Stopwatch watch(record_.seconds_by_part["output"]);
+    footwall_->write(options_.output, simulation_.state());
+}
+
+void Session::draw() {
+    if (!options_.figures)
+        return;
+    FaultReport faults;
+    {
+        const Stopwatch watch(record_.seconds_by_part["measures"]);
+        faults = faults_now(scene_, options_, simulation_);
+    }
+    const Stopwatch watch(record_.seconds_by_part["figures"]);
+    drawn_at_ = extension();
+    const std::string problem =
+        draw_figures(scene_, simulation_.state(), simulation_.base(), simulation_.events(), faults,
+                     options_.output / "figures");
+    if (!problem.empty())
+        log_.say("warning: no figures: " + problem);
+}
+
+/// The moments of the experiment on one sheet.
+void Session::draw_sheet() {
+    if (!options_.figures)
+        return;
+    const Stopwatch watch(record_.seconds_by_part["figures"]);
+    try {
+        if (footwall_ || base_motion_)
+            draw_base(options_.output);
+        draw_experiment(options_.output);
+    } catch (const std::exception& error) {
+        log_.say(std::string("warning: no sheet of figures: ") + error.what());
+    }
+}
+
+/// Solves for the base once more on a finer mesh.
+void Session::check_base() {
+    if (!footwall_)
+        return;
+    const Stopwatch watch(record_.seconds_by_part["base"]);
+    if (const auto fine = footwall_->check(simulation_.state())) {
+        record_.base_elements_difference = fine->elements;
+        record_.base_resolved_difference = fine->base;
+        log_.say(fmt::format("the base under the last window's mean forces, solved again with {} "
+                             "unknowns: the run's elements are {:.2f} % off, its base {:.2f} %",
+                             fine->unknowns, 100.0 * fine->elements, 100.0 * fine->base));
+    }
+}
+
+void Session::finish() {
+    const fs::path& output = options_.output;
+    if (drawn_at_ != extension())
+        draw();
+    if (kept_ != snapshot_path(output, extension()))
+        save();
+    draw_sheet();
+    const Measures measures = measure_now();
+    warn_of_haste(measures);
+    FaultReport faults;
+    {
+        const Stopwatch watch(record_.seconds_by_part["measures"]);
+        faults = faults_now(scene_, options_, simulation_);
+    }
+    check_base();
+    write_text(output / "summary.json",
+               summary_json(scene_, options_.threads, simulation_.state(), record_, measures,
+                            faults, wall_seconds(), simulation_.hash()));
+    log_.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}", extension() / 1e3,
+                         rough_duration(wall_seconds()), (output / "figures").string()));
+}
+
+} // namespace listric

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "apps/archive/snapshot.hpp"
+#include "apps/measures/measure.hpp"
+#include "apps/model/footwall_coupling.hpp"
+#include "apps/run/options.hpp"
+#include "apps/scene/scene.hpp"
+#include "apps/support/log.hpp"
+#include "dem/base_motion.hpp"
+#include "dem/simulation.hpp"
+
+#include <filesystem>
+#include <memory>
+
+namespace listric {
+
+/// The run of a scene in its folder: a simulation, and what is written of it from window to window.
+/// Scene, options and log must outlive it.
+class Session {
+public:
+    Session(const Scene& scene, const RunOptions& options, Log& log);
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Goes on from the newest snapshot that can be read. False if there is none.
+    bool resume();
+
+    /// Starts from the hanging wall before extension. Throws Interrupted.
+    void begin();
+
+    /// Extends to the run's end, window by window. Throws Interrupted after saving.
+    void extend();
+
+    /// Writes what is known at the end only: figures, checks, summary.
+    void finish();
+
+    double extension() const { return simulation_.extension(); } ///< m
+
+private:
+    void make_footwall();
+    dem::State settled_on_base(dem::State state);
+    dem::Execution execution() const;
+    double target() const;
+    double wall_seconds() const;
+
+    void report_progress();
+    Measures measure_now();
+    void warn_of_haste(const Measures& measures);
+    void append_history();
+    void end_window();
+    void save();
+    void save_field();
+    void draw();
+    void draw_sheet();
+    void check_base();
+
+    const Scene& scene_;
+    const RunOptions& options_;
+    Log& log_;
+    dem::Simulation simulation_;
+    std::unique_ptr<FootwallCoupling> footwall_;   ///< none: the base does not respond
+    std::unique_ptr<dem::BaseMotion> base_motion_; ///< none: it is not prescribed
+    RunRecord record_;
+    SteadyClock::time_point started_ = SteadyClock::now();
+    double seconds_before_ = 0.0; ///< wall time of the sessions that this one resumes
+    std::filesystem::path kept_;  ///< snapshot of the present state, if there is one
+    double drawn_at_ = -1.0;      ///< extension of the last figures, m
+    bool has_warned_ = false;     ///< that the run is too fast
+};
+
+} // namespace listric

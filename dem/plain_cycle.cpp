@@ -1,0 +1,336 @@
+#include "dem/plain_cycle.hpp"
+
+#include "dem/base_contact.hpp"
+#include "dem/base_place.hpp"
+#include "dem/contacts.hpp"
+#include "dem/damping.hpp"
+#include "dem/energy.hpp"
+#include "dem/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+namespace listric::dem {
+
+namespace {
+
+struct Force {
+    double x, y, moment; ///< N, N, N m
+};
+
+// The cycle is compiled with and without an account of energy.
+
+struct Account {
+    EnergyFlows flows;           ///< of a cycle
+    std::vector<Point> of_nodes; ///< force of each node of the base on discs in it, N
+};
+
+/// What a disc and a surface of the base do to each other in a cycle.
+struct BaseContactCycle {
+    const Surface& surface;
+    const BaseContactDisc& disc;
+    const ContactParameters& parameters;
+    std::optional<BaseContactMotion> motion; ///< none where the surface has ended
+    Point node_velocity;                     ///< of the base's nodes there, m/s; 0 if it is rigid
+    BaseContactForce force;                  ///< on the disc
+    double shear_before, shear_after;        ///< shear force, N
+};
+
+/// Enters what a base contact loses in a cycle, and the work of the prescribed motion of base and
+/// walls.
+void enter_base_flows(const BaseContactCycle& contact, const Motion& base, const Clock& clock,
+                      EnergyFlows& flows) {
+    const auto& [surface, disc, p, motion, node_velocity, force, before, after] = contact;
+    const double dt = clock.time_step, time = clock.time();
+    const double speed = base.speed_at(time), next_speed = base.speed_at(time + dt);
+    if (!motion) {
+        flows.friction += slip_loss(before, before, after, p, dt);
+        return;
+    }
+    const double trial =
+        before - static_cast<double>(p.shear_stiffness_times_step) * motion->slip_rate;
+    flows.friction += slip_loss(before, trial, after, p, dt);
+
+    // The step before this force and the one after it. Slip knows the speed of the base a step
+    // later.
+    const double last_speed = clock.cycle == 0 ? 0.0 : base.speed_at(time - dt);
+    const Point n = motion->foot.normal, moves = surface.translation;
+    const double now = disc.radius - motion->foot.distance;
+    const double overlap_before =
+        now + dt * ((disc.vx - node_velocity.x - last_speed * moves.x) * n.x +
+                    (disc.vy - node_velocity.y - last_speed * moves.y) * n.y);
+    flows.stepping +=
+        normal_loss(std::max(overlap_before, 0.0), overlap_before, std::max(now, 0.0), now, p);
+    flows.boundary_work +=
+        0.5 * dt *
+        ((last_speed + speed) * (force.x * moves.x + force.y * moves.y) +
+         (speed + next_speed) * surface.conveyor * (force.x * n.y - force.y * n.x));
+    if (surface.stretched_length > 0.0) {
+        const double length = surface.stretched_length + clock.extension;
+        flows.boundary_work += 0.5 * dt * force.x *
+                               (speed * disc.x / length +
+                                next_speed * (disc.x + dt * disc.vx) / (length + dt * speed));
+    }
+}
+
+/// Work of the nodes' present velocities in half a step, J/m: they change in the middle of it.
+double half_step_work(const BaseNodeColumns& nodes, std::span<const Point> of_nodes, double dt) {
+    double power = 0.0;
+    for (std::size_t k = 0; k < of_nodes.size(); ++k)
+        power += of_nodes[k].x * nodes.vx[k] + of_nodes[k].y * nodes.vy[k];
+    return 0.5 * dt * power;
+}
+
+/// Enters the force of a contact for the work of the nodes that it acts on.
+void enter_node_force(const Surface& surface, const NodeContactForce& f, Account& account) {
+    if (surface.follows == Follows::breakaway) {
+        account.of_nodes[0].x += f.force.x;
+        account.of_nodes[0].y += f.force.y;
+    } else {
+        for (std::size_t k = 0; k <= static_cast<std::size_t>(surface.degree); ++k) {
+            account.of_nodes[f.node + k].x += f.weight[k] * f.force.x;
+            account.of_nodes[f.node + k].y += f.weight[k] * f.force.y;
+        }
+    }
+}
+
+/// Forces of the base on the discs, which also starts their sum.
+template <bool accounted>
+void base_forces(State& state, const RigidBase& base, std::span<Force> force, Account* account) {
+    const DiscColumns d = disc_columns(state);
+    const BaseContactColumns c = base_contact_columns(state);
+    std::ranges::fill(force, Force{0.0, 0.0, 0.0});
+    const Clock& clock = state.clock;
+    const BaseMoment moment{clock.extension, base.motion.speed_at(clock.time())};
+    const BaseNodeColumns nodes = base_node_columns(state);
+    const bool deforms = !nodes.x.empty();
+    const auto places = deforms ? state.base_contacts.get<double>("place") : std::span<double>();
+    for (std::size_t k = 0; k < c.disc.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.disc[k]);
+        const Surface& surface = base.surfaces[static_cast<std::size_t>(c.surface[k])];
+        const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
+        const ContactParameters p =
+            contact_parameters(base.material, state.materials[d.material[i]], clock.time_step);
+        const double before = c.shear_force[k];
+        BaseContactForce f;
+        if (deforms && surface.follows != Follows::nothing) {
+            const NodeContactForce on_nodes =
+                node_contact_force(surface, nodes, moment, disc, p, c.shear_force[k], places[k]);
+            add_load(nodes, on_nodes, surface.degree);
+            f = on_nodes.force;
+            if constexpr (accounted) {
+                double place = places[k]; // it has been found: to look again changes nothing
+                const NodeContactMotion at =
+                    node_contact_motion(surface, nodes, moment.extension, disc, place);
+                enter_base_flows({surface, disc, p, surface_motion(surface, at, moment, disc),
+                                  at.velocity, f, before, c.shear_force[k]},
+                                 base.motion, clock, account->flows);
+                enter_node_force(surface, on_nodes, *account);
+            }
+        } else {
+            f = base_contact_force(surface, moment, disc, p, c.shear_force[k]);
+            if constexpr (accounted)
+                enter_base_flows({surface, disc, p, base_contact_motion(surface, moment, disc),
+                                  Point{}, f, before, c.shear_force[k]},
+                                 base.motion, clock, account->flows);
+        }
+        force[i].x += f.x;
+        force[i].y += f.y;
+        force[i].moment += f.moment;
+    }
+}
+
+/// How two discs lie and move past each other.
+struct Pair {
+    double nx, ny;       ///< from the first to the second
+    double overlap;      ///< m
+    double arm_i, arm_j; ///< m
+    double slip_rate;    ///< m/s
+};
+
+inline Pair pair_of(const DiscColumns& d, std::size_t i, std::size_t j, double dx, double dy,
+                    double square) {
+    const double distance = std::sqrt(square);
+    const double inverse = 1.0 / distance;
+    const double nx = dx * inverse, ny = dy * inverse;
+    const double overlap = d.radius[i] + d.radius[j] - distance;
+    const double half = 0.5 * overlap;
+    const double arm_i = d.radius[i] - half, arm_j = d.radius[j] - half;
+    const double slip_rate = (d.vy[j] - d.vy[i]) * nx - (d.vx[j] - d.vx[i]) * ny -
+                             (arm_i * d.spin[i] + arm_j * d.spin[j]);
+    return {nx, ny, overlap, arm_i, arm_j, slip_rate};
+}
+
+/// What contact k loses in a cycle in which its shear force goes from `before` to what it is.
+void enter_losses(const DiscColumns& d, const ContactColumns& c, std::size_t k,
+                  const ContactParameters& p, bool was_bonded, double before, double time_step,
+                  EnergyFlows& flows) {
+    const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
+    const double reach = d.radius[i] + d.radius[j];
+    const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+    const double square = dx * dx + dy * dy;
+    if (!c.bonded[k]) {
+        const double dx_before = dx - (d.vx[j] - d.vx[i]) * time_step;
+        const double dy_before = dy - (d.vy[j] - d.vy[i]) * time_step;
+        const double square_before = dx_before * dx_before + dy_before * dy_before;
+        const bool pressed = square < reach * reach, was_pressed = square_before < reach * reach;
+        if (pressed != was_pressed || (was_bonded && !pressed)) {
+            const double now = reach - std::sqrt(square);
+            const double overlap_before = reach - std::sqrt(square_before);
+            (was_bonded && !was_pressed ? flows.bond_breaking : flows.stepping) +=
+                normal_loss(was_bonded ? overlap_before : std::max(overlap_before, 0.0),
+                            overlap_before, std::max(now, 0.0), now, p);
+        }
+    }
+    const double after = c.shear_force[k];
+    if (before == 0.0 && after == 0.0)
+        return;
+    const double slip_rate = pair_of(d, i, j, dx, dy, square).slip_rate;
+    const double trial = before - static_cast<double>(p.shear_stiffness_times_step) * slip_rate;
+    (was_bonded && !c.bonded[k] ? flows.bond_breaking : flows.friction) +=
+        slip_loss(before, trial, after, p, time_step);
+}
+
+template <bool accounted>
+void contact_forces(State& state, const PairParameters& pairs, std::span<Force> force,
+                    Account* account) {
+    const DiscColumns d = disc_columns(state);
+    const ContactColumns c = contact_columns(state);
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
+        const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+        const double reach = d.radius[i] + d.radius[j];
+        const double square = dx * dx + dy * dy;
+        [[maybe_unused]] const double before = c.shear_force[k];
+        [[maybe_unused]] const bool was_bonded = c.bonded[k];
+        if (square >= reach * reach && !c.bonded[k]) {
+            c.shear_force[k] = 0.0;
+        } else {
+            const Pair pair = pair_of(d, i, j, dx, dy, square);
+            const double normal = contact_force(
+                pair.overlap, pair.slip_rate, pairs(d.material[i], d.material[j]),
+                c.tensile_strength[k], c.shear_strength[k], c.shear_force[k], c.bonded[k]);
+            const double shear = c.shear_force[k];
+            const double fx = normal * pair.nx - shear * pair.ny;
+            const double fy = normal * pair.ny + shear * pair.nx;
+            force[i].x -= fx;
+            force[i].y -= fy;
+            force[i].moment -= pair.arm_i * shear;
+            force[j].x += fx;
+            force[j].y += fy;
+            force[j].moment -= pair.arm_j * shear;
+        }
+        if constexpr (accounted)
+            enter_losses(d, c, k, pairs(d.material[i], d.material[j]), was_bonded, before,
+                         state.clock.time_step, account->flows);
+    }
+}
+
+/// Newton's law for every disc; `stretch_rate` is the base's du_x/dx, 1/s. Returns the largest
+/// component of a velocity, m/s.
+template <bool accounted>
+double move_discs(State& state, const CyclePhysics& physics, double stretch_rate,
+                  std::span<const Force> force, Account* account) {
+    const DiscColumns d = disc_columns(state);
+    const double dt = state.clock.time_step;
+    const bool relative = physics.averaging_time > 0.0;
+    const auto mean_vx = relative ? state.discs.get<double>("mean_vx") : std::span<double>();
+    const auto mean_vy = relative ? state.discs.get<double>("mean_vy") : std::span<double>();
+    const double share = relative ? dt / physics.averaging_time : 0.0;
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
+        const double acceleration_per_force = dt / inertia;
+        const double spin_up = acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i]));
+        const double fy = force[i].y - d.mass[i] * physics.gravity;
+        const double departs_x = d.vx[i] - (relative             ? mean_vx[i]
+                                            : stretch_rate > 0.0 ? stretch_rate * d.x[i]
+                                                                 : 0.0);
+        const double departs_y = relative ? d.vy[i] - mean_vy[i] : d.vy[i];
+        const Force net{damped(force[i].x, departs_x, physics.damping),
+                        damped(fy, departs_y, physics.damping),
+                        damped(force[i].moment, d.spin[i], physics.damping)};
+        const double vx = d.vx[i], vy = d.vy[i], spin = d.spin[i];
+        d.vx[i] += net.x * acceleration_per_force;
+        d.vy[i] += net.y * acceleration_per_force;
+        d.spin[i] += net.moment * spin_up;
+        if constexpr (accounted)
+            account->flows.damping +=
+                0.5 * dt *
+                ((force[i].x - net.x) * (vx + d.vx[i]) + (fy - net.y) * (vy + d.vy[i]) +
+                 (force[i].moment - net.moment) * (spin + d.spin[i]));
+        d.x[i] += d.vx[i] * dt;
+        d.y[i] += d.vy[i] * dt;
+        d.rotation[i] += d.spin[i] * dt;
+        if (relative) {
+            mean_vx[i] += (d.vx[i] - mean_vx[i]) * share;
+            mean_vy[i] += (d.vy[i] - mean_vy[i]) * share;
+        }
+        fastest = std::max({fastest, std::abs(d.vx[i]), std::abs(d.vy[i])});
+    }
+    return fastest;
+}
+
+/// Lets the nodes of a base that deforms answer and move. Returns the largest component of a
+/// velocity, m/s.
+double move_base(State& state, const Clock& clock, BaseResponse* response) {
+    if (response && (clock.cycle + 1) % response->interval == 0)
+        response->respond(state, clock);
+    return move_nodes(base_node_columns(state), clock.time_step);
+}
+
+/// One plain cycle. It is written to be read.
+template <bool accounted>
+void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
+                   const PairParameters& pairs, std::span<Force> force, BaseResponse* response,
+                   Account* account) {
+    Clock& clock = state.clock;
+    const double speed = base.motion.speed_at(clock.time());
+    if constexpr (accounted)
+        *account = {{}, std::vector<Point>(state.base_nodes.rows())};
+    base_forces<accounted>(state, base, force, account);
+    contact_forces<accounted>(state, pairs, force, account);
+    const double stretch_rate = stretching(base, clock.extension) * speed;
+    const double disc_speed = move_discs<accounted>(state, physics, stretch_rate, force, account);
+    if constexpr (accounted)
+        account->flows.base_work +=
+            half_step_work(base_node_columns(state), account->of_nodes, clock.time_step);
+    const double fastest = std::max(
+        {disc_speed, greatest_translation(base) * speed, move_base(state, clock, response)});
+    if constexpr (accounted)
+        account->flows.base_work +=
+            half_step_work(base_node_columns(state), account->of_nodes, clock.time_step);
+    state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
+    clock.extension += speed * clock.time_step;
+    ++clock.cycle;
+}
+
+} // namespace
+
+void advance_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
+                     std::int64_t cycles, BaseResponse* response, EnergyFlows* total) {
+    std::vector<Force> force(state.discs.rows());
+    const PairParameters pairs(state.materials, state.clock.time_step);
+    for (; cycles > 0; --cycles) {
+        if (is_check_due(state.displacement_bound, state.skin, state.clock.cycle)) {
+            state.displacement_bound = greatest_displacement(state, base);
+            refuse_runaways(state);
+            if (is_update_due(state.displacement_bound, state.skin))
+                update_contacts(state, base);
+        }
+        if (!total) {
+            cycle_plainly<false>(state, base, physics, pairs, force, response, nullptr);
+            continue;
+        }
+        // Sums of their own for every cycle, so that it does not matter how calls are cut.
+        Account account;
+        cycle_plainly<true>(state, base, physics, pairs, force, response, &account);
+        *total += account.flows;
+    }
+}
+
+} // namespace listric::dem

@@ -1,0 +1,134 @@
+#include "dem/simulation.hpp"
+
+#include "dem/contacts.hpp"
+#include "dem/events/energy_account.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace listric::dem {
+
+namespace {
+
+/// Cycles of a batch: what a core does in a fraction of a second.
+double greatest_batch(double discs) { return std::max(1.0, std::floor(2e7 / discs)); }
+
+} // namespace
+
+Simulation::Simulation(RigidBase base, const CyclePhysics& physics)
+    : base_(std::move(base)), physics_(physics),
+      advance_([](State& s, const RigidBase& b, const CyclePhysics& p, std::int64_t cycles,
+                  const Execution& how) { advance(s, b, p, cycles, how); }) {
+    assert(base_.motion.speed > 0.0);
+}
+
+Event& Simulation::add(std::unique_ptr<Event> event) {
+    assert(event && !has_state_);
+    events_.push_back(std::move(event));
+    energy_ = dem::find<EnergyAccount>(events_);
+    return *events_.back();
+}
+
+void Simulation::respond_by(BaseResponse& response) {
+    advance_by([&response](State& s, const RigidBase& b, const CyclePhysics& p, std::int64_t cycles,
+                           const Execution& how) { advance(s, b, p, cycles, how, &response); });
+}
+
+void Simulation::begin(State state) {
+    assert(!has_state_ && state.clock.cycle == 0);
+    state_ = std::move(state);
+    has_state_ = true;
+    for (const auto& event : events_)
+        event->begin(state_);
+    find_contacts(state_, base_);
+    if (energy_)
+        energy_->open(state_, base_);
+    assert(is_valid(state_));
+}
+
+void Simulation::resume(State state) {
+    assert(!has_state_ && is_valid(state));
+    state_ = std::move(state);
+    has_state_ = true;
+}
+
+bool Simulation::extend_to(double goal, const Execution& execution, const Report& report) {
+    assert(has_state_);
+    assert(!execution.energy); // that is EnergyAccount's
+    while (extension() < goal - tolerance()) {
+        const double stop = std::min(next_due(), goal);
+        cycle_toward(stop, execution);
+        const bool goes_on = !report || report(*this);
+        if (extension() >= stop - tolerance())
+            apply_due_events();
+        if (!goes_on)
+            return false;
+    }
+    return true;
+}
+
+double Simulation::next_due() const {
+    double due = std::numeric_limits<double>::infinity();
+    for (const auto& event : events_)
+        due = std::min(due, event->next_due());
+    return due;
+}
+
+double Simulation::tolerance() const { return 0.5 * base_.motion.speed * state_.clock.time_step; }
+
+template <class Work> void Simulation::timed(const std::string& part, Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    if (time_report_)
+        time_report_(
+            part, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void Simulation::search_contacts() {
+    timed("rebuild", [&] { find_contacts(state_, base_); });
+}
+
+/// Applies events and books them. An account sees contacts that an event has made, for they hold
+/// energy; without one neighbours are searched once, after all events.
+void Simulation::apply_due_events() {
+    if (energy_)
+        timed(energy_->name(), [&] { energy_->book_cycles(state_, base_); });
+    bool search_due = false;
+    for (const auto& event : events_) {
+        if (event->next_due() > extension() + tolerance())
+            continue;
+        timed(event->name(), [&] { search_due |= event->apply(state_, base_); });
+        ++event->applied;
+        if (!energy_)
+            continue;
+        if (search_due)
+            search_contacts();
+        search_due = false;
+        timed(energy_->name(), [&] { energy_->book_event(event->name(), state_, base_); });
+    }
+    if (search_due)
+        search_contacts();
+    assert(is_valid(state_));
+}
+
+/// Makes a batch of cycles, at most up to the extension.
+void Simulation::cycle_toward(double goal, Execution execution) {
+    const double per_cycle = base_.motion.speed * state_.clock.time_step;
+    const auto discs = static_cast<double>(state_.discs.rows());
+    const auto batch = static_cast<std::int64_t>(
+        std::clamp(std::floor((goal - extension()) / per_cycle), 1.0, greatest_batch(discs)));
+    EnergyFlows flows;
+    if (energy_) {
+        flows = energy_->flows();
+        execution.energy = &flows;
+    }
+    timed("cycle", [&] { advance_(state_, base_, physics_, batch, execution); });
+    if (energy_)
+        energy_->put(flows);
+    disc_steps_ += discs * static_cast<double>(batch);
+}
+
+} // namespace listric::dem

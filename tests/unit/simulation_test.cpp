@@ -1,0 +1,127 @@
+// When events are applied, and what a simulation tells of itself. Its physics is tested elsewhere.
+
+#include "dem/simulation.hpp"
+#include "tests/support.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace listric {
+
+namespace {
+
+using namespace dem;
+using testing::ElementsAre;
+
+/// Writes down its letter and the extension whenever it is applied.
+class Witness : public Event {
+public:
+    Witness(char letter, double spacing, std::string& letters, std::vector<double>& extensions)
+        : Event(std::string(1, letter), {spacing, 1.0}), letters_(letters),
+          extensions_(extensions) {}
+
+    bool apply(State& state, const RigidBase&) override {
+        letters_ += name();
+        extensions_.push_back(state.clock.extension);
+        return false;
+    }
+
+private:
+    std::string& letters_;
+    std::vector<double>& extensions_;
+};
+
+/// Takes the top disc away, so that contacts must be searched again.
+class Thief : public Event {
+public:
+    Thief() : Event("thief", {1.0, 1.0}) {}
+    bool apply(State& state, const RigidBase&) override {
+        std::vector<std::int32_t> order;
+        for (std::int32_t k = 0; k + 1 < static_cast<std::int32_t>(state.discs.rows()); ++k)
+            order.push_back(k);
+        reorder_discs(state, order);
+        return true;
+    }
+};
+
+constexpr double cycle_extension = 0.3; ///< m: spacings are no multiples of it
+
+RigidBase moving_box() {
+    RigidBase base = support::box(400.0, 400.0);
+    base.motion = {.speed = 1.0, .ramp = 0.0};
+    return base;
+}
+
+State discs_at_rest() {
+    State state = support::make_state(support::hexagonal(4, 4, 10.0));
+    state.clock.time_step = cycle_extension;
+    return state;
+}
+
+struct Witnessed : testing::Test {
+    std::string letters;
+    std::vector<double> extensions;
+
+    void add_witnesses(Simulation& simulation) {
+        simulation.add<Witness>('a', 10.0, letters, extensions);
+        simulation.add<Witness>('b', 5.0, letters, extensions);
+    }
+};
+
+using SimulationEvents = Witnessed;
+
+TEST_F(SimulationEvents, AreAppliedInTheNearestCycleInTheOrderOfAdding) {
+    Simulation simulation(moving_box(), {});
+    add_witnesses(simulation);
+    simulation.begin(discs_at_rest());
+    EXPECT_TRUE(simulation.extend_to(20.0));
+    EXPECT_EQ(letters, "babbab");
+    const std::vector<double> due{5.0, 10.0, 10.0, 15.0, 20.0, 20.0};
+    ASSERT_EQ(extensions.size(), due.size());
+    for (std::size_t k = 0; k < due.size(); ++k)
+        EXPECT_NEAR(extensions[k], due[k], 0.5 * cycle_extension + 1e-9);
+    EXPECT_DOUBLE_EQ(simulation.next_due(), 25.0);
+}
+
+TEST_F(SimulationEvents, FindContactsAgainWhereTheyMust) {
+    Simulation simulation(moving_box(), {});
+    simulation.add<Thief>();
+    std::map<std::string, int> parts;
+    simulation.report_times_to([&](const std::string& part, double) { ++parts[part]; });
+    simulation.begin(discs_at_rest());
+    simulation.extend_to(2.0);
+    EXPECT_EQ(simulation.discs().x.size(), 14u);
+    EXPECT_EQ(parts["thief"], 2);
+    EXPECT_EQ(parts["rebuild"], 2);
+    EXPECT_EQ(simulation.find<Thief>()->applied, 2);
+    EXPECT_EQ(simulation.find<Witness>(), nullptr);
+}
+
+TEST_F(SimulationEvents, AStoppedAndResumedSimulationIsTheSame) {
+    Simulation whole(moving_box(), {.gravity = 9.81});
+    add_witnesses(whole);
+    whole.begin(discs_at_rest());
+    whole.extend_to(20.0);
+    const std::string in_one_go = std::exchange(letters, "");
+
+    Simulation first(moving_box(), {.gravity = 9.81});
+    add_witnesses(first);
+    first.begin(discs_at_rest());
+    // What is due at the moment of the stop has been applied.
+    EXPECT_FALSE(
+        first.extend_to(20.0, {}, [](const Simulation& s) { return s.extension() < 9.0; }));
+    EXPECT_EQ(letters, "bab");
+
+    Simulation second(moving_box(), {.gravity = 9.81});
+    add_witnesses(second);
+    for (std::size_t k = 0; k < first.events().size(); ++k)
+        second.events()[k]->applied = first.events()[k]->applied;
+    second.resume(first.state());
+    EXPECT_TRUE(second.extend_to(20.0));
+    EXPECT_EQ(letters, in_one_go);
+    EXPECT_EQ(second.hash(), whole.hash());
+}
+
+} // namespace
+
+} // namespace listric
