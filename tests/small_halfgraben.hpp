@@ -9,8 +9,6 @@
 
 namespace listric::support {
 
-using namespace dem;
-
 /// The beginning of a scene of 400 discs, 565 with a mean radius of 50 m.
 inline std::string small_halfgraben(const std::string& mean_radius_m = "60.0") {
     return "[hanging_wall]\nlength_m = 4000.0\nthickness_m = 1500.0\nmean_radius_m = " +

@@ -18,29 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double steepest = 0.9; ///< envelope that no disc friction reaches: 0.83 at 10
-
-void check(const CalibrationTargets& t) {
-    const auto refuse = [](const char* option, double value, const char* allowed) {
-        throw UsageError(fmt::format("{} {}: allowed: {}", option, value, allowed));
-    };
-    if (!(t.young >= 1e6 && t.young <= 1e13))
-        refuse("--young", t.young, "1e6 to 1e13 Pa");
-    if (!(t.poisson > 0.0 && t.poisson < 0.5))
-        refuse("--poisson", t.poisson, "above 0, below 0.5 (plane strain)");
-    // nu_2D = nu / (1 - nu): a two-dimensional material reaches 0.5 when the rock has 1/3.
-    if (t.poisson >= 1.0 / 3.0)
-        refuse("--poisson", t.poisson,
-               "below 1/3, which is 0.5 in 2D terms: contacts give less, however soft in shear");
-    if (!t.byerlee && !(t.friction > 0.0 && t.friction <= steepest))
-        refuse("--friction", t.friction,
-               "above 0, at most 0.9: round discs roll, whatever their own friction");
-    if (!t.byerlee && !(t.cohesion >= 0.0 && t.cohesion <= 1e9))
-        refuse("--cohesion", t.cohesion, "0 to 1e9 Pa");
-    if (t.bulk_friction && !(*t.bulk_friction > 0.0 && *t.bulk_friction <= 1.0))
-        refuse("--bulk-friction", *t.bulk_friction, "above 0, at most 1");
-}
-
 /// The rocks that were found; `weak` if one was wanted.
 struct Rocks {
     RockMaterial sound;
@@ -146,7 +123,7 @@ Json validate(Calibration& c, Rocks& rocks, const CalibrationRequest& request) {
 } // namespace
 
 void run_calibration(const CalibrationRequest& request) {
-    check(request.targets);
+    request.targets.check();
     check_sample(request.discs, request.seed, request.seeds);
     const fs::path output =
         request.output.empty() ? fs::path("out") / ("calibrate-" + request.name) : request.output;

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "apps/laboratory/calibration.hpp"
+#include "apps/laboratory/calibration_targets.hpp"
 #include "apps/laboratory/tests.hpp"
 #include "apps/support/log.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>

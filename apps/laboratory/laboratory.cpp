@@ -157,9 +157,7 @@ void run_laboratory(const LaboratoryRequest& request) {
     carry_out(report, request, test);
     report.summary["wall_s"] = seconds_since(started);
     write_text(output / "summary.json", report.summary.dump(2) + "\n");
-    if (const std::string problem = run_drawing_script("laboratory.py", {output.string()});
-        !problem.empty())
-        log.say("listric: warning: no figure: " + problem);
+    draw_or_warn("laboratory.py", {output.string()});
 }
 
 } // namespace listric

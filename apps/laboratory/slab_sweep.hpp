@@ -1,8 +1,8 @@
 #pragma once
 
-#include "apps/laboratory/laboratory.hpp"
 #include "apps/laboratory/pure_shear.hpp"
 #include "apps/laboratory/report.hpp"
+#include "apps/laboratory/request.hpp"
 
 #include <vector>
 
