@@ -2,6 +2,7 @@
 
 #include "apps/studies/study.hpp"
 
+#include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/scene/document.hpp"
 #include "apps/support/file.hpp"

@@ -186,18 +186,25 @@ TEST_F(InterruptionTest, AFlagStopsCalibrationAndLaboratory) {
     EXPECT_THROW(run_laboratory(laboratory), Interrupted);
 }
 
+struct Shortage {
+    rlim_t most; ///< address space, bytes
+    std::vector<std::string> words;
+};
+
 TEST_F(InterruptionTest, MemoryThatDoesNotSufficeSaysHowMuchIsNeeded) {
-    const auto at_most_400_mb = [] {
-        const rlimit limit{400'000'000, 400'000'000};
-        setrlimit(RLIMIT_AS, &limit);
-    };
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"run", "small", "--set", "hanging_wall.mean_radius_m=0.9",
-                                   "--output", output().string()},
-          {"bench", "--discs", "3000000", "--threads", "2"},
-          {"laboratory", "uniaxial", "mat18-b", "--discs", "100000", "--seeds", "12", "--threads",
-           "12", "--output", (folder / "uniaxial").string()}}) {
-        const Ended ended = Program(folder, words, at_most_400_mb).wait();
+    const std::string out = output().string();
+    for (const auto& [most, words] :
+         {Shortage{400'000'000,
+                   {"run", "small", "--set", "hanging_wall.mean_radius_m=1", "--output", out}},
+          Shortage{400'000'000, {"bench", "--discs", "3000000", "--threads", "2"}},
+          Shortage{150'000'000,
+                   {"laboratory", "uniaxial", "mat18-b", "--discs", "100000", "--seeds", "4",
+                    "--threads", "4", "--output", out + "-uniaxial"}}}) {
+        const auto limit = [most = most] {
+            const rlimit both{most, most};
+            setrlimit(RLIMIT_AS, &both);
+        };
+        const Ended ended = Program(folder, words, limit).wait();
         EXPECT_EQ(ended.code, 4) << words[0] << ": " << ended.err;
         EXPECT_THAT(ended.err, AllOf(HasSubstr("memory is short"), HasSubstr(" MB"))) << words[0];
     }
