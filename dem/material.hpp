@@ -25,6 +25,9 @@ struct BondStrength {
     StrengthReading reading = StrengthReading::stress;
 };
 
+/// Of bonds that never fail.
+inline constexpr BondStrength unbreakable{1e30, 0.0, 1e30, 0.0, StrengthReading::force};
+
 /// Index of a disc's material in State::materials. The order is fixed.
 enum MaterialIndex : std::uint8_t { basement = 0, sediment = 1, weak = 2 };
 

@@ -61,16 +61,22 @@ private:
     std::vector<int> before_; ///< cores that the thread may use otherwise; empty: not pinned
 };
 
-/// Calls work(k) for k = 0 .. threads - 1, each on a thread of its own, and waits for all.
+/// Calls work(k) for k = 0 .. threads - 1, each on a thread of its own, and waits for all. Threads
+/// that meet at barriers would wait for ever for one that failed, or that could not be started:
+/// among several that ends the program (std::terminate).
 template <class Work> void run_team(int threads, Work&& work) {
+    if (threads == 1)
+        return work(0);
     std::vector<std::jthread> others;
-    for (int k = 1; k < threads; ++k)
-        others.emplace_back([&work, k, threads] {
-            const Pinned pinned(k, threads);
-            work(k);
-        });
-    const Pinned pinned(0, threads);
-    work(0);
+    const auto take_part = [&work, threads](int k) noexcept {
+        const Pinned pinned(k, threads);
+        work(k);
+    };
+    [&]() noexcept {
+        for (int k = 1; k < threads; ++k)
+            others.emplace_back(take_part, k);
+    }();
+    take_part(0);
 }
 
 } // namespace listric::dem

@@ -1,21 +1,13 @@
 #pragma once
 
+#include "apps/laboratory/calibration_targets.hpp"
+#include "apps/support/stop.hpp"
+
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 namespace listric {
-
-/// What a rock shall be like.
-struct CalibrationTargets {
-    double young = 50e9;    ///< plane strain, Pa
-    double poisson = 0.25;  ///< plane strain
-    double friction = 0.6;  ///< slope of the strength envelope in shear over normal stress
-    double cohesion = 10e6; ///< Pa
-    bool byerlee = false;   ///< Byerlee's law instead of friction and cohesion
-    std::optional<double> bulk_friction; ///< of the weakened rock in the shear box
-};
 
 /// A call of the calibration.
 struct CalibrationRequest {
@@ -27,12 +19,13 @@ struct CalibrationRequest {
     int threads = 1;
     bool resume = false;
     std::filesystem::path output = {}; ///< empty: out/calibrate-NAME
+    StopToken stop = {};
 };
 
 /// Finds microproperties in the paper's sequence: stiffness, stiffness ratio, strengths, weakened
 /// rock. Writes NAME.toml (and NAME-weak.toml), history.json with every evaluation, which --resume
 /// reads back, and summary.json with the validation on seeds that the fit has not seen.
-/// Throws UsageError, NumericalFailure, StorageError.
+/// Throws UsageError, NumericalFailure, StorageError, Interrupted: what was measured is kept.
 void run_calibration(const CalibrationRequest& request);
 
 } // namespace listric

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <optional>
 
 namespace listric {
 
@@ -48,10 +48,10 @@ public:
                 inner_.push_back(i);
     }
 
-    double height() const { return s_.place_of(top_wall).y - s_.place_of(bottom_wall).y; }
+    double height() const { return s_.place_of(walls::top).y - s_.place_of(walls::bottom).y; }
     double width() const {
         if (has_sides_)
-            return s_.place_of(right_wall).x - s_.place_of(left_wall).x;
+            return s_.place_of(walls::right).x - s_.place_of(walls::left).x;
         const ConstDiscColumns d = disc_columns(std::as_const(s_.state));
         double left = 1e300, right = -1e300;
         for (std::size_t i = 0; i < d.x.size(); ++i) {
@@ -67,25 +67,25 @@ public:
     };
     Load axial() const {
         const auto loads = surface_loads(s_.state, s_.base);
-        return {0.5 * (loads[bottom_wall].force.y - loads[top_wall].force.y) / width(),
-                stiffness(loads[bottom_wall], loads[top_wall])};
+        return {0.5 * (loads[walls::bottom].force.y - loads[walls::top].force.y) / width(),
+                stiffness(loads[walls::bottom], loads[walls::top])};
     }
     Load lateral() const {
         if (!has_sides_)
             return {0.0, 0.0};
         const auto loads = surface_loads(s_.state, s_.base);
-        return {0.5 * (loads[left_wall].force.x - loads[right_wall].force.x) / height(),
-                stiffness(loads[left_wall], loads[right_wall])};
+        return {0.5 * (loads[walls::left].force.x - loads[walls::right].force.x) / height(),
+                stiffness(loads[walls::left], loads[walls::right])};
     }
 
     /// Both walls of a pair move toward the sample, m/s.
     void press_axially(double speed) {
-        s_.steer(bottom_wall, {0.0, speed});
-        s_.steer(top_wall, {0.0, -speed});
+        s_.steer(walls::bottom, {0.0, speed});
+        s_.steer(walls::top, {0.0, -speed});
     }
     void press_laterally(double speed) {
-        s_.steer(left_wall, {speed, 0.0});
-        s_.steer(right_wall, {-speed, 0.0});
+        s_.steer(walls::left, {speed, 0.0});
+        s_.steer(walls::right, {-speed, 0.0});
     }
 
     CompressionPoint point() const {
@@ -133,15 +133,65 @@ private:
     std::vector<std::size_t> inner_;
 };
 
+/// Moves the side walls toward the confining stress.
+void hold_sides(const Specimen& sample, Press& press, Servo& servo,
+                const CompressionParameters& p) {
+    const Press::Load load = press.lateral();
+    press.press_laterally(servo.speed((p.confining - load.stress) * press.height(), load.stiffness,
+                                      servo_cycles * sample.state.clock.time_step));
+}
+
+/// Loads from all sides until both stresses stay within two percent for a while.
+void load_isotropically(Specimen& sample, Press& press, Servo& sides,
+                        const CompressionParameters& p) {
+    Servo axial;
+    const double interval = servo_cycles * sample.state.clock.time_step;
+    int calm = 0;
+    for (int step = 0; calm < 100 && step < 40000; ++step) {
+        const Press::Load load = press.axial();
+        press.press_axially(
+            axial.speed((p.confining - load.stress) * press.width(), load.stiffness, interval));
+        hold_sides(sample, press, sides, p);
+        sample.advance(servo_cycles);
+        const bool is_calm = std::abs(press.axial().stress - p.confining) < 0.02 * p.confining &&
+                             std::abs(press.lateral().stress - p.confining) < 0.02 * p.confining;
+        calm = is_calm ? calm + 1 : 0;
+    }
+    if (calm < 100)
+        throw NumericalFailure("the servo does not reach a confining stress of " +
+                               std::to_string(p.confining) + " Pa");
+}
+
+/// Compresses to an axial strain, with the platens' speed() at each moment, m/s. The stresses of
+/// the point are means on the way.
+template <class Speed>
+CompressionPoint compress_to(double axial_strain, Specimen& sample, Press& press, Servo& sides,
+                             const CompressionParameters& p, Speed&& speed) {
+    CompressionPoint point = {};
+    double axial = 0.0, lateral = 0.0;
+    int samples = 0;
+    while ((point = press.point()).axial_strain < axial_strain) {
+        press.press_axially(speed());
+        for (int k = 0; k < 4; ++k) {
+            hold_sides(sample, press, sides, p);
+            sample.advance(servo_cycles);
+        }
+        axial += press.axial().stress;
+        lateral += press.lateral().stress;
+        ++samples;
+    }
+    if (samples) {
+        point.axial_stress = axial / samples;
+        point.lateral_stress = lateral / samples;
+    }
+    return point;
+}
+
 } // namespace
 
-void consolidate(Specimen& sample, const RockMaterial& rock, bool unbreakable) {
-    if (rock.bonds || unbreakable) {
-        BondStrength strength = rock.bonds.value_or(BondStrength{});
-        if (unbreakable)
-            strength = {1e30, 0.0, 1e30, 0.0, StrengthReading::force};
-        bond_touching(sample.state, strength, 0);
-    }
+void consolidate(Specimen& sample, const RockMaterial& rock, bool unbreakably) {
+    if (const auto strength = unbreakably ? std::optional(unbreakable) : rock.bonds)
+        bond_touching(sample.state, *strength, 0);
     sample.state.materials.assign(3, rock.material);
 }
 
@@ -170,65 +220,28 @@ std::vector<CompressionPoint> compress_elastically(Specimen sample,
 }
 
 std::vector<CompressionPoint> compress_to_failure(Specimen sample, const CompressionParameters& p) {
-    const double dt = sample.state.clock.time_step;
-    const double interval = servo_cycles * dt;
     Press press(sample);
-    Servo axial, lateral;
-    const auto hold_sides = [&] {
-        const Press::Load load = press.lateral();
-        press.press_laterally(
-            lateral.speed((p.confining - load.stress) * press.height(), load.stiffness, interval));
-    };
-    // Isotropic loading, until both stresses stay within two percent for a while.
-    int calm = 0;
-    for (int step = 0; calm < 100 && step < 40000; ++step) {
-        const Press::Load load = press.axial();
-        press.press_axially(
-            axial.speed((p.confining - load.stress) * press.width(), load.stiffness, interval));
-        hold_sides();
-        sample.advance(servo_cycles);
-        const bool is_calm = std::abs(press.axial().stress - p.confining) < 0.02 * p.confining &&
-                             std::abs(press.lateral().stress - p.confining) < 0.02 * p.confining;
-        calm = is_calm ? calm + 1 : 0;
-    }
-    if (calm < 100)
-        throw NumericalFailure("the servo does not reach a confining stress of " +
-                               std::to_string(p.confining) + " Pa");
-
+    Servo sides;
+    load_isotropically(sample, press, sides, p);
     press.set_zero();
+    const double dt = sample.state.clock.time_step, start = sample.time(), ramp = 200.0 * dt;
     const double full_speed = 0.5 * p.strain_rate * press.height();
-    const double ramp = 200.0 * dt, start = sample.time();
     std::vector<CompressionPoint> curve{press.point()};
     const double spacing = 1e-4; // of points, strain
     double peak = 0.0, strain_at_peak = 0.0;
     for (double next = spacing; curve.back().axial_strain < p.largest_strain; next += spacing) {
-        // A point is the mean over its strain.
-        CompressionPoint mean = {};
-        double stress = 0.0, side = 0.0;
-        int samples = 0;
-        while ((mean = press.point()).axial_strain < next) {
-            press.press_axially(full_speed * std::min(1.0, (sample.time() - start + dt) / ramp));
-            for (int k = 0; k < 4; ++k) {
-                hold_sides();
-                sample.advance(servo_cycles);
-            }
-            stress += press.axial().stress;
-            side += press.lateral().stress;
-            ++samples;
-        }
-        if (samples) {
-            mean.axial_stress = stress / samples;
-            mean.lateral_stress = side / samples;
-        }
-        curve.push_back(mean);
-        if (mean.axial_stress > peak) {
-            peak = mean.axial_stress;
-            strain_at_peak = mean.axial_strain;
+        curve.push_back(compress_to(next, sample, press, sides, p, [&] {
+            return full_speed * std::min(1.0, (sample.time() - start + dt) / ramp);
+        }));
+        const CompressionPoint& now = curve.back();
+        if (now.axial_stress > peak) {
+            peak = now.axial_stress;
+            strain_at_peak = now.axial_strain;
         }
         // Past the peak: well below it, or no higher for as long again.
-        if (mean.axial_strain > 1.25 * strain_at_peak + 2e-3 && mean.axial_stress < 0.85 * peak)
+        if (now.axial_strain > 1.25 * strain_at_peak + 2e-3 && now.axial_stress < 0.85 * peak)
             break;
-        if (mean.axial_strain > 2.0 * strain_at_peak + 5e-3)
+        if (now.axial_strain > 2.0 * strain_at_peak + 5e-3)
             break;
     }
     return curve;
@@ -255,25 +268,6 @@ double peak_stress(const std::vector<CompressionPoint>& curve) {
         peak = std::max(peak, sum / static_cast<double>(std::min(k + 1, width)));
     }
     return peak;
-}
-
-double byerlee_axial(double confining) {
-    return std::min(Envelope{0.85, 0.0}.axial(confining), Envelope{0.6, 60e6}.axial(confining));
-}
-
-double Envelope::axial(double confining) const {
-    const double root = std::sqrt(friction * friction + 1.0) + friction;
-    return root * root * confining + 2.0 * cohesion * root;
-}
-
-Envelope fit_envelope(const std::vector<double>& confining, const std::vector<double>& axial) {
-    const double slope = least_squares_slope(confining, axial);
-    const auto n = static_cast<double>(axial.size());
-    const double intercept = (std::accumulate(axial.begin(), axial.end(), 0.0) -
-                              slope * std::accumulate(confining.begin(), confining.end(), 0.0)) /
-                             n;
-    const double root = std::sqrt(std::max(slope, 1e-12)); // tan(45 deg + phi / 2)
-    return {0.5 * (root - 1.0 / root), intercept / (2.0 * root)};
 }
 
 } // namespace listric

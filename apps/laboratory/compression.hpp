@@ -24,9 +24,10 @@ struct CompressionPoint {
     double broken;                     ///< share of the bonds
 };
 
-/// Bonds every contact of a sample and gives it the rock's friction. `unbreakable` bonds never fail
-/// [paper: "a network of strong contact-bonds is installed to prevent plastic deformation"].
-void consolidate(Specimen& sample, const RockMaterial& rock, bool unbreakable);
+/// Bonds every contact of a sample, if the rock has bonds, and gives it the rock's friction; or
+/// bonds it `unbreakably` [paper: "a network of strong contact-bonds is installed to prevent
+/// plastic deformation"].
+void consolidate(Specimen& sample, const RockMaterial& rock, bool unbreakably);
 
 /// Compresses a sample without side walls by an axial strain of 5e-4.
 std::vector<CompressionPoint> compress_elastically(Specimen sample, const CompressionParameters& p);
@@ -49,18 +50,5 @@ Elasticity elasticity(const std::vector<CompressionPoint>& curve);
 
 /// The greatest axial stress, Pa, of means over a tenth of a percent of strain.
 double peak_stress(const std::vector<CompressionPoint>& curve);
-
-/// Byerlee's law [paper, "Brittle deformation"]: tau = 0.85 sigma_n below 200 MPa, else 60 MPa +
-/// 0.6 sigma_n, as the axial stress at a confining stress, Pa.
-double byerlee_axial(double confining);
-
-/// Mohr-Coulomb line through strengths.
-struct Envelope {
-    double friction = 0.0, cohesion = 0.0; ///< 1, Pa
-    double axial(double confining) const;  ///< Pa
-};
-
-/// Line fitted to axial strength over confining stress, least squares.
-Envelope fit_envelope(const std::vector<double>& confining, const std::vector<double>& axial);
 
 } // namespace listric

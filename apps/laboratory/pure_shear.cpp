@@ -1,17 +1,16 @@
 #include "apps/laboratory/pure_shear.hpp"
 
-#include "apps/archive/run_folder.hpp"
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/snapshot.hpp"
-#include "apps/model/effects.hpp"
-#include "apps/run/run.hpp"
+#include "apps/scene/document.hpp"
 #include "dem/contacts.hpp"
 #include "dem/units.hpp"
 
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 
 namespace listric {
@@ -21,6 +20,14 @@ using namespace dem;
 using namespace measures;
 
 namespace {
+
+/// The scene's parameters that the test is about.
+constexpr std::string_view weakening_rate = "fault_weakening.strain_rate_per_s";
+constexpr std::string_view healing_rate = "bond_healing.strain_rate_per_s";
+
+std::string table_of(std::string_view parameter) {
+    return std::string(parameter.substr(0, parameter.find('.')));
+}
 
 using Pair = std::pair<std::int64_t, std::int64_t>; ///< ids of two discs, the smaller first
 
@@ -37,6 +44,21 @@ template <class Visit> void for_each_touching(const State& state, Visit&& visit)
 }
 
 } // namespace
+
+std::vector<std::string> assignments(const CriticalRates& rates) {
+    return {fmt::format("{}={}", weakening_rate, rates.weakening),
+            fmt::format("{}={}", healing_rate, rates.healing)};
+}
+
+CriticalRates critical_rates(const Scene& scene) {
+    const toml::table document = toml::parse(to_toml(scene));
+    const auto number = [&](std::string_view parameter) {
+        const auto value = document.at_path(parameter).value<double>();
+        assert(value);
+        return *value;
+    };
+    return {number(weakening_rate), number(healing_rate)};
+}
 
 bool StretchedSlab::conjugate() const {
     return std::ranges::any_of(faults, &SlabFault::falls_right) &&
@@ -92,35 +114,25 @@ std::vector<SlabFault> trace_births(const std::vector<DiscPlaces>& states, const
     return born;
 }
 
-StretchedSlab stretch_slab(const Scene& scene, const std::filesystem::path& output, int threads,
-                           bool figures) {
-    RunOptions options;
-    options.stop = StopToken(stop_requested);
-    options.output = output;
-    options.threads = threads;
+StretchedSlab stretch_slab(const Scene& scene, RunOptions options) {
     options.resume = true; // a sweep that was stopped goes on; finished runs are not made again
     options.quiet = true;
-    options.figures = figures;
     if (run_scene(scene, options) != RunOutcome::finished)
-        throw UsageError(output.string() + ": stopped; the same call goes on from here");
-
-    std::ifstream in(output / "summary.json");
-    const auto summary = nlohmann::json::parse(in);
+        throw Interrupted{};
+    const auto summary = read_json(options.output / "summary.json");
     StretchedSlab slab;
-    slab.rates = {scene.fault_weakening->strain_rate, scene.bond_healing->strain_rate};
-    slab.seed = scene.seed;
     slab.strain_top10 = summary.value("strain_top10", 0.0);
     slab.strain_top10_cumulative = summary.value("strain_top10_cumulative", 0.0);
     slab.weak_fraction = summary.value("weak_fraction", 0.0);
     slab.unbalanced_ratio = summary.value("unbalanced_ratio_mean", 0.0);
-    const auto snapshots = list_snapshots(output);
+    const auto snapshots = list_snapshots(options.output);
     std::vector<DiscPlaces> states;
     for (const auto& path : snapshots)
         states.emplace_back(read_snapshot(path).state);
     slab.faults = trace_births(states, make_base(scene).surfaces.front().chain);
     Snapshot end = read_snapshot(snapshots.back());
     slab.healed_share = healed_share(read_snapshot(snapshots.front()).state, end.state).value_or(0);
-    for (double angle : end.event_memory.at("fault_weakening").get<double>("angle_rad"))
+    for (double angle : end.event_memory.at(table_of(weakening_rate)).get<double>("angle_rad"))
         slab.segment_dips.push_back(std::min(angle, pi - angle) * 180.0 / pi);
     return slab;
 }

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "apps/measures/fault_trace.hpp"
+#include "apps/run/run.hpp"
 #include "apps/scene/scene.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace listric {
@@ -17,6 +18,12 @@ struct CriticalRates {
     bool operator==(const CriticalRates&) const = default;
 };
 
+/// The rates as changes of a scene, "table.key=value".
+std::vector<std::string> assignments(const CriticalRates& rates);
+
+/// The rates of a scene that has both effects.
+CriticalRates critical_rates(const Scene& scene);
+
 /// A fault of the stretched slab.
 struct SlabFault {
     double dip_at_birth = 0.0, length = 0.0; ///< degrees, m
@@ -26,8 +33,6 @@ struct SlabFault {
 
 /// What stretching made of a slab (docs/measures.md).
 struct StretchedSlab {
-    CriticalRates rates;
-    std::uint64_t seed = 1;
     std::vector<SlabFault> faults;    ///< normal ones, each as it was when first traced
     std::vector<double> segment_dips; ///< of what AFD's measure circle found, degrees
     double strain_top10 = 0.0, strain_top10_cumulative = 0.0;
@@ -49,10 +54,9 @@ std::optional<double> healed_share(const dem::State& start, const dem::State& en
 std::vector<SlabFault> trace_births(const std::vector<measures::DiscPlaces>& states,
                                     const dem::Chain& base);
 
-/// Runs the scene, or goes on with a run in the folder, and measures.
-/// Throws what run_scene throws, and UsageError if it is interrupted.
-StretchedSlab stretch_slab(const Scene& scene, const std::filesystem::path& output, int threads,
-                           bool figures);
+/// Runs the scene, or goes on with the run in the options' folder, and measures.
+/// Throws what run_scene throws, and Interrupted: the same call goes on from there.
+StretchedSlab stretch_slab(const Scene& scene, RunOptions options);
 
 /// Mean dip at birth, degrees, weighted by length; none without faults.
 std::optional<double> mean_dip(const std::vector<SlabFault>& faults);

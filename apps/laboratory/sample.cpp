@@ -17,8 +17,8 @@ namespace {
 /// Mean normal stress on the four walls, Pa.
 double wall_stress(const Specimen& s, const SampleParameters& p) {
     const std::vector<SurfaceLoad> loads = surface_loads(s.state, s.base);
-    return 0.25 * ((loads[bottom_wall].force.y - loads[top_wall].force.y) / p.width +
-                   (loads[left_wall].force.x - loads[right_wall].force.x) / p.height);
+    return 0.25 * ((loads[walls::bottom].force.y - loads[walls::top].force.y) / p.width +
+                   (loads[walls::left].force.x - loads[walls::right].force.x) / p.height);
 }
 
 /// Scales all radii until the walls feel the wanted stress at rest, within five percent. Where
@@ -87,20 +87,10 @@ std::size_t grow_floaters(Specimen& s, double overlap) {
     return floaters;
 }
 
-} // namespace
-
-double mean_radius(const SampleParameters& p) {
-    const double area = (1.0 - p.porosity) * p.width * p.height / static_cast<double>(p.discs);
-    return std::sqrt(area / (pi * radius_range(1.0, p.radius_ratio).mean_square()));
-}
-
-std::size_t disc_count(const SampleParameters& p, double mean_radius) {
-    return static_cast<std::size_t>((1.0 - p.porosity) * p.width * p.height /
-                                    (pi * radius_range(mean_radius, p.radius_ratio).mean_square()));
-}
-
-Specimen make_sample(const SampleParameters& p, const Material& material) {
+/// Walls and as many discs as shall fill them, at random, unbonded and without friction.
+Specimen scattered_sample(const SampleParameters& p, const Material& material, StopToken stop) {
     Specimen s;
+    s.stop = stop;
     constexpr double far = 1e6;
     s.base.surfaces = {{"bottom", {line({-far, 0.0}, {far, 0.0})}},
                        {"top", {line({far, p.height}, {-far, p.height})}},
@@ -123,16 +113,48 @@ Specimen make_sample(const SampleParameters& p, const Material& material) {
                                              material, p.damping, p.time_step_safety);
     add_discs(state, p.discs);
     const std::vector<double> radius = draw_radii(range, p.discs, p.seed);
-    DiscColumns d = disc_columns(state);
+    const DiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < p.discs; ++i)
         d.mass[i] = density * pi * radius[i] * radius[i];
     scatter_and_expand(state, s.base, radius, p.width, 0.0, p.height, p.damping,
-                       [](std::string_view, double) {});
+                       [&](std::string_view, double) { stop.check(); });
     sort_discs(state);
     find_contacts(state, s.base);
+    return s;
+}
 
+/// Gives the discs the wanted rock's mass and lets their displacements count from here.
+void finish(Specimen& s, const SampleParameters& p) {
+    const DiscColumns d = disc_columns(s.state);
+    double solid = 0.0;
+    for (double r : d.radius)
+        solid += pi * r * r;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        d.mass[i] = p.rock_density * p.width * p.height / solid * pi * d.radius[i] * d.radius[i];
+        d.rotation[i] = 0.0;
+        d.start_x[i] = d.x[i];
+        d.start_y[i] = d.y[i];
+    }
+    stop_discs(s.state);
+    find_contacts(s.state, s.base);
+}
+
+} // namespace
+
+double mean_radius(const SampleParameters& p) {
+    const double area = (1.0 - p.porosity) * p.width * p.height / static_cast<double>(p.discs);
+    return std::sqrt(area / (pi * radius_range(1.0, p.radius_ratio).mean_square()));
+}
+
+std::size_t disc_count(const SampleParameters& p, double mean_radius) {
+    return static_cast<std::size_t>((1.0 - p.porosity) * p.width * p.height /
+                                    (pi * radius_range(mean_radius, p.radius_ratio).mean_square()));
+}
+
+Specimen make_sample(const SampleParameters& p, const Material& material, StopToken stop) {
+    Specimen s = scattered_sample(p, material, stop);
     double error = adjust_stress(s, p);
-    const double overlap = p.stress * 2.0 * state.mean_radius / (0.5 * material.normal_stiffness);
+    const double overlap = p.stress * 2.0 * s.state.mean_radius / (0.5 * material.normal_stiffness);
     for (int round = 0; p.floaters_grow && round < 60; ++round) {
         if (grow_floaters(s, overlap) <= p.floater_share * static_cast<double>(p.discs))
             break;
@@ -143,19 +165,7 @@ Specimen make_sample(const SampleParameters& p, const Material& material) {
         throw NumericalFailure("a sample of " + std::to_string(p.discs) + " discs, seed " +
                                std::to_string(p.seed) + ", does not settle at " +
                                std::to_string(p.stress) + " Pa");
-
-    d = disc_columns(state);
-    double solid = 0.0;
-    for (double r : d.radius)
-        solid += pi * r * r;
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        d.mass[i] = p.rock_density * p.width * p.height / solid * pi * d.radius[i] * d.radius[i];
-        d.rotation[i] = 0.0;
-        d.start_x[i] = d.x[i];
-        d.start_y[i] = d.y[i];
-    }
-    stop_discs(state);
-    find_contacts(state, s.base);
+    finish(s, p);
     return s;
 }
 

@@ -31,12 +31,14 @@ std::size_t disc_count(const SampleParameters& p, double mean_radius);
 
 /// The walls of a sample, as surfaces of its base. They go on beyond the corners, (0, 0) and
 /// (width, height), so that outside is outside.
-enum Wall : std::size_t { bottom_wall, top_wall, left_wall, right_wall };
+namespace walls {
+inline constexpr std::size_t bottom = 0, top = 1, left = 2, right = 3;
+}
 
 /// Makes a settled sample of unbonded, frictionless discs (FISHTank's sequence): random small
 /// discs, expanded between frictionless walls to the wanted porosity; all radii scaled to the
 /// isotropic stress; floaters grown. Bonds and friction are the caller's.
-/// Throws NumericalFailure if the stress is not reached.
-Specimen make_sample(const SampleParameters& p, const dem::Material& material);
+/// Throws NumericalFailure if the stress is not reached, and Interrupted.
+Specimen make_sample(const SampleParameters& p, const dem::Material& material, StopToken stop = {});
 
 } // namespace listric

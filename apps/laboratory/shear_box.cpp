@@ -34,8 +34,8 @@ enum BoxWall : std::size_t {
 class ShearBox {
 public:
     ShearBox(Specimen& sample, const ShearBoxParameters& p) : s_(sample), p_(p) {
-        height_ = s_.place_of(top_wall).y;
-        length_ = s_.place_of(right_wall).x;
+        height_ = s_.place_of(walls::top).y;
+        length_ = s_.place_of(walls::right).x;
         // Rough platens: they hold the discs that they press.
         constexpr double rough = 10.0;
         const double low = 0.5 * (height_ - p.zone_width), high = low + p.zone_width;
@@ -127,6 +127,106 @@ std::size_t vice_bonds(const State& state, const std::vector<bool>& in_zone) {
     return count;
 }
 
+/// Gives a sample the rocks of zone and vice and bonds what touches. Returns which discs are the
+/// zone's.
+std::vector<bool> fill(Specimen& sample, const ShearBoxFilling& filling, double middle,
+                       double zone_width) {
+    State& state = sample.state;
+    const RockMaterial& vice = filling.vice.value_or(filling.zone);
+    const DiscColumns d = disc_columns(state);
+    std::vector<bool> in_zone(d.y.size());
+    for (std::size_t i = 0; i < in_zone.size(); ++i) {
+        in_zone[i] = std::abs(d.y[i] - middle) < 0.5 * zone_width;
+        d.material[i] = in_zone[i] ? weak : basement;
+    }
+    const auto vice_strength = filling.elastic_vice ? std::optional(unbreakable) : vice.bonds;
+    const std::vector<bool> touches = touching(state);
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        const ConstContactColumns c = contact_columns(std::as_const(state));
+        const bool is_vice = !in_zone[static_cast<std::size_t>(c.first[k])] &&
+                             !in_zone[static_cast<std::size_t>(c.second[k])];
+        const auto& strength = is_vice ? vice_strength : filling.zone.bonds;
+        if (touches[k] && strength)
+            install_bond(state, k, *strength, 0);
+    }
+    state.materials = {vice.material, vice.material, filling.zone.material};
+    sample.base.material = vice.material;
+    return in_zone;
+}
+
+/// Presses the top down until the normal stress stays within two percent for a while.
+void load(ShearBox& box, const ShearBoxParameters& p) {
+    box.set_servo_speed(0.5);
+    int calm = 0;
+    for (int step = 0; calm < 200 && step < 100000; ++step) {
+        box.advance(0.0);
+        const bool is_calm =
+            std::abs(box.point().normal_stress - p.normal_stress) < 0.02 * p.normal_stress;
+        calm = is_calm ? calm + 1 : 0;
+    }
+    if (calm < 200)
+        throw NumericalFailure("the servo does not reach a normal stress of " +
+                               std::to_string(p.normal_stress) + " Pa");
+}
+
+/// Slides the halves past each other to the largest strain. A point of the curve is the mean on
+/// the way to it; broken() is asked for at each.
+template <class Broken>
+std::vector<ShearPoint> slide(const Specimen& sample, ShearBox& box, const ShearBoxParameters& p,
+                              Broken&& broken) {
+    std::vector<ShearPoint> curve;
+    const double start = sample.time(), ramp = 5.0; // s
+    const double spacing = 2e-3;                    // of points, strain
+    for (double next = spacing; next < p.largest_strain + 0.5 * spacing; next += spacing) {
+        ShearPoint mean = {};
+        int samples = 0;
+        ShearPoint now;
+        while ((now = box.point()).strain < next) {
+            const double speed = p.speed * std::min(1.0, (sample.time() - start + 0.05) / ramp);
+            for (int k = 0; k < 4; ++k)
+                box.advance(speed);
+            now = box.point();
+            mean.shear_stress += now.shear_stress;
+            mean.normal_stress += now.normal_stress;
+            ++samples;
+        }
+        if (samples)
+            curve.push_back({now.strain, mean.shear_stress / samples, mean.normal_stress / samples,
+                             now.zone_width, broken()});
+    }
+    return curve;
+}
+
+std::vector<Point> places(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<Point> result;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        result.push_back({d.x[i], d.y[i]});
+    return result;
+}
+
+/// Displacement since `start` by height there, in bins of a hundred metres; the ends of the box of
+/// this length are left out.
+std::vector<ShearProfilePoint> displacement_profile(const State& state,
+                                                    const std::vector<Point>& start, double middle,
+                                                    double length) {
+    constexpr double bin = 100.0;
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<double> sum(static_cast<std::size_t>(2.0 * middle / bin) + 1), count(sum.size());
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        if (start[i].x < 0.1 * length || start[i].x > 0.9 * length || start[i].y < 0.0)
+            continue;
+        const auto k = std::min(sum.size() - 1, static_cast<std::size_t>(start[i].y / bin));
+        sum[k] += d.x[i] - start[i].x;
+        count[k] += 1.0;
+    }
+    std::vector<ShearProfilePoint> profile;
+    for (std::size_t k = 0; k < sum.size(); ++k)
+        if (count[k] > 0.0)
+            profile.push_back({(static_cast<double>(k) + 0.5) * bin - middle, sum[k] / count[k]});
+    return profile;
+}
+
 } // namespace
 
 double ShearTest::bulk_friction(double from, double to) const {
@@ -163,97 +263,26 @@ double ShearTest::share_in_zone(double zone_width) const {
 }
 
 ShearTest shear(Specimen sample, const ShearBoxFilling& filling, const ShearBoxParameters& p) {
-    const double middle = 0.5 * sample.place_of(top_wall).y;
-    const RockMaterial& vice = filling.vice.value_or(filling.zone);
-    State& state = sample.state;
-    const std::size_t discs = state.discs.rows();
-    std::vector<bool> in_zone(discs);
-    {
-        const DiscColumns d = disc_columns(state);
-        for (std::size_t i = 0; i < discs; ++i) {
-            in_zone[i] = std::abs(d.y[i] - middle) < 0.5 * p.zone_width;
-            d.material[i] = in_zone[i] ? weak : basement;
-        }
-    }
-    const BondStrength unbreakable{1e30, 0.0, 1e30, 0.0, StrengthReading::force};
-    const std::optional<BondStrength> vice_strength =
-        filling.elastic_vice ? unbreakable : vice.bonds;
-    const std::vector<bool> touches = touching(state);
-    for (std::size_t k = 0; k < touches.size(); ++k) {
-        const ConstContactColumns c = contact_columns(std::as_const(state));
-        const bool is_vice = !in_zone[static_cast<std::size_t>(c.first[k])] &&
-                             !in_zone[static_cast<std::size_t>(c.second[k])];
-        const auto& strength = is_vice ? vice_strength : filling.zone.bonds;
-        if (touches[k] && strength)
-            install_bond(state, k, *strength, 0);
-    }
-    state.materials = {vice.material, vice.material, filling.zone.material};
-    sample.base.material = vice.material;
-
+    const State& state = sample.state;
+    const double middle = 0.5 * sample.place_of(walls::top).y;
+    const std::vector<bool> in_zone = fill(sample, filling, middle, p.zone_width);
     ShearBox box(sample, p);
-    ShearTest test;
     const auto bonds_at_first = static_cast<double>(vice_bonds(state, in_zone));
     const auto broken = [&] {
         return bonds_at_first > 0.0
                    ? 1.0 - static_cast<double>(vice_bonds(state, in_zone)) / bonds_at_first
                    : 0.0;
     };
-    box.set_servo_speed(0.5);
-    int calm = 0;
-    for (int step = 0; calm < 200 && step < 100000; ++step) {
-        box.advance(0.0);
-        const bool is_calm =
-            std::abs(box.point().normal_stress - p.normal_stress) < 0.02 * p.normal_stress;
-        calm = is_calm ? calm + 1 : 0;
-    }
-    if (calm < 200)
-        throw NumericalFailure("the servo does not reach a normal stress of " +
-                               std::to_string(p.normal_stress) + " Pa");
+    load(box, p);
+    ShearTest test;
     test.collapse = box.descent();
     test.broken_by_loading = broken();
     box.set_zero();
     box.set_servo_speed(0.25);
-
-    const ConstDiscColumns d = disc_columns(std::as_const(state));
-    const std::vector<double> start_x(d.x.begin(), d.x.end()), start_y(d.y.begin(), d.y.end());
-    const double start_time = sample.time(), ramp = 5.0; // s
-    const double spacing = 2e-3;                         // of points, strain
-    for (double next = spacing; next < p.largest_strain + 0.5 * spacing; next += spacing) {
-        ShearPoint mean = {};
-        int samples = 0;
-        ShearPoint now;
-        while ((now = box.point()).strain < next) {
-            const double speed =
-                p.speed * std::min(1.0, (sample.time() - start_time + 0.05) / ramp);
-            for (int k = 0; k < 4; ++k)
-                box.advance(speed);
-            now = box.point();
-            mean.shear_stress += now.shear_stress;
-            mean.normal_stress += now.normal_stress;
-            ++samples;
-        }
-        if (!samples)
-            continue;
-        test.curve.push_back({now.strain, mean.shear_stress / samples, mean.normal_stress / samples,
-                              now.zone_width, broken()});
-    }
-
-    // Displacement by height, in bins of a hundred metres; the ends are left out.
-    constexpr double bin = 100.0;
+    const std::vector<Point> start = places(state);
+    test.curve = slide(sample, box, p, broken);
     const double length = sample.place_of(lower_right).x - sample.place_of(lower_left).x;
-    std::vector<double> sum(static_cast<std::size_t>(2.0 * middle / bin) + 1), count(sum.size());
-    for (std::size_t i = 0; i < discs; ++i) {
-        const double start = start_x[i];
-        if (start < 0.1 * length || start > 0.9 * length || start_y[i] < 0.0)
-            continue;
-        const auto k = std::min(sum.size() - 1, static_cast<std::size_t>(start_y[i] / bin));
-        sum[k] += d.x[i] - start;
-        count[k] += 1.0;
-    }
-    for (std::size_t k = 0; k < sum.size(); ++k)
-        if (count[k] > 0.0)
-            test.profile.push_back(
-                {(static_cast<double>(k) + 0.5) * bin - middle, sum[k] / count[k]});
+    test.profile = displacement_profile(state, start, middle, length);
     return test;
 }
 

@@ -23,6 +23,7 @@ Point Specimen::place_of(std::size_t surface) const {
 }
 
 void Specimen::advance(std::int64_t cycles) {
+    stop.check();
     // Between searches the lists know surfaces by their present motion, traced back to the last
     // search. Steered surfaces were elsewhere then, but no further than this.
     surface_travel_ += greatest_translation(base) * static_cast<double>(cycles) *
@@ -31,7 +32,7 @@ void Specimen::advance(std::int64_t cycles) {
         find_surface_contacts(state, base);
         surface_travel_ = 0.0;
     }
-    listric::advance(state, base, physics, cycles, {1, cycle});
+    dem::advance(state, base, physics, cycles, {1, cycle});
 }
 
 } // namespace listric

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/support/stop.hpp"
 #include "dem/base.hpp"
 #include "dem/cycle.hpp"
 #include "dem/state.hpp"
@@ -16,6 +17,7 @@ public:
     dem::RigidBase base;
     dem::CyclePhysics physics;
     dem::Cycle cycle = dem::Cycle::best;
+    StopToken stop;
 
     /// Lets a surface go on with a velocity, m/s, from where it is.
     void steer(std::size_t surface, dem::Point velocity);
@@ -27,6 +29,7 @@ public:
     dem::Point place_of(std::size_t surface) const;
 
     /// Advances on one thread; neighbour lists stay valid however the surfaces were steered.
+    /// Throws Interrupted if a stop is requested.
     void advance(std::int64_t cycles);
 
     double time() const { return state.clock.extension; } ///< s

@@ -10,6 +10,7 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/memory.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +23,6 @@ namespace listric {
 
 using namespace archive;
 using namespace dem;
-
-std::atomic<bool> stop_requested = false;
 
 namespace {
 
@@ -79,6 +78,8 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     Log log(output / "log.txt", options.quiet);
     log.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
                         scene.accuracy, scene.seed, output.string()));
+    if (scene.hanging_wall)
+        note_memory_need(predict(scene, 1.0, options.threads).memory);
     try {
         if (!scene.flexure)
             return run_session(scene, options, log);

@@ -4,13 +4,9 @@
 #include "apps/scene/scene.hpp"
 #include "apps/support/error.hpp"
 
-#include <atomic>
 #include <filesystem>
 
 namespace listric {
-
-/// Set from a signal handler, for callers' RunOptions::stop.
-extern std::atomic<bool> stop_requested;
 
 /// Runs a scene from genesis or from its newest good snapshot to its end, leaving scene.toml,
 /// summary.json, history.csv, snapshots, figures and log.txt in the output folder.

@@ -1,6 +1,8 @@
 #include "apps/studies/bench.hpp"
 
-#include "apps/run/run.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/memory.hpp"
+#include "apps/support/stopwatch.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
 #include "dem/units.hpp"
@@ -8,7 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <fstream>
@@ -40,6 +42,8 @@ bool next_record(std::istream& in, std::istringstream& record, int& line_number)
 
 Packing make_packing(std::size_t discs, double width, double normal_stiffness,
                      double shear_stiffness, double friction, double gravity) {
+    constexpr double disc_price = 1500.0; // bytes, with its contacts and the search's copies
+    note_memory_need(disc_price * static_cast<double>(discs));
     Packing p;
     // A contact's stiffness is two discs' in series.
     const Material material{2.0 * normal_stiffness, 2.0 * shear_stiffness, friction, true};
@@ -107,6 +111,21 @@ Packing lattice(double discs) {
     return p;
 }
 
+/// Finds contacts and bonds them, if asked for, with bonds that never break, as the peers' decks
+/// have them. Returns how many there are.
+std::int64_t make_contacts(Packing& p, bool bonded) {
+    sort_discs(p.state);
+    find_contacts(p.state, p.base);
+    const std::vector<bool> touches = touching(p.state);
+    const ContactColumns c = contact_columns(p.state);
+    for (std::size_t k = 0; k < touches.size(); ++k)
+        if (touches[k] && bonded) {
+            c.bonded[k] = 1;
+            c.tensile_strength[k] = c.shear_strength[k] = 1e12f;
+        }
+    return std::ranges::count(touches, true);
+}
+
 } // namespace
 
 std::string bench(const BenchRequest& request) {
@@ -115,27 +134,14 @@ std::string bench(const BenchRequest& request) {
     State& state = p.state;
     state.skin = 0.25 * state.mean_radius;
     state.clock.time_step = 0.005; // s, that of the peers' decks
-    sort_discs(state);
-    find_contacts(state, p.base);
-    std::int64_t contacts = 0;
-    const std::vector<bool> touches = touching(state);
-    const ContactColumns c = contact_columns(state);
-    for (std::size_t k = 0; k < touches.size(); ++k)
-        if (touches[k]) {
-            ++contacts;
-            if (request.bonded) {
-                c.bonded[k] = 1;
-                c.tensile_strength[k] = c.shear_strength[k] = 1e12f; // never breaks, as the peers'
-            }
-        }
+    const std::int64_t contacts = make_contacts(p, request.bonded);
     const Execution execution{request.threads, request.plain ? Cycle::plain : Cycle::best};
     advance(state, p.base, p.physics, 200, execution); // warm caches
-    const auto wall = std::chrono::steady_clock::now();
+    const auto wall = SteadyClock::now();
     const std::clock_t cpu = std::clock();
     advance(state, p.base, p.physics, request.steps, execution);
     const double cpu_seconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-    const double wall_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+    const double wall_seconds = seconds_since(wall);
     const double disc_steps =
         static_cast<double>(state.discs.rows()) * static_cast<double>(request.steps);
     const nlohmann::ordered_json json = {{"discs", state.discs.rows()},

@@ -1,8 +1,7 @@
 #include "apps/studies/study.hpp"
 
-#include "apps/figures/figures.hpp"
-#include "apps/run/run.hpp"
 #include "apps/scene/declaration.hpp"
+#include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
 #include "apps/support/version.hpp"
@@ -13,9 +12,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 
@@ -56,11 +53,6 @@ void print(const StudyResult& result) {
 
 } // namespace
 
-double study_clock() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
 std::span<const Study> studies() {
     static constexpr std::array<Study, 7> all{{
         {"resolution", "lis1 with 3,000 to 67,000 discs", study_resolution},
@@ -91,10 +83,7 @@ void run_study(StudyRequest request) {
             throw UsageError(fmt::format("--values {}: allowed: numbers above 0", value));
     if (request.output.empty())
         request.output = "out/study-" + request.name;
-    std::error_code error;
-    fs::create_directories(request.output, error);
-    if (error)
-        throw StorageError(fmt::format("{}: {}", request.output.string(), error.message()));
+    make_folder(request.output);
 
     const StudyResult result = study->make(request);
     const nlohmann::ordered_json json = {
@@ -105,9 +94,7 @@ void run_study(StudyRequest request) {
     write_text(request.output / "study.csv", to_csv(result));
     write_text(request.output / "study.json", json.dump(2) + "\n");
     print(result);
-    if (const std::string problem = run_drawing_script("study.py", {request.output.string()});
-        !problem.empty())
-        std::fputs(fmt::format("listric: warning: no figure: {}\n", problem).c_str(), stderr);
+    draw_or_warn("study.py", {request.output.string()});
 }
 
 } // namespace listric

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "apps/scene/scene.hpp"
+#include "apps/support/stop.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -24,6 +27,7 @@ struct StudyRequest {
     int threads = 1;
     std::filesystem::path output = {}; ///< empty: out/study-NAME
     bool quiet = false;
+    StopToken stop = {};
 };
 
 /// Error and cost of one way to compute one quantity.
@@ -52,7 +56,7 @@ std::span<const Study> studies();
 
 /// Makes a study; leaves study.csv, study.json and study.png in the output folder, and prints a
 /// table. Runs that are there already are not made again. Throws UsageError, SceneError,
-/// StorageError.
+/// StorageError, Interrupted: the same call goes on from there.
 void run_study(StudyRequest request);
 
 // Studies made of runs.
@@ -70,6 +74,12 @@ StudyResult study_coupling(const StudyRequest& request);
 /// Uplift and deflection against the effective elastic thickness, beside the thin plate under the
 /// same net load; leaves isostasy.csv and isostasy.png, too.
 StudyResult study_isostasy(const StudyRequest& request);
+
+/// The call with its own scene, or else this one.
+StudyRequest with_scene(StudyRequest request, const char* scene);
+
+/// The scene of a call, with its changes.
+Scene scene_of(const StudyRequest& request);
 
 /// A run of a scene with changes, by one seed.
 struct StudyRun {
@@ -101,8 +111,5 @@ struct StudyQuantity {
 void sweep_runs(const StudyRequest& request, const std::string& method,
                 const std::vector<StudyRun>& runs, std::size_t reference,
                 const std::vector<StudyQuantity>& quantities, StudyResult& result);
-
-/// Seconds of a steady clock.
-double study_clock();
 
 } // namespace listric

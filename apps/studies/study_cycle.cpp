@@ -3,6 +3,7 @@
 
 #include "apps/studies/study.hpp"
 
+#include "apps/support/stopwatch.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
 #include "dem/material.hpp"
@@ -96,7 +97,7 @@ StudyPoint swing(const Wave& wave, double safety, const std::function<void(State
         // Velocities are half a step behind.
         d.vx[j] = Wave::amplitude * omega * std::sin(0.5 * omega * dt) * wave.shape(j);
     }
-    const double start = study_clock();
+    const auto start = SteadyClock::now();
     try {
         if (after_cycle)
             for (std::int64_t n = 0; n < cycles; ++n) {
@@ -118,7 +119,7 @@ StudyPoint swing(const Wave& wave, double safety, const std::function<void(State
             "",
             "displacement",
             worst < 10.0 ? worst : infinity,
-            study_clock() - start,
+            seconds_since(start),
             static_cast<double>(cycles) * Wave::discs};
 }
 
@@ -184,7 +185,7 @@ StudyPoint squeeze(const Squeeze& s, double at_rest, double safety, double mass)
     const double limit = stable_time_step(mass * own, s.material, 0.7, 1.0);
     const auto cycles = static_cast<std::int64_t>(std::ceil(Squeeze::time / (safety * limit)));
     state.clock.time_step = Squeeze::time / static_cast<double>(cycles);
-    const double start = study_clock();
+    const auto start = SteadyClock::now();
     try {
         advance(state, base, {0.7, 0.0}, cycles);
     } catch (const NumericalFailure&) {
@@ -194,13 +195,14 @@ StudyPoint squeeze(const Squeeze& s, double at_rest, double safety, double mass)
             "",
             "reaction",
             error < 10.0 ? error : infinity,
-            study_clock() - start,
+            seconds_since(start),
             static_cast<double>(cycles) * Squeeze::columns * Squeeze::rows};
 }
 
 /// Adds what `measure` gives, with the least time of a few repeats: these take milliseconds.
-void add(StudyResult& result, const std::function<StudyPoint()>& measure, std::string method,
-         std::string parameter) {
+void add(StudyResult& result, StopToken stop, const std::function<StudyPoint()>& measure,
+         std::string method, std::string parameter) {
+    stop.check();
     StudyPoint point = measure();
     for (int repeat = 0; repeat < 4; ++repeat)
         point.wall = std::min(point.wall, measure().wall);
@@ -222,8 +224,8 @@ StudyResult study_time_step(const StudyRequest& request) {
     result.title = "Time step and density scaling";
     for (double safety : {1.01, 0.95, 0.8, 0.5, 0.25, 0.125, 0.0625, 0.03125})
         add(
-            result, [&] { return swing({}, safety, {}); }, "wave in a chain: time step",
-            fmt::format("safety={:g}", safety));
+            result, request.stop, [&] { return swing({}, safety, {}); },
+            "wave in a chain: time step", fmt::format("safety={:g}", safety));
 
     const Squeeze s;
     const RigidBase fixed = s.base(false);
@@ -233,11 +235,11 @@ StudyResult study_time_step(const StudyRequest& request) {
     const double at_rest = s.reaction(rest);
     for (double safety : {1.5, 0.95, 0.5, 0.25, 0.125})
         add(
-            result, [&] { return squeeze(s, at_rest, safety, 1.0); }, "bonded lattice: time step",
-            fmt::format("safety={:g}", safety));
+            result, request.stop, [&] { return squeeze(s, at_rest, safety, 1.0); },
+            "bonded lattice: time step", fmt::format("safety={:g}", safety));
     for (double mass : {1024.0, 256.0, 64.0, 16.0, 4.0, 1.0, 0.25})
         add(
-            result, [&] { return squeeze(s, at_rest, 0.95, mass); },
+            result, request.stop, [&] { return squeeze(s, at_rest, 0.95, mass); },
             "bonded lattice: density scaling", fmt::format("mass={:g}", mass));
 
     StudyRequest runs = request;
@@ -293,7 +295,7 @@ StudyResult study_precision(const StudyRequest& request) {
         for (const Rounding& rounding : roundings)
             for (double safety : {0.8, 0.4, 0.2, 0.1, 0.05})
                 add(
-                    result, [&] { return swing(wave, safety, rounding.apply); },
+                    result, request.stop, [&] { return swing(wave, safety, rounding.apply); },
                     fmt::format("wave at x = {:g} km: {}", left / 1e3, rounding.name),
                     fmt::format("safety={:g}", safety));
     }

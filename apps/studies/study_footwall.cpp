@@ -2,6 +2,7 @@
 
 #include "apps/studies/study.hpp"
 
+#include "apps/support/stopwatch.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
 
@@ -101,20 +102,22 @@ StudyResult study_footwall(const StudyRequest& request) {
                             Method{"Q2 uniform BoomerAMG", 2, fem::Solver::boomeramg, most},
                             Method{"Q2 uniform GAMG", 2, fem::Solver::gamg, most}})
         for (int level = 0; level <= m.levels; ++level) {
-            const double start = study_clock();
+            request.stop.check();
+            const auto start = SteadyClock::now();
             const auto footwall = fem::make_footwall(strip.request(m.degree, m.solver, level));
             footwall->solve(strip.load());
-            result.points.push_back(point(m.name, strip, *footwall, study_clock() - start));
+            result.points.push_back(point(m.name, strip, *footwall, seconds_since(start)));
         }
     for (int degree : {1, 2}) {
-        const double start = study_clock();
+        const auto start = SteadyClock::now();
         const auto footwall = fem::make_footwall(strip.request(degree, fem::Solver::mumps, 0));
         for (int step = 0; step <= 2 * most + 2; ++step) {
+            request.stop.check();
             if (step > 0)
                 footwall->refine(0.2);
             footwall->solve(strip.load());
             result.points.push_back(point(fmt::format("Q{} adaptive MUMPS", degree), strip,
-                                          *footwall, study_clock() - start));
+                                          *footwall, seconds_since(start)));
         }
     }
     return result;

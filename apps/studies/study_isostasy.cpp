@@ -4,9 +4,10 @@
 
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
-#include "apps/figures/figures.hpp"
-#include "apps/run/run.hpp"
+#include "apps/scene/document.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
+#include "apps/support/resources.hpp"
 #include "coupling/base_memory.hpp"
 #include "fem/plate.hpp"
 
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace listric {
@@ -54,16 +54,116 @@ double local_compensation(fem::Plate plate, const fem::LineLoads& loads) {
     return most;
 }
 
+/// What fills the basin, as changes of the scene.
+struct Fill {
+    std::string name;
+    std::vector<std::string> without, set;
+};
+
+struct Fills {
+    std::vector<Fill> all;
+    std::string water_load; ///< measure of a run; missing where there is no water
+};
+
+Fills read_fills(const std::filesystem::path& file) {
+    const toml::table document = toml::parse_file(file.string());
+    const auto words = [](const toml::table& fill, const char* key) {
+        std::vector<std::string> result;
+        if (const toml::array* array = fill[key].as_array())
+            for (const toml::node& word : *array)
+                result.push_back(word.value_or(std::string()));
+        return result;
+    };
+    Fills fills{{}, document["water_load"].value_or(std::string())};
+    for (const toml::node& node : *document["fill"].as_array()) {
+        const toml::table& fill = *node.as_table();
+        fills.all.push_back(
+            {fill["name"].value_or(std::string()), words(fill, "without"), words(fill, "set")});
+    }
+    return fills;
+}
+
+StudyRun run_of(const Fill& fill, double thickness) {
+    StudyRun run{fmt::format("{}-elastic_thickness_m={:g}", fill.name, thickness),
+                 {fmt::format("elastic_base.elastic_thickness_m={}", thickness)},
+                 "draft",
+                 fill.without};
+    run.set.insert(run.set.end(), fill.set.begin(), fill.set.end());
+    return run;
+}
+
+fem::Plate plate_of(const Scene& scene, double thickness) {
+    const auto& base = *scene.elastic_base;
+    return {base.young_modulus, base.poisson_ratio, thickness,
+            (base.mantle_density - base.infill_density) * scene.gravity->acceleration};
+}
+
+/// A finished run: its summary and its last window beside the plate under the same loads.
+struct IsostasyRun {
+    const Fill& fill;
+    std::int64_t seed;
+    nlohmann::json summary;
+    fem::Plate plate;
+    LastWindow last;
+
+    double value(const char* name) const { return summary.at(name).get<double>(); }
+
+    /// The plate's deflection under the loads as they are spread, where the breakaway is, m.
+    double at_breakaway(fem::PlateKind kind) const {
+        return plate.deflection(0.0, last.loads, kind);
+    }
+
+    /// A line of isostasy.csv.
+    std::string row(const std::string& water_load) const {
+        using enum fem::PlateKind;
+        const auto fit = [&](fem::PlateKind kind) {
+            return fem::fit_thickness(plate, last.loads, kind, last.loads.x, last.uplift);
+        };
+        const fem::PlateFit end = fit(broken), whole = fit(continuous);
+        return fmt::format(
+            "{},{:g},{},{:.1f},{:.1f},{:.4g},{:.3g},{:.4g},{:.1f},{:.1f},{:.0f},{:.0f},"
+            "{:.3f},{:.0f},{:.3f},{:.3g},{:.3g}\n",
+            fill.name, plate.thickness, seed, value("footwall_uplift_m"),
+            value("base_deflection_max_m"), value("net_wall_load_n_per_m"),
+            value("net_wall_load_error"), summary.value(water_load, 0.0), at_breakaway(continuous),
+            at_breakaway(broken), local_compensation(plate, last.loads), end.thickness, end.misfit,
+            whole.thickness, whole.misfit, value("strong_rock_strain_max"),
+            value("relaxed_rock_strain_max"));
+    }
+
+    StudyPoint point() const {
+        const double plates = at_breakaway(fem::PlateKind::continuous), wall = value("wall_s");
+        return {fmt::format("{} fill: from the continuous plate", fill.name),
+                fmt::format("elastic_thickness_m={:g}", plate.thickness),
+                "uplift",
+                std::abs(value("footwall_uplift_m") / plates - 1.0),
+                wall,
+                wall * value("disc_steps_per_s")};
+    }
+};
+
+/// The run by one seed; none if the guard of linear elasticity ended it.
+std::optional<IsostasyRun> make_run(const StudyRequest& request, const Scene& scene,
+                                    const Fill& fill, double thickness, std::int64_t seed) {
+    const StudyRun run = run_of(fill, thickness);
+    auto summary = summary_of_run(request, run, seed);
+    if (!summary)
+        return std::nullopt;
+    return IsostasyRun{fill, seed, std::move(*summary), plate_of(scene, thickness),
+                       last_window(folder_of_run(request, run, seed))};
+}
+
+constexpr const char* csv_head = "fill,elastic_thickness_m,seed,uplift_m,deflection_max_m,"
+                                 "net_load_n_per_m,net_load_error,water_n_per_m,continuous_plate_m,"
+                                 "broken_plate_m,local_m,"
+                                 "fitted_thickness_m,fit_misfit,fitted_continuous_thickness_m,"
+                                 "continuous_fit_misfit,strong_rock_strain,relaxed_rock_strain\n";
+
 } // namespace
 
 StudyResult study_isostasy(const StudyRequest& asked) {
-    StudyRequest request = asked;
-    if (request.scene.empty())
-        request.scene = "lis1-elastic";
-    SceneRequest scene_request;
-    scene_request.scene = request.scene;
-    scene_request.set = request.set;
-    const Scene scene = load_scene(scene_request);
+    const StudyRequest request = with_scene(asked, "lis1-elastic");
+    const Scene scene = scene_of(request);
     if (!scene.elastic_base || !scene.hanging_wall)
         throw UsageError(fmt::format("study isostasy: {} has no discs on an [elastic_base]; "
                                      "allowed: scenes such as lis1-elastic",
@@ -71,75 +171,25 @@ StudyResult study_isostasy(const StudyRequest& asked) {
     std::vector<double> thicknesses =
         request.values.empty() ? std::vector{2e3, 5e3, 10e3, 15e3, 30e3} : request.values;
     std::ranges::sort(thicknesses);
-    struct Fill {
-        const char* name;
-        std::vector<std::string> without, set;
-    };
-    const std::vector<Fill> fills{{"sediment", {}, {}},
-                                  {"water", {"sedimentation", "compaction"}, {"basin_water={}"}},
-                                  {"empty", {"sedimentation", "compaction"}, {}}};
-
+    const Fills fills = read_fills(source_folder() / "apps/studies/isostasy.toml");
     StudyResult result;
     result.title =
         fmt::format("Isostasy: flank uplift of {} against the thin plate", request.scene);
-    std::string table = "fill,elastic_thickness_m,seed,uplift_m,deflection_max_m,"
-                        "net_load_n_per_m,net_load_error,water_n_per_m,continuous_plate_m,"
-                        "broken_plate_m,local_m,"
-                        "fitted_thickness_m,fit_misfit,fitted_continuous_thickness_m,"
-                        "continuous_fit_misfit,strong_rock_strain,relaxed_rock_strain\n";
-    for (const Fill& fill : fills)
+    std::string table = csv_head;
+    for (const Fill& fill : fills.all)
         for (double thickness : thicknesses)
-            for (int k = 0; k < request.seeds; ++k) {
-                StudyRun run{fmt::format("{}-elastic_thickness_m={:g}", fill.name, thickness),
-                             {fmt::format("elastic_base.elastic_thickness_m={}", thickness)},
-                             "draft",
-                             fill.without};
-                run.set.insert(run.set.end(), fill.set.begin(), fill.set.end());
-                const std::string parameter = fmt::format("elastic_thickness_m={:g}", thickness);
-                const auto summary = summary_of_run(request, run, request.seed + k);
-                if (!summary) { // the guard of linear elasticity
-                    result.points.push_back({fmt::format("{} fill: runs", fill.name), parameter,
+            for (int k = 0; k < request.seeds; ++k)
+                if (const auto run = make_run(request, scene, fill, thickness, request.seed + k)) {
+                    table += run->row(fills.water_load);
+                    result.points.push_back(run->point());
+                } else {
+                    result.points.push_back({fmt::format("{} fill: runs", fill.name),
+                                             fmt::format("elastic_thickness_m={:g}", thickness),
                                              "uplift", std::numeric_limits<double>::infinity(), 0.0,
                                              0.0});
-                    continue;
                 }
-                const auto value = [&](const char* name) {
-                    return summary->at(name).get<double>();
-                };
-                const ElasticBaseParameters& base = *scene.elastic_base;
-                const double gravity = scene.gravity->acceleration;
-                const fem::Plate plate{base.young_modulus, base.poisson_ratio, thickness,
-                                       (base.mantle_density - base.infill_density) * gravity};
-                const double load = value("net_wall_load_n_per_m"),
-                             uplift = value("footwall_uplift_m"),
-                             water = summary->value("basin_water_n_per_m", 0.0);
-                // Under the loads as they are spread, where the breakaway is.
-                const LastWindow last = last_window(folder_of_run(request, run, request.seed + k));
-                using enum fem::PlateKind;
-                const double at_breakaway = plate.deflection(0.0, last.loads, continuous),
-                             when_broken = plate.deflection(0.0, last.loads, broken);
-                const fem::PlateFit fit = fem::fit_thickness(plate, last.loads, broken,
-                                                             last.loads.x, last.uplift),
-                                    whole = fem::fit_thickness(plate, last.loads, continuous,
-                                                               last.loads.x, last.uplift);
-                table += fmt::format(
-                    "{},{:g},{},{:.1f},{:.1f},{:.4g},{:.3g},{:.4g},{:.1f},{:.1f},{:.0f},{:.0f},"
-                    "{:.3f},{:.0f},{:.3f},{:.3g},{:.3g}\n",
-                    fill.name, thickness, request.seed + k, uplift, value("base_deflection_max_m"),
-                    load, value("net_wall_load_error"), water, at_breakaway, when_broken,
-                    local_compensation(plate, last.loads), fit.thickness, fit.misfit,
-                    whole.thickness, whole.misfit, value("strong_rock_strain_max"),
-                    value("relaxed_rock_strain_max"));
-                const double wall = value("wall_s");
-                result.points.push_back(
-                    {fmt::format("{} fill: from the continuous plate", fill.name), parameter,
-                     "uplift", std::abs(uplift / at_breakaway - 1.0), wall,
-                     wall * value("disc_steps_per_s")});
-            }
     write_text(request.output / "isostasy.csv", table);
-    if (const std::string problem = run_drawing_script("isostasy.py", {request.output.string()});
-        !problem.empty())
-        std::fputs(fmt::format("listric: warning: no figure: {}\n", problem).c_str(), stderr);
+    draw_or_warn("isostasy.py", {request.output.string()});
     return result;
 }
 

@@ -2,17 +2,15 @@
 
 #include "apps/studies/study.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/run/run.hpp"
-#include "apps/scene/scene.hpp"
+#include "apps/support/log.hpp"
 #include "dem/cycle.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
 #include <optional>
 
@@ -97,6 +95,19 @@ double root_mean_square(const std::vector<Values>& values, const Values& referen
 
 } // namespace
 
+StudyRequest with_scene(StudyRequest request, const char* scene) {
+    if (request.scene.empty())
+        request.scene = scene;
+    return request;
+}
+
+Scene scene_of(const StudyRequest& request) {
+    SceneRequest wanted;
+    wanted.scene = request.scene;
+    wanted.set = request.set;
+    return load_scene(wanted);
+}
+
 std::filesystem::path folder_of_run(const StudyRequest& request, const StudyRun& run,
                                     std::int64_t seed) {
     return request.output / "runs" / fmt::format("{}-seed={}", run.parameter, seed);
@@ -113,20 +124,19 @@ std::optional<Json> summary_of_run(const StudyRequest& request, const StudyRun& 
     scene_request.without = run.without;
     const Scene scene = load_scene(scene_request);
     RunOptions options;
-    options.stop = StopToken(stop_requested);
+    options.stop = request.stop;
     options.output = folder_of_run(request, run, seed);
     options.threads = request.threads;
     options.resume = true;
     options.quiet = request.quiet;
     try {
         if (run_scene(scene, options) == RunOutcome::interrupted)
-            throw UsageError("interrupted; the same call goes on from here");
+            throw Interrupted{};
     } catch (const NumericalFailure& failure) {
-        std::fputs(fmt::format("listric: {}: {}\n", run.parameter, failure.what()).c_str(), stderr);
+        warn(fmt::format("{}: {}", run.parameter, failure.what()));
         return std::nullopt;
     }
-    std::ifstream in(options.output / "summary.json");
-    return Json::parse(in);
+    return read_json(options.output / "summary.json");
 }
 
 void sweep_runs(const StudyRequest& request, const std::string& method,
@@ -183,24 +193,11 @@ std::vector<StudyQuantity> basin_quantities(const Scene& scene) {
             {"inertial_number", 0.0, true}};
 }
 
-StudyRequest with_scene(StudyRequest request, const char* scene) {
-    if (request.scene.empty())
-        request.scene = scene;
-    return request;
-}
-
-Scene load(const StudyRequest& request) {
-    SceneRequest wanted;
-    wanted.scene = request.scene;
-    wanted.set = request.set;
-    return load_scene(wanted);
-}
-
 } // namespace
 
 StudyResult study_resolution(const StudyRequest& asked) {
     const StudyRequest request = with_scene(asked, "lis1");
-    const Scene scene = load(request);
+    const Scene scene = scene_of(request);
     // 3,000, 4,200, 8,300, 16,700, 33,000 and 67,000 discs of lis1 before sediment.
     Values radii =
         request.values.empty() ? Values{220.0, 186.2, 132.0, 93.1, 66.0, 46.55} : request.values;
@@ -259,7 +256,7 @@ StudyResult study_coupling(const StudyRequest& asked) {
 
 StudyResult study_speed(const StudyRequest& asked) {
     const StudyRequest request = with_scene(asked, "lis1");
-    const Scene scene = load(request);
+    const Scene scene = scene_of(request);
     Values speeds = request.values.empty() ? Values{8.0, 4.0, 2.0, 1.0, 0.5, 0.25} : request.values;
     std::ranges::sort(speeds, std::greater{});
     std::vector<StudyRun> runs;

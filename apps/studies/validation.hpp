@@ -1,5 +1,7 @@
 #pragma once
 
+#include "apps/support/stop.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,15 +16,16 @@ struct ValidationRequest {
     std::filesystem::path runs;      ///< folder of the runs; empty: out/validation-ACCURACY
     std::filesystem::path output;    ///< document; empty: docs/validation.md at standard, else
                                      ///< validation.md beside the runs
-    std::filesystem::path plan;      ///< empty: apps/validation.toml
+    std::filesystem::path plan;      ///< empty: apps/studies/validation.toml
     std::optional<std::string> only; ///< one experiment
     bool remeasure = false;          ///< even runs that are measured already
     bool without_runs = false;       ///< takes the runs that are there
+    StopToken stop = {};
 };
 
 /// Makes the runs that are missing, measures them from their snapshots and writes the document
-/// beside a folder of the same name with pictures and measures.csv. False if it was interrupted.
-/// Throws UsageError, SceneError, NumericalFailure, StorageError.
-bool run_validation(const ValidationRequest& request);
+/// beside a folder of the same name with pictures and measures.csv. Throws UsageError, SceneError,
+/// NumericalFailure, StorageError, Interrupted: runs and measures are kept, the same call goes on.
+void run_validation(const ValidationRequest& request);
 
 } // namespace listric

@@ -15,14 +15,19 @@ using namespace dem;
 
 namespace {
 
-const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", "", "apps"};
+const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", "", "apps/studies"};
 
 std::vector<std::string> words(const std::string& text) {
     std::istringstream in(text);
     return {std::istream_iterator<std::string>(in), {}};
 }
 
-template <class Enum> Choice choice(Enum& value, std::vector<std::string_view> names) {
+/// The names of an enumeration's values, in their order.
+const std::vector<std::string_view> kinds = {"kinematics", "faults", "conservation"};
+const std::vector<std::string_view> needs = {"each", "most", "mean"};
+const std::vector<std::string_view> absences = {"missed", "met"};
+
+template <class Enum> Choice choice(Enum& value, const std::vector<std::string_view>& names) {
     return {names, [&value, names] { return names[static_cast<std::size_t>(value)]; },
             [&value, names](std::string_view name) {
                 value = static_cast<Enum>(std::ranges::find(names, name) - names.begin());
@@ -83,9 +88,9 @@ ValidationRun read_run(const Entry& entry) {
 Expectation read_expectation(const Entry& entry) {
     Expectation e;
     read_values(entry,
-                {{"kind", choice(e.kind, {"kinematics", "faults", "conservation"}), "", {}, "", ""},
-                 {"needed", choice(e.needed, {"each", "most", "mean"}), "", {}, "", "of the seeds"},
-                 {"absent", choice(e.absent, {"missed", "met"}), "", {}, "", "without a value"},
+                {{"kind", choice(e.kind, kinds), "", {}, "", ""},
+                 {"needed", choice(e.needed, needs), "", {}, "", "of the seeds"},
+                 {"absent", choice(e.absent, absences), "", {}, "", "without a value"},
                  {"measure", &e.measure, "", {}, "", "name"},
                  {"what", &e.what, "", {}, "", "for people"},
                  {"run", &e.run, "", {}, "", "default: the first"},
@@ -218,6 +223,8 @@ std::string Expectation::target() const {
         return "at most " + number(*most);
     return "–";
 }
+
+std::string_view name_of(Expectation::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
 Verdict judge(const Expectation& e, std::span<const std::optional<double>> values) {
     Verdict v;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace listric {
@@ -42,6 +43,8 @@ struct Expectation {
     bool meets(double value) const;
     std::string target() const; ///< "38.20 ± 0.50", "at least 0.60"
 };
+
+std::string_view name_of(Expectation::Kind kind);
 
 /// A picture of states below each other.
 struct ValidationPicture {

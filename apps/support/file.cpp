@@ -46,6 +46,13 @@ void write_text(const fs::path& path, std::string_view text) {
     write_bytes(path, std::as_bytes(std::span(text)));
 }
 
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw StorageError(folder.string() + ": " + error.message());
+}
+
 TemporaryFolder::TemporaryFolder(const fs::path& where) {
     fs::create_directories(where);
     std::string pattern = (where / ".data-XXXXXX").string();

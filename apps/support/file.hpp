@@ -14,6 +14,9 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 /// The same with text.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
+/// Makes a folder and those above it, if they are not there. Throws StorageError.
+void make_folder(const std::filesystem::path& folder);
+
 /// A folder that is removed with what is in it.
 struct TemporaryFolder {
     /// Makes a hidden one in `where`. Throws StorageError.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string>
 #include <unistd.h>
 
 namespace listric {
@@ -20,6 +21,12 @@ std::string rough_duration(double seconds) {
     if (s < 5400)
         return fmt::format("{} min", (s + 30) / 60);
     return fmt::format("{:.1f} h", static_cast<double>(s) / 3600.0);
+}
+
+void warn(std::string_view message) {
+    const std::string text = fmt::format("listric: warning: {}\n", message);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
 }
 
 Log::Log(const std::filesystem::path& file, bool quiet)

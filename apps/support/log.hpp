@@ -13,6 +13,9 @@ namespace listric {
 /// A duration, s, as people say it: "80 s", "12 min", "3.4 h".
 std::string rough_duration(double seconds);
 
+/// "listric: warning: ..." on stderr, for work without a log.
+void warn(std::string_view message);
+
 /// What people are told while something runs: messages, which stay, and progress, which does not.
 /// Both go to stderr unless it shall be quiet; messages also into a file, if there is one. On a
 /// terminal the line of progress is rewritten; elsewhere it appears as plain lines, a few per

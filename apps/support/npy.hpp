@@ -3,7 +3,7 @@
 #include "apps/support/error.hpp"
 
 #include <cassert>
-#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -34,7 +34,7 @@ void write_npy(const std::filesystem::path& path, std::span<const T> values,
     out.write(reinterpret_cast<const char*>(values.data()),
               static_cast<std::streamsize>(values.size_bytes()));
     if (!out.flush())
-        throw StorageError(path.string() + ": cannot write");
+        throw StorageError(path.string() + ": cannot be written");
 }
 
 } // namespace listric

@@ -1,5 +1,6 @@
 #include "apps/support/python.hpp"
 
+#include "apps/support/log.hpp"
 #include "apps/support/resources.hpp"
 
 #include <sys/wait.h>
@@ -39,6 +40,11 @@ std::string run_drawing_script(const std::string& script,
     return code == 0 ? ""
                      : "the drawing script failed (exit code " + std::to_string(code) +
                            "; it needs /usr/bin/python3 with matplotlib)";
+}
+
+void draw_or_warn(const std::string& script, const std::vector<std::string>& arguments) {
+    if (const std::string problem = run_drawing_script(script, arguments); !problem.empty())
+        warn("no figure: " + problem);
 }
 
 } // namespace listric

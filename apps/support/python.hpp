@@ -9,4 +9,7 @@ namespace listric {
 std::string run_drawing_script(const std::string& script,
                                const std::vector<std::string>& arguments);
 
+/// The same; why it could not is a warning on stderr.
+void draw_or_warn(const std::string& script, const std::vector<std::string>& arguments);
+
 } // namespace listric

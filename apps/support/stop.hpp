@@ -1,5 +1,7 @@
 #pragma once
 
+#include "apps/support/error.hpp"
+
 #include <atomic>
 
 namespace listric {
@@ -12,6 +14,12 @@ public:
     explicit StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}
 
     bool requested() const { return flag_ && flag_->load(std::memory_order_relaxed); }
+
+    /// Throws Interrupted if it is requested: for moments at which all is in order.
+    void check() const {
+        if (requested())
+            throw Interrupted{};
+    }
 
 private:
     const std::atomic<bool>* flag_ = nullptr;

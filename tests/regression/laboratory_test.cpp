@@ -166,8 +166,8 @@ TEST(Laboratory, SamplesSettleAtTheirStressWithoutFloaters) {
     SampleParameters p = compression_sample(200);
     const Specimen s = make_sample(p, Material{});
     const auto loads = surface_loads(s.state, s.base);
-    EXPECT_NEAR(loads[bottom_wall].force.y / p.width, p.stress, 0.3 * p.stress);
-    EXPECT_NEAR(loads[left_wall].force.x / p.height, p.stress, 0.3 * p.stress);
+    EXPECT_NEAR(loads[walls::bottom].force.y / p.width, p.stress, 0.3 * p.stress);
+    EXPECT_NEAR(loads[walls::left].force.x / p.height, p.stress, 0.3 * p.stress);
     int floaters = 0;
     for (int contacts : coordination(s.state, s.base))
         floaters += contacts < 3;

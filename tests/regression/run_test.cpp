@@ -5,6 +5,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/run/run.hpp"
 #include "dem/cycle.hpp"
+#include "tests/program.hpp"
 #include "tests/small_halfgraben.hpp"
 
 #include <fmt/format.h>
@@ -37,6 +38,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using support::contents;
+using support::Ended;
+using support::Program;
 using testing::AllOf;
 using testing::Contains;
 using testing::Each;
@@ -145,58 +148,6 @@ bool same(const Table& a, const Table& b) {
                return p.name == q.name && p.values == q.values;
            });
 }
-
-struct Ended {
-    int code; ///< exit code, or minus the signal
-    std::string out, err;
-};
-
-/// The program as a child process.
-class Program {
-public:
-    /// `prepare` runs in the child before the program starts.
-    Program(const fs::path& folder, std::vector<std::string> words,
-            const std::function<void()>& prepare = {})
-        : folder_(folder) {
-        words.insert(words.begin(), LISTRIC_PROGRAM);
-        std::vector<char*> arguments;
-        for (std::string& word : words)
-            arguments.push_back(word.data());
-        arguments.push_back(nullptr);
-        id_ = fork();
-        if (id_ == 0) {
-            redirect("stdout", STDOUT_FILENO);
-            redirect("stderr", STDERR_FILENO);
-            if (prepare)
-                prepare();
-            execv(arguments[0], arguments.data());
-            _exit(127);
-        }
-    }
-
-    void send(int signal) const { kill(id_, signal); }
-
-    bool runs() const {
-        siginfo_t info{};
-        waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT);
-        return info.si_pid == 0;
-    }
-
-    Ended wait() const {
-        int status = 0;
-        waitpid(id_, &status, 0);
-        return {WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status),
-                contents(folder_ / "stdout"), contents(folder_ / "stderr")};
-    }
-
-private:
-    void redirect(const char* name, int descriptor) const {
-        dup2(open((folder_ / name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), descriptor);
-    }
-
-    fs::path folder_;
-    pid_t id_;
-};
 
 /// What a run in-process may be told.
 struct How {

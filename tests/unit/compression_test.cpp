@@ -1,5 +1,7 @@
 #include "apps/laboratory/compression.hpp"
 
+#include "apps/laboratory/envelope.hpp"
+
 #include <gtest/gtest.h>
 
 namespace listric {
@@ -9,18 +11,18 @@ namespace {
 
 TEST(Compression, ByerleeInPrincipalStresses) {
     // sigma_1 = (sqrt(mu^2 + 1) + mu)^2 sigma_3 + 2 c (sqrt(mu^2 + 1) + mu), the lesser branch.
-    EXPECT_NEAR(byerlee_axial(10e6), 46.8e6, 0.1e6);
-    EXPECT_NEAR(byerlee_axial(100e6), 467.6e6, 0.1e6);
-    EXPECT_NEAR(byerlee_axial(200e6), 835.7e6, 0.2e6);
+    EXPECT_NEAR(fem::byerlee_axial(10e6), 46.8e6, 0.1e6);
+    EXPECT_NEAR(fem::byerlee_axial(100e6), 467.6e6, 0.1e6);
+    EXPECT_NEAR(fem::byerlee_axial(200e6), 835.7e6, 0.2e6);
 }
 
 TEST(Compression, EnvelopeFitFindsTheLineItWasMadeOf) {
-    const Envelope line{0.6, 10e6};
+    const fem::CoulombLine line{0.6, 10e6};
     const std::vector<double> confining{10e6, 50e6, 200e6};
     std::vector<double> axial;
     for (double s : confining)
         axial.push_back(line.axial(s));
-    const Envelope found = fit_envelope(confining, axial);
+    const fem::CoulombLine found = fit_envelope(confining, axial);
     EXPECT_NEAR(found.friction, 0.6, 1e-9);
     EXPECT_NEAR(found.cohesion, 10e6, 1.0);
 }

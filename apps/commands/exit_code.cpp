@@ -1,0 +1,101 @@
+#include "apps/commands/exit_code.hpp"
+
+#include "apps/support/error.hpp"
+#include "apps/support/memory.hpp"
+#include "dem/cycle.hpp"
+#include "fem/footwall.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <system_error>
+#include <unistd.h>
+
+namespace listric {
+
+namespace {
+
+Ending out_of_memory() {
+    const double need = noted_memory_need();
+    return {ExitCode::storage_failed,
+            need > 0.0
+                ? fmt::format("memory is short: about {:.0f} MB are needed", std::ceil(need / 1e6))
+                : "memory is short"};
+}
+
+Ending internal_error(const std::string& what) {
+    return {ExitCode::internal_error,
+            fmt::format("internal error: {}; this is our mistake: please report it, with log.txt "
+                        "and scene.toml",
+                        what)};
+}
+
+void tell(const Ending& ending) {
+    if (ending.message.empty())
+        return;
+    const std::string text = fmt::format("listric: {}\n", ending.message);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+} // namespace
+
+Ending ending_of(const std::exception_ptr& exception) {
+    assert(exception);
+    try {
+        std::rethrow_exception(exception);
+    } catch (const SceneError& error) {
+        return {ExitCode::bad_call, error.what()};
+    } catch (const UsageError& error) {
+        return {ExitCode::bad_call, error.what()};
+    } catch (const fem::FootwallError& error) {
+        return {ExitCode::bad_call, error.what()};
+    } catch (const dem::NumericalFailure& error) {
+        return {ExitCode::numerics_failed, error.what()};
+    } catch (const StorageError& error) {
+        return {ExitCode::storage_failed, error.what()};
+    } catch (const MemoryError& error) {
+        return {ExitCode::storage_failed, error.what()};
+    } catch (const std::bad_alloc&) {
+        return out_of_memory();
+    } catch (const std::filesystem::filesystem_error& error) {
+        return {ExitCode::storage_failed, error.what()};
+    } catch (const std::system_error& error) {
+        // Of a thread that could not be started: it needs a stack.
+        if (error.code() == std::errc::resource_unavailable_try_again ||
+            error.code() == std::errc::not_enough_memory)
+            return out_of_memory();
+        return internal_error(error.what());
+    } catch (const Interrupted&) {
+        return {ExitCode::interrupted, ""};
+    } catch (const std::exception& error) {
+        return internal_error(error.what());
+    } catch (...) {
+        return internal_error("an exception without a name");
+    }
+}
+
+int run_guarded(const std::function<ExitCode()>& work) {
+    try {
+        return static_cast<int>(work());
+    } catch (...) {
+        const Ending ending = ending_of(std::current_exception());
+        tell(ending);
+        return static_cast<int>(ending.code);
+    }
+}
+
+void guard_threads() {
+    std::set_terminate([] {
+        const auto exception = std::current_exception();
+        const Ending ending = exception ? ending_of(exception) : internal_error("terminated");
+        tell(ending);
+        _exit(static_cast<int>(ending.code));
+    });
+}
+
+} // namespace listric

@@ -1,0 +1,41 @@
+#include "apps/commands/command.hpp"
+#include "apps/commands/explain.hpp"
+#include "apps/support/error.hpp"
+
+#include <iostream>
+#include <memory>
+
+namespace listric {
+
+namespace {
+
+struct ExplainCall {
+    SceneRequest scene;
+    int threads = all_threads();
+    bool parameters = false; ///< their reference, instead of a scene
+};
+
+ExitCode explain(const ExplainCall& call) {
+    if (call.parameters)
+        std::cout << parameter_reference();
+    else if (call.scene.scene.empty())
+        throw UsageError("explain: a scene is needed, or --parameters");
+    else
+        std::cout << explain(load_scene(call.scene), call.threads);
+    return ExitCode::done;
+}
+
+} // namespace
+
+Command add_explain(CLI::App& program) {
+    const auto call = std::make_shared<ExplainCall>();
+    CLI::App* command =
+        program.add_subcommand("explain", "Say what a scene would simulate and cost; run nothing");
+    add_scene(*command, call->scene);
+    command->get_option("SCENE")->required(false);
+    add_threads(*command, call->threads);
+    command->add_flag("--parameters", call->parameters, "Reference of all parameters");
+    return {command, [call] { return explain(*call); }};
+}
+
+} // namespace listric

@@ -1,0 +1,17 @@
+#include "apps/commands/command.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+namespace listric {
+
+Command add_scenes(CLI::App& program) {
+    return {program.add_subcommand("scenes", "List the scenes"), [] {
+                for (const auto& [name, description] : list_scenes())
+                    std::cout << fmt::format("{:<12} {}\n", name, description);
+                return ExitCode::done;
+            }};
+}
+
+} // namespace listric

@@ -1,0 +1,33 @@
+#include "apps/commands/signals.hpp"
+
+#include "apps/commands/exit_code.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <unistd.h>
+
+namespace listric {
+
+namespace {
+
+std::atomic<bool> stop_requested = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+
+void answer_with(void (*handler)(int)) {
+    for (int signal : {SIGINT, SIGTERM, SIGHUP})
+        std::signal(signal, handler);
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+} // namespace
+
+void exit_on_signals() {
+    answer_with([](int) { _exit(static_cast<int>(ExitCode::interrupted)); });
+}
+
+StopToken stop_on_signals() {
+    answer_with([](int) { stop_requested = true; });
+    return StopToken(stop_requested);
+}
+
+} // namespace listric

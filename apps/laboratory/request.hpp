@@ -1,0 +1,36 @@
+#pragma once
+
+#include "apps/support/stop.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// A call of the laboratory.
+struct LaboratoryRequest {
+    std::string test = {};             ///< uniaxial, biaxial, shear-box, pure-shear
+    std::string material = {};         ///< name or path
+    std::vector<std::string> set = {}; ///< "material.friction=1"
+    std::int64_t discs = 1000;         ///< per sample
+    std::int64_t seed = 1;             ///< of the first sample
+    int seeds = 5;
+    int threads = 1;
+    std::filesystem::path output = {};        ///< empty: out/TEST-MATERIAL
+    std::optional<std::string> reading;       ///< of strengths: stress, force
+    std::string floaters = "grown";           ///< or left
+    double speed = 1.0;                       ///< of the walls, over the default
+    std::vector<double> stresses = {};        ///< confining or normal, MPa; empty: the default ones
+    std::optional<std::string> vice;          ///< shear box: a material, elastic, or none
+    std::optional<std::string> weakened;      ///< pure shear: what faults are made of
+    std::string accuracy = "draft";           ///< pure shear: of the slab
+    std::vector<double> weakening_rates = {}; ///< pure shear: critical, 1/s; empty: the default
+    std::vector<double> healing_rates = {};   ///< ones
+    bool quiet = false;
+    StopToken stop = {};
+};
+
+} // namespace listric

@@ -1,0 +1,176 @@
+#include "apps/studies/validation_report.hpp"
+
+#include "apps/support/statistics.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace listric {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "38.20 ± 0.03 (38.17 to 38.24)"
+std::string summary(const Expectation& e, const std::vector<std::optional<double>>& all) {
+    std::vector<double> numbers;
+    for (const auto& value : all)
+        if (value)
+            numbers.push_back(*value);
+    if (numbers.empty())
+        return all.empty() ? "" : "no value";
+    const auto [low, high] = std::ranges::minmax(numbers);
+    const Spread s = spread(numbers);
+    std::string text = fmt::format("{:.{}f}", s.mean, e.digits);
+    if (numbers.size() > 1)
+        text += fmt::format(" ± {:.{}f} ({:.{}f} to {:.{}f})", s.deviation, e.digits, low, e.digits,
+                            high, e.digits);
+    if (numbers.size() < all.size())
+        text += fmt::format(", {} without", all.size() - numbers.size());
+    return text;
+}
+
+/// Names of an experiment's runs: those that are there, and all.
+std::pair<std::set<std::string>, std::set<std::string>> runs_of(const ValidationFindings& f,
+                                                                const ValidationExperiment& x) {
+    std::set<std::string> present, all;
+    for (const std::string& name : x.runs)
+        for (int seed = 1; seed <= f.seeds_of(f.plan.run(name)); ++seed)
+            all.insert(run_name(name, seed));
+    std::ranges::set_intersection(all, f.finished, std::inserter(present, present.end()));
+    return {present, all};
+}
+
+/// What the document is, and how to read it.
+std::string introduction(const ValidationFindings& f) {
+    std::set<std::string> wanted, there; // experiments may share runs
+    for (const ValidationExperiment& x : f.experiments) {
+        auto [present, all] = runs_of(f, x);
+        there.merge(present);
+        wanted.merge(all);
+    }
+    std::string text = fmt::format(
+        "# Validation\n\n"
+        "Made by `listric validate` from the files of {} of {} runs at accuracy {}, up to {} "
+        "seeds each; do not edit. What is expected, and by whom, is in "
+        "`apps/studies/validation.toml`; [measures.md](measures.md) defines the measures; "
+        "[measures.csv]({}/measures.csv) has every number.\n\n",
+        there.size(), wanted.size(), f.accuracy, f.seeds, f.beside.filename().string());
+    return text + "A value is the mean over the seeds ± its standard deviation (smallest to "
+                  "largest). *Met* says how many seeds fulfil the expectation; where it asks for "
+                  "most seeds or for the mean, that decides. Rows of kind *kinematics* check the "
+                  "machinery: a hanging wall that slides on that detachment has them with any "
+                  "material, faults or none, so meeting them says nothing about faults. Rows of "
+                  "kind *faults* are what the paper is about. Rows of kind *conservation* are "
+                  "bookkeeping.\n\n";
+}
+
+/// How many expectations of each kind are met, by experiment.
+std::string overview(const ValidationFindings& f) {
+    std::string text = "| experiment | runs | kinematics | faults | conservation |\n"
+                       "|---|---|---|---|---|\n";
+    for (const ValidationExperiment& x : f.experiments) {
+        const auto [present, all] = runs_of(f, x);
+        text += fmt::format("| {} | {} of {} |", x.title, present.size(), all.size());
+        for (auto kind : {Expectation::Kind::kinematics, Expectation::Kind::faults,
+                          Expectation::Kind::conservation}) {
+            int met = 0, judged = 0;
+            for (const Expectation& e : x.expectations)
+                if (const Verdict v = judge(e, f.values(e, e.run));
+                    e.kind == kind && v.of > 0 && e.is_judged()) {
+                    ++judged;
+                    met += v.fulfilled;
+                }
+            text += judged ? fmt::format(" {} of {} |", met, judged) : " |";
+        }
+        text += '\n';
+    }
+    return text + "\n";
+}
+
+std::string table(const ValidationFindings& f, const ValidationExperiment& x) {
+    const bool beside = !x.compare.empty();
+    std::string text = "| kind | measure | expected | by | this program |";
+    text += beside ? fmt::format(" {} | verdict |\n|---|---|---|---|---|---|---|\n", x.compare)
+                   : " verdict |\n|---|---|---|---|---|---|\n";
+    for (const Expectation& e : x.expectations) {
+        const auto all = f.values(e, e.run);
+        const Verdict v = judge(e, all);
+        std::string what = e.what;
+        if (f.plan.run(e.run).at.size() > 1 || e.at)
+            what += ", " + extension_text(e.at.value_or(f.plan.run(e.run).at.back()));
+        text += fmt::format("| {} | {} (`{}`) | {} | {} | {} |", name_of(e.kind), what, e.measure,
+                            e.target(), e.source, summary(e, all));
+        if (beside)
+            text += fmt::format(" {} |", e.run == x.runs.front() && e.minus.empty()
+                                             ? summary(e, f.values(e, x.compare))
+                                             : "");
+        text += fmt::format(" {} |\n", v.text);
+    }
+    return text;
+}
+
+} // namespace
+
+int ValidationFindings::seeds_of(const ValidationRun& run) const {
+    return run.seeds > 0 ? std::min(run.seeds, seeds) : seeds;
+}
+
+std::vector<std::optional<double>> ValidationFindings::values(const Expectation& e,
+                                                              const std::string& of) const {
+    const ValidationRun& run = plan.run(of);
+    const double at = e.at.value_or(run.at.back());
+    std::vector<std::optional<double>> all;
+    const auto number = [&](const std::string& name, int seed, double where) {
+        return number_at(store, {name, seed, where}, e.measure);
+    };
+    for (int seed = 1; seed <= seeds_of(run); ++seed) {
+        if (!store.contains({of, seed, at}) ||
+            (!e.minus.empty() && !store.contains({e.minus, seed, at})))
+            continue;
+        std::optional<double> value = number(of, seed, at);
+        const auto take_off = [&](std::optional<double> other) {
+            value = value && other ? std::optional(*value - *other) : std::nullopt;
+        };
+        if (!e.minus.empty())
+            take_off(number(e.minus, seed, at));
+        if (e.since)
+            take_off(number(of, seed, *e.since));
+        all.push_back(value ? std::optional(*value / e.unit) : std::nullopt);
+    }
+    return all;
+}
+
+std::string run_name(const std::string& run, int seed) { return fmt::format("{}-{}", run, seed); }
+
+std::string extension_text(double at) { return fmt::format("{:g} km", at / 1e3); }
+
+std::string validation_document(const ValidationFindings& f) {
+    std::string text = introduction(f) + overview(f);
+    for (const ValidationExperiment& x : f.experiments) {
+        text += fmt::format("## {}\n\n", x.title);
+        if (!x.about.empty())
+            text += x.about + "\n\n";
+        text += table(f, x) + "\n";
+        for (const ValidationPicture& picture : x.pictures)
+            if (const fs::path file = f.beside / (picture.name + ".png"); fs::exists(file))
+                text += fmt::format("![{}]({}/{})\n\n*{}*\n\n", picture.name,
+                                    f.beside.filename().string(), file.filename().string(),
+                                    picture.caption);
+        if (!x.seen.empty() && f.accuracy == "standard")
+            text += x.seen + "\n\n";
+        const auto [present, all] = runs_of(f, x);
+        std::vector<std::string> missing;
+        std::ranges::set_difference(all, present, std::back_inserter(missing));
+        if (!missing.empty())
+            text += fmt::format("Runs that were not there: {}.\n\n", fmt::join(missing, ", "));
+    }
+    text.pop_back();
+    return text;
+}
+
+} // namespace listric

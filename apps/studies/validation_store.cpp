@@ -1,0 +1,70 @@
+#include "apps/studies/validation_store.hpp"
+
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <vector>
+
+namespace listric {
+
+std::optional<double> number_at(const MeasureStore& store, const MeasuredPlace& place,
+                                const std::string& measure) {
+    const auto m = store.find(place);
+    if (m == store.end())
+        return std::nullopt;
+    const auto found = m->second.numbers.find(measure);
+    return found == m->second.numbers.end() ? std::nullopt : std::optional(found->second);
+}
+
+MeasureStore read_store(const std::filesystem::path& file) {
+    MeasureStore store;
+    std::ifstream in(file);
+    std::string line, cell;
+    std::vector<std::string> names;
+    while (std::getline(in, line)) {
+        std::vector<std::string> cells;
+        std::istringstream row(line + ",");
+        while (std::getline(row, cell, ','))
+            cells.push_back(cell);
+        if (names.empty()) {
+            names = cells;
+            continue;
+        }
+        if (cells.size() != names.size() || cells.size() < 4)
+            throw StorageError(file.string() + ": a line has another number of columns than the "
+                                               "first; --remeasure writes it anew");
+        MeasuredNumbers& m =
+            store[{cells[0], std::atoi(cells[1].c_str()), std::atof(cells[2].c_str())}];
+        m.hash = cells[3];
+        for (std::size_t k = 4; k < cells.size(); ++k)
+            if (!cells[k].empty())
+                m.numbers[names[k]] = std::atof(cells[k].c_str());
+    }
+    return store;
+}
+
+void write_store(const std::filesystem::path& file, const MeasureStore& store) {
+    std::set<std::string> names;
+    for (const auto& [place, m] : store)
+        for (const auto& [name, value] : m.numbers)
+            names.insert(name);
+    std::string text = fmt::format("run,seed,at_m,state_hash,{}\n", fmt::join(names, ","));
+    for (const auto& [place, m] : store) {
+        text += fmt::format("{},{},{},{}", place.run, place.seed, place.at, m.hash);
+        for (const std::string& name : names) {
+            const auto number = m.numbers.find(name);
+            text += number == m.numbers.end() ? "," : fmt::format(",{:.6g}", number->second);
+        }
+        text += '\n';
+    }
+    write_text(file, text);
+}
+
+} // namespace listric
