@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/commands/exit_code.hpp"
-#include "apps/scene/scene.hpp"
+#include "apps/scene/scene_file.hpp"
 
 #include <CLI/CLI.hpp>
 

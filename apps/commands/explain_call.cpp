@@ -1,5 +1,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/explain.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 
 #include <iostream>
@@ -17,11 +18,11 @@ struct ExplainCall {
 
 ExitCode explain(const ExplainCall& call) {
     if (call.parameters)
-        std::cout << parameter_reference();
+        std::cout << parameter_reference(program_effects());
     else if (call.scene.scene.empty())
         throw UsageError("explain: a scene is needed, or --parameters");
     else
-        std::cout << explain(load_scene(call.scene), call.threads);
+        std::cout << explain(load_scene(call.scene), call.threads, program_effects());
     return ExitCode::done;
 }
 

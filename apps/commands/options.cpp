@@ -1,7 +1,7 @@
 // Options that several calls share.
 
 #include "apps/commands/command.hpp"
-#include "apps/scene/declaration.hpp"
+#include "apps/scene/accuracy.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

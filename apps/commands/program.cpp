@@ -2,7 +2,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
-#include "apps/scene/declaration.hpp"
+#include "apps/support/spelling.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/version.hpp"

@@ -1,7 +1,9 @@
 #include "apps/figures/frame.hpp"
 
 #include "apps/measures/kinematics.hpp"
-#include "apps/measures/measure.hpp"
+#include "apps/archive/setting.hpp"
+#include "apps/measures/measures.hpp"
+#include "apps/measures/profile.hpp"
 #include "apps/measures/rock_behaviour.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
@@ -76,7 +78,7 @@ void write_discs(const FrameWriter& writer, const State& state) {
 }
 
 void write_strain(const FrameWriter& writer, const Observation& now) {
-    const Event* const strain = find_event(now.events, "strain");
+    const auto* const strain = find<Strain>(now.events);
     if (strain && strain->applied > 0)
         writer.array("discs_shear_strain", now.state.discs.get<double>("window_strain"));
     else // the first window has not ended
@@ -125,7 +127,7 @@ void write_base(const FrameWriter& writer, const Observation& now) {
 }
 
 void write_profile(const FrameWriter& writer, const Observation& now) {
-    const Profile profile = measure_profile(now.scene, now.state, now.parts.base);
+    const Profile profile = measure_profile(archive::make_setting(now.scene, now.parts), now.state, now.parts.base);
     std::vector<double> rows;
     for (std::size_t k = 0; k < profile.x.size(); ++k)
         rows.insert(rows.end(),
@@ -205,7 +207,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     }
     write_base(writer, now);
     write_profile(writer, now);
-    const Measures m = measure(now.scene, now.state, now.parts.base, now.events);
+    const Measures m = measure(archive::make_setting(now.scene, now.parts), now.state, now.parts.base, now.events);
     if (m.inclined_shear_angle)
         write_predictions(writer, now, *m.inclined_shear_angle);
     if (m.depocentres)

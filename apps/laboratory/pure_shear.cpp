@@ -2,7 +2,8 @@
 
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/snapshot.hpp"
-#include "apps/scene/document.hpp"
+#include "apps/scene/scene_file.hpp"
+#include "apps/scene/toml.hpp"
 #include "dem/contacts.hpp"
 #include "dem/units.hpp"
 
@@ -129,7 +130,7 @@ StretchedSlab stretch_slab(const Scene& scene, RunOptions options) {
     std::vector<DiscPlaces> states;
     for (const auto& path : snapshots)
         states.emplace_back(read_snapshot(path).state);
-    slab.faults = trace_births(states, make_base(scene).surfaces.front().chain);
+    slab.faults = trace_births(states, make_rigid_base(scene).surfaces.front().chain);
     Snapshot end = read_snapshot(snapshots.back());
     slab.healed_share = healed_share(read_snapshot(snapshots.front()).state, end.state).value_or(0);
     for (double angle : end.event_memory.at(table_of(weakening_rate)).get<double>("angle_rad"))

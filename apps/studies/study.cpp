@@ -1,6 +1,6 @@
 #include "apps/studies/study.hpp"
 
-#include "apps/scene/declaration.hpp"
+#include "apps/support/spelling.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/python.hpp"

@@ -4,7 +4,9 @@
 
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
-#include "apps/scene/document.hpp"
+#include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/model.hpp"
+#include "apps/scene/toml.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
 #include "apps/support/resources.hpp"
@@ -93,9 +95,9 @@ StudyRun run_of(const Fill& fill, double thickness) {
 }
 
 fem::Plate plate_of(const Scene& scene, double thickness) {
-    const auto& base = *scene.elastic_base;
+    const auto& base = *elastic_base(scene);
     return {base.young_modulus, base.poisson_ratio, thickness,
-            (base.mantle_density - base.infill_density) * scene.gravity->acceleration};
+            (base.mantle_density - base.infill_density) * gravity_of(scene)};
 }
 
 /// A finished run: its summary and its last window beside the plate under the same loads.
@@ -164,7 +166,7 @@ constexpr const char* csv_head = "fill,elastic_thickness_m,seed,uplift_m,deflect
 StudyResult study_isostasy(const StudyRequest& asked) {
     const StudyRequest request = with_scene(asked, "lis1-elastic");
     const Scene scene = scene_of(request);
-    if (!scene.elastic_base || !scene.hanging_wall)
+    if (!elastic_base(scene) || !scene.hanging_wall)
         throw UsageError(fmt::format("study isostasy: {} has no discs on an [elastic_base]; "
                                      "allowed: scenes such as lis1-elastic",
                                      request.scene));

@@ -5,7 +5,7 @@
 #include "apps/figures/figures.hpp"
 #include "apps/measures/fault_history.hpp"
 #include "apps/run/run.hpp"
-#include "apps/scene/declaration.hpp"
+#include "apps/support/spelling.hpp"
 #include "apps/studies/validation_plan.hpp"
 #include "apps/studies/validation_report.hpp"
 #include "apps/studies/validation_store.hpp"

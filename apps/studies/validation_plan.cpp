@@ -1,6 +1,7 @@
 #include "apps/studies/validation_plan.hpp"
 
-#include "apps/scene/document.hpp"
+#include "apps/scene/shelf.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 
