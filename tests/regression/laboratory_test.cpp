@@ -1,6 +1,7 @@
 #include "apps/laboratory/calibration.hpp"
 #include "apps/laboratory/laboratory.hpp"
 #include "apps/laboratory/pure_shear.hpp"
+#include "apps/laboratory/tests.hpp"
 #include "apps/run/run.hpp"
 #include "dem/contacts.hpp"
 #include "dem/monitor.hpp"
