@@ -1,5 +1,6 @@
 #include "apps/archive/output_folder.hpp"
 
+#include "apps/scene/scene_file.hpp"
 #include "apps/archive/summary.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"

@@ -1,4 +1,5 @@
 #include "apps/commands/command.hpp"
+#include "apps/figures/draw_run.hpp"
 #include "apps/run/run.hpp"
 
 #include <memory>

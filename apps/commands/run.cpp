@@ -1,4 +1,5 @@
 #include "apps/run/run.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
 

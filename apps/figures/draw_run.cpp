@@ -1,5 +1,6 @@
 #include "apps/figures/draw_run.hpp"
 
+#include "apps/archive/setting.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
@@ -46,7 +47,8 @@ std::vector<fs::path> chosen_snapshots(const RunFolder& run) {
 void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
                const RunHistory& history) {
     frames.add({run.scene, run.parts, moment.state, moment.events},
-               report_faults(run.scene, run.parts.base, moment.state, history));
+               report_faults(make_setting(run.scene, run.parts), run.parts.base, moment.state,
+                             history));
 }
 
 } // namespace
@@ -95,7 +97,7 @@ void animate_run(const fs::path& output) {
         const Moment moment = run.read(path);
         add_frame(frames, run, moment, window);
         window = {};
-        window.add(DiscPlaces(moment.state));
+        window.add(measures::DiscPlaces(moment.state));
     }
     frames.draw("animation");
 }

@@ -10,6 +10,8 @@
 
 namespace listric {
 
+using namespace measures;
+
 namespace fs = std::filesystem;
 
 FigureFrames::FigureFrames(const fs::path& folder) : folder_(folder), data_(folder) {}

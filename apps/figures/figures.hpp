@@ -11,7 +11,7 @@ namespace listric {
 
 /// Draws the pictures of one state into `folder`. Returns an empty string, or why it could not:
 /// pictures are worth a warning, not the run.
-std::string draw_figures(const Observation& now, const FaultReport& faults,
+std::string draw_figures(const Observation& now, const measures::FaultReport& faults,
                          const std::filesystem::path& folder);
 
 /// Pictures of several moments of a run: the arrays that the drawing script reads, in a folder that
@@ -22,7 +22,7 @@ public:
     explicit FigureFrames(const std::filesystem::path& folder);
 
     /// Throws StorageError.
-    void add(const Observation& now, const FaultReport& faults);
+    void add(const Observation& now, const measures::FaultReport& faults);
 
     /// @param kind  "sections" of every frame, one "experiment" sheet, an "animation" or
     ///              a "gallery", gallery.png

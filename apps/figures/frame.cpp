@@ -21,6 +21,7 @@
 namespace listric {
 
 using namespace dem;
+using namespace measures;
 
 namespace {
 

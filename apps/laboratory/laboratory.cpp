@@ -1,5 +1,6 @@
 #include "apps/laboratory/laboratory.hpp"
 
+#include "apps/support/spelling.hpp"
 #include "apps/laboratory/report.hpp"
 #include "apps/laboratory/slab_sweep.hpp"
 #include "apps/laboratory/tests.hpp"

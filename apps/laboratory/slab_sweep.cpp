@@ -1,5 +1,6 @@
 #include "apps/laboratory/slab_sweep.hpp"
 
+#include "apps/model/effects.hpp"
 #include "apps/laboratory/envelope.hpp"
 #include "apps/support/file.hpp"
 

@@ -9,6 +9,8 @@
 
 namespace listric {
 
+using namespace archive;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -12,6 +12,7 @@
 #include "apps/run/genesis_cache.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "coupling/strong_scheme.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/strain.hpp"
 
@@ -90,7 +91,7 @@ void Session::make_footwall() {
         ElasticBase& base = footwall_->base();
         const double before = base.seconds;
         if (base.is_iterated())
-            base.advance_iterated(state, rigid, physics, cycles, how);
+            advance_iterated(base, state, rigid, physics, cycles, how);
         else
             advance(state, rigid, physics, cycles, how, &base);
         record_.seconds_by_part["base"] += base.seconds - before;

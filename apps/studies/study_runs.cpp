@@ -2,6 +2,7 @@
 
 #include "apps/studies/study.hpp"
 
+#include "apps/model/effects.hpp"
 #include "apps/archive/json_file.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/log.hpp"

@@ -1,5 +1,7 @@
 #include "apps/studies/validation.hpp"
 
+#include "apps/archive/setting.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/figures/figures.hpp"
@@ -223,9 +225,9 @@ private:
             const Moment moment = folder.read(path);
             folder.scene.description =
                 fmt::format("{}, seed {}, {}", frame.run, frame.seed, extension_text(frame.at));
-            figure.add(folder.scene, moment.state, folder.base, moment.events,
-                       report_faults(folder.scene, folder.base, moment.state,
-                                     RunHistory(folder.snapshots)));
+            figure.add({folder.scene, folder.parts, moment.state, moment.events},
+                       report_faults(make_setting(folder.scene, folder.parts), folder.parts.base,
+                                     moment.state, RunHistory(folder.snapshots)));
         }
         figure.draw("gallery");
         fs::rename(findings_.beside / "gallery.png", file);

@@ -28,13 +28,6 @@ const std::vector<std::string_view> kinds = {"kinematics", "faults", "conservati
 const std::vector<std::string_view> needs = {"each", "most", "mean"};
 const std::vector<std::string_view> absences = {"missed", "met"};
 
-template <class Enum> Choice choice(Enum& value, const std::vector<std::string_view>& names) {
-    return {names, [&value, names] { return names[static_cast<std::size_t>(value)]; },
-            [&value, names](std::string_view name) {
-                value = static_cast<Enum>(std::ranges::find(names, name) - names.begin());
-            }};
-}
-
 /// Reads every table of the array `key`, if it is there, with read(entry).
 template <class Read> void for_each_table(const Entry& parent, const char* key, Read&& read) {
     const toml::node* node = parent.node.as_table()->get(key);
@@ -49,7 +42,7 @@ template <class Read> void for_each_table(const Entry& parent, const char* key, 
 }
 
 /// Reads the keys of a table but those of the given tables in it.
-void read_values(const Entry& entry, const std::vector<Parameter>& parameters,
+void read_values(const Entry& entry, const std::vector<Parameter>& parameters, void* object,
                  const std::vector<std::string_view>& tables = {}) {
     std::vector<std::string_view> allowed = keys(parameters);
     allowed.insert(allowed.end(), tables.begin(), tables.end());
@@ -59,7 +52,7 @@ void read_values(const Entry& entry, const std::vector<Parameter>& parameters,
             fail(inner, fmt::format("unknown key, {}", advice(key.str(), allowed)));
         const auto parameter = std::ranges::find(parameters, key.str(), &Parameter::key);
         if (parameter != parameters.end())
-            read(inner, *parameter);
+            read(inner, *parameter, object);
     }
 }
 
@@ -68,43 +61,59 @@ void need(const Entry& entry, const char* key, bool present) {
         fail(entry, fmt::format("needs {}", key));
 }
 
-ValidationRun read_run(const Entry& entry) {
+/// A run as the file says it.
+struct RunText {
     ValidationRun run;
     std::string set, without;
-    read_values(entry, {{"name", &run.name, "", {}, "", "of the folders"},
-                        {"scene", &run.scene, "", {}, "", "that is run"},
-                        {"set", &set, "", {}, "", "changes, table.key=value"},
-                        {"without", &without, "", {}, "", "tables taken out"},
-                        {"seeds", &run.seeds, "", {.from = 0, .to = 1000}, "", "0: all"},
-                        {"accuracy", &run.accuracy, "", {}, "", "if always the same"},
-                        {"at_m", &run.at, "m", {.from = 0, .to = 1e6}, "", "measured there"}});
-    run.set = words(set);
-    run.without = words(without);
+};
+
+ValidationRun read_run(const Entry& entry) {
+    using T = RunText;
+    using R = ValidationRun;
+    static const std::vector<Parameter> parameters{
+        {"name", at<&T::run, &R::name>, "", {}, "", "of the folders"},
+        {"scene", at<&T::run, &R::scene>, "", {}, "", "that is run"},
+        {"set", at<&T::set>, "", {}, "", "changes, table.key=value"},
+        {"without", at<&T::without>, "", {}, "", "tables taken out"},
+        {"seeds", at<&T::run, &R::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"},
+        {"accuracy", at<&T::run, &R::accuracy>, "", {}, "", "if always the same"},
+        {"at_m", at<&T::run, &R::at>, "m", {.from = 0, .to = 1e6}, "", "measured there"}};
+    RunText text;
+    read_values(entry, parameters, &text);
+    ValidationRun& run = text.run;
+    run.set = words(text.set);
+    run.without = words(text.without);
     need(entry, "name", !run.name.empty());
     need(entry, "scene", !run.scene.empty());
     need(entry, "at_m", !run.at.empty());
     return run;
 }
 
+const std::vector<Parameter>& expectation_parameters() {
+    using E = Expectation;
+    static const std::vector<Parameter> parameters{
+        {"kind", one_of<&E::kind>(kinds), "", {}, "", ""},
+        {"needed", one_of<&E::needed>(needs), "", {}, "", "of the seeds"},
+        {"absent", one_of<&E::absent>(absences), "", {}, "", "without a value"},
+        {"measure", at<&E::measure>, "", {}, "", "name"},
+        {"what", at<&E::what>, "", {}, "", "for people"},
+        {"run", at<&E::run>, "", {}, "", "default: the first"},
+        {"minus", at<&E::minus>, "", {}, "", "run whose value is taken off"},
+        {"at_m", at<&E::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
+        {"since_m", at<&E::since>, "m", {.from = 0, .to = 1e6}, "", "extension taken off"},
+        {"unit", at<&E::unit>, "", {.above = 0}, "", "value over this is shown"},
+        {"digits", at<&E::digits>, "", {.from = 0, .to = 9}, "", "after the point"},
+        {"expected", at<&E::expected>, "", {}, "", ""},
+        {"tolerance", at<&E::tolerance>, "", {.from = 0}, "", ""},
+        {"least", at<&E::least>, "", {}, "", ""},
+        {"most", at<&E::most>, "", {}, "", ""},
+        {"source", at<&E::source>, "", {}, "", "who expects it"}};
+    return parameters;
+}
+
 Expectation read_expectation(const Entry& entry) {
     Expectation e;
-    read_values(entry,
-                {{"kind", choice(e.kind, kinds), "", {}, "", ""},
-                 {"needed", choice(e.needed, needs), "", {}, "", "of the seeds"},
-                 {"absent", choice(e.absent, absences), "", {}, "", "without a value"},
-                 {"measure", &e.measure, "", {}, "", "name"},
-                 {"what", &e.what, "", {}, "", "for people"},
-                 {"run", &e.run, "", {}, "", "default: the first"},
-                 {"minus", &e.minus, "", {}, "", "run whose value is taken off"},
-                 {"at_m", &e.at, "m", {.from = 0, .to = 1e6}, "", "extension"},
-                 {"since_m", &e.since, "m", {.from = 0, .to = 1e6}, "", "extension taken off"},
-                 {"unit", &e.unit, "", {.above = 0}, "", "value over this is shown"},
-                 {"digits", &e.digits, "", {.from = 0, .to = 9}, "", "after the point"},
-                 {"expected", &e.expected, "", {}, "", ""},
-                 {"tolerance", &e.tolerance, "", {.from = 0}, "", ""},
-                 {"least", &e.least, "", {}, "", ""},
-                 {"most", &e.most, "", {}, "", ""},
-                 {"source", &e.source, "", {}, "", "who expects it"}});
+    read_values(entry, expectation_parameters(), &e);
     need(entry, "measure", !e.measure.empty());
     need(entry, "what", !e.what.empty());
     if (e.expected && (e.least || e.most))
@@ -115,35 +124,47 @@ Expectation read_expectation(const Entry& entry) {
 ValidationPicture read_picture(const Entry& entry) {
     ValidationPicture picture;
     read_values(entry,
-                {{"name", &picture.name, "", {}, "", "of the file"},
-                 {"caption", &picture.caption, "", {}, "", "below it"}},
-                {"rows"});
+                {{"name", at<&ValidationPicture::name>, "", {}, "", "of the file"},
+                 {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}},
+                &picture, {"rows"});
     need(entry, "name", !picture.name.empty());
     for_each_table(entry, "rows", [&](const Entry& item) {
-        ValidationPicture::Row row;
-        read_values(item, {{"run", &row.run, "", {}, "", "drawn"},
-                           {"at_m", &row.at, "m", {.from = 0, .to = 1e6}, "", "extension"},
-                           {"seeds", &row.seeds, "", {.from = 0, .to = 1000}, "", "0: all"}});
+        using Row = ValidationPicture::Row;
+        Row row;
+        read_values(item,
+                    {{"run", at<&Row::run>, "", {}, "", "drawn"},
+                     {"at_m", at<&Row::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
+                     {"seeds", at<&Row::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"}},
+                    &row);
         picture.rows.push_back(row);
     });
     return picture;
 }
 
+/// An experiment as the file says it.
+struct ExperimentText {
+    ValidationExperiment experiment;
+    std::string runs, like;
+};
+
 /// @param before  experiments whose expectations this one may share
 ValidationExperiment read_experiment(const Entry& entry,
                                      const std::vector<ValidationExperiment>& before) {
-    ValidationExperiment x;
-    std::string runs, like;
-    read_values(entry,
-                {{"name", &x.name, "", {}, "", "for --only"},
-                 {"title", &x.title, "", {}, "", "heading"},
-                 {"about", &x.about, "", {}, "", "before the table"},
-                 {"seen", &x.seen, "", {}, "", "in the pictures"},
-                 {"runs", &runs, "", {}, "", "names of runs; the first is judged"},
-                 {"like", &like, "", {}, "", "has this one's expectations, too"},
-                 {"compare", &x.compare, "", {}, "", "run whose values stand beside"}},
-                {"expect", "picture"});
-    x.runs = words(runs);
+    using T = ExperimentText;
+    using X = ValidationExperiment;
+    static const std::vector<Parameter> parameters{
+        {"name", at<&T::experiment, &X::name>, "", {}, "", "for --only"},
+        {"title", at<&T::experiment, &X::title>, "", {}, "", "heading"},
+        {"about", at<&T::experiment, &X::about>, "", {}, "", "before the table"},
+        {"seen", at<&T::experiment, &X::seen>, "", {}, "", "in the pictures"},
+        {"runs", at<&T::runs>, "", {}, "", "names of runs; the first is judged"},
+        {"like", at<&T::like>, "", {}, "", "has this one's expectations, too"},
+        {"compare", at<&T::experiment, &X::compare>, "", {}, "", "run whose values stand beside"}};
+    ExperimentText text;
+    read_values(entry, parameters, &text, {"expect", "picture"});
+    ValidationExperiment& x = text.experiment;
+    const std::string& like = text.like;
+    x.runs = words(text.runs);
     need(entry, "name", !x.name.empty());
     need(entry, "runs", !x.runs.empty());
     if (!like.empty()) {
