@@ -98,8 +98,8 @@ TEST_F(BaseMotionRun, EndsInTheSameBitsAfterAResumeAndWithTwoThreads) {
     SceneRequest request;
     request.scene = (folder / "whole/scene.toml").string();
     const Scene again = load_scene(request);
-    EXPECT_EQ(again.base_motion->uplift.size(), 2u);
-    EXPECT_EQ(again.base_motion->shift.size(), 2u);
+    EXPECT_EQ(again.find<BaseMotionParameters>()->uplift.size(), 2u);
+    EXPECT_EQ(again.find<BaseMotionParameters>()->shift.size(), 2u);
 }
 
 TEST_F(BaseMotionRun, RefusesWhatMakesNoSense) {

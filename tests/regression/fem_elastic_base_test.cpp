@@ -1,7 +1,10 @@
 // Scenes with an elastic base: what loads it besides discs, and what bad input leads to.
 
+#include "apps/model/effects/elastic_base_parameters.hpp"
+#include "coupling/lower_crust_thinning.hpp"
+#include "apps/model/model.hpp"
 #include "apps/commands/explain.hpp"
-#include "apps/scene/footwall_request.hpp"
+#include "apps/model/footwall_request.hpp"
 #include "coupling/base_memory.hpp"
 #include "coupling/interface_loads.hpp"
 #include "tests/scene_runs.hpp"
@@ -99,7 +102,7 @@ TEST_F(ElasticBaseRun, WaterHoldsTheBaseDown) {
     const double lower =
         dry["footwall_uplift_m"].get<double>() - filled["footwall_uplift_m"].get<double>();
     const State end = read_snapshot(list_snapshots(folder / "wet").back()).state;
-    const auto footwall = fem::make_footwall(make_footwall_request(wet));
+    const auto footwall = fem::make_footwall(make_footwall_request(wet, make_parts(wet)));
     fem::Load load;
     load.interface = interface_loads(end);
     load.interface.resize(2 * footwall->interface().size(), 0.0);
@@ -121,8 +124,8 @@ TEST_F(ElasticBaseRun, ThinningLowersTheBase) {
     const auto sinks = [&](const json& s) {
         return without["footwall_uplift_m"].get<double>() - s["footwall_uplift_m"].get<double>();
     };
-    const auto footwall = fem::make_footwall(make_footwall_request(loaded));
-    footwall->solve(lower_crust_load(*loaded.lower_crust_thinning, 600.0 * 9.81, 60.0));
+    const auto footwall = fem::make_footwall(make_footwall_request(loaded, make_parts(loaded)));
+    footwall->solve(lower_crust_load(*loaded.find<LowerCrustThinningParameters>(), 600.0 * 9.81, 60.0));
     const double alone = -footwall->interface_displacement()[1];
     std::printf("lower by %.2f m, footwall alone %.2f m, filled by %.0f m2: %.2f m\n",
                 sinks(thinned), alone, with["footwall_deposited_m2"].get<double>(), sinks(with));
@@ -177,14 +180,14 @@ TEST_F(ElasticBaseRun, ASecondMeshGivesTheSameBase) {
 }
 
 TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {
-    const std::string with = explain(load(loads), 1), without = explain(load(), 1);
+    const std::string with = explain(load(loads), 1, program_effects()), without = explain(load(), 1, program_effects());
     EXPECT_THAT(with, AllOf(HasSubstr("lower crust: 20 km over 15 km thins by 80 m"),
                             HasSubstr("footwall: over 20 km to its target every 1000 a"),
                             HasSubstr("not in the model: water")));
     EXPECT_THAT(without, HasSubstr("not in the model: erosion of the footwall, thinning of the "
                                    "lower crust, water"));
     EXPECT_THAT(
-        explain(load("[basin_water]\n"), 1),
+        explain(load("[basin_water]\n"), 1, program_effects()),
         AllOf(HasSubstr("basin: water of 1030 kg/m3 up to 0 m"), Not(HasSubstr("crust, water"))));
 }
 
@@ -254,12 +257,12 @@ TEST_F(ElasticBaseRun, LayersAndSidesAreWrittenAndReadBack) {
     SceneRequest request;
     request.scene = (folder / "again.toml").string();
     const Scene again = load_scene(request);
-    ASSERT_EQ(again.elastic_base->layers.size(), 2u);
-    EXPECT_EQ(again.elastic_base->layers[0].young_modulus, 5e10);
-    EXPECT_EQ(again.elastic_base->layers[1].poisson_ratio, 0.3);
-    EXPECT_EQ(again.elastic_base->layers[1].top_depth, 2000.0);
-    EXPECT_EQ(again.elastic_base->left_side, fem::Side::elastic);
-    EXPECT_EQ(again.elastic_base->refinements, 1);
+    ASSERT_EQ(again.find<ElasticBaseParameters>()->layers.size(), 2u);
+    EXPECT_EQ(again.find<ElasticBaseParameters>()->layers[0].young_modulus, 5e10);
+    EXPECT_EQ(again.find<ElasticBaseParameters>()->layers[1].poisson_ratio, 0.3);
+    EXPECT_EQ(again.find<ElasticBaseParameters>()->layers[1].top_depth, 2000.0);
+    EXPECT_EQ(again.find<ElasticBaseParameters>()->left_side, fem::Side::elastic);
+    EXPECT_EQ(again.find<ElasticBaseParameters>()->refinements, 1);
     EXPECT_EQ(to_toml(again), to_toml(s));
 }
 

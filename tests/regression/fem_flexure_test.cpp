@@ -1,5 +1,6 @@
 // The scene flexure from the call to the files: names, numbers and what bad input leads to.
 
+#include "apps/model/effects.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/file.hpp"
 #include "fem/elastic_layer.hpp"

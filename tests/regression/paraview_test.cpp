@@ -180,7 +180,7 @@ TEST_F(ParaviewTest, EveryMomentHoldsWhatTheSnapshotDoes) {
     const auto snapshots = list_snapshots(run);
     ASSERT_EQ(snapshots.size(), 4); // 0, 100, 200, 300 m
     ASSERT_EQ(moments.size(), snapshots.size());
-    const RigidBase base = make_base(scene);
+    const RigidBase base = make_rigid_base(scene);
     for (std::size_t k = 0; k < snapshots.size(); ++k) {
         SCOPED_TRACE(snapshots[k]);
         const State state = read_snapshot(snapshots[k]).state;

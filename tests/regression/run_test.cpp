@@ -1,6 +1,7 @@
 // Runs from beginning to end: reproducible, resumable after anything, honest about what fails.
 // Most runs are made in-process; where signals and exit codes matter, by the program.
 
+#include "apps/model/model.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/run.hpp"
@@ -225,7 +226,7 @@ protected:
     void change_state(const fs::path& file, const std::function<void(State&)>& change) const {
         Snapshot snapshot = read_snapshot(file);
         change(snapshot.state);
-        auto events = make_events(scene());
+        auto events = make_events(scene(), make_parts(scene()));
         for (auto& event : events) {
             event->memory = snapshot.event_memory.at(event->name());
             event->applied = snapshot.event_applied.at(event->name());
@@ -921,7 +922,7 @@ TEST_F(RunTest, NoDiscLeavesAKinkedDetachment) {
         "hanging_wall.thickness_m=1511.5"};
     const Scene what = scene(kinked);
     const fs::path output = run(what, "run");
-    const RigidBase base = make_base(what);
+    const RigidBase base = make_rigid_base(what);
     const State state = read_snapshot(list_snapshots(output).back()).state;
     const ConstDiscColumns d = disc_columns(state);
     const Chain& detachment = base.surfaces.front().chain;

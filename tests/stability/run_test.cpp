@@ -30,7 +30,7 @@ protected:
         Snapshot snapshot = read_snapshot(file);
         change(snapshot.state);
         const Scene scene = load_scene({.scene = (output / "scene.toml").string()});
-        auto events = make_events(scene);
+        auto events = make_events(scene, make_parts(scene));
         for (auto& event : events) {
             event->memory = snapshot.event_memory.at(event->name());
             event->applied = snapshot.event_applied.at(event->name());

@@ -134,7 +134,7 @@ TEST(Compaction, PorosityBesideThatOfTheDepth) {
     porosity[3] = 0.5 * std::exp(-0.8);
     Setting setting;
     setting.sediment = {0.0, Target(0.0), 0.5, 4e-4};
-    const NamedNumbers found = measure_effects(setting, state);
+    const NamedNumbers found = measure_rock(setting, state);
     const std::map<std::string, double> numbers(found.begin(), found.end());
     EXPECT_NEAR(numbers.at("porosity_error"), 0.1 * (1.0 - std::exp(-0.4)), 1e-12);
     EXPECT_NEAR(numbers.at("porosity_off_fraction"), 0.1, 1e-12);
@@ -217,10 +217,15 @@ TEST(ReverseFaults, AboveTheKink) {
     }
     state.clock.extension = 10e3;
 
-    Scene scene;
-    scene.hanging_wall.emplace();
-    scene.fault_weakening.emplace();
-    auto detection = std::make_unique<FaultWeakening>(*scene.fault_weakening, 0.01, 9.81, density);
+    const FaultWeakeningParameters weakening;
+    Setting setting;
+    setting.length = 40e3;
+    setting.thickness = 15e3;
+    setting.has_detachment = true;
+    setting.output_interval = 500.0;
+    setting.youngest_sediment = weakening.youngest_sediment * setting.extension_rate;
+    setting.detection_circle = weakening.circle_diameters;
+    auto detection = std::make_unique<FaultWeakening>(weakening, 0.01, 9.81, density);
     const double segments[4][5] = {// x, y, angle, slip, found at
                                    {middle.x, middle.y, 50.0, 90.0, 8e3},
                                    {middle.x + 2e3, middle.y, 50.0, -90.0, 8e3}, // normal
@@ -244,7 +249,7 @@ TEST(ReverseFaults, AboveTheKink) {
           arc({12e3, -7e3}, {0.0, -1.0}, 8e3, 90.0 * degree), line({20e3, -15e3}, {100e3, -15e3})},
          0.0}};
     const NamedNumbers found =
-        measure_evolution(make_setting(scene), base, state, {}, {}, fault_segments(events), past);
+        measure_evolution(setting, base, state, {}, {}, archive::fault_segments(events), past);
     const std::map<std::string, double> numbers(found.begin(), found.end());
     EXPECT_NEAR(numbers.at("kink_reverse_strain_share"), 1.0, 1e-9);
     EXPECT_NEAR(numbers.at("kink_reverse_fault_share"),

@@ -3,6 +3,11 @@
 
 #include "apps/scene/material_file.hpp"
 
+#include "apps/model/model.hpp"
+#include "apps/model/effects.hpp"
+#include "dem/events/fault_weakening.hpp"
+#include "dem/events/sedimentation.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -202,14 +207,14 @@ TEST_F(MaterialFileTest, MaterialThenSceneThenSet) {
     const Scene plain = load(scene_text + materials);
     EXPECT_EQ(plain.basement.normal_stiffness, 2e10);
     EXPECT_EQ(plain.basement.friction, 0.7);
-    EXPECT_FALSE(plain.bonds); // an effect is on when the scene has its table, whatever the rock
+    EXPECT_FALSE(make_parts(plain).bonds); // an effect is on when the scene has its table, whatever the rock
     const Scene bonded = load(scene_text + materials + "[bonds]\nshear_strength_pa = 5e6\n",
                               {"material.friction=0.9", "bonds.tensile_strength_pa=7e4"});
     EXPECT_EQ(bonded.basement.normal_stiffness, 2e10);
     EXPECT_EQ(bonded.basement.friction, 0.9);
-    EXPECT_EQ(bonded.bonds->tensile_mean, 7e4);
-    EXPECT_EQ(bonded.bonds->tensile_deviation, 2e4);
-    EXPECT_EQ(bonded.bonds->shear_mean, 5e6);
+    EXPECT_EQ(make_parts(bonded).bonds->tensile_mean, 7e4);
+    EXPECT_EQ(make_parts(bonded).bonds->tensile_deviation, 2e4);
+    EXPECT_EQ(make_parts(bonded).bonds->shear_mean, 5e6);
     EXPECT_EQ(load(scene_text + "[material]\nfriction = 0.2\n", {"materials.basement=mat18-b"})
                   .basement.friction,
               0.2);
@@ -221,14 +226,14 @@ TEST_F(MaterialFileTest, WeakenedAndSediment) {
         load(scene_text + effects,
              {"materials.weakened=mat18-w-calibrated",
               "materials.sediment=" + write(rock_text, "sand.toml"), "sedimentation.friction=0.4"});
-    EXPECT_EQ(scene.fault_weakening->material.normal_stiffness, 1.7e10);
-    EXPECT_EQ(scene.fault_weakening->material.friction, 0.5);
-    EXPECT_EQ(scene.sedimentation->material.normal_stiffness, 2e10);
-    EXPECT_EQ(scene.sedimentation->material.friction, 0.4);
+    EXPECT_EQ(scene.find<FaultWeakeningParameters>()->material.normal_stiffness, 1.7e10);
+    EXPECT_EQ(scene.find<FaultWeakeningParameters>()->material.friction, 0.5);
+    EXPECT_EQ(scene.find<SedimentationParameters>()->material.normal_stiffness, 2e10);
+    EXPECT_EQ(scene.find<SedimentationParameters>()->material.friction, 0.4);
     // Weak discs stay unbonded and sediment can be cemented, whatever the files say.
     const Scene swapped = load(scene_text + effects, {"materials.weakened=mat18-b"});
-    EXPECT_FALSE(swapped.fault_weakening->material.bondable);
-    EXPECT_TRUE(swapped.sedimentation->material.bondable);
+    EXPECT_FALSE(swapped.find<FaultWeakeningParameters>()->material.bondable);
+    EXPECT_TRUE(swapped.find<SedimentationParameters>()->material.bondable);
 }
 
 TEST_F(MaterialFileTest, BondedScenesNeedRockWithBonds) {
@@ -245,7 +250,7 @@ TEST_F(MaterialFileTest, WhatARunWritesNeedsNoMaterialFile) {
     const Scene scene = load(scene_text + "[materials]\nbasement = 'rocks/rock.toml'\n[bonds]\n");
     fs::remove(folder / "rocks/rock.toml");
     EXPECT_EQ(to_toml(load(to_toml(scene))), to_toml(scene));
-    EXPECT_THAT(parameter_reference(),
+    EXPECT_THAT(parameter_reference(program_effects()),
                 AllOf(HasSubstr("\n[materials]"), HasSubstr("    weakened = \"mat18-w\"\n")));
 }
 

@@ -7,6 +7,7 @@
 #include "apps/measures/localisation.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -18,6 +19,7 @@ namespace listric {
 
 using namespace dem;
 using namespace measures;
+using archive::make_setting;
 namespace {
 
 constexpr std::size_t n = 1000;
@@ -145,7 +147,7 @@ TEST(Depocentre, NoSedimentNoDepocentre) {
 
 TEST(RampFlatRamp, PartsOfTheDetachment) {
     const auto parts =
-        find_ramp_flat_ramp(make_base(load_scene({.scene = "rfr"})).surfaces.front().chain);
+        find_ramp_flat_ramp(make_rigid_base(load_scene({.scene = "rfr"})).surfaces.front().chain);
     ASSERT_TRUE(parts);
     const double kink = 300.0 * std::acos(1.0 - 8.0 / 8.3);
     EXPECT_NEAR(parts->flat_start, 3.5e3 * pi, 1e-6);
@@ -163,7 +165,7 @@ TEST(RampFlatRamp, PartsOfTheDetachment) {
 
     for (const char* simple : {"lis1", "lis2"})
         EXPECT_FALSE(
-            find_ramp_flat_ramp(make_base(load_scene({.scene = simple})).surfaces.front().chain))
+            find_ramp_flat_ramp(make_rigid_base(load_scene({.scene = simple})).surfaces.front().chain))
             << simple;
 }
 
@@ -193,7 +195,7 @@ TEST(RampFlatRamp, RotationsOfItsParts) {
     const Scene scene = load_scene(
         {.scene = "rfr",
          .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
-    const RigidBase base = make_base(scene);
+    const RigidBase base = make_rigid_base(scene);
     State state = lattice(scene, base);
     state.clock.extension = 1000.0;
     const auto at_breakaway = [](Point p) { return std::hypot(p.x, p.y) < 1.6e3; };
@@ -201,7 +203,7 @@ TEST(RampFlatRamp, RotationsOfItsParts) {
     turn(state, 80.0, at_breakaway);
     turn(state, 43.0, below_flat);
     turn(state, -15.0, [&](Point p) { return !at_breakaway(p) && !below_flat(p); });
-    const Measures m = measure(make_setting(scene), state, base, {});
+    const Measures m = measure(make_setting(scene, make_parts(scene)), state, base, {});
     EXPECT_NEAR(m.breakaway_rotation.value(), 80.0, 1e-9);
     EXPECT_NEAR(m.lower_block_rotation.value(), 43.0, 1e-9);
     EXPECT_NEAR(m.toe_rotation.value(), -15.0, 1e-9);
@@ -211,11 +213,11 @@ TEST(RampFlatRamp, OtherDetachmentsHaveNoSuchParts) {
     const Scene scene = load_scene(
         {.scene = "lis2",
          .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
-    const RigidBase base = make_base(scene);
+    const RigidBase base = make_rigid_base(scene);
     State state = lattice(scene, base);
     state.clock.extension = 1000.0;
     turn(state, 19.1, [](Point) { return true; });
-    const Measures m = measure(make_setting(scene), state, base, {});
+    const Measures m = measure(make_setting(scene, make_parts(scene)), state, base, {});
     EXPECT_FALSE(m.breakaway_rotation || m.toe_rotation || m.lower_block_rotation);
     EXPECT_NEAR(m.rollover_tilt.value(), 19.1, 1e-9);
 }
@@ -226,7 +228,7 @@ TEST(Cutoff, OfTheConstantSlipOfLis2) {
     const Scene scene = load_scene(
         {.scene = "lis2",
          .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
-    const RigidBase base = make_base(scene);
+    const RigidBase base = make_rigid_base(scene);
     State state = lattice(scene, base);
     state.clock.extension = 10e3;
     const DiscColumns d = disc_columns(state);
@@ -237,7 +239,7 @@ TEST(Cutoff, OfTheConstantSlipOfLis2) {
         d.x[i] = centre.x + cosine * x - sine * y;
         d.y[i] = centre.y + sine * x + cosine * y;
     }
-    const Measures m = measure(make_setting(scene), state, base, {});
+    const Measures m = measure(make_setting(scene, make_parts(scene)), state, base, {});
     EXPECT_NEAR(m.cutoff.value().x, 6.34e3, 250.0);
     EXPECT_NEAR(m.cutoff.value().y, 7.67e3, 250.0);
     EXPECT_NEAR(m.rollover_tilt.value(), 19.0986, 1e-3);

@@ -1,3 +1,4 @@
+#include "apps/model/effects.hpp"
 #include "apps/run/prediction.hpp"
 
 #include <gtest/gtest.h>

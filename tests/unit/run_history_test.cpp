@@ -10,6 +10,8 @@
 namespace listric::archive {
 namespace {
 
+using measures::DiscPlaces;
+
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -27,8 +29,10 @@ RunHistory history_of(std::initializer_list<double> extensions) {
 }
 
 std::vector<double> before(const RunHistory& history, double extension) {
+    measures::Setting setting;
+    setting.output_interval = 100.0; // windows of at least 75 m
     std::vector<double> found;
-    for (const DiscPlaces& places : history.before(extension, 75.0))
+    for (const DiscPlaces& places : history.before(extension, setting))
         found.push_back(places.extension);
     return found;
 }

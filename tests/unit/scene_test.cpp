@@ -1,6 +1,12 @@
-#include "apps/scene/scene.hpp"
-
-#include "apps/scene/declaration.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/model.hpp"
+#include "apps/scene/tables.hpp"
+#include "apps/support/spelling.hpp"
+#include "dem/events/bond_healing.hpp"
+#include "dem/events/compaction.hpp"
+#include "dem/events/fault_weakening.hpp"
+#include "dem/events/sedimentation.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>
@@ -95,76 +101,74 @@ protected:
 };
 
 /// Everything that a file says about a scene, numbers to the last bit.
-std::string bits(Scene scene) {
-    struct {
-        std::string operator()(const double* x) const {
-            return fmt::format("{:x}", std::bit_cast<std::uint64_t>(*x));
+struct Bits {
+    const void* object;
+
+    static std::string of(double x) { return fmt::format("{:x}", std::bit_cast<std::uint64_t>(x)); }
+    static std::string of(const std::optional<double>& x) { return x ? of(*x) : "none"; }
+
+    std::string operator()(const Place<double>& x) const { return of(x.get(object)); }
+    std::string operator()(const Place<std::optional<double>>& x) const {
+        return of(x.get(object));
+    }
+    std::string operator()(const Place<int>& x) const { return std::to_string(x.get(object)); }
+    std::string operator()(const Place<std::uint64_t>& x) const {
+        return std::to_string(x.get(object));
+    }
+    std::string operator()(const Place<std::string>& x) const { return x.get(object); }
+    std::string operator()(const Choice& x) const { return std::string(x.get(object, x.names)); }
+    std::string operator()(const Place<std::vector<double>>& x) const {
+        std::string items;
+        for (const double item : x.get(object))
+            items += of(item) + " ";
+        return items;
+    }
+    std::string operator()(const Place<std::vector<TargetStage>>& x) const {
+        std::string items;
+        for (const TargetStage& stage : x.get(object)) {
+            items += "at " + of(stage.time) + ": ";
+            for (const Point& p : stage.points)
+                items += of(p.x) + " " + of(p.y) + " ";
         }
-        std::string operator()(const std::optional<double>* x) const {
-            return *x ? operator()(&**x) : "none";
-        }
-        std::string operator()(const int* x) const { return std::to_string(*x); }
-        std::string operator()(const std::uint64_t* x) const { return std::to_string(*x); }
-        std::string operator()(const std::string* x) const { return *x; }
-        std::string operator()(const Choice& x) const { return std::string(x.get()); }
-        std::string operator()(const std::vector<double>* x) const {
-            std::string items;
-            for (const double& item : *x)
-                items += operator()(&item) + " ";
-            return items;
-        }
-        std::string operator()(const std::vector<TargetStage>* x) const {
-            std::string items;
-            for (const TargetStage& stage : *x) {
-                items += "at " + operator()(&stage.time) + ": ";
-                for (const Point& p : stage.points)
-                    items += operator()(&p.x) + " " + operator()(&p.y) + " ";
-            }
-            return items;
-        }
-        std::string operator()(const std::vector<fem::Layer>* x) const {
-            std::string items;
-            for (const fem::Layer& layer : *x)
-                for (const double* value :
-                     {&layer.top_depth, &layer.young_modulus, &layer.poisson_ratio, &layer.density})
-                    items += operator()(value) + " ";
-            return items;
-        }
-        std::string operator()(const std::vector<DetachmentSegment>* x) const {
-            std::string items;
-            for (const DetachmentSegment& s : *x)
-                items += fmt::format(
-                    "{} {} {} {} {} ",
-                    static_cast<int>(s.kind), operator()(&s.radius), operator()(&s.end_dip),
-                                                                     operator()(&s.length),
-                                                                     operator()(&s.start_dip));
-            return items;
-        }
-    } visitor;
+        return items;
+    }
+    std::string operator()(const Place<std::vector<fem::Layer>>& x) const {
+        std::string items;
+        for (const fem::Layer& layer : x.get(object))
+            for (const double value :
+                 {layer.top_depth, layer.young_modulus, layer.poisson_ratio, layer.density})
+                items += of(value) + " ";
+        return items;
+    }
+    std::string operator()(const Place<std::vector<DetachmentSegment>>& x) const {
+        std::string items;
+        for (const DetachmentSegment& s : x.get(object))
+            items += fmt::format("{} {} {} {} {} ", static_cast<int>(s.kind), of(s.radius),
+                                 of(s.end_dip), of(s.length), of(s.start_dip));
+        return items;
+    }
+};
+
+std::vector<SceneTable> all_tables() { return scene_tables(program_effects()); }
+
+std::string bits(const Scene& scene) {
     std::string lines;
-    const auto add = [&](const std::vector<Parameter>& parameters) {
+    const auto add = [&](const std::vector<Parameter>& parameters, const void* object) {
         for (const Parameter& parameter : parameters)
             lines +=
-                fmt::format("{} = {}\n", parameter.key, std::visit(visitor, parameter.variable));
+                fmt::format("{} = {}\n", parameter.key, std::visit(Bits{object}, parameter.value));
     };
-    add(top_level(scene));
-    for (const SceneTable& table : scene_tables(scene)) {
-        if (table.in_scene) {
+    add(top_level(), &scene);
+    for (const SceneTable& table : all_tables()) {
+        if (const void* part = table.find(table, scene)) {
             lines += fmt::format("[{}]\n", table.name);
-            add(table.parameters);
+            add(table.parameters, part);
         }
     }
     return lines;
 }
 
-std::vector<std::string> effects(Scene scene) {
-    std::vector<std::string> names;
-    for (const SceneTable& table : scene_tables(scene)) {
-        if (table.is_effect && table.in_scene)
-            names.emplace_back(table.name);
-    }
-    return names;
-}
+std::vector<std::string> effects(const Scene& scene) { return effect_names(scene); }
 
 // ------------------------------------------------------------------------------------ reading
 
@@ -188,7 +192,7 @@ TEST_F(SceneTest, Lis1IsThePapersFirstExperiment) {
     EXPECT_FALSE(scene.detachment->segments[1].start_dip);
     EXPECT_THAT(effects(scene), ElementsAre("gravity", "bonds", "fault_weakening", "bond_healing",
                                             "sedimentation", "compaction"));
-    EXPECT_EQ(scene.compaction->coefficient, 4e-4);
+    EXPECT_EQ(scene.find<CompactionParameters>()->coefficient, 4e-4);
 }
 
 TEST_F(SceneTest, WhatAFileLeavesOutHasItsDefault) {
@@ -215,11 +219,11 @@ TEST_F(SceneTest, EveryTypeOfValueIsRead) {
     EXPECT_EQ(scene.seed, 7u);
     EXPECT_EQ(scene.detachment->friction, 1.0);
     EXPECT_THAT(scene.output.figures, ElementsAre(1000.0, 2500.5));
-    EXPECT_EQ(scene.bonds->reading, StrengthReading::force);
-    EXPECT_EQ(scene.fault_weakening->angles, 24);
-    EXPECT_EQ(scene.bond_healing->measure, HealingMeasure::slip_and_opening);
-    EXPECT_EQ(scene.sedimentation->level, -200.0);
-    EXPECT_EQ(scene.compaction->coefficient, 0.27e-3);
+    EXPECT_EQ(make_parts(scene).bonds->reading, StrengthReading::force);
+    EXPECT_EQ(scene.find<FaultWeakeningParameters>()->angles, 24);
+    EXPECT_EQ(scene.find<BondHealingParameters>()->measure, HealingMeasure::slip_and_opening);
+    EXPECT_EQ(scene.find<SedimentationParameters>()->level, -200.0);
+    EXPECT_EQ(scene.find<CompactionParameters>()->coefficient, 0.27e-3);
 }
 
 TEST_F(SceneTest, AccuracyLevelsSetTheRadius) {
@@ -263,8 +267,8 @@ TEST_F(SceneTest, SetChangesOneParameterAndKeepsTheOthers) {
 TEST_F(SceneTest, TheLastSetWins) { EXPECT_EQ(load_with({"seed=3", "seed=4"}).seed, 4u); }
 
 TEST_F(SceneTest, SetSwitchesAnEffectOn) {
-    EXPECT_EQ(load_with({"gravity.acceleration_m_per_s2=1.62"}).gravity->acceleration, 1.62);
-    EXPECT_EQ(load_with({"gravity={}"}).gravity->acceleration, 9.81);
+    EXPECT_EQ(gravity_of(load_with({"gravity.acceleration_m_per_s2=1.62"})), 1.62);
+    EXPECT_EQ(gravity_of(load_with({"gravity={}"})), 9.81);
 }
 
 TEST_F(SceneTest, SetReplacesAList) {
@@ -394,10 +398,9 @@ TEST_F(SceneTest, EveryBoundHolds) {
         return set_error(fmt::format("{}.{}={}", table.name, parameter.key, x))
                    .find("out of range") == std::string::npos;
     };
-    Scene scene;
-    for (const SceneTable& table : scene_tables(scene)) {
+    for (const SceneTable& table : all_tables()) {
         for (const Parameter& parameter : table.parameters) {
-            if (!std::holds_alternative<double*>(parameter.variable))
+            if (!std::holds_alternative<Place<double>>(parameter.value))
                 continue;
             SCOPED_TRACE(fmt::format("{}.{}", table.name, parameter.key));
             const Range& range = parameter.range;
@@ -732,30 +735,32 @@ TEST_F(SceneTest, AwkwardNumbersReadBackTheSame) {
     std::mt19937_64 random(1);
     for (int trial = 0; trial < 50; ++trial) {
         Scene scene = load_scene({.scene = "lis1"});
-        for (const SceneTable& table : scene_tables(scene)) {
+        for (const SceneTable& table : all_tables()) {
             if (table.name == "hanging_wall" || table.name == "detachment")
                 continue; // checked against each other
             if (table.name == "elastic_base" || table.name == "flexure" ||
                 table.name == "lower_crust_thinning" || table.name == "basin_water" ||
                 table.name == "footwall_erosion" || table.name == "base_motion" ||
                 table.name == "stretching" || table.name == "energy") {
-                table.drop(); // checked against each other
+                table.drop(table, scene); // checked against each other
                 continue;
             }
+            void* const part = table.add(table, scene);
             for (const Parameter& parameter : table.parameters) {
                 const double from = std::max(parameter.range.from, parameter.range.above);
                 const double to = std::min(parameter.range.to, parameter.range.below);
-                if (auto* choice = std::get_if<Choice>(&parameter.variable)) {
-                    choice->set(choice->names[random() % choice->names.size()]);
+                if (const auto* choice = std::get_if<Choice>(&parameter.value)) {
+                    choice->set(part, choice->names, choice->names[random() % choice->names.size()]);
                     continue;
                 }
                 const double x = std::uniform_real_distribution(from, to)(random);
-                if (auto* number = std::get_if<double*>(&parameter.variable))
-                    **number = x / parameter.per_si;
-                else if (auto* integer = std::get_if<int*>(&parameter.variable))
-                    **integer = static_cast<int>(x);
-                else if (auto* list = std::get_if<std::vector<double>*>(&parameter.variable))
-                    **list = {x, 0.1, 1.0 / 3.0, 1e6};
+                if (const auto* number = std::get_if<Place<double>>(&parameter.value))
+                    number->reach(part) = x / parameter.per_si;
+                else if (const auto* integer = std::get_if<Place<int>>(&parameter.value))
+                    integer->reach(part) = static_cast<int>(x);
+                else if (const auto* list =
+                             std::get_if<Place<std::vector<double>>>(&parameter.value))
+                    list->reach(part) = {x, 0.1, 1.0 / 3.0, 1e6};
             }
         }
         const double thickness = std::uniform_real_distribution(12e3, 18e3)(random);
@@ -777,7 +782,7 @@ TEST_F(SceneTest, ElasticBasesReadBackTheSame) {
     for (int trial = 0; trial < 50; ++trial) {
         Scene scene = load_scene({.scene = "flexure"});
         const double x = std::uniform_real_distribution(0.0, 0.5)(random);
-        ElasticBaseParameters& base = *scene.elastic_base;
+        ElasticBaseParameters& base = *scene.find<ElasticBaseParameters>();
         base.elastic_thickness = 1e4 * (1 + x);
         base.young_modulus = 1e11 * x + 1e6;
         base.poisson_ratio = x;
@@ -812,7 +817,7 @@ TEST_F(SceneTest, UnitsThatAreNotSiReadBackTheSame) {
     for (int trial = 0; trial < 100; ++trial) {
         const std::string value = fmt::format("{}", std::pow(10.0, exponent(random)));
         const Scene scene = with_coefficient(value);
-        ASSERT_EQ(load(to_toml(scene)).compaction->coefficient, scene.compaction->coefficient)
+        ASSERT_EQ(load(to_toml(scene)).find<CompactionParameters>()->coefficient, scene.find<CompactionParameters>()->coefficient)
             << value;
     }
     for (const std::string value : {"0.0", "0.4", "0.27", "0.3", "0.51", "0.7", "10.0", "1e-310"})
@@ -835,9 +840,8 @@ TEST_F(SceneTest, WhatIsWrittenReadsWell) {
 // ----------------------------------------------------------------------------------- declarations
 
 TEST_F(SceneTest, TheReferenceHasEveryParameter) {
-    const std::string reference = parameter_reference();
-    Scene scene;
-    for (const SceneTable& table : scene_tables(scene)) {
+    const std::string reference = parameter_reference(program_effects());
+    for (const SceneTable& table : all_tables()) {
         EXPECT_THAT(reference, HasSubstr(fmt::format("\n[{}]", table.name)));
         for (const Parameter& parameter : table.parameters) {
             EXPECT_THAT(reference, HasSubstr(fmt::format("    {} = ", parameter.key)));
@@ -851,8 +855,7 @@ TEST_F(SceneTest, TheReferenceHasEveryParameter) {
 }
 
 TEST_F(SceneTest, KeysEndWithTheirUnits) {
-    Scene scene;
-    for (const SceneTable& table : scene_tables(scene))
+    for (const SceneTable& table : all_tables())
         for (const Parameter& parameter : table.parameters) {
             std::string unit(parameter.unit); // kg/m3: _kg_per_m3, 1/s: _per_s, Pa: _pa
             std::ranges::transform(unit, unit.begin(), [](char c) { return std::tolower(c); });
@@ -868,23 +871,29 @@ TEST_F(SceneTest, KeysEndWithTheirUnits) {
 
 TEST_F(SceneTest, DefaultsAreInTheirRanges) {
     Scene scene;
-    for (const SceneTable& table : scene_tables(scene))
+    for (const SceneTable& table : all_tables()) {
+        const void* const part = table.add(table, scene);
         for (const Parameter& parameter : table.parameters) {
             EXPECT_FALSE(parameter.doc.empty()) << parameter.key;
-            if (const auto* number = std::get_if<double*>(&parameter.variable)) {
-                EXPECT_TRUE(parameter.range.contains(**number * parameter.per_si))
+            if (const auto* number = std::get_if<Place<double>>(&parameter.value)) {
+                EXPECT_TRUE(parameter.range.contains(number->get(part) * parameter.per_si))
                     << table.name << "." << parameter.key;
             }
         }
+    }
 }
 
-TEST_F(SceneTest, BindingTellsWhatASceneLacks) {
+TEST_F(SceneTest, TablesComeAndGo) {
     Scene scene;
-    for (const SceneTable& table : scene_tables(scene)) {
-        EXPECT_EQ(table.in_scene, !table.drop) << table.name;
-        if (table.drop)
-            table.drop();
+    for (const SceneTable& table : all_tables()) {
+        EXPECT_EQ(table.in(scene), !table.drop) << table.name;
+        void* const part = table.add(table, scene);
+        EXPECT_EQ(part, table.find(table, scene)) << table.name;
+        EXPECT_EQ(part, table.add(table, scene)) << table.name; // what is there stays
     }
+    for (const SceneTable& table : all_tables())
+        if (table.drop)
+            table.drop(table, scene);
     EXPECT_EQ(bits(scene), bits(Scene{}));
 }
 

@@ -1,6 +1,8 @@
 // Target lines: heights, distances and change with time are exact but for round-off; the files they
 // come from are refused with line, column and cure.
 
+#include "dem/events/sedimentation.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "dem/target_line.hpp"
@@ -149,18 +151,18 @@ TEST_F(TargetFileTest, BadFilesAreRefusedWithTheirLine) {
 }
 
 TEST_F(TargetFileTest, ScenesGiveLinesOrFiles) {
-    EXPECT_TRUE(load("").sedimentation->target.empty());
+    EXPECT_TRUE(load("").find<SedimentationParameters>()->target.empty());
     const Scene line = load("target = [[0, 0], [40000, -500]]\n");
-    ASSERT_EQ(line.sedimentation->target.size(), 1u);
-    EXPECT_EQ(line.sedimentation->target[0].points[1].y, -500.0);
+    ASSERT_EQ(line.find<SedimentationParameters>()->target.size(), 1u);
+    EXPECT_EQ(line.find<SedimentationParameters>()->target[0].points[1].y, -500.0);
     const Scene stages = load("target = [{time_a = 0, points = [[0, 0]]},\n"
                               "          {time_a = 1e6, points = [[0, -100.5], [5, 3]]}]\n");
-    ASSERT_EQ(stages.sedimentation->target.size(), 2u);
-    EXPECT_EQ(stages.sedimentation->target[1].points[0].y, -100.5);
+    ASSERT_EQ(stages.find<SedimentationParameters>()->target.size(), 2u);
+    EXPECT_EQ(stages.find<SedimentationParameters>()->target[1].points[0].y, -100.5);
     // A file is found beside the scene, and what a run writes stands alone.
     const std::string csv = write("time_a,x_m,y_m\n0,0,0.1\n5e5,0,-200\n5e5,9,3\n", "line.csv");
     const Scene from_file = load("target_csv = 'line.csv'\n");
-    EXPECT_EQ(from_file.sedimentation->target[1].points[1].x, 9.0);
+    EXPECT_EQ(from_file.find<SedimentationParameters>()->target[1].points[1].x, 9.0);
     EXPECT_EQ(to_toml(load("", {"sedimentation.target_csv=" + csv})), to_toml(from_file));
     fs::remove(folder / "line.csv");
     for (const Scene& scene : {line, stages, from_file})

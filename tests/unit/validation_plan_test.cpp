@@ -1,5 +1,6 @@
 // What a validation plan may say, and what the seeds make of an expectation.
 
+#include "apps/model/effects.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/studies/validation_plan.hpp"
 

@@ -10,7 +10,6 @@
 
 namespace listric {
 
-using namespace dem;
 namespace {
 
 std::vector<double> numbers_of(const std::string& call) {
