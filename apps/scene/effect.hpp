@@ -6,7 +6,6 @@
 #include "apps/scene/scene.hpp"
 #include "apps/support/figure_layer.hpp"
 #include "apps/support/named_numbers.hpp"
-#include "dem/base_motion.hpp"
 #include "dem/cycle.hpp"
 #include "dem/event.hpp"
 #include "dem/target_line.hpp"
@@ -111,8 +110,8 @@ struct Observation {
 
 /// Measures of an effect, by the names of docs/measures.md.
 struct EffectMeasures {
-    NamedNumbers numbers;                                     ///< also columns of history.csv
-    std::vector<std::pair<std::string, NamedNumbers>> groups; ///< objects of summary.json
+    NamedNumbers numbers = {};                                ///< also columns of history.csv
+    std::vector<std::pair<std::string, NamedNumbers>> groups = {}; ///< objects of summary.json
 };
 
 /// What a prediction multiplies prices with.

@@ -156,10 +156,9 @@ class Frames(Folder):
         for name in ("weak", "behaviour", "bonded", "profile", "water", "faults"):
             self.assertIsNone(getattr(frame, name), name)
 
-    def test_the_target_level_is_there_where_the_frame_has_it_and_sediment(self):
+    def test_the_target_level_is_there_where_the_frame_has_it(self):
         self.assertEqual(self.frame().level, -0.1)
         self.assertIsNone(self.frame({"level_m": None}).level)
-        self.assertIsNone(self.frame({"strata": 0}).level)
 
     def test_the_view_holds_all_discs_and_the_detachment(self):
         frame = self.frame()
@@ -193,19 +192,8 @@ class Frames(Folder):
                 self.frame(**{name: value})
 
     def test_behaviour_is_what_the_frame_says(self):
-        frame = self.frame(discs_behaviour=np.array([3, 2, 1, 0], dtype=np.int32),
-                           discs_unbonded_share=[0.0] * 4)
+        frame = self.frame(discs_behaviour=np.array([3, 2, 1, 0], dtype=np.int32))
         np.testing.assert_array_equal(frame.behaviour, [3, 2, 1, 0])
-
-    def test_behaviour_by_rule(self):
-        share = np.array([0.25, 0.26, 0.6, 0.5, 0.51, 0.9])
-        stratum = np.array([0, 0, 0, 1, 1, 1])
-        weak = np.array([False, False, False, False, False, True])
-        np.testing.assert_array_equal(frames.behaviour_by_rule(share, stratum, None),
-                                      [0, 1, 1, 1, 3, 3])
-        np.testing.assert_array_equal(frames.behaviour_by_rule(share, stratum, weak),
-                                      [0, 1, 1, 1, 3, 2])
-        self.assertIsNone(frames.behaviour_by_rule(None, stratum, weak))
 
 
 class Scales(Folder):
@@ -381,16 +369,7 @@ class Laboratory(Folder):
     def test_envelopes_are_read_where_they_are(self):
         self.write("envelopes.csv", "confining_pa,byerlee_axial_pa\n0,1\n2,3\n")
         np.testing.assert_array_equal(
-            laboratory.envelopes(self.folder, {"points": []})["byerlee_axial_pa"], [1.0, 3.0])
-
-    def test_envelopes_by_rule(self):
-        summary = {"points": [{"confining_pa": 100e6}, {"confining_pa": 200e6}],
-                   "friction": 0.75, "cohesion_pa": 10e6}
-        lines = laboratory.envelopes_by_rule(summary)
-        self.assertEqual((lines["confining_pa"][0], lines["confining_pa"][-1]), (0.0, 210e6))
-        self.assertEqual(lines["byerlee_axial_pa"][0], 0.0)  # no cohesion at low stress
-        # At friction 0.75, tan(45 deg + phi / 2) is 2.
-        np.testing.assert_allclose(lines["fitted_axial_pa"], 4.0 * lines["confining_pa"] + 40e6)
+            laboratory.envelopes(self.folder)["byerlee_axial_pa"], [1.0, 3.0])
 
     def test_what_is_no_laboratory_test_is_refused(self):
         self.write("summary.json", '{"test": "other"}')

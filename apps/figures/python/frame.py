@@ -196,31 +196,13 @@ def load_frame(folder: str) -> Frame:
 
 
 def target_level(meta: dict) -> float | None:
-    """Height, m, that sediment is filled up to, if it is.
-
-    Frames without sediment may still carry the height that it would have.
-    """
-    return meta.get("level_m") if meta["strata"] > 0 else None
+    """Height, m, that sediment is filled up to, if it is."""
+    return meta.get("level_m")
 
 
 def behaviour(discs: dict[str, np.ndarray | None]) -> np.ndarray | None:
     """Class of rock behaviour of every disc [paper, Fig. 5], where there are bonds."""
-    if discs["behaviour"] is not None:
-        return discs["behaviour"].astype(int)
-    return behaviour_by_rule(discs["unbonded_share"], discs["stratum"], discs["weak"])
-
-
-def behaviour_by_rule(unbonded_share: np.ndarray | None, stratum: np.ndarray,
-                      weak: np.ndarray | None) -> np.ndarray | None:
-    """The classes of frames that do not carry them."""
-    if unbonded_share is None:
-        return None
-    kind = np.full(len(stratum), ELASTIC)                 # bonds mainly intact
-    kind[unbonded_share > 0.25] = PLASTIC                 # more than a stray crack
-    kind[(stratum > 0) & (unbonded_share > 0.5)] = UNCONSOLIDATED
-    if weak is not None:
-        kind[weak] = WEAKENED
-    return kind
+    return None if discs["behaviour"] is None else discs["behaviour"].astype(int)
 
 
 def view_of(frame: Frame) -> tuple[float, float, float, float]:

@@ -91,25 +91,9 @@ def uniaxial(figure, directory, summary):
     left.legend(loc="upper left")
 
 
-def envelopes(directory: str, summary: dict) -> dict[str, np.ndarray]:
+def envelopes(directory: str) -> dict[str, np.ndarray]:
     """Peak axial stress by confining stress, Pa: Byerlee's law, and the fit if there is one."""
-    path = os.path.join(directory, "envelopes.csv")
-    return read_table(path) if os.path.exists(path) else envelopes_by_rule(summary)
-
-
-def envelopes_by_rule(summary: dict) -> dict[str, np.ndarray]:
-    """The envelopes of tests that do not carry them."""
-    confining = np.linspace(0.0, 1.05 * max(p["confining_pa"] for p in summary["points"]), 200)
-
-    def axial(friction, cohesion):
-        root = np.sqrt(friction ** 2 + 1) + friction
-        return root ** 2 * confining + 2 * cohesion * root
-
-    table = {"confining_pa": confining,
-             "byerlee_axial_pa": np.minimum(axial(0.85, 0.0), axial(0.6, 60e6))}
-    if "friction" in summary:
-        table["fitted_axial_pa"] = axial(summary["friction"], summary["cohesion_pa"])
-    return table
+    return read_table(os.path.join(directory, "envelopes.csv"))
 
 
 def biaxial(figure, directory, summary):
@@ -120,7 +104,7 @@ def biaxial(figure, directory, summary):
              title="Compression at confining stress")
     left.set_ylim(bottom=0)
     left.legend(loc="upper left", title="confining")
-    draw_envelopes(right, envelopes(directory, summary), summary)
+    draw_envelopes(right, envelopes(directory), summary)
 
 
 def draw_envelopes(axes, lines: dict[str, np.ndarray], summary: dict) -> None:

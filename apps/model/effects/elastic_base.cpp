@@ -7,9 +7,11 @@
 #include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 namespace listric::effects {
 
@@ -17,7 +19,8 @@ namespace {
 
 using P = ElasticBaseParameters;
 
-std::vector<Parameter> parameters() {
+/// Of the plate, with or without discs on it.
+std::vector<Parameter> plate_parameters() {
     return {
         {"elastic_thickness_m",
          at<&P::elastic_thickness>,
@@ -59,6 +62,12 @@ std::vector<Parameter> parameters() {
          {.from = 1, .to = 2},
          "",
          "of the elements: 2, or 1 to compare"},
+    };
+}
+
+/// Of the footwall under discs.
+std::vector<Parameter> footwall_parameters() {
+    return {
         {"left_m",
          at<&P::left>,
          "m",
@@ -129,6 +138,12 @@ std::vector<Parameter> parameters() {
          {},
          "",
          "factors, which a base under discs needs, or multigrid for large ones without discs"},
+    };
+}
+
+/// How it moves with the discs.
+std::vector<Parameter> coupling_parameters() {
+    return {
         {"scheme",
          one_of<&P::scheme>({"modal", "lumped", "staggered", "strong"}),
          "",
@@ -172,6 +187,13 @@ std::vector<Parameter> parameters() {
          "",
          "model time over which the mean motion of a disc is taken, for relative damping"},
     };
+}
+
+std::vector<Parameter> parameters() {
+    std::vector<Parameter> all = plate_parameters();
+    std::ranges::move(footwall_parameters(), std::back_inserter(all));
+    std::ranges::move(coupling_parameters(), std::back_inserter(all));
+    return all;
 }
 
 void check_densities(const P& base, const Refuse& refuse) {
@@ -260,18 +282,20 @@ std::string explain(const Scene& scene, EffectList list) {
         base.infill_density > 0.0
             ? fmt::format("{} kg/m3 on the footwall's surface where it sinks", base.infill_density)
             : std::string("no infill of what sinks of the footwall's surface"));
-    std::string absent;
+    std::vector<std::string_view> absent;
     for (const Effect* effect : list) {
         if (effect->absence.empty())
             continue;
         if (!has_effect(scene, effect->name))
-            absent += fmt::format("{}, ", effect->absence);
+            absent.push_back(effect->absence);
         else if (effect->explain)
             text += effect->explain(scene, list);
     }
-    return text + fmt::format("  not in the model: {}friction of the right wall;\n"
+    std::ranges::sort(absent);
+    absent.push_back("friction of the right wall");
+    return text + fmt::format("  not in the model: {};\n"
                               "  what leans on the backstop above the breakaway\n",
-                              absent);
+                              fmt::join(absent, ", "));
 }
 
 /// Set-up, settling of the discs, and an answer every few cycles.
