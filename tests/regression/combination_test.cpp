@@ -155,11 +155,9 @@ protected:
         return load_scene(r, effects_and_gauge());
     }
 
-    /// Without figures: they are drawn from the folder, with the program's own effects.
     RunOptions how(Chosen run, const std::string& name) const {
         RunOptions o = options(name);
         o.force = true;
-        o.figures = false;
         o.threads = has(run, threads) ? 3 : 1;
         o.plain = has(run, plain);
         return o;

@@ -144,7 +144,7 @@ TEST_F(OwnEffect, IsResumed) {
     };
     EXPECT_EQ(speeds("in-parts"), speeds("at-once"));
 
-    // A run that began without it has no memory of it to go on with.
+    // Without its table it is another run.
     RunOptions other = without_figures("in-parts");
     other.resume = true;
     EXPECT_THROW(run_scene(without(), other), UsageError);
