@@ -2,14 +2,15 @@
 // choices that go together occurs in at least one run. Each run must finish, stay finite and keep
 // its mass; pairs that do not go together are refused by name.
 
-#include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
+#include "tests/regression/speed_gauge.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fmt/ranges.h>
 
-#include <array>
+#include <algorithm>
 #include <set>
 
 namespace listric {
@@ -19,54 +20,101 @@ namespace {
 
 using namespace support;
 
-// A run is a set of these.
-enum Choice {
-    gravity,
-    bonds,
-    fault_weakening,
-    bond_healing,
-    sedimentation,
-    compaction,
-    energy,
-    series,
-    threads,
-    plain,
-    other_seed,
-    count
-};
-constexpr std::array<const char*, 7> effects{
-    "gravity", "bonds", "fault_weakening", "bond_healing", "sedimentation", "compaction", "energy"};
+/// An effect by its name; null: what is needed is a table of another kind.
+const Effect* find_effect(std::string_view name) {
+    const EffectList all = effects_and_gauge();
+    const auto found = std::ranges::find(all, name, &Effect::name);
+    return found == all.end() ? nullptr : *found;
+}
+
+/// Whether an effect needs the other, if only because one that it needs does.
+bool depends(const Effect& effect, std::string_view other) {
+    return std::ranges::any_of(effect.needs, [&](std::string_view name) {
+        const Effect* const needed = find_effect(name);
+        return name == other || (needed && depends(*needed, other));
+    });
+}
+
+const Scene& shipped() {
+    static const Scene scene = load_scene({.scene = test_scene("every-effect.toml")});
+    return scene;
+}
+
+/// Whether the base deforms where an effect is on.
+bool moves_base(const Effect& effect) {
+    Scene scene = shipped();
+    scene.effects.push_back({&effect, effect.defaults()});
+    return make_parts(scene).base_moves ||
+           std::ranges::any_of(effect.needs, [](std::string_view name) {
+               const Effect* const needed = find_effect(name);
+               return needed && moves_base(*needed);
+           });
+}
+
+/// All effects, and one of the tests' own, but those that make the base deform or need it to: their
+/// combinations are tested below and in fem_combination_test.
+const std::vector<const Effect*>& effects() {
+    static const std::vector<const Effect*> list = [] {
+        std::vector<const Effect*> some;
+        std::ranges::copy_if(effects_and_gauge(), std::back_inserter(some),
+                             [](const Effect* effect) { return !moves_base(*effect); });
+        return some;
+    }();
+    return list;
+}
+
+// A run is a set of choices: the effects, by their place in the list, and then these.
+enum Other { series, threads, plain, other_seed, others };
 
 using Chosen = unsigned; // bit k: choice k
 
-bool has(Chosen run, int choice) { return run >> choice & 1u; }
+std::size_t count() { return effects().size() + others; }
+
+Chosen bit(Other choice) { return 1u << (effects().size() + choice); }
+Chosen bit(std::string_view name) {
+    return 1u << (std::ranges::find(effects(), name, &Effect::name) - effects().begin());
+}
+bool has(Chosen run, auto choice) { return (run & bit(choice)) != 0; }
 
 bool allowed(Chosen run) {
-    return (!has(run, bond_healing) || has(run, bonds)) &&
-           (!has(run, compaction) || has(run, sedimentation));
+    return std::ranges::all_of(effects(), [&](const Effect* effect) {
+        return !has(run, effect->name) ||
+               std::ranges::all_of(effect->needs, [&](std::string_view needed) {
+                   return !find_effect(needed) || has(run, needed);
+               });
+    });
 }
 
 /// Pairs of two choices taken or left, as numbers.
-std::set<int> pairs(Chosen run) {
-    std::set<int> found;
-    for (int a = 0; a < count; ++a)
-        for (int b = 0; b < a; ++b)
-            found.insert(((a * count + b) * 2 + has(run, a)) * 2 + has(run, b));
+std::vector<std::size_t> pairs(Chosen run) {
+    std::vector<std::size_t> found;
+    for (std::size_t a = 0; a < count(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+            found.push_back(((a * count() + b) * 2 + (run >> a & 1u)) * 2 + (run >> b & 1u));
     return found;
+}
+
+/// How many pairs cannot be: an effect without one that it depends on.
+std::size_t impossible_pairs() {
+    std::size_t number = 0;
+    for (const Effect* effect : effects())
+        number += static_cast<std::size_t>(std::ranges::count_if(
+            effects(), [&](const Effect* other) { return depends(*effect, other->name); }));
+    return number;
 }
 
 /// Greedily: the run that adds most pairs, until none adds any.
 std::vector<Chosen> covering_array() {
-    std::vector<Chosen> chosen;
-    for (std::set<int> covered;;) {
+    std::vector<Chosen> possible, chosen;
+    for (Chosen run = 0; run < 1u << count(); ++run)
+        if (allowed(run))
+            possible.push_back(run);
+    for (std::set<std::size_t> covered;;) {
         Chosen best = 0;
-        std::size_t most = 0;
-        for (Chosen run = 0; run < 1u << count; ++run) {
-            if (!allowed(run))
-                continue;
-            const std::set<int> all = pairs(run);
-            const auto adds = static_cast<std::size_t>(
-                std::ranges::count_if(all, [&](int pair) { return !covered.contains(pair); }));
+        std::ptrdiff_t most = 0;
+        for (const Chosen run : possible) {
+            const auto adds = std::ranges::count_if(
+                pairs(run), [&](std::size_t pair) { return !covered.contains(pair); });
             if (adds > most) {
                 most = adds;
                 best = run;
@@ -75,52 +123,76 @@ std::vector<Chosen> covering_array() {
         if (most == 0)
             return chosen;
         chosen.push_back(best);
-        covered.merge(pairs(best));
+        std::ranges::copy(pairs(best), std::inserter(covered, covered.end()));
     }
+}
+
+std::vector<std::string> names_of(Chosen run) {
+    std::vector<std::string> names;
+    for (const Effect* effect : effects())
+        if (has(run, effect->name))
+            names.emplace_back(effect->name);
+    return names;
 }
 
 class Combination : public SceneRuns {
 protected:
-    static SceneRequest request(Chosen run) {
-        SceneRequest r{.scene = test_scene("every-effect.toml")};
-        for (int k = 0; k < energy; ++k)
-            if (!has(run, k))
-                r.without.push_back(effects[static_cast<std::size_t>(k)]);
-        if (has(run, energy))
-            r.set.push_back("energy={}");
+    /// The scene as shipped with the effects that are chosen: those that it lacks with their
+    /// defaults.
+    static Scene scene(Chosen run, std::vector<std::string> set = {}) {
+        SceneRequest r{.scene = test_scene("every-effect.toml"), .set = std::move(set)};
+        for (const Effect* effect : effects()) {
+            const bool there = has_effect(shipped(), effect->name);
+            if (there && !has(run, effect->name))
+                r.without.emplace_back(effect->name);
+            if (!there && has(run, effect->name))
+                r.set.push_back(fmt::format("{}={{}}", effect->name));
+        }
         if (has(run, series))
             r.set.push_back("output.series=paraview");
         r.set.push_back("extension.distance_m=130");
         r.seed = has(run, other_seed) ? 2 : 1;
-        return r;
+        return load_scene(r, effects_and_gauge());
+    }
+
+    RunOptions how(Chosen run, const std::string& name) const {
+        RunOptions o = options(name);
+        o.force = true;
+        o.threads = has(run, threads) ? 3 : 1;
+        o.plain = has(run, plain);
+        return o;
     }
 };
 
+TEST_F(Combination, ArrayIsOfEveryEffectThatLeavesTheBaseAlone) {
+    EXPECT_THAT(names_of(~0u),
+                testing::IsSupersetOf({"gravity", "bonds", "fault_weakening", "bond_healing",
+                                       "sedimentation", "compaction", "energy", "speed_gauge"}));
+    for (const Effect* effect : effects_and_gauge())
+        EXPECT_EQ(std::ranges::count(effects(), effect), moves_base(*effect) ? 0 : 1)
+            << effect->name;
+}
+
 TEST_F(Combination, EveryPairRuns) {
     const std::vector<Chosen> array = covering_array();
-    std::set<int> covered;
+    std::set<std::size_t> covered;
     for (const Chosen choice : array) {
-        covered.merge(pairs(choice));
-        std::vector<std::string> on;
-        for (int k = 0; k <= energy; ++k)
-            if (has(choice, k))
-                on.push_back(effects[static_cast<std::size_t>(k)]);
+        std::ranges::copy(pairs(choice), std::inserter(covered, covered.end()));
+        const std::vector<std::string> on = names_of(choice);
         SCOPED_TRACE(
             fmt::format("{}{}{}{}{}", fmt::join(on, " "), has(choice, series) ? " series" : "",
                         has(choice, threads) ? " threads" : "", has(choice, plain) ? " plain" : "",
                         has(choice, other_seed) ? " seed 2" : ""));
-        RunOptions o = options("run");
-        o.force = true;
-        o.threads = has(choice, threads) ? 3 : 1;
-        o.plain = has(choice, plain);
-        const nlohmann::json summary = run(load_scene(request(choice)), o);
+        const RunOptions o = how(choice, "run");
+        const nlohmann::json summary = run(scene(choice), o);
         EXPECT_EQ(summary["finished"], true);
         EXPECT_EQ(summary["effects"], nlohmann::json(on));
         EXPECT_EQ(summary["seed"], has(choice, other_seed) ? 2 : 1);
         EXPECT_NEAR(summary["extension_m"].get<double>(), 130.0, 0.05);
         // Sums of some hundred masses, each rounded by 1e-16.
         EXPECT_LT(summary["mass_error_fraction"].get<double>(), 1e-13);
-        EXPECT_EQ(summary.contains("energy_residual"), has(choice, energy));
+        EXPECT_EQ(summary.contains("energy_residual"), has(choice, "energy"));
+        EXPECT_EQ(summary.contains("greatest_speed_m_per_s"), has(choice, "speed_gauge"));
         EXPECT_EQ(std::filesystem::exists(o.output / "paraview.pvd"), has(choice, series));
         const Snapshot last = read_snapshot(list_snapshots(o.output).back());
         for (const Table* table :
@@ -129,24 +201,19 @@ TEST_F(Combination, EveryPairRuns) {
         for (const auto& [name, value] : summary.items())
             EXPECT_FALSE(value.is_null()) << name;
     }
-    // 11 choices of two, of which two pairs (healing without bonds, compaction without sediment)
-    // cannot be.
-    EXPECT_EQ(covered.size(), 4u * 55u - 2u);
+    // All choices of two but an effect without one that it needs.
+    EXPECT_EQ(covered.size(), 2 * count() * (count() - 1) - impossible_pairs());
+    EXPECT_GE(impossible_pairs(), 2u); // healing without bonds, compaction without sediment
     EXPECT_LT(array.size(), 20u);
 }
 
 TEST_F(Combination, PrescribedMotionGoesWithEachOfThem) {
     const std::string motion = "base_motion.uplift=[{time_a=0.0, points=[[0.0, 0.0]]},"
                                "{time_a=20000.0, points=[[0.0, 40.0], [4000.0, 0.0]]}]";
-    const Chosen all = (1u << count) - 1u;
-    for (const Chosen choice : {all & ~(1u << plain), (1u << gravity) | (1u << plain)}) {
-        SceneRequest r = request(choice);
-        r.set.push_back(motion);
-        RunOptions o = options("moved");
-        o.force = true;
-        o.threads = has(choice, threads) ? 3 : 1;
-        o.plain = has(choice, plain);
-        const nlohmann::json summary = run(load_scene(r), o);
+    const Chosen all = (1u << count()) - 1u;
+    for (const Chosen choice : {all & ~bit(plain), bit("gravity") | bit(plain)}) {
+        const RunOptions o = how(choice, "moved");
+        const nlohmann::json summary = run(scene(choice, {motion}), o);
         EXPECT_EQ(summary["finished"], true);
         EXPECT_THAT(summary["effects"], testing::Contains("base_motion"));
         EXPECT_LT(summary["mass_error_fraction"].get<double>(), 1e-13);
