@@ -47,8 +47,7 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
             const Measures measures = measure(setting, now, base, moment.events);
             const FaultReport faults = measures::report_faults(setting, base, now, places);
             NamedNumbers numbers = history_row(now, measures);
-            append(numbers,
-                   measure_effects({run.scene, run.parts, now, moment.events}).numbers);
+            append(numbers, measure_effects({run.scene, run.parts, now, moment.events}).numbers);
             std::erase_if(numbers, [](const auto& n) { return std::isnan(n.second); });
             append(numbers, measure_evolution(setting, base, now, faults, measures,
                                               fault_segments(moment.events), past));

@@ -1,7 +1,7 @@
 #include "apps/archive/output_folder.hpp"
 
-#include "apps/scene/scene_file.hpp"
 #include "apps/archive/summary.hpp"
+#include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 

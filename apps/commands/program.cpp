@@ -2,9 +2,9 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
-#include "apps/support/spelling.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/spelling.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "apps/run/run.hpp"
-#include "apps/model/effects.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
+#include "apps/model/effects.hpp"
 
 #include <memory>
 #include <optional>

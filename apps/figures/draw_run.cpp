@@ -1,9 +1,9 @@
 #include "apps/figures/draw_run.hpp"
 
-#include "apps/archive/setting.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
+#include "apps/archive/setting.hpp"
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/flexure_figure.hpp"
@@ -46,9 +46,9 @@ std::vector<fs::path> chosen_snapshots(const RunFolder& run) {
 
 void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
                const RunHistory& history) {
-    frames.add({run.scene, run.parts, moment.state, moment.events},
-               report_faults(make_setting(run.scene, run.parts), run.parts.base, moment.state,
-                             history));
+    frames.add(
+        {run.scene, run.parts, moment.state, moment.events},
+        report_faults(make_setting(run.scene, run.parts), run.parts.base, moment.state, history));
 }
 
 } // namespace

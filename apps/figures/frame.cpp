@@ -1,7 +1,7 @@
 #include "apps/figures/frame.hpp"
 
-#include "apps/measures/kinematics.hpp"
 #include "apps/archive/setting.hpp"
+#include "apps/measures/kinematics.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/profile.hpp"
 #include "apps/measures/rock_behaviour.hpp"
@@ -128,7 +128,8 @@ void write_base(const FrameWriter& writer, const Observation& now) {
 }
 
 void write_profile(const FrameWriter& writer, const Observation& now) {
-    const Profile profile = measure_profile(archive::make_setting(now.scene, now.parts), now.state, now.parts.base);
+    const Profile profile =
+        measure_profile(archive::make_setting(now.scene, now.parts), now.state, now.parts.base);
     std::vector<double> rows;
     for (std::size_t k = 0; k < profile.x.size(); ++k)
         rows.insert(rows.end(),
@@ -208,7 +209,8 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     }
     write_base(writer, now);
     write_profile(writer, now);
-    const Measures m = measure(archive::make_setting(now.scene, now.parts), now.state, now.parts.base, now.events);
+    const Measures m =
+        measure(archive::make_setting(now.scene, now.parts), now.state, now.parts.base, now.events);
     if (m.inclined_shear_angle)
         write_predictions(writer, now, *m.inclined_shear_angle);
     if (m.depocentres)

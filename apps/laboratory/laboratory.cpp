@@ -1,12 +1,12 @@
 #include "apps/laboratory/laboratory.hpp"
 
-#include "apps/support/spelling.hpp"
 #include "apps/laboratory/report.hpp"
 #include "apps/laboratory/slab_sweep.hpp"
 #include "apps/laboratory/tests.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/python.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "apps/laboratory/pure_shear.hpp"
 
-#include "apps/archive/run_folder.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml.hpp"

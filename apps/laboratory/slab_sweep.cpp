@@ -1,7 +1,7 @@
 #include "apps/laboratory/slab_sweep.hpp"
 
-#include "apps/model/effects.hpp"
 #include "apps/laboratory/envelope.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/support/file.hpp"
 
 #include <fmt/format.h>

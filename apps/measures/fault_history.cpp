@@ -1,8 +1,8 @@
 #include "apps/measures/fault_history.hpp"
 
 #include "apps/measures/fault_throw.hpp"
-#include "apps/measures/rock.hpp"
 #include "apps/measures/rigid_motion.hpp"
+#include "apps/measures/rock.hpp"
 #include "apps/support/statistics.hpp"
 #include "dem/base_place.hpp"
 #include "dem/cells.hpp"

@@ -71,7 +71,6 @@ std::optional<double> weak_off_faults(const State& state, std::span<const Fault>
     return all > 0.0 ? std::optional(off / all) : std::nullopt;
 }
 
-
 NamedNumbers measure_layering(const State& state, const TargetLine& surface) {
     const ConstDiscColumns d = disc_columns(state);
     NamedNumbers numbers;

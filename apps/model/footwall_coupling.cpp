@@ -50,8 +50,8 @@ std::unique_ptr<ElasticBase> make_elastic_base(const Scene& scene, const ModelPa
                                               make_coupling_parameters(scene, parts, spacing));
     // Long intervals in which the discs come to rest are the one way in which it was seen to work.
     constexpr int long_enough = 1000;
-    if (parameters.scheme == CouplingScheme::staggered &&
-        base->staggered_growth() >= 1.0 && parameters.update_interval < long_enough)
+    if (parameters.scheme == CouplingScheme::staggered && base->staggered_growth() >= 1.0 &&
+        parameters.update_interval < long_enough)
         throw UsageError(fmt::format(
             "elastic_base.scheme: staggered would blow up: the base gives way {:.3g} times as far "
             "as a contact that pushes it is pressed, allowed: below 1; scheme modal is stable, or "

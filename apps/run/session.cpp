@@ -53,9 +53,9 @@ void attach(const std::vector<Point>& nodes, State& state) {
 } // namespace
 
 Session::Session(const Scene& scene, const RunOptions& options, Log& log)
-    : scene_(scene), options_(options), log_(log),
-      parts_(make_parts(scene)), setting_(make_setting(scene, parts_)),
-      simulation_(parts_.base, parts_.physics), driver_(make_base_driver(scene, parts_)) {
+    : scene_(scene), options_(options), log_(log), parts_(make_parts(scene)),
+      setting_(make_setting(scene, parts_)), simulation_(parts_.base, parts_.physics),
+      driver_(make_base_driver(scene, parts_)) {
     for (auto& event : make_events(scene, parts_))
         simulation_.add(std::move(event));
     simulation_.report_times_to([this](const std::string& part, double seconds) {

@@ -64,11 +64,11 @@ private:
     ModelParts parts_;
     measures::Setting setting_;
     dem::Simulation simulation_;
-    std::unique_ptr<FootwallCoupling> footwall_;   ///< none: the base does not respond
-    BaseDriver driver_;                            ///< without a response: nothing drives it
+    std::unique_ptr<FootwallCoupling> footwall_; ///< none: the base does not respond
+    BaseDriver driver_;                          ///< without a response: nothing drives it
     archive::RunRecord record_;
-    archive::RunHistory history_;                  ///< moments that have been saved
-    NamedNumbers base_check_;                      ///< of the base solved once more
+    archive::RunHistory history_; ///< moments that have been saved
+    NamedNumbers base_check_;     ///< of the base solved once more
     SteadyClock::time_point started_ = SteadyClock::now();
     double seconds_before_ = 0.0; ///< wall time of the sessions that this one resumes
     std::filesystem::path kept_;  ///< snapshot of the present state, if there is one

@@ -110,7 +110,7 @@ struct Observation {
 
 /// Measures of an effect, by the names of docs/measures.md.
 struct EffectMeasures {
-    NamedNumbers numbers = {};                                ///< also columns of history.csv
+    NamedNumbers numbers = {};                                     ///< also columns of history.csv
     std::vector<std::pair<std::string, NamedNumbers>> groups = {}; ///< objects of summary.json
 };
 

@@ -1,9 +1,9 @@
 #include "apps/studies/study.hpp"
 
-#include "apps/support/spelling.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
+#include "apps/support/spelling.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 
 #include "apps/studies/study.hpp"
 
-#include "apps/model/effects.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/log.hpp"
 #include "dem/cycle.hpp"

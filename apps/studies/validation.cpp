@@ -1,19 +1,19 @@
 #include "apps/studies/validation.hpp"
 
-#include "apps/archive/setting.hpp"
-#include "apps/model/effects.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/run_folder.hpp"
+#include "apps/archive/setting.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/measures/fault_history.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/run/run.hpp"
-#include "apps/support/spelling.hpp"
 #include "apps/studies/validation_plan.hpp"
 #include "apps/studies/validation_report.hpp"
 #include "apps/studies/validation_store.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/resources.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,12 +1,12 @@
 // Scenes with an elastic base: what loads it besides discs, and what bad input leads to.
 
-#include "apps/model/effects/elastic_base_parameters.hpp"
-#include "coupling/lower_crust_thinning.hpp"
-#include "apps/model/model.hpp"
 #include "apps/commands/explain.hpp"
+#include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/model/footwall_request.hpp"
+#include "apps/model/model.hpp"
 #include "coupling/base_memory.hpp"
 #include "coupling/interface_loads.hpp"
+#include "coupling/lower_crust_thinning.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -125,7 +125,8 @@ TEST_F(ElasticBaseRun, ThinningLowersTheBase) {
         return without["footwall_uplift_m"].get<double>() - s["footwall_uplift_m"].get<double>();
     };
     const auto footwall = fem::make_footwall(make_footwall_request(loaded, make_parts(loaded)));
-    footwall->solve(lower_crust_load(*loaded.find<LowerCrustThinningParameters>(), 600.0 * 9.81, 60.0));
+    footwall->solve(
+        lower_crust_load(*loaded.find<LowerCrustThinningParameters>(), 600.0 * 9.81, 60.0));
     const double alone = -footwall->interface_displacement()[1];
     std::printf("lower by %.2f m, footwall alone %.2f m, filled by %.0f m2: %.2f m\n",
                 sinks(thinned), alone, with["footwall_deposited_m2"].get<double>(), sinks(with));
@@ -180,7 +181,8 @@ TEST_F(ElasticBaseRun, ASecondMeshGivesTheSameBase) {
 }
 
 TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {
-    const std::string with = explain(load(loads), 1, program_effects()), without = explain(load(), 1, program_effects());
+    const std::string with = explain(load(loads), 1, program_effects()),
+                      without = explain(load(), 1, program_effects());
     EXPECT_THAT(with, AllOf(HasSubstr("lower crust: 20 km over 15 km thins by 80 m"),
                             HasSubstr("footwall: over 20 km to its target every 1000 a"),
                             HasSubstr("not in the model: water")));

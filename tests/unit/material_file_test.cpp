@@ -3,8 +3,8 @@
 
 #include "apps/scene/material_file.hpp"
 
-#include "apps/model/model.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"
 
@@ -207,7 +207,8 @@ TEST_F(MaterialFileTest, MaterialThenSceneThenSet) {
     const Scene plain = load(scene_text + materials);
     EXPECT_EQ(plain.basement.normal_stiffness, 2e10);
     EXPECT_EQ(plain.basement.friction, 0.7);
-    EXPECT_FALSE(make_parts(plain).bonds); // an effect is on when the scene has its table, whatever the rock
+    EXPECT_FALSE(
+        make_parts(plain).bonds); // an effect is on when the scene has its table, whatever the rock
     const Scene bonded = load(scene_text + materials + "[bonds]\nshear_strength_pa = 5e6\n",
                               {"material.friction=0.9", "bonds.tensile_strength_pa=7e4"});
     EXPECT_EQ(bonded.basement.normal_stiffness, 2e10);

@@ -164,8 +164,8 @@ TEST(RampFlatRamp, PartsOfTheDetachment) {
     EXPECT_EQ(corner->lower_start, corner->flat_end);
 
     for (const char* simple : {"lis1", "lis2"})
-        EXPECT_FALSE(
-            find_ramp_flat_ramp(make_rigid_base(load_scene({.scene = simple})).surfaces.front().chain))
+        EXPECT_FALSE(find_ramp_flat_ramp(
+            make_rigid_base(load_scene({.scene = simple})).surfaces.front().chain))
             << simple;
 }
 

@@ -286,7 +286,7 @@ class Drawing(Folder):
         self.assertEqual(known["overview"], overview)
 
     def test_every_figure_can_be_drawn_of_little_and_of_much(self):
-        much = {"discs_weak": [0, 1, 0, 0], "discs_unbonded_share": [0.0, 0.3, 0.6, 1.0],
+        much = {"discs_weak": [0, 1, 0, 0], "discs_behaviour": np.array([0, 2, 1, 1], dtype=np.int32),
                 "bonded": [[500.0, -500.0, 1500.0, -500.0, 0.0]],
                 "faults": [[0.0, 1000.0, -500.0, 2.0], [0.0, 1500.0, -900.0, 2.0]],
                 "profile": [[1000.0, -200.0, np.nan], [2000.0, -400.0, 400.0]],

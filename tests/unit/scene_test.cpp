@@ -750,7 +750,8 @@ TEST_F(SceneTest, AwkwardNumbersReadBackTheSame) {
                 const double from = std::max(parameter.range.from, parameter.range.above);
                 const double to = std::min(parameter.range.to, parameter.range.below);
                 if (const auto* choice = std::get_if<Choice>(&parameter.value)) {
-                    choice->set(part, choice->names, choice->names[random() % choice->names.size()]);
+                    choice->set(part, choice->names,
+                                choice->names[random() % choice->names.size()]);
                     continue;
                 }
                 const double x = std::uniform_real_distribution(from, to)(random);
@@ -817,7 +818,8 @@ TEST_F(SceneTest, UnitsThatAreNotSiReadBackTheSame) {
     for (int trial = 0; trial < 100; ++trial) {
         const std::string value = fmt::format("{}", std::pow(10.0, exponent(random)));
         const Scene scene = with_coefficient(value);
-        ASSERT_EQ(load(to_toml(scene)).find<CompactionParameters>()->coefficient, scene.find<CompactionParameters>()->coefficient)
+        ASSERT_EQ(load(to_toml(scene)).find<CompactionParameters>()->coefficient,
+                  scene.find<CompactionParameters>()->coefficient)
             << value;
     }
     for (const std::string value : {"0.0", "0.4", "0.27", "0.3", "0.51", "0.7", "10.0", "1e-310"})

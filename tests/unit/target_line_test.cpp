@@ -1,10 +1,10 @@
 // Target lines: heights, distances and change with time are exact but for round-off; the files they
 // come from are refused with line, column and cure.
 
-#include "dem/events/sedimentation.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/scene/target_csv.hpp"
+#include "dem/events/sedimentation.hpp"
 #include "dem/target_line.hpp"
 #include "tests/support.hpp"
 

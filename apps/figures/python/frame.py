@@ -8,7 +8,6 @@ origin), n discs:
     discs_start_depth                m, NaN for sediment
     discs_shear_strain               of the last window of extension, NaN for younger discs
     discs_weak                       0 or 1; only where faults weaken rock
-    discs_unbonded_share             0 to 1, of a disc's contacts; only where there are bonds
     discs_behaviour                  class of rock behaviour; only where there are bonds
     bonded                           contacts: x, y of both discs, 1 where both are sediment
     detachment                       x, y
@@ -133,7 +132,7 @@ def load_discs(folder: str) -> dict[str, np.ndarray | None]:
     discs = {name: load_array(folder, "discs_" + name) for name in ("x", "y", "radius", "stratum")}
     for name in ("start_depth", "shear_strain"):  # not defined for all discs
         discs[name] = load_array(folder, "discs_" + name, finite=False)
-    for name in ("weak", "unbonded_share", "behaviour"):
+    for name in ("weak", "behaviour"):
         discs[name] = load_array(folder, "discs_" + name, optional=True)
     count = len(discs["x"])
     if count == 0:
