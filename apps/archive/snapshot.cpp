@@ -135,13 +135,6 @@ std::uint64_t content_hash(const Content& content) {
     return h;
 }
 
-std::uint64_t run_hash(const Content& content) {
-    std::uint64_t h = hash(content.state);
-    for (const auto& [name, memory] : content.memories)
-        h = chained(h, hash(memory.table));
-    return h;
-}
-
 void write_state(hid_t file, const State& state) {
     for_each_number(state, writes_numbers(file));
     for_each_table(state, [&](const char* name, const Table& table) {
