@@ -82,8 +82,8 @@ std::string located(const std::string& path, const toml::node* node, const fs::p
 
 // ------------------------------------------------------------------------------------- materials
 
-/// Of [materials]: name or path of a rock's file.
-struct RockName {
+/// A parameter that names a file: of a rock in [materials], or of an effect.
+struct FileName {
     std::string file;
 };
 
@@ -96,7 +96,7 @@ std::vector<Parameter> rock_names(EffectList effects) {
     std::vector<Parameter> names;
     const auto add = [&](const RockSource& rock) {
         if (std::ranges::find(names, rock.key, &Parameter::key) == names.end())
-            names.push_back({rock.key, at<&RockName::file>, "", {}, "", rock.doc});
+            names.push_back({rock.key, at<&FileName::file>, "", {}, "", rock.doc});
     };
     add(basement_source);
     for (const Effect* effect : effects)
@@ -148,7 +148,7 @@ public:
 private:
     const toml::node* table_;
     fs::path folder_;
-    std::map<std::string, RockName, std::less<>> names_;
+    std::map<std::string, FileName, std::less<>> names_;
     std::map<std::string, RockMaterial, std::less<>> rocks_;
 };
 
@@ -179,6 +179,18 @@ std::vector<std::string_view> file_keys(const SceneTable& table) {
     if (table.effect)
         std::ranges::transform(table.effect->files, std::back_inserter(keys), &FileParameter::key);
     return keys;
+}
+
+/// Parameters of a table that name files and are no part of a scene, of a FileName.
+std::vector<Parameter> file_names(const SceneTable& table) {
+    std::vector<Parameter> names;
+    if (!table.effect)
+        return names;
+    for (const FileParameter& file : table.effect->files)
+        if (std::ranges::find(table.parameters, file.key, &Parameter::key) ==
+            table.parameters.end())
+            names.push_back({file.key, at<&FileName::file>, "", {}, "", file.doc});
+    return names;
 }
 
 /// Reads the files that a table's parameters name into what they stand for.
@@ -278,10 +290,11 @@ std::string to_toml(const Scene& scene) {
     std::vector<const Effect*> effects;
     std::ranges::transform(scene.effects, std::back_inserter(effects), &EffectPart::effect);
     std::string lines = fmt::format("# All parameters in force.\n\n{}", write(top_level(), &scene));
+    const FileName none; // what files said is in the parameters
     for (const SceneTable& table : scene_tables(effects))
         if (const void* part = table.find(table, scene))
-            lines += fmt::format("\n[{}]  # {}\n{}", table.name, table.doc,
-                                 write(table.parameters, part));
+            lines += fmt::format("\n[{}]  # {}\n{}{}", table.name, table.doc,
+                                 write(table.parameters, part), write(file_names(table), &none));
     return lines;
 }
 
@@ -292,7 +305,7 @@ std::string parameter_reference(EffectList effects) {
         lines += explain(parameter, &scene);
     lines += "\n[materials]: files of apps/materials by name, others by path\n";
     for (const Parameter& parameter : rock_names(effects)) {
-        RockName name{std::string(basement_source.file)};
+        FileName name{std::string(basement_source.file)};
         for (const Effect* effect : effects)
             if (effect->rock && effect->rock->key == parameter.key)
                 name.file = effect->rock->file;
@@ -304,15 +317,9 @@ std::string parameter_reference(EffectList effects) {
         const void* part = table.add(table, scene);
         for (const Parameter& parameter : table.parameters)
             lines += explain(parameter, part);
-        if (!table.effect)
-            continue;
-        for (const FileParameter& file : table.effect->files) {
-            const Parameter parameter{file.key, at<&RockName::file>, "", {}, "", file.doc};
-            const RockName none;
-            if (std::ranges::find(table.parameters, file.key, &Parameter::key) ==
-                table.parameters.end())
-                lines += explain(parameter, &none);
-        }
+        const FileName none;
+        for (const Parameter& parameter : file_names(table))
+            lines += explain(parameter, &none);
     }
     for (const auto kind : {DetachmentSegment::Kind::arc, DetachmentSegment::Kind::line}) {
         const DetachmentSegment segment;
