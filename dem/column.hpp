@@ -49,6 +49,8 @@ public:
     void set(Column column);
 
     template <class T> std::span<T> get(std::string_view name) {
+        // The const overload looks, this one may write: the table is not const.
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
         return std::get<std::vector<T>>(const_cast<Column&>(require(name)).values);
     }
     template <class T> std::span<const T> get(std::string_view name) const {

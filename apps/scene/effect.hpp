@@ -122,6 +122,12 @@ struct Workload {
     double years = 0.0;
 };
 
+/// Where an effect's parameters are in the std::any that holds them.
+struct PartAddress {
+    const void* (*get)(const std::any& parameters);
+    void* (*reach)(std::any& parameters);
+};
+
 struct Effect;
 using EffectList = std::span<const Effect* const>;
 
@@ -130,8 +136,8 @@ using EffectList = std::span<const Effect* const>;
 struct Effect {
     std::string_view name; ///< of the table
     std::string_view doc;
-    std::any (*defaults)(); ///< parameters; see parameters_of
-    const void* (*address)(const std::any& parameters);
+    std::any (*defaults)(); ///< parameters; see make_defaults
+    PartAddress address;
     std::vector<Parameter> parameters = {};
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
@@ -172,8 +178,11 @@ std::vector<std::string> effect_names(const Scene& scene);
 
 /// Default parameters of a type, and where an object of it is in a std::any.
 template <class Parameters> std::any make_defaults() { return Parameters{}; }
-template <class Parameters> const void* address_of(const std::any& parameters) {
-    return std::any_cast<Parameters>(&parameters);
-}
+template <class Parameters>
+constexpr PartAddress address_of{
+    [](const std::any& parameters) -> const void* {
+        return std::any_cast<Parameters>(&parameters);
+    },
+    [](std::any& parameters) -> void* { return std::any_cast<Parameters>(&parameters); }};
 
 } // namespace listric

@@ -68,7 +68,8 @@ namespace detail {
 template <class Member> struct MemberOf;
 template <class Object, class T> struct MemberOf<T Object::*> { using object = Object; };
 
-template <auto First, auto... Rest> const auto& member(const auto& object) {
+/// The member at a path; const where the object is.
+template <auto First, auto... Rest> auto& member(auto& object) {
     if constexpr (sizeof...(Rest) == 0)
         return object.*First;
     else
@@ -83,10 +84,8 @@ template <auto... Path> const auto& get(const void* object) {
     return member<Path...>(*static_cast<const Owner<Path...>*>(object));
 }
 
-/// `object` is not const, so neither is what lies in it.
 template <auto... Path> auto& reach(void* object) {
-    using T = std::remove_cvref_t<decltype(get<Path...>(object))>;
-    return const_cast<T&>(get<Path...>(object));
+    return member<Path...>(*static_cast<Owner<Path...>*>(object));
 }
 
 } // namespace detail

@@ -77,13 +77,16 @@ struct Scene {
 
     /// The parameters of an effect, by their type; null where it is off.
     template <class Parameters> const Parameters* find() const {
-        for (const EffectPart& part : effects)
-            if (const auto* found = std::any_cast<Parameters>(&part.parameters))
+        return find_in<const Parameters>(effects);
+    }
+    template <class Parameters> Parameters* find() { return find_in<Parameters>(effects); }
+
+private:
+    template <class Parameters> static Parameters* find_in(auto& parts) {
+        for (auto& part : parts)
+            if (auto* found = std::any_cast<Parameters>(&part.parameters))
                 return found;
         return nullptr;
-    }
-    template <class Parameters> Parameters* find() {
-        return const_cast<Parameters*>(static_cast<const Scene*>(this)->find<Parameters>());
     }
 };
 

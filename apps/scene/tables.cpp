@@ -209,13 +209,13 @@ SceneTable table_of(const Effect& effect) {
             [](const SceneTable& table, const Scene& scene) -> const void* {
                 const auto part = part_of(table.effect, scene);
                 return part == scene.effects.end() ? nullptr
-                                                   : table.effect->address(part->parameters);
+                                                   : table.effect->address.get(part->parameters);
             },
             [](const SceneTable& table, Scene& scene) -> void* {
                 auto part = part_of(table.effect, scene);
                 if (part == scene.effects.end())
                     part = scene.effects.insert(part, {table.effect, table.effect->defaults()});
-                return const_cast<void*>(table.effect->address(part->parameters));
+                return table.effect->address.reach(part->parameters);
             },
             [](const SceneTable& table, Scene& scene) {
                 std::erase_if(scene.effects,

@@ -14,6 +14,8 @@ namespace {
 int run_program(const std::vector<std::string>& words) {
     std::vector<char*> arguments;
     for (const std::string& word : words)
+        // execv does not write to its arguments; its type is older than const.
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
         arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
     const pid_t child = fork();

@@ -7,6 +7,8 @@
 
 namespace listric::effects {
 
+const Effect& base_motion();
+
 namespace {
 
 using P = dem::BaseMotionParameters;

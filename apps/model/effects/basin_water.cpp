@@ -7,6 +7,8 @@
 
 namespace listric::effects {
 
+const Effect& basin_water();
+
 namespace {
 
 using P = coupling::BasinWaterParameters;

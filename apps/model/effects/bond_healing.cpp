@@ -4,6 +4,8 @@
 
 namespace listric::effects {
 
+const Effect& bond_healing();
+
 const Effect& bond_healing() {
     using P = dem::BondHealingParameters;
     static const Effect effect{

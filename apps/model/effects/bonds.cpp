@@ -3,6 +3,8 @@
 
 namespace listric::effects {
 
+const Effect& bonds();
+
 namespace {
 
 /// Table [bonds].

@@ -4,6 +4,8 @@
 
 namespace listric::effects {
 
+const Effect& compaction();
+
 const Effect& compaction() {
     using P = dem::CompactionParameters;
     static const Effect effect{

@@ -15,6 +15,8 @@
 
 namespace listric::effects {
 
+const Effect& elastic_base();
+
 namespace {
 
 using P = ElasticBaseParameters;

@@ -6,6 +6,8 @@
 
 namespace listric::effects {
 
+const Effect& energy();
+
 namespace {
 
 using P = dem::EnergyParameters;

@@ -8,6 +8,8 @@
 
 namespace listric::effects {
 
+const Effect& fault_weakening();
+
 namespace {
 
 using P = dem::FaultWeakeningParameters;

@@ -9,6 +9,8 @@
 
 namespace listric::effects {
 
+const Effect& footwall_erosion();
+
 namespace {
 
 using P = coupling::FootwallErosionParameters;

@@ -2,6 +2,8 @@
 
 namespace listric::effects {
 
+const Effect& gravity();
+
 namespace {
 
 struct GravityParameters {

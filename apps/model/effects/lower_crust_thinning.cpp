@@ -8,6 +8,8 @@
 
 namespace listric::effects {
 
+const Effect& lower_crust_thinning();
+
 namespace {
 
 using P = coupling::LowerCrustThinningParameters;

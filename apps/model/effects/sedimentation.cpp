@@ -5,6 +5,8 @@
 
 namespace listric::effects {
 
+const Effect& sedimentation();
+
 namespace {
 
 using P = dem::SedimentationParameters;
