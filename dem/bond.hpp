@@ -15,7 +15,7 @@ inline void install_bond(State& state, std::size_t k, const BondStrength& streng
     const DiscColumns d = disc_columns(state);
     const ContactColumns c = contact_columns(state);
     const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
-    const auto [low, high] = std::minmax(d.id[i], d.id[j]);
+    const std::int64_t low = std::min(d.id[i], d.id[j]), high = std::max(d.id[i], d.id[j]);
     const double section =
         strength.reading == StrengthReading::stress ? d.radius[i] + d.radius[j] : 1.0;
     const auto draw = [&](Purpose purpose, double mean, double deviation) {

@@ -80,7 +80,7 @@ template <bool bonded, bool frictional>
                 const Lanes limit = load(block.friction + start) * elastic;
                 const Lanes raised = stuck < -limit ? -limit : stuck;
                 const Lanes clipped = limit < raised ? limit : raised;
-                shear = pressed & (limit > zero) ? clipped : zero;
+                shear = (pressed & (limit > zero)) ? clipped : zero;
             }
             if constexpr (bonded) {
                 const Lanes tensile_strength = load(block.tensile_strength + start);
