@@ -57,8 +57,8 @@ TargetLine Target::at(double time) const {
     std::vector<Point> points = a.points;
     points.insert(points.end(), b.points.begin(), b.points.end());
     std::ranges::sort(points, {}, &Point::x);
-    const auto same = std::ranges::unique(points, {}, &Point::x);
-    points.erase(same.begin(), same.end());
+    const auto same_x = [](const Point& a, const Point& b) { return a.x == b.x; };
+    points.erase(std::unique(points.begin(), points.end(), same_x), points.end());
     for (Point& p : points)
         p.y = (1.0 - share) * before.height(p.x) + share * after.height(p.x);
     return TargetLine(std::move(points));
