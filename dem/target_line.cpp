@@ -57,7 +57,7 @@ TargetLine Target::at(double time) const {
     std::vector<Point> points = a.points;
     points.insert(points.end(), b.points.begin(), b.points.end());
     std::ranges::sort(points, {}, &Point::x);
-    const auto same_x = [](const Point& a, const Point& b) { return a.x == b.x; };
+    const auto same_x = [](const Point& p, const Point& q) { return p.x == q.x; };
     points.erase(std::unique(points.begin(), points.end(), same_x), points.end());
     for (Point& p : points)
         p.y = (1.0 - share) * before.height(p.x) + share * after.height(p.x);

@@ -29,6 +29,17 @@ double snapshot_extension(const fs::path& path) {
     return std::strtod(path.filename().c_str() + std::strlen("extension-"), nullptr);
 }
 
+namespace {
+
+std::vector<fs::path> some_snapshots(const fs::path& output) {
+    std::vector<fs::path> snapshots = list_snapshots(output);
+    if (snapshots.empty())
+        throw StorageError(output.string() + ": no snapshots; is this a run's folder?");
+    return snapshots;
+}
+
+} // namespace
+
 void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> events) {
     for (const auto& event : events) {
         const auto memory = snapshot.event_memory.find(event->name());
@@ -39,12 +50,11 @@ void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> event
     }
 }
 
-RunFolder::RunFolder(const fs::path& output) : snapshots(list_snapshots(output)) {
-    if (snapshots.empty())
-        throw StorageError(output.string() + ": no snapshots; is this a run's folder?");
-    SceneRequest request;
-    request.scene = (output / "scene.toml").string();
-    scene = load_scene(request);
+RunFolder::RunFolder(const fs::path& folder, const Scene& of)
+    : output(folder), scene(of), parts(make_parts(scene)), snapshots(some_snapshots(folder)) {}
+
+RunFolder::RunFolder(const fs::path& folder) : output(folder), snapshots(some_snapshots(folder)) {
+    scene = load_scene({.scene = (output / "scene.toml").string()});
     parts = make_parts(scene);
 }
 

@@ -29,12 +29,17 @@ struct Moment {
 
 /// What a run left: its scene and its snapshots, oldest first.
 struct RunFolder {
+    std::filesystem::path output;
     Scene scene;
     ModelParts parts;
     std::vector<std::filesystem::path> snapshots;
 
-    /// Throws SceneError, and StorageError if there is no snapshot.
+    /// Reads the scene that the run left. Throws SceneError, and StorageError if there is no
+    /// snapshot.
     explicit RunFolder(const std::filesystem::path& output);
+
+    /// The folder of a scene at hand, whose effects need not be the program's. Throws StorageError.
+    RunFolder(const std::filesystem::path& output, const Scene& scene);
 
     /// Throws StorageError.
     Moment read(const std::filesystem::path& snapshot) const;

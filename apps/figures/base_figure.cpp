@@ -76,7 +76,7 @@ void export_section(const State& state, const std::vector<fem::StressPatch>& pat
 }
 
 /// Recovers the footwall's field at the moments that are shown, and leaves the arrays of the last.
-void export_footwall(const fs::path& output, const RunFolder& run, const fs::path& folder) {
+void export_footwall(const RunFolder& run, const fs::path& folder) {
     std::vector<std::unique_ptr<Event>> events;
     FootwallCoupling coupling(run.scene, run.parts, events);
     std::string table = "extension_m,x_m,uplift_m\n";
@@ -89,29 +89,28 @@ void export_footwall(const fs::path& output, const RunFolder& run, const fs::pat
         if (path == moments.back())
             export_section(snapshot.state, field.stress(), folder);
     }
-    write_text(output / "footwall.csv", table);
+    write_text(run.output / "footwall.csv", table);
 }
 
 } // namespace
 
-void draw_base(const fs::path& output) {
+void draw_base(const RunFolder& run) {
     std::string table = "extension_m,x_m,y_m,ux_m,uy_m\n";
-    for (const fs::path& path : list_snapshots(output)) {
+    for (const fs::path& path : run.snapshots) {
         const State state = read_snapshot(path).state;
         const ConstBaseNodeColumns nodes = base_node_columns(state);
         for (std::size_t k = 0; k < nodes.x.size(); ++k)
             table += fmt::format("{:.2f},{:.2f},{:.2f},{:.4f},{:.4f}\n", state.clock.extension,
                                  nodes.x[k], nodes.y[k], nodes.ux[k], nodes.uy[k]);
     }
-    write_text(output / "base.csv", table);
-    const fs::path figures = output / "figures";
-    std::string problem = run_drawing_script("base.py", {output.string(), figures.string()});
-    const RunFolder run(output);
+    write_text(run.output / "base.csv", table);
+    const fs::path figures = run.output / "figures";
+    std::string problem = run_drawing_script("base.py", {run.output.string(), figures.string()});
     if (problem.empty() && has_effect(run.scene, "elastic_base")) {
         const TemporaryFolder data(figures);
-        export_footwall(output, run, data.path);
+        export_footwall(run, data.path);
         problem = run_drawing_script("footwall.py",
-                                     {output.string(), data.path.string(), figures.string()});
+                                     {run.output.string(), data.path.string(), figures.string()});
     }
     if (!problem.empty())
         throw StorageError(problem);

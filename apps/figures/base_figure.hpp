@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include "apps/archive/run_folder.hpp"
 
 namespace listric {
 
@@ -8,6 +8,6 @@ namespace listric {
 /// and draws it; of an elastic base also footwall.csv, the uplift of its surface and of the
 /// detachment at a fifth, half and the whole of the extension, and the stress at the end. Throws
 /// StorageError if it cannot.
-void draw_base(const std::filesystem::path& output);
+void draw_base(const archive::RunFolder& run);
 
 } // namespace listric

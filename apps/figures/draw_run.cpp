@@ -74,15 +74,14 @@ void draw_run(const fs::path& output) {
     if (chosen.size() > 1)
         frames.draw("experiment");
     if (base_moves)
-        draw_base(output);
+        draw_base(run);
 }
 
-void draw_experiment(const fs::path& output, const RunHistory& history) {
-    const RunFolder run = open_run(output);
+void draw_experiment(const RunFolder& run, const RunHistory& history) {
     const std::vector<fs::path> chosen = chosen_snapshots(run);
     if (chosen.size() < 2)
         return;
-    FigureFrames frames(output / "figures");
+    FigureFrames frames(run.output / "figures");
     for (const fs::path& path : chosen)
         add_frame(frames, run, run.read(path), history);
     frames.draw("experiment");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
 #include "apps/scene/scene.hpp"
 
@@ -16,7 +17,7 @@ void draw_run(const std::filesystem::path& output);
 
 /// Draws the same moments on one sheet, if there are at least two. Throws as draw_run.
 /// @param history  the run's past, up to its end
-void draw_experiment(const std::filesystem::path& output, const archive::RunHistory& history);
+void draw_experiment(const archive::RunFolder& run, const archive::RunHistory& history);
 
 /// Draws every snapshot of a run's folder as a frame of an animation: MP4 with ffmpeg, else GIF.
 /// Throws as draw_run.

@@ -294,9 +294,10 @@ void Session::draw_sheet() {
         return;
     const Stopwatch watch(record_.seconds_by_part["figures"]);
     try {
+        const RunFolder run(options_.output, scene_);
         if (parts_.base_moves)
-            draw_base(options_.output);
-        draw_experiment(options_.output, history_);
+            draw_base(run);
+        draw_experiment(run, history_);
     } catch (const std::exception& error) {
         log_.say(std::string("warning: no sheet of figures: ") + error.what());
     }

@@ -111,6 +111,11 @@ TEST_F(OwnEffect, IsInAllThatARunLeaves) {
     const std::string history = contents(o.output / "history.csv");
     EXPECT_THAT(history.substr(0, history.find('\n')), HasSubstr(",greatest_speed_m_per_s"));
 
+    const RunFolder left(o.output, scene); // whence the last sheet of figures is drawn
+    EXPECT_EQ(
+        std::ranges::count(left.read(left.snapshots.back()).events, "speed_gauge", &Event::name),
+        1);
+
     Snapshot last = read_snapshot(list_snapshots(o.output).back());
     EXPECT_EQ(last.event_applied.at("speed_gauge"), 40);
     EXPECT_EQ(last.event_memory.at("speed_gauge").rows(), 40u);
