@@ -35,6 +35,20 @@ void Table::resize(std::size_t rows) {
     rows_ = rows;
 }
 
+void Table::begin_rows(std::size_t first) {
+    assert(first <= rows_);
+    const auto skip = static_cast<std::ptrdiff_t>(first);
+    for (Column& column : columns_)
+        if (!column.begins_as.empty())
+            std::visit(
+                [&](auto& values) {
+                    const auto& others =
+                        std::get<std::decay_t<decltype(values)>>(require(column.begins_as).values);
+                    std::copy(others.begin() + skip, others.end(), values.begin() + skip);
+                },
+                column.values);
+}
+
 void Table::reorder(std::span<const std::int32_t> order) {
     assert(std::ranges::all_of(order, [&](std::int32_t row) {
         return row >= 0 && static_cast<std::size_t>(row) < rows_;

@@ -21,7 +21,8 @@ struct Column {
     std::string name;
     std::string unit; ///< SI, "1" when dimensionless
     Values values;
-    Value initial; ///< what a new row starts with
+    Value initial;              ///< what a new row starts with
+    std::string begins_as = {}; ///< name of the column whose value a new row takes, if not that
 };
 
 /// Columns of equal length. Sorting, growing, saving, resuming and hashing are one loop over
@@ -43,6 +44,23 @@ public:
                 {std::string(name), std::string(unit), std::vector<T>(rows_, initial), initial});
         return get<T>(name);
     }
+
+    /// Adds a column that begins as another of its type is, now and in every row that comes. Keeps
+    /// the values of one that is already there.
+    template <class T>
+    std::span<T> add_like(std::string_view name, std::string_view unit, std::string_view other) {
+        if (!has(name)) {
+            const std::span<const T> values = std::as_const(*this).get<T>(other);
+            columns_.push_back({std::string(name), std::string(unit),
+                                std::vector<T>(values.begin(), values.end()), T{},
+                                std::string(other)});
+        }
+        return get<T>(name);
+    }
+
+    /// Gives the columns that begin as another its values, in the rows from `first` on: for new
+    /// rows, once they have been filled in.
+    void begin_rows(std::size_t first);
 
     /// Adds a column with its values; replaces one of the same name. The first column of an empty
     /// table sets the number of rows.

@@ -27,7 +27,8 @@ inline constexpr Schedule never{std::numeric_limits<double>::infinity(), 1.0};
 /// Something rare that happens to the state between cycles: an effect is one or more events.
 ///
 /// What an event must remember per disc or contact it keeps in a column of the state; anything
-/// else in its one table. Both are saved, resumed and hashed for it.
+/// else in its one table. Both are saved, resumed and hashed for it. Memory of where or how a disc
+/// was begins, in discs that come later, as they are: Table::add_like().
 class Event {
 public:
     Event(std::string name, Schedule schedule) : name_(std::move(name)), schedule_(schedule) {}

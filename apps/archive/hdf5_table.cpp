@@ -135,6 +135,8 @@ void write_column(hid_t group, const Column& column, std::size_t position) {
                   "writing a column");
             write_text_attribute(set, "unit", column.unit);
             write_number(set, "initial", std::get<T>(column.initial));
+            if (!column.begins_as.empty())
+                write_text_attribute(set, "begins_as", column.begins_as);
             write_number(set, "position", static_cast<std::int64_t>(position));
         },
         column.values);
@@ -145,7 +147,8 @@ template <class T> Column read_values(hid_t set, const std::string& name, std::s
     check(H5Dread(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
           "reading a column");
     return {name, read_text_attribute(set, "unit"), std::move(values),
-            read_number<T>(set, "initial")};
+            read_number<T>(set, "initial"),
+            H5Aexists(set, "begins_as") > 0 ? read_text_attribute(set, "begins_as") : ""};
 }
 
 } // namespace

@@ -36,10 +36,9 @@ BondHealing::BondHealing(const BondHealingParameters& parameters, const BondStre
       strength_(strength) {}
 
 void BondHealing::begin(State& state) {
-    state.discs.add<double>("healed_x", "m", 0.0);
-    state.discs.add<double>("healed_y", "m", 0.0);
-    state.discs.add<double>("healed_rotation", "rad", 0.0);
-    remember(state);
+    state.discs.add_like<double>("healed_x", "m", "x");
+    state.discs.add_like<double>("healed_y", "m", "y");
+    state.discs.add_like<double>("healed_rotation", "rad", "rotation");
 }
 
 bool BondHealing::apply(State& state, const RigidBase&) {
@@ -47,14 +46,15 @@ bool BondHealing::apply(State& state, const RigidBase&) {
     const ContactColumns c = contact_columns(state);
     const HealedColumns h = healed_columns(state);
     const double strain = parameters_.strain_rate * schedule().seconds();
-    const double window_start = state.clock.extension - schedule().spacing() * (1.0 - 1e-6);
+    // Discs laid down at the last healing, to half a cycle, have a whole interval behind them.
+    const double latest = state.clock.extension - 0.75 * schedule().spacing();
     const std::vector<bool> touches = touching(state);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.first[k]),
                    j = static_cast<std::size_t>(c.second[k]);
         if (c.bonded[k] || !touches[k] || !state.materials[d.material[i]].bondable ||
             !state.materials[d.material[j]].bondable ||
-            std::max(d.start_extension[i], d.start_extension[j]) > window_start)
+            std::max(d.start_extension[i], d.start_extension[j]) > latest)
             continue;
         const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
         const double old_dx = h.x[j] - h.x[i], old_dy = h.y[j] - h.y[i];

@@ -145,13 +145,7 @@ FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, doubl
         memory.add<double>(name, "", 0.0);
 }
 
-void FaultWeakening::begin(State& state) {
-    add_weakened_columns(state);
-    const DiscColumns d = disc_columns(state);
-    const WeakenedColumns w = weakened_columns(state);
-    std::ranges::copy(d.x, w.scanned_x.begin());
-    std::ranges::copy(d.y, w.scanned_y.begin());
-}
+void FaultWeakening::begin(State& state) { add_weakened_columns(state); }
 
 bool FaultWeakening::apply(State& state, const RigidBase& base) {
     const FaultWeakeningParameters& p = parameters_;

@@ -104,6 +104,7 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
         d.stratum[i] = stratum;
         state.ledger.deposited += d.mass[i];
     }
+    state.discs.begin_rows(first);
     sort_discs(state);
     return true;
 }

@@ -16,8 +16,8 @@ std::vector<std::int32_t> weak_rows(const State& state) {
 }
 
 void add_weakened_columns(State& state) {
-    state.discs.add<double>("scanned_x", "m", 0.0);
-    state.discs.add<double>("scanned_y", "m", 0.0);
+    state.discs.add_like<double>("scanned_x", "m", "x");
+    state.discs.add_like<double>("scanned_y", "m", "y");
     state.discs.add<double>("rock_radius", "m", 0.0);
     state.discs.add<double>("rock_area", "m^2", 0.0);
     state.discs.add<double>("correction", "1", 1.0);

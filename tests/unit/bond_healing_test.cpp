@@ -121,6 +121,16 @@ TEST(BondHealing, DiscsWithoutAHistoryWait) {
     EXPECT_TRUE(p.heals());
 }
 
+TEST(BondHealing, DiscsLaidDownAtTheLastHealingAreJudgedAsAllOthers) {
+    for (const double late : {-0.01, 0.0, 0.01}) { // events come half a cycle early or late
+        Pair still, slips;
+        still.discs().start_extension[1] = slips.discs().start_extension[1] = late;
+        slips.discs().y[1] = 1.01 * allowed;
+        EXPECT_TRUE(still.heals()) << late;
+        EXPECT_FALSE(slips.heals()) << late;
+    }
+}
+
 TEST(BondHealing, StandingBondsKeepTheirStrength) {
     Pair p;
     find_contacts(p.state, {});

@@ -33,6 +33,20 @@ TEST(Column, AddFillsWithTheInitialValue) {
     EXPECT_EQ(t.columns()[0].unit, "m");
 }
 
+TEST(Column, ThatBeginsAsAnotherFollowsItInNewRowsAlone) {
+    Table t = three_rows();
+    t.get<double>("length")[0] = 4.0;
+    EXPECT_THAT(t.add_like<double>("remembered", "m", "length"), ElementsAre(4.0, 1.5, 1.5));
+    t.get<double>("length")[1] = 5.0;
+    t.resize(5);
+    t.get<double>("length")[3] = 6.0;
+    t.begin_rows(3);
+    EXPECT_THAT(t.get<double>("remembered"), ElementsAre(4.0, 1.5, 1.5, 6.0, 1.5));
+    EXPECT_THAT(t.get<std::int64_t>("id"), ElementsAre(-1, -1, -1, -1, -1));
+    EXPECT_THAT(t.add_like<double>("remembered", "m", "length"),
+                ElementsAre(4.0, 1.5, 1.5, 6.0, 1.5));
+}
+
 TEST(Column, AddKeepsWhatIsThere) {
     Table t = three_rows();
     t.get<double>("length")[1] = 4.0;

@@ -4,6 +4,8 @@
 // the discs touches a wall or the surface, where packing is looser.
 
 #include "dem/cycle.hpp"
+#include "dem/events/bond_healing.hpp"
+#include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"
 #include "tests/support.hpp"
 
@@ -35,6 +37,22 @@ struct Basin {
         state.clock.extension = 3.0 * event.schedule().spacing();
     }
 };
+
+TEST(Sedimentation, WhatOthersRememberOfNewDiscsBeginsAtTheirPlaces) {
+    Basin b;
+    BondHealing({}, {}, rate).begin(b.state);
+    FaultWeakening({}, rate, 9.81, 2600.0).begin(b.state);
+    for (double& y : disc_columns(b.state).y)
+        y += 1.0; // after it was remembered
+    ASSERT_TRUE(b.event.apply(b.state, b.base));
+    const DiscColumns d = disc_columns(b.state);
+    for (const char* remembered : {"healed_y", "scanned_y"}) {
+        const auto y = b.state.discs.get<double>(remembered);
+        for (std::size_t i = 0; i < y.size(); ++i)
+            EXPECT_EQ(d.y[i] - y[i], d.stratum[i] == 0 ? 1.0 : 0.0) << remembered;
+    }
+    EXPECT_GT(std::ranges::count_if(d.stratum, [](std::int32_t s) { return s > 0; }), 100);
+}
 
 TEST(Sedimentation, FillsToTheLevelWithoutOverlap) {
     Basin b;
