@@ -87,6 +87,9 @@ struct Motion {
     double ramp = 0.0;  ///< s
 
     double speed_at(double time) const { return time < ramp ? speed * (time / ramp) : speed; }
+
+    /// When it has come as far as an extension, m; s from rest.
+    double time_at(double extension) const;
 };
 
 /// What the discs rest on: detachment, backstop above the breakaway and right wall; or the walls of
@@ -97,8 +100,13 @@ struct RigidBase {
     Motion motion;
 };
 
-/// Velocity gradient du_x/dx of a stretching base, in units of the extension speed, 1/m; 0: none.
-double stretching(const RigidBase& base, double extension);
+/// Thinning of what rests on a stretching base: du_x/dx = -du_y/dy in units of the extension speed.
+struct Stretching {
+    double rate = 0.0;  ///< 1/m; 0: nothing stretches
+    double floor = 0.0; ///< y at which nothing sinks, m
+};
+
+Stretching stretching(const RigidBase& base, double extension);
 
 /// Greatest translation of a surface, in units of the extension speed.
 double greatest_translation(const RigidBase& base);

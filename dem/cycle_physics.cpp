@@ -8,7 +8,7 @@ namespace listric::dem {
 
 void add_mean_velocities(State& state) {
     for (const char* name : {"mean_vx", "mean_vy"})
-        state.discs.add<double>(name, "m/s", 0.0);
+        state.discs.add<float>(name, "m/s", 0.0f);
 }
 
 void refuse_runaways(const State& state) {

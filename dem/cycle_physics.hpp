@@ -13,18 +13,25 @@ namespace listric::dem {
 /// Physics of the cycle beyond the contact law.
 struct CyclePhysics {
     /// Local non-viscous damping: F_d = -damping |F| sign(v) per component. Where the base
-    /// stretches, v is relative to it: else all that moves with it would be dragged back.
+    /// stretches, v is relative to the thinning that goes with it: else all that moves with it
+    /// would be dragged back.
     double damping = 0.7;
     double gravity = 0.0; ///< m/s^2, downward
     /// Time over which a disc's velocity is averaged (exponentially), s, to damp what departs from
-    /// that mean; 0: to damp velocity itself. What sinks steadily is else held up by damping as if
-    /// it weighed less, up to `damping` times the unbalanced force on it. The state needs the
-    /// columns of add_mean_velocities().
+    /// that mean; 0: to damp velocity itself, as PFC does. What sinks steadily is else held up by
+    /// damping as if it weighed less, up to `damping` times the unbalanced force on it. The state
+    /// needs the columns of add_mean_velocities().
     double averaging_time = 0.0;
 };
 
-/// Gives discs the memory of damping relative to their mean motion.
+/// Gives discs the memory of damping relative to their mean motion: `mean_vx` and `mean_vy`, m/s.
+/// Single precision: what it rounds away is 4e-5 of the mean at 150 s, and the sign of v - mean is
+/// all that it is for.
 void add_mean_velocities(State& state);
+
+/// Cycles between samples of a velocity for its mean, at multiples of it. They are a thousandth of
+/// the averaging time; a sample every cycle would cost the memory traffic of writing it.
+inline constexpr std::int64_t averaging_interval = 16;
 
 /// What answers to the loads on the nodes of a base that deforms.
 class BaseResponse {

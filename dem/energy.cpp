@@ -1,6 +1,7 @@
 #include "dem/energy.hpp"
 
 #include "dem/base_contact.hpp"
+#include "dem/radius_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,7 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         energy.potential += d.mass[i] * gravity * (d.y[i] - 0.5 * dt * d.vy[i]);
     }
 
+    const RadiusRates radii(state);
     const PairParameters pairs(state.materials, dt);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.first[k]),
@@ -49,7 +51,8 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         const double dvx = d.vx[j] - d.vx[i], dvy = d.vy[j] - d.vy[i];
         const double reach = d.radius[i] + d.radius[j];
         const double distance = std::sqrt(dx * dx + dy * dy);
-        const double before = reach - std::hypot(dx - dvx * dt, dy - dvy * dt);
+        const double before =
+            reach - (radii[i] + radii[j]) * dt - std::hypot(dx - dvx * dt, dy - dvy * dt);
         const double now = reach - distance;
         const ContactParameters& p = pairs(d.material[i], d.material[j]);
         energy.normal_strain += normal_energy(before, now, c.bonded[k], p);
@@ -87,8 +90,9 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         const auto foot_before =
             nearest(surface, before, {d.x[i] - d.vx[i] * dt, d.y[i] - d.vy[i] * dt});
         if (motion && foot_before)
-            energy.normal_strain += normal_energy(d.radius[i] - foot_before->distance,
-                                                  d.radius[i] - motion->foot.distance, false, p);
+            energy.normal_strain +=
+                normal_energy(d.radius[i] - radii[i] * dt - foot_before->distance,
+                              d.radius[i] - motion->foot.distance, false, p);
         energy.shear_strain +=
             shear_energy(b.shear_force[k], motion ? motion->slip_rate : 0.0, p, dt);
     }

@@ -9,7 +9,7 @@
 namespace listric::dem {
 
 // Where the work goes, J per metre of thickness:
-//   boundary, base and gravity work + work of events
+//   boundary, base and gravity work + work of events and radii
 //     = change of kinetic and strain energy + losses by friction, damping, breaking bonds and
 //     steps.
 //
@@ -37,6 +37,7 @@ struct EnergyFlows {
     double damping = 0.0;       ///< lost by local damping, J/m
     double bond_breaking = 0.0; ///< what springs lost of what they held when bonds broke, J/m
     double stepping = 0.0;      ///< lost by contacts that close or open within a step, J/m
+    double radii = 0.0;         ///< work of radii that change with every cycle, J/m
 
     EnergyFlows& operator+=(const EnergyFlows& other) {
         boundary_work += other.boundary_work;
@@ -45,6 +46,7 @@ struct EnergyFlows {
         damping += other.damping;
         bond_breaking += other.bond_breaking;
         stepping += other.stepping;
+        radii += other.radii;
         return *this;
     }
 };

@@ -27,6 +27,13 @@ Double4 load_slot(const double* from) {
     return slot;
 }
 
+/// Of single precision, with zeros for what has no mean.
+Double4 mean_velocity(const float* from) {
+    Float4 mean = {};
+    std::memcpy(&mean, from, 2 * sizeof(float));
+    return __builtin_convertvector(mean, Double4);
+}
+
 /// Element `k`, or the end.
 template <class Vector> const auto* ahead(const Vector& vector, std::size_t k) {
     return vector.data() + std::min(k, vector.size());
@@ -159,19 +166,29 @@ template <bool bonded, bool frictional> void FastCycle::compute_boundary(Strip& 
     compute_blocks<bonded, frictional>(strip.boundary, 0, strip.boundary.blocks.size());
 }
 
+/// The last is no number of its own: it holds the means.
+Double4 FastCycle::numbers_of(const Inertia& inertia) {
+    static_assert(sizeof(Inertia) == sizeof(Double4));
+    Double4 numbers;
+    std::memcpy(&numbers, &inertia, sizeof numbers);
+    return numbers;
+}
+
 template <bool bonded, bool frictional, DampedAgainst motion>
-double FastCycle::sweep(Strip& strip, double stretch_rate) {
+double FastCycle::sweep(Strip& strip, Stretching thins) {
     const Double4 no_force = {};
     const Double4 damping = no_force + physics_.damping;
-    const Double4 stretching = {stretch_rate, 0.0, 0.0, 0.0};
+    const Double4 stretches = {thins.rate, -thins.rate, 0.0, 0.0};
+    const Double4 floor = {0.0, thins.floor, 0.0, 0.0};
     const Double4 time_step = no_force + time_step_;
     const Mask4 sign = {std::numeric_limits<std::int64_t>::min(),
                         std::numeric_limits<std::int64_t>::min(),
                         std::numeric_limits<std::int64_t>::min(), 0};
-    // Of the mean velocity; spin is damped as it is, its mean stays 0.
-    const double share =
-        motion == DampedAgainst::mean_motion ? time_step_ / physics_.averaging_time : 0.0;
-    const Double4 shares = {share, share, 0.0, 0.0};
+    constexpr bool averages =
+        motion == DampedAgainst::mean_motion || motion == DampedAgainst::mean_motion_sampled;
+    // Of the sample in the mean; spin is damped as it is, its mean stays 0.
+    const Double4 share =
+        no_force + (averages ? averaging_interval * time_step_ / physics_.averaging_time : 0.0);
     Double4 fastest = no_force;
     const double* const slots = reinterpret_cast<const double*>(slots_.data());
     const std::uint32_t* list = strip.gathers.data();
@@ -182,9 +199,7 @@ double FastCycle::sweep(Strip& strip, double stretch_rate) {
         for (; group < tile.end_group; ++group) {
             const std::size_t first = group * group_discs;
             prefetch(ahead(discs_, first + strip.look_ahead), group_discs * sizeof(Disc));
-            prefetch(ahead(constants_, first + 64), group_discs * sizeof(DiscConstants));
-            if constexpr (motion == DampedAgainst::mean_motion)
-                prefetch(ahead(mean_velocities_, first + 64), group_discs * sizeof(Double4));
+            prefetch(ahead(inertia_, first + 64), group_discs * sizeof(Inertia));
             prefetch(
                 ahead(strip.gathers, static_cast<std::size_t>(list - strip.gathers.data()) + 512),
                 128);
@@ -202,24 +217,29 @@ double FastCycle::sweep(Strip& strip, double stretch_rate) {
                     force[m] -= load_slot(slots + list[m]);
             for (std::size_t m = 0; m < group_discs; ++m) {
                 Disc& disc = discs_[group * group_discs + m];
-                const DiscConstants c = constants_[group * group_discs + m];
-                const Double4 gain = __builtin_shufflevector(c, no_force, 0, 0, 2, 3);
+                Inertia& inertia = inertia_[group * group_discs + m];
+                const Double4 c = numbers_of(inertia);
+                const Double4 gain = __builtin_shufflevector(c, no_force, 0, 0, 2, 4);
                 const Double4 weight = __builtin_shufflevector(c, no_force, 4, 1, 4, 4);
                 const Double4 f = force[m] - weight;
                 const Double4 v = disc.velocity;
                 Double4 departs = v;
-                if constexpr (motion == DampedAgainst::mean_motion)
-                    departs = v - mean_velocities_[group * group_discs + m];
+                Double4 mean = no_force;
+                if constexpr (averages) {
+                    mean = mean_velocity(inertia.mean_velocity);
+                    departs = v - mean;
+                }
                 if constexpr (motion == DampedAgainst::stretching)
-                    departs = v - stretching * disc.place;
+                    departs = v - stretches * (disc.place - floor);
                 const Double4 drag =
                     reinterpret_cast<Double4>(reinterpret_cast<Mask4>(damping * magnitude(f)) |
                                               (reinterpret_cast<Mask4>(departs) & sign));
                 const Double4 damped = departs == no_force ? f : f - drag;
                 disc.velocity = v + damped * gain;
-                if constexpr (motion == DampedAgainst::mean_motion) {
-                    Double4& mean = mean_velocities_[group * group_discs + m];
-                    mean += (disc.velocity - mean) * shares;
+                if constexpr (motion == DampedAgainst::mean_motion_sampled) {
+                    mean += (disc.velocity - mean) * share;
+                    inertia.mean_velocity[0] = static_cast<float>(mean[0]);
+                    inertia.mean_velocity[1] = static_cast<float>(mean[1]);
                 }
                 disc.place += disc.velocity * time_step;
                 const Double4 speed = magnitude(disc.velocity);
@@ -230,22 +250,21 @@ double FastCycle::sweep(Strip& strip, double stretch_rate) {
     return std::max(fastest[0], fastest[1]);
 }
 
-template <bool bonded, bool frictional> auto FastCycle::choose_sweep() const {
-    if (!mean_velocities_.empty())
-        return &FastCycle::sweep<bonded, frictional, DampedAgainst::mean_motion>;
-    if (stretching(base_, 0.0) > 0.0)
-        return &FastCycle::sweep<bonded, frictional, DampedAgainst::stretching>;
-    return &FastCycle::sweep<bonded, frictional, DampedAgainst::rest>;
+template <bool bonded, bool frictional> FastCycle::Kernels FastCycle::kernels_of() const {
+    const auto boundary = &FastCycle::compute_boundary<bonded, frictional>;
+    if (physics_.averaging_time > 0.0)
+        return {boundary, &FastCycle::sweep<bonded, frictional, DampedAgainst::mean_motion>,
+                &FastCycle::sweep<bonded, frictional, DampedAgainst::mean_motion_sampled>};
+    const auto sweep = stretching(base_, 0.0).rate > 0.0
+                           ? &FastCycle::sweep<bonded, frictional, DampedAgainst::stretching>
+                           : &FastCycle::sweep<bonded, frictional, DampedAgainst::rest>;
+    return {boundary, sweep, sweep};
 }
 
 FastCycle::Kernels FastCycle::choose_kernels() const {
-    if (bonded_ && frictional_)
-        return {&FastCycle::compute_boundary<true, true>, choose_sweep<true, true>()};
     if (bonded_)
-        return {&FastCycle::compute_boundary<true, false>, choose_sweep<true, false>()};
-    if (frictional_)
-        return {&FastCycle::compute_boundary<false, true>, choose_sweep<false, true>()};
-    return {&FastCycle::compute_boundary<false, false>, choose_sweep<false, false>()};
+        return frictional_ ? kernels_of<true, true>() : kernels_of<true, false>();
+    return frictional_ ? kernels_of<false, true>() : kernels_of<false, false>();
 }
 
 /// Square of the greatest distance of the strip's discs from their searched places, m^2.
@@ -295,8 +314,11 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
             // No disc looks at the nodes between the two barriers.
             if (deforms_ && thread == 0)
                 fastest_node_[parity] = move_base(state, nodes, clock, response);
-            const double stretch_rate = stretching(base_, clock.extension) * speed;
-            strip.fastest[parity] = (this->*kernels.sweep)(strip, stretch_rate);
+            Stretching thins = stretching(base_, clock.extension);
+            thins.rate *= speed;
+            const auto sweep =
+                clock.cycle % averaging_interval == 0 ? kernels.sampling_sweep : kernels.sweep;
+            strip.fastest[parity] = (this->*sweep)(strip, thins);
             barrier.wait();
             double fastest = std::max(surface_translation * speed, fastest_node_[parity]);
             for (const Strip& s : strips_)

@@ -36,8 +36,8 @@ namespace listric::dem {
 //   large pages for that, see aligned_vector.hpp: another 1.1 times.
 // - Scenes without bonds or friction run cycles compiled without them.
 
-/// What the velocity of a disc is damped against.
-enum class DampedAgainst { rest, mean_motion, stretching };
+/// What the velocity of a disc is damped against; with or without a sample for the mean.
+enum class DampedAgainst { rest, mean_motion, mean_motion_sampled, stretching };
 
 /// The same as advance_plainly() without an account of energy. `threads` >= 1.
 void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
@@ -63,10 +63,16 @@ public:
 private:
     struct alignas(64) Disc {
         Double4 place;    ///< x, y, rotation, radius
-        Double4 velocity; ///< vx, vy, spin, 0
+        Double4 velocity; ///< vx, vy, spin, rate of the radius
     };
-    /// Time step over inertial mass, weight, time step over inertial moment.
-    using DiscConstants = Double4;
+
+    /// What a disc's motion depends on beside the forces. The means are sampled rarely.
+    struct alignas(32) Inertia {
+        double per_mass;        ///< time step over inertial mass, s/kg
+        double weight;          ///< N
+        double per_moment;      ///< time step over moment of inertia, s/(kg m^2)
+        float mean_velocity[2]; ///< m/s
+    };
     /// Force on the second disc; moments on the first (negative) and the second.
     using Slot = Double4;
 
@@ -145,12 +151,14 @@ private:
     template <bool bonded, bool frictional> void compute_boundary(Strip& strip);
     /// Discs are compiled with damping against each of the motions.
     template <bool bonded, bool frictional, DampedAgainst motion>
-    double sweep(Strip& strip, double stretch_rate);
-    template <bool bonded, bool frictional> auto choose_sweep() const;
+    double sweep(Strip& strip, Stretching thins);
+    static Double4 numbers_of(const Inertia& inertia);
     struct Kernels {
         void (FastCycle::*compute_boundary)(Strip&);
-        double (FastCycle::*sweep)(Strip&, double stretch_rate);
+        double (FastCycle::*sweep)(Strip&, Stretching);
+        double (FastCycle::*sampling_sweep)(Strip&, Stretching); ///< at every averaging_interval
     };
+    template <bool bonded, bool frictional> Kernels kernels_of() const;
     Kernels choose_kernels() const;
     void compute_base(Strip& strip, BaseMoment base);
     void compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseMoment base);
@@ -169,8 +177,7 @@ private:
     double time_step_;
     std::size_t disc_count_;
     AlignedVector<Disc> discs_;
-    AlignedVector<DiscConstants> constants_;
-    AlignedVector<Double4> mean_velocities_; ///< empty: damping is relative to rest
+    AlignedVector<Inertia> inertia_;
     std::vector<Place> searched_places_;
     AlignedVector<Slot> slots_;
     std::vector<Strip> strips_;

@@ -2,8 +2,10 @@
 
 #include "dem/fast_cycle.hpp"
 #include "dem/law.hpp"
+#include "dem/radius_rates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <numeric>
 
@@ -17,24 +19,26 @@ FastCycle::FastCycle(const State& state, const RigidBase& base, const CyclePhysi
     // Whole groups, and two discs far from everything for the idle lanes of a block.
     const std::size_t padded = (disc_count_ + group_discs - 1) / group_discs * group_discs;
     discs_.assign(padded + 2, Disc{{0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, 0.0}});
-    constants_.assign(padded, DiscConstants{0.0, 0.0, 0.0, 0.0});
+    inertia_.assign(padded, Inertia{});
     discs_[padded].place[0] = -1e30;
     discs_[padded + 1].place[0] = 1e30;
+    const RadiusRates radii(state);
     for (std::size_t i = 0; i < disc_count_; ++i) {
         discs_[i].place = Double4{d.x[i], d.y[i], d.rotation[i], d.radius[i]};
-        discs_[i].velocity = Double4{d.vx[i], d.vy[i], d.spin[i], 0.0};
-        const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
-        const double acceleration_per_force = time_step_ / inertia;
-        constants_[i] =
-            DiscConstants{acceleration_per_force, d.mass[i] * physics.gravity,
-                          acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i])), 0.0};
+        discs_[i].velocity = Double4{d.vx[i], d.vy[i], d.spin[i], radii[i]};
+        const double acceleration_per_force =
+            time_step_ / std::max(d.mass[i], state.inertial_mass_floor);
+        const double radius = radii.of_inertia(i, d.radius[i]);
+        inertia_[i] = {acceleration_per_force,
+                       d.mass[i] * physics.gravity,
+                       acceleration_per_force * (2.0 / (radius * radius)),
+                       {}};
     }
     if (physics.averaging_time > 0.0) {
-        const auto mean_vx = state.discs.get<double>("mean_vx");
-        const auto mean_vy = state.discs.get<double>("mean_vy");
-        mean_velocities_.assign(padded, Double4{});
+        const auto mean_vx = state.discs.get<float>("mean_vx");
+        const auto mean_vy = state.discs.get<float>("mean_vy");
         for (std::size_t i = 0; i < disc_count_; ++i)
-            mean_velocities_[i] = Double4{mean_vx[i], mean_vy[i], 0.0, 0.0};
+            std::ranges::copy(std::array{mean_vx[i], mean_vy[i]}, inertia_[i].mean_velocity);
     }
     deforms_ = state.base_nodes.rows() > 0;
     divide_work(state, threads);
@@ -267,12 +271,15 @@ void FastCycle::unpack(State& state) const {
         d.vy[i] = disc.velocity[1];
         d.spin[i] = disc.velocity[2];
     }
-    if (!mean_velocities_.empty()) {
-        const auto mean_vx = state.discs.get<double>("mean_vx");
-        const auto mean_vy = state.discs.get<double>("mean_vy");
+    if (RadiusRates(state).any())
+        for (std::size_t i = 0; i < disc_count_; ++i)
+            d.radius[i] = discs_[i].place[3];
+    if (physics_.averaging_time > 0.0) {
+        const auto mean_vx = state.discs.get<float>("mean_vx");
+        const auto mean_vy = state.discs.get<float>("mean_vy");
         for (std::size_t i = 0; i < disc_count_; ++i) {
-            mean_vx[i] = mean_velocities_[i][0];
-            mean_vy[i] = mean_velocities_[i][1];
+            mean_vx[i] = inertia_[i].mean_velocity[0];
+            mean_vy[i] = inertia_[i].mean_velocity[1];
         }
     }
     const ContactColumns c = contact_columns(state);

@@ -6,6 +6,7 @@
 #include "dem/damping.hpp"
 #include "dem/energy.hpp"
 #include "dem/law.hpp"
+#include "dem/radius_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,13 +38,15 @@ struct BaseContactCycle {
     Point node_velocity;                     ///< of the base's nodes there, m/s; 0 if it is rigid
     BaseContactForce force;                  ///< on the disc
     double shear_before, shear_after;        ///< shear force, N
+    double radius_rate;                      ///< of the disc, m/s
 };
 
 /// Enters what a base contact loses in a cycle, and the work of the prescribed motion of base and
 /// walls.
 void enter_base_flows(const BaseContactCycle& contact, const Motion& base, const Clock& clock,
                       EnergyFlows& flows) {
-    const auto& [surface, disc, p, motion, node_velocity, force, before, after] = contact;
+    const auto& [surface, disc, p, motion, node_velocity, force, before, after, radius_rate] =
+        contact;
     const double dt = clock.time_step, time = clock.time();
     const double speed = base.speed_at(time), next_speed = base.speed_at(time + dt);
     if (!motion) {
@@ -61,7 +64,8 @@ void enter_base_flows(const BaseContactCycle& contact, const Motion& base, const
     const double now = disc.radius - motion->foot.distance;
     const double overlap_before =
         now + dt * ((disc.vx - node_velocity.x - last_speed * moves.x) * n.x +
-                    (disc.vy - node_velocity.y - last_speed * moves.y) * n.y);
+                    (disc.vy - node_velocity.y - last_speed * moves.y) * n.y - radius_rate);
+    flows.radii += (force.x * n.x + force.y * n.y) * radius_rate * dt;
     flows.stepping +=
         normal_loss(std::max(overlap_before, 0.0), overlap_before, std::max(now, 0.0), now, p);
     flows.boundary_work +=
@@ -102,6 +106,7 @@ template <bool accounted>
 void base_forces(State& state, const RigidBase& base, std::span<Force> force, Account* account) {
     const DiscColumns d = disc_columns(state);
     const BaseContactColumns c = base_contact_columns(state);
+    [[maybe_unused]] const RadiusRates radii(state);
     std::ranges::fill(force, Force{0.0, 0.0, 0.0});
     const Clock& clock = state.clock;
     const BaseMoment moment{clock.extension, base.motion.speed_at(clock.time())};
@@ -126,7 +131,7 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
                 const NodeContactMotion at =
                     node_contact_motion(surface, nodes, moment.extension, disc, place);
                 enter_base_flows({surface, disc, p, surface_motion(surface, at, moment, disc),
-                                  at.velocity, f, before, c.shear_force[k]},
+                                  at.velocity, f, before, c.shear_force[k], radii[i]},
                                  base.motion, clock, account->flows);
                 enter_node_force(surface, on_nodes, *account);
             }
@@ -134,7 +139,7 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
             f = base_contact_force(surface, moment, disc, p, c.shear_force[k]);
             if constexpr (accounted)
                 enter_base_flows({surface, disc, p, base_contact_motion(surface, moment, disc),
-                                  Point{}, f, before, c.shear_force[k]},
+                                  Point{}, f, before, c.shear_force[k], radii[i]},
                                  base.motion, clock, account->flows);
         }
         force[i].x += f.x;
@@ -165,9 +170,10 @@ inline Pair pair_of(const DiscColumns& d, std::size_t i, std::size_t j, double d
 }
 
 /// What contact k loses in a cycle in which its shear force goes from `before` to what it is.
+/// `growth` is that of the two radii in a step, m.
 void enter_losses(const DiscColumns& d, const ContactColumns& c, std::size_t k,
-                  const ContactParameters& p, bool was_bonded, double before, double time_step,
-                  EnergyFlows& flows) {
+                  const ContactParameters& p, bool was_bonded, double before, double growth,
+                  double time_step, EnergyFlows& flows) {
     const auto i = static_cast<std::size_t>(c.first[k]), j = static_cast<std::size_t>(c.second[k]);
     const double reach = d.radius[i] + d.radius[j];
     const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
@@ -176,10 +182,12 @@ void enter_losses(const DiscColumns& d, const ContactColumns& c, std::size_t k,
         const double dx_before = dx - (d.vx[j] - d.vx[i]) * time_step;
         const double dy_before = dy - (d.vy[j] - d.vy[i]) * time_step;
         const double square_before = dx_before * dx_before + dy_before * dy_before;
-        const bool pressed = square < reach * reach, was_pressed = square_before < reach * reach;
+        const double reach_before = reach - growth;
+        const bool pressed = square < reach * reach,
+                   was_pressed = square_before < reach_before * reach_before;
         if (pressed != was_pressed || (was_bonded && !pressed)) {
             const double now = reach - std::sqrt(square);
-            const double overlap_before = reach - std::sqrt(square_before);
+            const double overlap_before = reach_before - std::sqrt(square_before);
             (was_bonded && !was_pressed ? flows.bond_breaking : flows.stepping) +=
                 normal_loss(was_bonded ? overlap_before : std::max(overlap_before, 0.0),
                             overlap_before, std::max(now, 0.0), now, p);
@@ -199,6 +207,7 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
                     Account* account) {
     const DiscColumns d = disc_columns(state);
     const ContactColumns c = contact_columns(state);
+    [[maybe_unused]] const RadiusRates radii(state);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.first[k]),
                    j = static_cast<std::size_t>(c.second[k]);
@@ -223,36 +232,71 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
             force[j].x += fx;
             force[j].y += fy;
             force[j].moment -= pair.arm_j * shear;
+            if constexpr (accounted)
+                account->flows.radii += normal * (radii[i] + radii[j]) * state.clock.time_step;
         }
         if constexpr (accounted)
             enter_losses(d, c, k, pairs(d.material[i], d.material[j]), was_bonded, before,
-                         state.clock.time_step, account->flows);
+                         (radii[i] + radii[j]) * state.clock.time_step, state.clock.time_step,
+                         account->flows);
     }
 }
 
-/// Newton's law for every disc; `stretch_rate` is the base's du_x/dx, 1/s. Returns the largest
-/// component of a velocity, m/s.
+/// The motion that damping leaves alone.
+class UndampedMotion {
+public:
+    /// @param thins  rate in 1/s
+    UndampedMotion(State& state, const CyclePhysics& physics, Stretching thins)
+        : averages_(physics.averaging_time > 0.0), thins_(thins) {
+        if (!averages_)
+            return;
+        mean_vx_ = state.discs.get<float>("mean_vx");
+        mean_vy_ = state.discs.get<float>("mean_vy");
+        if (state.clock.cycle % averaging_interval == 0)
+            share_ = averaging_interval * state.clock.time_step / physics.averaging_time;
+    }
+
+    Point operator()(const DiscColumns& d, std::size_t i) const { // m/s
+        if (averages_)
+            return {mean_vx_[i], mean_vy_[i]};
+        if (thins_.rate > 0.0)
+            return {thins_.rate * d.x[i], -thins_.rate * (d.y[i] - thins_.floor)};
+        return {0.0, 0.0};
+    }
+
+    /// Takes a sample of the disc's velocity.
+    void learn(const DiscColumns& d, std::size_t i) {
+        if (share_ == 0.0)
+            return;
+        const double vx = mean_vx_[i], vy = mean_vy_[i];
+        mean_vx_[i] = static_cast<float>(vx + (d.vx[i] - vx) * share_);
+        mean_vy_[i] = static_cast<float>(vy + (d.vy[i] - vy) * share_);
+    }
+
+private:
+    bool averages_;
+    Stretching thins_;
+    std::span<float> mean_vx_, mean_vy_;
+    double share_ = 0.0; ///< of the sample in the mean
+};
+
+/// Newton's law for every disc. Returns the largest component of a velocity, m/s.
 template <bool accounted>
-double move_discs(State& state, const CyclePhysics& physics, double stretch_rate,
+double move_discs(State& state, const CyclePhysics& physics, UndampedMotion undamped,
                   std::span<const Force> force, Account* account) {
     const DiscColumns d = disc_columns(state);
+    const RadiusRates radii(state);
     const double dt = state.clock.time_step;
-    const bool relative = physics.averaging_time > 0.0;
-    const auto mean_vx = relative ? state.discs.get<double>("mean_vx") : std::span<double>();
-    const auto mean_vy = relative ? state.discs.get<double>("mean_vy") : std::span<double>();
-    const double share = relative ? dt / physics.averaging_time : 0.0;
     double fastest = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
         const double acceleration_per_force = dt / inertia;
-        const double spin_up = acceleration_per_force * (2.0 / (d.radius[i] * d.radius[i]));
+        const double radius = radii.of_inertia(i, d.radius[i]);
+        const double spin_up = acceleration_per_force * (2.0 / (radius * radius));
         const double fy = force[i].y - d.mass[i] * physics.gravity;
-        const double departs_x = d.vx[i] - (relative             ? mean_vx[i]
-                                            : stretch_rate > 0.0 ? stretch_rate * d.x[i]
-                                                                 : 0.0);
-        const double departs_y = relative ? d.vy[i] - mean_vy[i] : d.vy[i];
-        const Force net{damped(force[i].x, departs_x, physics.damping),
-                        damped(fy, departs_y, physics.damping),
+        const Point free = undamped(d, i);
+        const Force net{damped(force[i].x, d.vx[i] - free.x, physics.damping),
+                        damped(fy, d.vy[i] - free.y, physics.damping),
                         damped(force[i].moment, d.spin[i], physics.damping)};
         const double vx = d.vx[i], vy = d.vy[i], spin = d.spin[i];
         d.vx[i] += net.x * acceleration_per_force;
@@ -266,10 +310,8 @@ double move_discs(State& state, const CyclePhysics& physics, double stretch_rate
         d.x[i] += d.vx[i] * dt;
         d.y[i] += d.vy[i] * dt;
         d.rotation[i] += d.spin[i] * dt;
-        if (relative) {
-            mean_vx[i] += (d.vx[i] - mean_vx[i]) * share;
-            mean_vy[i] += (d.vy[i] - mean_vy[i]) * share;
-        }
+        d.radius[i] += radii[i] * dt;
+        undamped.learn(d, i);
         fastest = std::max({fastest, std::abs(d.vx[i]), std::abs(d.vy[i])});
     }
     return fastest;
@@ -294,8 +336,10 @@ void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& phys
         *account = {{}, std::vector<Point>(state.base_nodes.rows())};
     base_forces<accounted>(state, base, force, account);
     contact_forces<accounted>(state, pairs, force, account);
-    const double stretch_rate = stretching(base, clock.extension) * speed;
-    const double disc_speed = move_discs<accounted>(state, physics, stretch_rate, force, account);
+    Stretching thins = stretching(base, clock.extension);
+    thins.rate *= speed;
+    const double disc_speed =
+        move_discs<accounted>(state, physics, {state, physics, thins}, force, account);
     if constexpr (accounted)
         account->flows.base_work +=
             half_step_work(base_node_columns(state), account->of_nodes, clock.time_step);

@@ -41,6 +41,8 @@ void Simulation::begin(State state) {
     assert(!has_state_ && state.clock.cycle == 0);
     state_ = std::move(state);
     has_state_ = true;
+    if (physics_.averaging_time > 0.0)
+        add_mean_velocities(state_);
     for (const auto& event : events_)
         event->begin(state_);
     find_contacts(state_, base_);

@@ -83,8 +83,7 @@ template <bool writable> struct BasicBaseContactColumns {
 };
 
 /// Columns of every node of a base that deforms, from the breakaway down. Contacts of such a base
-/// have a column `place` on top, TracePoint::place; discs that are damped relative to their mean
-/// motion have `mean_vx` and `mean_vy`.
+/// have a column `place` on top, TracePoint::place.
 template <bool writable> struct BasicBaseNodeColumns {
     template <class T> using Values = std::span<std::conditional_t<writable, T, const T>>;
 

@@ -4,7 +4,9 @@
 #include "dem/contacts.hpp"
 #include "dem/events/property_update.hpp"
 #include "dem/genesis.hpp"
+#include "dem/ground_level.hpp"
 #include "dem/power_cell.hpp"
+#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +18,8 @@ using namespace dem;
 
 namespace {
 
+/// A layer is buried under itself when it is laid down, and compacts over this extension, m.
+constexpr double settling = 100.0;
 constexpr double porosity_tolerance = 0.02; ///< from which on porosity is off, relative
 
 /// Share of the touching pairs of discs of different strata, one above the other within 45 degrees,
@@ -82,17 +86,23 @@ NamedNumbers measure_layering(const State& state, const TargetLine& surface) {
     return numbers;
 }
 
-NamedNumbers measure_porosity(const State& state, const TargetLine& surface,
-                              double surface_porosity, double porosity_decay) {
+NamedNumbers measure_porosity(const State& state, const Sediment& sediment) {
     const ConstDiscColumns d = disc_columns(state);
-    const auto porosity = state.discs.get<double>("porosity");
+    const GroundLevel ground(state);
+    const bool weakens = state.discs.has("rock_radius");
+    const auto rock_radius =
+        weakens ? state.discs.get<double>("rock_radius") : std::span<const double>();
     double all = 0.0, error = 0.0, beyond = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] == 0)
+        if (d.stratum[i] == 0 || state.clock.extension - d.start_extension[i] < settling)
             continue;
-        const double depth = std::max(0.0, surface.height(d.x[i]) - d.y[i]);
-        const double expected = surface_porosity * std::exp(-porosity_decay * depth);
-        const double off = std::abs(porosity[i] / expected - 1.0);
+        const double radius = weakens && rock_radius[i] > 0.0 ? rock_radius[i] : d.radius[i];
+        const double grains = (1.0 - sediment.surface_porosity) * d.mass[i] /
+                              (sediment.disc_density * pi * radius * radius);
+        const double depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
+        const double expected =
+            sediment.surface_porosity * std::exp(-*sediment.porosity_decay * depth);
+        const double off = std::abs((1.0 - grains) / expected - 1.0);
         all += d.mass[i];
         error += d.mass[i] * off;
         beyond += off > porosity_tolerance ? d.mass[i] : 0.0;
@@ -112,8 +122,7 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
     const Sediment& sediment = *setting.sediment;
     const TargetLine surface = sediment.target.at(state.clock.extension / setting.extension_rate);
     if (sediment.porosity_decay)
-        append(numbers, measure_porosity(state, surface, sediment.surface_porosity,
-                                         *sediment.porosity_decay));
+        append(numbers, measure_porosity(state, sediment));
     append(numbers, measure_layering(state, surface));
     return numbers;
 }

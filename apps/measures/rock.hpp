@@ -25,10 +25,10 @@ std::optional<double> weak_off_faults(const dem::State& state, std::span<const F
 /// adapted to: superposition_fraction, discs_above_target.
 NamedNumbers measure_layering(const dem::State& state, const dem::TargetLine& surface);
 
-/// Porosity of sediment beside that expected in its depth: porosity_error, porosity_off_fraction.
-/// Discs that have risen since keep what they had.
-NamedNumbers measure_porosity(const dem::State& state, const dem::TargetLine& surface,
-                              double surface_porosity, double porosity_decay);
+/// Porosity of sediment, from mass and radius of its discs, beside that expected in its depth below
+/// the surface: porosity_error, porosity_off_fraction. Without the discs of the last 100 m of
+/// extension: a layer is buried under itself when it is laid down, and still compacts.
+NamedNumbers measure_porosity(const dem::State& state, const Sediment& sediment);
 
 /// All of these that have a meaning in the setting.
 NamedNumbers measure_rock(const Setting& setting, const dem::State& state);

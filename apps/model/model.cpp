@@ -16,6 +16,9 @@ ModelParts make_parts(const Scene& scene) {
     if (scene.hanging_wall)
         parts.base = make_rigid_base(scene);
     parts.physics.damping = scene.cycle.damping;
+    // A base that stretches says itself how what rests on it moves.
+    if (dem::stretching(parts.base, 0.0).rate == 0.0)
+        parts.physics.averaging_time = scene.cycle.averaging_time;
     parts.materials.assign(3, scene.basement); // of every MaterialIndex
     for (const EffectPart& part : scene.effects)
         if (part.effect->contribute)

@@ -159,8 +159,6 @@ State Session::settled_on_base(State state) {
                         throw Interrupted{};
                     log_.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
                 });
-    if (simulation_.physics().averaging_time > 0.0)
-        add_mean_velocities(state);
     return state;
 }
 

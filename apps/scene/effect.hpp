@@ -75,6 +75,7 @@ struct SedimentFacts {
     double level = 0.0;                   ///< m, y up
     dem::Target surface{0.0};             ///< line that the surface is adapted to
     double surface_porosity = 0.0;        ///< as deposited
+    double disc_density = 0.0;            ///< as deposited, kg/m3
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
 };
 
@@ -131,6 +132,12 @@ struct PartAddress {
 struct Effect;
 using EffectList = std::span<const Effect* const>;
 
+/// A key that scene files used to have.
+struct FormerKey {
+    std::string_view key;
+    std::string_view instead; ///< what does it now
+};
+
 /// An effect: a table of the scene file and all that follows from its being there. What is null
 /// does not concern the effect.
 struct Effect {
@@ -139,6 +146,7 @@ struct Effect {
     std::any (*defaults)(); ///< parameters; see make_defaults
     PartAddress address;
     std::vector<Parameter> parameters = {};
+    std::vector<FormerKey> former = {}; ///< refused with what does it now
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too

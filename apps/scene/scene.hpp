@@ -27,6 +27,7 @@ struct ExtensionParameters {
 /// Parameters of the cycle.
 struct CycleParameters {
     double damping = 0.7;              ///< local non-viscous damping coefficient
+    double averaging_time = 150.0;     ///< of the motion that is not damped, model s; 0: none
     double time_step_safety = 0.95;    ///< time step over the stability limit
     double inertial_mass_floor = 0.75; ///< least inertial mass, mean basement disc masses
     double skin = 0.25;                ///< neighbour-list margin, mean radii

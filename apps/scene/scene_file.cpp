@@ -181,6 +181,15 @@ std::vector<std::string_view> file_keys(const SceneTable& table) {
     return keys;
 }
 
+void refuse_former_keys(const SceneTable& table, const toml::table& document) {
+    if (table.effect)
+        for (const FormerKey& former : table.effect->former) {
+            const std::string path = fmt::format("{}.{}", table.name, former.key);
+            if (const toml::node* node = document.at_path(path).node())
+                fail({*node, path}, fmt::format("is no longer a key; {}", former.instead));
+        }
+}
+
 /// Parameters of a table that name files and are no part of a scene, of a FileName.
 std::vector<Parameter> file_names(const SceneTable& table) {
     std::vector<Parameter> names;
@@ -274,6 +283,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     set_accuracy(scene);
     Rocks rocks(document, effects, path.parent_path());
     take_rocks(scene, rocks, effects);
+    for (const SceneTable& table : all)
+        refuse_former_keys(table, document);
     for (const SceneTable& table : all)
         if (const toml::node* node = document.get(table.name))
             read_table({*node, std::string(table.name)}, table.parameters, table.add(table, scene),

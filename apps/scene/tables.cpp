@@ -96,6 +96,13 @@ std::vector<Parameter> cycle_parameters() {
          {.from = 0, .below = 1},
          "",
          "local non-viscous damping coefficient"},
+        {"averaging_time_s",
+         at<&P::averaging_time>,
+         "s",
+         {.from = 0, .to = 1e9},
+         "",
+         "model time over which a disc's mean motion is taken, which is not damped; 0: PFC's "
+         "damping, which holds sinking rock up"},
         {"time_step_safety",
          at<&P::time_step_safety>,
          "",

@@ -1,23 +1,31 @@
 #pragma once
 
 #include "dem/event.hpp"
-#include "dem/target_line.hpp"
 
 namespace listric::dem {
 
 /// Loss of sediment volume with burial, Phi = Phi_ini exp(-c depth) [paper; Baldwin & Butler 1985].
 struct CompactionParameters {
-    /// Time between compactions, a. The paper's 2,500 a shrink shallow discs by more than they
-    /// overlap: all contacts open and bonds of cemented sediment break.
-    double interval = 500.0;
+    double interval = 2.5e3;   ///< time between looks at the depth of burial, a
     double coefficient = 4e-4; ///< c, 1/m (Table 1 prints 0.4 with unit 1/m; it is 1/km)
 };
 
-/// Shrinks sediment discs as they are buried; mass is kept and uplift restores nothing.
+/// Lets sediment discs shrink as they are buried; mass is kept and uplift restores nothing.
+///
+/// At once, discs would shrink by more than they overlap: contacts open, bonds break, and the
+/// column is held up by damping while it rings. So a disc shrinks a little in every cycle, and what
+/// its porosity will be at the next application is what its depth there will ask for, if it goes on
+/// sinking as it does. What is buried faster than discs may shrink follows as it can.
+///
+/// Columns of discs: `porosity`, what it will be at the next application; radius_rate,
+/// inertial_radius.
 class Compaction : public Event {
 public:
-    /// @param surface  that sediment is buried under
-    Compaction(const CompactionParameters& parameters, double surface_porosity, Target surface,
+    /// No disc shrinks faster than by this share of its radius, 1/s: overlaps of fresh sediment,
+    /// which is buried by up to a layer when it is laid down, then last for some hundred cycles.
+    static constexpr double fastest = 1e-3;
+
+    Compaction(const CompactionParameters& parameters, double surface_porosity,
                double extension_rate);
 
     void begin(State& state) override;
@@ -26,7 +34,6 @@ public:
 private:
     CompactionParameters parameters_;
     double surface_porosity_;
-    Target surface_;
 };
 
 } // namespace listric::dem

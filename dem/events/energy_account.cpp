@@ -5,6 +5,7 @@ namespace listric::dem {
 namespace {
 
 const std::string prefix = "event_";
+const std::string shrinking = "event_compaction"; ///< also works in the cycles, by its rates
 
 } // namespace
 
@@ -32,7 +33,8 @@ EnergyFlows EnergyAccount::flows() const {
             .friction = value("friction"),
             .damping = value("damping"),
             .bond_breaking = value("bond_breaking"),
-            .stepping = value("stepping")};
+            .stepping = value("stepping"),
+            .radii = memory.has(shrinking) ? value(shrinking) : 0.0};
 }
 
 void EnergyAccount::put(const EnergyFlows& flows) {
@@ -43,6 +45,8 @@ void EnergyAccount::put(const EnergyFlows& flows) {
     value("damping") = flows.damping;
     value("bond_breaking") = flows.bond_breaking;
     value("stepping") = flows.stepping;
+    if (memory.has(shrinking))
+        value(shrinking) = flows.radii;
 }
 
 void EnergyAccount::book_cycles(const State& state, const RigidBase& base) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace listric::dem {
 
@@ -66,7 +67,68 @@ std::vector<Placed> fill(Ground& ground, const TargetLine& line, double smallest
     return placed;
 }
 
+/// How the ground moves that new discs are laid on: the mean motion of the discs close below the
+/// surface, by column.
+class GroundMotion {
+public:
+    explicit GroundMotion(const State& state) : width_(4.0 * state.mean_radius) {
+        const ConstDiscColumns d = disc_columns(state);
+        const bool averages = state.discs.has("mean_vx");
+        const auto [left, right] = std::ranges::minmax(d.x);
+        left_ = left;
+        std::vector<double> top(static_cast<std::size_t>((right - left) / width_) + 1,
+                                -std::numeric_limits<double>::infinity());
+        for (std::size_t i = 0; i < d.x.size(); ++i)
+            top[column(d.x[i])] = std::max(top[column(d.x[i])], d.y[i]);
+        velocities_.resize(top.size());
+        std::vector<double> counts(top.size());
+        for (std::size_t i = 0; i < d.x.size(); ++i) {
+            const std::size_t k = column(d.x[i]);
+            if (d.y[i] < top[k] - 6.0 * state.mean_radius)
+                continue;
+            velocities_[k].x += averages ? state.discs.get<float>("mean_vx")[i] : d.vx[i];
+            velocities_[k].y += averages ? state.discs.get<float>("mean_vy")[i] : d.vy[i];
+            counts[k] += 1.0;
+        }
+        for (std::size_t k = 0; k < counts.size(); ++k)
+            if (counts[k] > 0.0)
+                velocities_[k] = {velocities_[k].x / counts[k], velocities_[k].y / counts[k]};
+    }
+
+    Point at(double x) const { // m/s; at rest where there is no disc
+        return x < left_ || column(x) >= velocities_.size() ? Point{} : velocities_[column(x)];
+    }
+
+private:
+    std::size_t column(double x) const { return static_cast<std::size_t>((x - left_) / width_); }
+
+    double left_ = 0.0, width_;
+    std::vector<Point> velocities_;
+};
+
+/// Lets the new discs, from row `first` on, move as what they rest on: damping would else hold them
+/// up until their mean motion is known.
+void set_in_motion(State& state, std::size_t first, const GroundMotion& ground) {
+    const DiscColumns d = disc_columns(state);
+    const bool averages = state.discs.has("mean_vx");
+    for (std::size_t i = first; i < d.x.size(); ++i) {
+        const Point v = ground.at(d.x[i]);
+        d.vx[i] = v.x;
+        d.vy[i] = v.y;
+        if (averages) {
+            state.discs.get<float>("mean_vx")[i] = static_cast<float>(v.x);
+            state.discs.get<float>("mean_vy")[i] = static_cast<float>(v.y);
+        }
+    }
+}
+
 } // namespace
+
+double disc_density(const SedimentationParameters& parameters) {
+    constexpr double packing_porosity = 0.166; // of discs under gravity
+    return parameters.grain_density * (1.0 - parameters.surface_porosity) /
+           (1.0 - packing_porosity);
+}
 
 Sedimentation::Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
                              double extension_rate)
@@ -87,10 +149,8 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
     if (placed.empty())
         return removed > 0.0;
 
-    constexpr double packing_porosity =
-        0.166; // of discs under gravity; pores of the rock come on top
-    const double density =
-        parameters_.grain_density * (1.0 - parameters_.surface_porosity) / (1.0 - packing_porosity);
+    const double density = disc_density(parameters_);
+    const GroundMotion ground_motion(state);
     const std::size_t first = add_discs(state, placed.size());
     const DiscColumns d = disc_columns(state);
     for (std::size_t k = 0; k < placed.size(); ++k) {
@@ -104,6 +164,7 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
         d.stratum[i] = stratum;
         state.ledger.deposited += d.mass[i];
     }
+    set_in_motion(state, first, ground_motion);
     state.discs.begin_rows(first);
     sort_discs(state);
     return true;

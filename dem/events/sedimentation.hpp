@@ -15,6 +15,10 @@ struct SedimentationParameters {
     Material material = {};               ///< of sediment discs: bonded by healing only
 };
 
+/// Density of a disc as it is laid down, kg/m^3: its pores are those between the grains and, once
+/// discs are packed under gravity, those between the discs.
+double disc_density(const SedimentationParameters& parameters);
+
 /// Adapts the surface to the target line, whatever its shape.
 ///
 /// Discs that lie wholly above it are removed with their bonds. The space between surface and line

@@ -23,7 +23,7 @@ constexpr int line_before = __LINE__;
 std::uint64_t drive_lis1() {
     const double rate = 0.01; // m/a: the clock of all events
     const HangingWallParameters wall{.mean_radius = 186.2};
-    const CyclePhysics physics{.gravity = 9.81};
+    const CyclePhysics physics{.gravity = 9.81, .averaging_time = 150.0};
     const BondStrength bonds;
     const FaultWeakeningParameters weakening;
     const SedimentationParameters filling;
@@ -34,7 +34,7 @@ std::uint64_t drive_lis1() {
     Simulation sandbox(base, physics);
     sandbox.add<Equilibrium>(2500.0, rate, physics.gravity);
     sandbox.add<PropertyUpdate>(weakening, rate, physics.gravity, wall.rock_density);
-    sandbox.add<Compaction>(CompactionParameters{}, filling.surface_porosity, Target(0.0), rate);
+    sandbox.add<Compaction>(CompactionParameters{}, filling.surface_porosity, rate);
     sandbox.add<BondHealing>(BondHealingParameters{}, bonds, rate);
     sandbox.add<FaultWeakening>(weakening, rate, physics.gravity, wall.rock_density);
     sandbox.add<Sedimentation>(filling, wall.radius_ratio, rate);

@@ -117,26 +117,32 @@ TEST(Basins, OfTheDepthOfThePreRiftTop) {
     EXPECT_NEAR(basins[1].prominence, 1e3, 50.0);
 }
 
-/// Ten sediment discs 1 km deep; one of them has kept the porosity of a place twice as deep.
+/// Ten sediment discs 1 km deep; one of them has the porosity of a place twice as deep. The discs
+/// of the surface have just been laid down.
 TEST(Compaction, PorosityBesideThatOfTheDepth) {
-    std::vector<Disc> discs = row(20, r);
-    for (std::size_t i = 0; i < discs.size(); ++i)
-        discs[i].y = i < 10 ? -1e3 : -2e3;
+    std::vector<Disc> discs = row(10, r);
+    for (Disc& disc : discs)
+        disc.y = -1e3 - r;
+    std::ranges::copy(row(10, r), std::back_inserter(discs));
+    for (std::size_t i = 10; i < discs.size(); ++i)
+        discs[i].y = -r;
     State state = make_state(discs);
-    DiscColumns c = disc_columns(state);
-    state.discs.add<double>("porosity", "1", 0.0);
-    c = disc_columns(state);
-    const auto porosity = state.discs.get<double>("porosity");
-    for (std::size_t i = 0; i < 10; ++i) {
+    state.clock.extension = 500.0;
+    const DiscColumns c = disc_columns(state);
+    const auto mass_of = [](double depth) { // of grains in a disc
+        return 1300.0 * pi * r * r * (1.0 - 0.5 * std::exp(-4e-4 * depth)) / 0.5;
+    };
+    for (std::size_t i = 0; i < discs.size(); ++i) {
         c.stratum[i] = 1;
-        porosity[i] = 0.5 * std::exp(-0.4);
+        c.start_extension[i] = i < 10 ? 0.0 : 500.0;
+        c.mass[i] = mass_of(i == 3 ? 2e3 + r : 1e3 + r);
     }
-    porosity[3] = 0.5 * std::exp(-0.8);
     Setting setting;
-    setting.sediment = {0.0, Target(0.0), 0.5, 4e-4};
+    setting.sediment = {0.0, Target(0.0), 0.5, 1300.0, 4e-4};
     const NamedNumbers found = measure_rock(setting, state);
     const std::map<std::string, double> numbers(found.begin(), found.end());
-    EXPECT_NEAR(numbers.at("porosity_error"), 0.1 * (1.0 - std::exp(-0.4)), 1e-12);
+    EXPECT_NEAR(numbers.at("porosity_error"), 0.1 * (1.0 - std::exp(-0.4)),
+                1e-12); // depth + r: a kilometre deeper
     EXPECT_NEAR(numbers.at("porosity_off_fraction"), 0.1, 1e-12);
 }
 

@@ -16,7 +16,7 @@ const Effect& compaction() {
         .parameters =
             {
                 {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_d",
-                 "time between compactions"},
+                 "time between looks at the depth of burial; discs shrink in every cycle"},
                 {"coefficient_per_km",
                  at<&P::coefficient>,
                  "1/km",
@@ -36,7 +36,7 @@ const Effect& compaction() {
                 events.push_back(
                     {EventStage::adjust, std::make_unique<dem::Compaction>(
                                              *scene.find<P>(), parts.sediment->surface_porosity,
-                                             parts.sediment->surface, scene.extension.rate)});
+                                             scene.extension.rate)});
                 return events;
             },
         .price =

@@ -176,18 +176,6 @@ std::vector<Parameter> coupling_parameters() {
          {.from = 0, .to = 10},
          "",
          "of the modes of scheme modal with the discs they carry, over critical damping"},
-        {"disc_damping",
-         one_of<&P::relative_damping>({"relative", "absolute"}),
-         "",
-         {},
-         "",
-         "against the discs' mean motion, or as PFC does, which holds sinking rock up"},
-        {"averaging_time_s",
-         at<&P::averaging_time>,
-         "s",
-         {.above = 0, .to = 1e9},
-         "",
-         "model time over which the mean motion of a disc is taken, for relative damping"},
     };
 }
 
@@ -259,8 +247,6 @@ void contribute(const Scene& scene, ModelParts& parts) {
     const P& base = *elastic_base(scene);
     dem::follow_nodes(parts.base, base.degree);
     parts.base_moves = true;
-    if (base.relative_damping)
-        parts.physics.averaging_time = base.averaging_time;
 }
 
 /// What the footwall feels and what it does not.
@@ -315,6 +301,8 @@ const Effect& elastic_base() {
         .defaults = make_defaults<P>,
         .address = address_of<P>,
         .parameters = parameters(),
+        .former = {{"averaging_time_s", "give cycle.averaging_time_s, which all scenes have"},
+                   {"disc_damping", "give cycle.averaging_time_s, 0 for absolute"}},
         .files = {{"mesh_file", "",
                    [](Scene& scene, const std::string& file, const Refuse&) {
                        scene.find<P>()->mesh_file = std::filesystem::absolute(file).string();

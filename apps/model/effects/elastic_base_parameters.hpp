@@ -36,8 +36,6 @@ struct ElasticBaseParameters {
     int modes = 100;               ///< 0: all
     double mass_factor = 0.6;      ///< of the modes
     double swing_damping = 0.1;    ///< of the modes with the discs, over critical
-    bool relative_damping = true;  ///< of the discs, against their mean motion
-    double averaging_time = 150.0; ///< of that mean, model s
 };
 
 /// Those of a scene; null where its base does not bend.

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "dem/point.hpp"
+#include "dem/state.hpp"
+
+#include <vector>
+
+namespace listric::dem {
+
+/// The surface of the hanging wall: the tops of the discs in columns one mean diameter wide,
+/// averaged over five, so that it is smooth where the discs are rough.
+class GroundLevel {
+public:
+    explicit GroundLevel(const State& state);
+
+    double height(double x) const; ///< m, linear between the columns' middles
+
+    /// Depth below it, m; negative above.
+    double depth(Point p) const { return height(p.x) - p.y; }
+
+private:
+    double left_, width_;
+    std::vector<double> heights_; ///< by column, m
+};
+
+} // namespace listric::dem
