@@ -37,6 +37,19 @@ std::optional<Foot> nearest(const Surface& surface, const BasePlace& place, Poin
     return point ? std::optional(point->foot) : std::nullopt;
 }
 
+double end_distance(const Surface& surface, const BasePlace& place, Point p) {
+    const auto distance = [&](Point end) { return std::hypot(p.x - end.x, p.y - end.y); };
+    if (place.deforms(surface) && surface.follows == Follows::nodes) {
+        const Trace trace = place.trace(surface);
+        return std::min(distance(trace.node(0)), distance(trace.node(place.x.size() - 1)));
+    }
+    const Point moved = place.deforms(surface) ? Point{place.ux[0], place.uy[0]}
+                                               : Point{surface.translation.x * place.extension,
+                                                       surface.translation.y * place.extension};
+    p = p - moved;
+    return std::min(distance(surface.chain.front().start), distance(surface.chain.back().end));
+}
+
 RigidBase standing_base(const RigidBase& base, const State& state) {
     RigidBase standing = base;
     const BasePlace place = base_place(state);

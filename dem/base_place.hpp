@@ -24,6 +24,9 @@ BasePlace searched_base_place(const State& state); ///< at the last search of al
 /// Closest point of a surface.
 std::optional<Foot> nearest(const Surface& surface, const BasePlace& place, Point p);
 
+/// Distance of a point from the nearer open end of a surface, m.
+double end_distance(const Surface& surface, const BasePlace& place, Point p);
+
 /// The base as it stands, with chains of lines for what is deformed: for measuring and drawing.
 RigidBase standing_base(const RigidBase& base, const State& state);
 

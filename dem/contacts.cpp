@@ -125,7 +125,9 @@ bool find_base_contacts(State& state, const RigidBase& base, const Searched& sea
             if (place.deforms(base.surfaces[s]) &&
                 !(foot && foot->distance > reach + state.skin + displacement))
                 foot = nearest(base.surfaces[s], place, p);
-            if (foot && foot->distance <= reach)
+            // Beyond an open end a surface has no foot, but a disc may come back within the skin.
+            if ((foot && foot->distance <= reach) ||
+                end_distance(base.surfaces[s], place, p) <= reach)
                 found.push_back({row, static_cast<std::int32_t>(s)});
         }
     const ConstBaseContactColumns c = base_contact_columns(std::as_const(state));

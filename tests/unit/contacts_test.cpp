@@ -187,6 +187,20 @@ TEST(Contacts, BaseContactsWithHistory) {
     EXPECT_THAT(now.shear_force, testing::ElementsAre(2.0, 3.0, 0.0, 4.0));
 }
 
+TEST(Contacts, DiscsBesideAnOpenEndAreListed) {
+    // They may come back over the surface before lists are updated. Radius 100, skin 25.
+    RigidBase base;
+    base.surfaces = {{"floor", {line({0.0, 0.0}, {1000.0, 0.0})}, 0.0}};
+    State state = make_state(
+        {{-5.0, 95.0, 100.0}, {1005.0, 95.0, 100.0}, {-100.0, 95.0, 100.0}, {-5.0, 300.0, 100.0}});
+    find_contacts(state, base);
+    EXPECT_THAT(base_contact_columns(state).disc, testing::ElementsAre(0, 1));
+    base.surfaces[0].translation = {1.0, 0.0}; // ends move along
+    state.clock.extension = 1000.0;
+    find_contacts(state, base);
+    EXPECT_THAT(base_contact_columns(state).disc, testing::ElementsAre(1));
+}
+
 TEST(Contacts, TranslatingSurfacesAreFoundWhereTheyAre) {
     RigidBase base = box(2000.0, 5000.0);
     base.surfaces[2].translation = {1.0, 0.0};
