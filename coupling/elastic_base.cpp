@@ -4,6 +4,7 @@
 #include "coupling/interface_loads.hpp"
 #include "dem/damping.hpp"
 #include "dem/law.hpp"
+#include "dem/order_free.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -40,13 +41,14 @@ double mass(const Ledger& ledger) { return ledger.initial + ledger.deposited - l
 std::vector<double> mean_loads(State& state, const RigidBase& base, const CyclePhysics& physics,
                                int cycles, const Execution& execution) {
     const BaseNodeColumns nodes = base_node_columns(state);
-    std::ranges::fill(nodes.load_x, 0.0);
-    std::ranges::fill(nodes.load_y, 0.0);
+    std::ranges::fill(nodes.load_x, 0);
+    std::ranges::fill(nodes.load_y, 0);
     advance(state, base, physics, cycles, execution);
+    const double unit = load_unit / cycles;
     std::vector<double> mean;
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
-        mean.push_back(nodes.load_x[k] / cycles);
-        mean.push_back(nodes.load_y[k] / cycles);
+        mean.push_back(unit * static_cast<double>(nodes.load_x[k]));
+        mean.push_back(unit * static_cast<double>(nodes.load_y[k]));
     }
     return mean;
 }
@@ -148,7 +150,7 @@ void ElasticBase::settle(State& state, const RigidBase& base, const CyclePhysics
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
         reference_x[k] = mean[2 * k];
         reference_y[k] = mean[2 * k + 1];
-        nodes.load_x[k] = nodes.load_y[k] = 0.0;
+        nodes.load_x[k] = nodes.load_y[k] = 0;
     }
     if (const double flat = flat_start(); flat < parameters_.wall_x)
         set_virtual_pressure(
@@ -205,11 +207,14 @@ DiscLoad ElasticBase::take_disc_load(State& state, double cycles, double extensi
     const auto reference_x = state.base_nodes.get<double>("reference_load_x");
     const auto reference_y = state.base_nodes.get<double>("reference_load_y");
     DiscLoad load{cycles, extension, std::vector<double>(interface_.unknowns())};
+    const double unit = load_unit / cycles;
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
-        load.reaction -= nodes.load_y[k] / cycles;
-        load.forces[2 * k] = nodes.load_x[k] / cycles - reference_x[k];
-        load.forces[2 * k + 1] = nodes.load_y[k] / cycles - reference_y[k];
-        nodes.load_x[k] = nodes.load_y[k] = 0.0;
+        const double x = unit * static_cast<double>(nodes.load_x[k]);
+        const double y = unit * static_cast<double>(nodes.load_y[k]);
+        load.reaction -= y;
+        load.forces[2 * k] = x - reference_x[k];
+        load.forces[2 * k + 1] = y - reference_y[k];
+        nodes.load_x[k] = nodes.load_y[k] = 0;
     }
     // The rock right of the wall, which has left room to the discs.
     const double pressure = virtual_pressure(state);

@@ -3,6 +3,7 @@
 #include "dem/base.hpp"
 #include "dem/base_place.hpp"
 #include "dem/law.hpp"
+#include "dem/order_free.hpp"
 
 #include <array>
 #include <optional>
@@ -161,8 +162,8 @@ inline void add_load(const BaseNodeColumns& nodes, const NodeContactForce& f, in
     if (f.weight[0] == 0.0 && f.weight[1] == 0.0 && f.weight[2] == 0.0)
         return;
     for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) {
-        nodes.load_x[f.node + k] -= f.weight[k] * f.force.x;
-        nodes.load_y[f.node + k] -= f.weight[k] * f.force.y;
+        nodes.load_x[f.node + k] -= load_units(f.weight[k] * f.force.x);
+        nodes.load_y[f.node + k] -= load_units(f.weight[k] * f.force.y);
     }
 }
 

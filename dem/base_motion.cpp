@@ -44,7 +44,7 @@ void BaseMotion::respond(State& state, const Clock& clock) {
         const double x = nodes.x[k];
         nodes.vx[k] = (shift.height(x) - shift_before.height(x) - nodes.ux[k]) / step;
         nodes.vy[k] = (uplift.height(x) - uplift_before.height(x) - nodes.uy[k]) / step;
-        nodes.load_x[k] = nodes.load_y[k] = 0.0;
+        nodes.load_x[k] = nodes.load_y[k] = 0;
     }
 }
 

@@ -1,5 +1,7 @@
 #include "dem/base_place.hpp"
 
+#include "dem/order_free.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -11,8 +13,7 @@ namespace {
 template <class Distance> double greatest(std::size_t count, Distance&& distance) {
     double most = 0.0;
     for (std::size_t k = 0; k < count; ++k)
-        if (const double d = distance(k); d > most || std::isnan(d))
-            most = d;
+        most = greater(most, distance(k));
     return most;
 }
 
@@ -97,7 +98,7 @@ double move_nodes(const BaseNodeColumns& n, double time_step) {
     for (std::size_t k = 0; k < n.x.size(); ++k) {
         n.ux[k] += n.vx[k] * time_step;
         n.uy[k] += n.vy[k] * time_step;
-        fastest = std::max({fastest, std::abs(n.vx[k]), std::abs(n.vy[k])});
+        fastest = greater(fastest, greater(std::abs(n.vx[k]), std::abs(n.vy[k])));
     }
     return fastest;
 }

@@ -2,6 +2,7 @@
 
 #include "dem/base_place.hpp"
 #include "dem/cells.hpp"
+#include "dem/order_free.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -154,7 +155,7 @@ void mark_surfaces(State& state) {
 double surface_travel(const State& state, const RigidBase& base, double extension) {
     const double translation =
         greatest_translation(base) * std::abs(extension - state.searched_extension);
-    return std::max(translation, greatest_node_travel(state));
+    return greater(translation, greatest_node_travel(state));
 }
 
 void find_contacts(State& state, const RigidBase& base) {
@@ -162,7 +163,8 @@ void find_contacts(State& state, const RigidBase& base) {
     std::ranges::copy(d.x, d.searched_x.begin());
     std::ranges::copy(d.y, d.searched_y.begin());
     mark_surfaces(state);
-    state.displacement_bound = 0.0;
+    state.displacement_bound = state.window_speed = 0.0;
+    state.look_interval = 1;
     const Searched searched = all_discs(state);
     find_disc_contacts(state, searched);
     find_base_contacts(state, base, searched);
@@ -172,12 +174,9 @@ double greatest_displacement(const State& state, const RigidBase& base) {
     const ConstDiscColumns d = disc_columns(state);
     double greatest = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        const double square = displacement_square(d, i);
-        if (square > greatest || std::isnan(square))
-            greatest = square;
+        greatest = greater(greatest, displacement_square(d, i));
     }
-    // The first argument of std::max wins if it is no number.
-    return std::max(std::sqrt(greatest), surface_travel(state, base, state.clock.extension));
+    return greater(std::sqrt(greatest), surface_travel(state, base, state.clock.extension));
 }
 
 void find_surface_contacts(State& state, const RigidBase& base) {

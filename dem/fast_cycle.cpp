@@ -3,6 +3,7 @@
 #include "dem/base_contact.hpp"
 #include "dem/contacts.hpp"
 #include "dem/law.hpp"
+#include "dem/order_free.hpp"
 #include "dem/team.hpp"
 
 #include <algorithm>
@@ -189,7 +190,7 @@ double FastCycle::sweep(Strip& strip, Stretching thins) {
     // Of the sample in the mean; spin is damped as it is, its mean stays 0.
     const Double4 share =
         no_force + (averages ? averaging_interval * time_step_ / physics_.averaging_time : 0.0);
-    Double4 fastest = no_force;
+    Mask4 fastest = {}; // as greater() has it
     const double* const slots = reinterpret_cast<const double*>(slots_.data());
     const std::uint32_t* list = strip.gathers.data();
     std::size_t block = 0, group = strip.first_disc / group_discs;
@@ -242,12 +243,13 @@ double FastCycle::sweep(Strip& strip, Stretching thins) {
                     inertia.mean_velocity[1] = static_cast<float>(mean[1]);
                 }
                 disc.place += disc.velocity * time_step;
-                const Double4 speed = magnitude(disc.velocity);
+                const auto speed = reinterpret_cast<Mask4>(magnitude(disc.velocity));
                 fastest = fastest < speed ? speed : fastest;
             }
         }
     }
-    return std::max(fastest[0], fastest[1]);
+    const auto speeds = reinterpret_cast<Double4>(fastest);
+    return greater(speeds[0], speeds[1]);
 }
 
 template <bool bonded, bool frictional> FastCycle::Kernels FastCycle::kernels_of() const {
@@ -273,9 +275,7 @@ double FastCycle::furthest(const Strip& strip) const {
     for (std::size_t i = strip.first_disc; i < strip.end_disc; ++i) {
         const double dx = discs_[i].place[0] - searched_places_[i].x;
         const double dy = discs_[i].place[1] - searched_places_[i].y;
-        const double square = dx * dx + dy * dy;
-        if (square > greatest || std::isnan(square))
-            greatest = square;
+        greatest = greater(greatest, dx * dx + dy * dy);
     }
     return greatest;
 }
@@ -283,26 +283,31 @@ double FastCycle::furthest(const Strip& strip) const {
 std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* response) {
     const Kernels kernels = choose_kernels();
     const Clock start = state.clock;
-    const double start_bound = state.displacement_bound;
+    const Watch watched{state.displacement_bound, state.window_speed, state.look_interval};
     const double surface_translation = greatest_translation(base_);
     const BaseNodeColumns nodes = base_node_columns(state);
     Barrier barrier(static_cast<int>(strips_.size()));
     run_team(static_cast<int>(strips_.size()), [&](int thread) {
-        // Each thread keeps clock and bound for itself; all come to the same decisions.
+        // Each thread keeps clock and watch for itself; all come to the same decisions.
         Strip& strip = strips_[static_cast<std::size_t>(thread)];
         Clock clock = start;
-        double bound = start_bound;
+        Watch watch = watched;
         for (std::int64_t n = 0; n < cycles; ++n) {
-            if (is_check_due(bound, state.skin, clock.cycle)) {
-                strip.furthest = furthest(strip);
-                barrier.wait();
-                bound = 0.0;
-                for (const Strip& s : strips_)
-                    if (s.furthest > bound || std::isnan(s.furthest))
-                        bound = s.furthest;
-                bound = std::max(std::sqrt(bound), surface_travel(state, base_, clock.extension));
-                if (is_update_due(bound, state.skin))
-                    break;
+            if (clock.cycle % watch.look_interval == 0) {
+                if (is_check_due(watch.bound, state.skin)) {
+                    strip.furthest = furthest(strip);
+                    barrier.wait();
+                    double square = 0.0;
+                    for (const Strip& s : strips_)
+                        square = greater(square, s.furthest);
+                    watch.bound =
+                        greater(std::sqrt(square), surface_travel(state, base_, clock.extension));
+                    if (is_update_due(watch.bound, state.skin))
+                        break;
+                }
+                watch.look_interval = next_look_interval(watch.look_interval, watch.speed,
+                                                         clock.time_step, state.skin);
+                watch.speed = 0.0;
             }
             const double speed = base_.motion.speed_at(clock.time());
             compute_base(strip, {clock.extension, speed});
@@ -320,17 +325,20 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
                 clock.cycle % averaging_interval == 0 ? kernels.sampling_sweep : kernels.sweep;
             strip.fastest[parity] = (this->*sweep)(strip, thins);
             barrier.wait();
-            double fastest = std::max(surface_translation * speed, fastest_node_[parity]);
+            double fastest = greater(surface_translation * speed, fastest_node_[parity]);
             for (const Strip& s : strips_)
-                fastest = std::max(fastest, s.fastest[parity]);
-            bound += std::numbers::sqrt2 * fastest * clock.time_step;
+                fastest = greater(fastest, s.fastest[parity]);
+            watch.speed = greater(watch.speed, fastest);
+            watch.bound += std::numbers::sqrt2 * fastest * clock.time_step;
             clock.extension += speed * clock.time_step;
             ++clock.cycle;
         }
         barrier.wait(); // until all have read the state
         if (thread == 0) {
             state.clock = clock;
-            state.displacement_bound = bound;
+            state.displacement_bound = watch.bound;
+            state.window_speed = watch.speed;
+            state.look_interval = watch.look_interval;
         }
     });
     return state.clock.cycle - start.cycle;

@@ -135,6 +135,12 @@ private:
         double x, y; ///< m
     };
 
+    /// Over the neighbour lists, as State has it.
+    struct Watch {
+        double bound, speed;
+        std::int64_t look_interval;
+    };
+
     void divide_work(const State& state, int threads);
     std::size_t pack_blocks(const State& state, std::size_t row, Strip& strip);
     std::size_t pack_base_contacts(const State& state, std::size_t row, std::size_t slot,

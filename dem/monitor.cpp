@@ -2,9 +2,11 @@
 
 #include "dem/base_place.hpp"
 #include "dem/law.hpp"
+#include "dem/order_free.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace listric::dem {
@@ -49,7 +51,8 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
     ForceBalance balance;
     balance.reaction.resize(base.surfaces.size());
     std::vector<Point> force(d.x.size());
-    double contact_sum = 0.0;
+    OrderFreeSum contact_sum, weight_sum, unbalanced_sum;
+    std::vector<std::array<OrderFreeSum, 2>> reaction(base.surfaces.size());
     const auto act = [&](const Material& p, const Material& q, Point n, double overlap,
                          double shear) {
         const double normal = contact_parameters(p, q, 1.0).normal_stiffness * overlap;
@@ -69,19 +72,23 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
             const Point f =
                 act(base.material, state.materials[d.material[i]], n, overlap, b.shear_force[k]);
             force[i] = {force[i].x + f.x, force[i].y + f.y};
-            balance.reaction[s] = {balance.reaction[s].x + f.x, balance.reaction[s].y + f.y};
+            reaction[s][0] += f.x;
+            reaction[s][1] += f.y;
         });
+    for (std::size_t s = 0; s < reaction.size(); ++s)
+        balance.reaction[s] = {reaction[s][0].value(), reaction[s][1].value()};
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double weight = d.mass[i] * gravity;
         const double unbalanced = std::hypot(force[i].x, force[i].y - weight);
-        balance.weight += weight;
-        balance.mean_unbalanced += unbalanced;
-        balance.max_unbalanced = std::max(balance.max_unbalanced, unbalanced);
+        weight_sum += weight;
+        unbalanced_sum += unbalanced;
+        balance.max_unbalanced = greater(balance.max_unbalanced, unbalanced);
     }
+    balance.weight = weight_sum.value();
     if (!d.x.empty())
-        balance.mean_unbalanced /= static_cast<double>(d.x.size());
+        balance.mean_unbalanced = unbalanced_sum.value() / static_cast<double>(d.x.size());
     if (balance.touching)
-        balance.mean_contact = contact_sum / static_cast<double>(balance.touching);
+        balance.mean_contact = contact_sum.value() / static_cast<double>(balance.touching);
     return balance;
 }
 

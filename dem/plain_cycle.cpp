@@ -6,6 +6,7 @@
 #include "dem/damping.hpp"
 #include "dem/energy.hpp"
 #include "dem/law.hpp"
+#include "dem/order_free.hpp"
 #include "dem/radius_rates.hpp"
 
 #include <algorithm>
@@ -312,7 +313,7 @@ double move_discs(State& state, const CyclePhysics& physics, UndampedMotion unda
         d.rotation[i] += d.spin[i] * dt;
         d.radius[i] += radii[i] * dt;
         undamped.learn(d, i);
-        fastest = std::max({fastest, std::abs(d.vx[i]), std::abs(d.vy[i])});
+        fastest = greater(fastest, greater(std::abs(d.vx[i]), std::abs(d.vy[i])));
     }
     return fastest;
 }
@@ -343,14 +344,29 @@ void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& phys
     if constexpr (accounted)
         account->flows.base_work +=
             half_step_work(base_node_columns(state), account->of_nodes, clock.time_step);
-    const double fastest = std::max(
-        {disc_speed, greatest_translation(base) * speed, move_base(state, clock, response)});
+    const double base_speed =
+        greater(greatest_translation(base) * speed, move_base(state, clock, response));
+    const double fastest = greater(disc_speed, base_speed);
     if constexpr (accounted)
         account->flows.base_work +=
             half_step_work(base_node_columns(state), account->of_nodes, clock.time_step);
+    state.window_speed = greater(state.window_speed, fastest);
     state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
     clock.extension += speed * clock.time_step;
     ++clock.cycle;
+}
+
+/// Keeps the lists good for the cycles up to the next look.
+void look_for_neighbours(State& state, const RigidBase& base) {
+    if (is_check_due(state.displacement_bound, state.skin)) {
+        state.displacement_bound = greatest_displacement(state, base);
+        refuse_runaways(state);
+        if (is_update_due(state.displacement_bound, state.skin))
+            update_contacts(state, base);
+    }
+    state.look_interval = next_look_interval(state.look_interval, state.window_speed,
+                                             state.clock.time_step, state.skin);
+    state.window_speed = 0.0;
 }
 
 } // namespace
@@ -360,12 +376,8 @@ void advance_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
     std::vector<Force> force(state.discs.rows());
     const PairParameters pairs(state.materials, state.clock.time_step);
     for (; cycles > 0; --cycles) {
-        if (is_check_due(state.displacement_bound, state.skin, state.clock.cycle)) {
-            state.displacement_bound = greatest_displacement(state, base);
-            refuse_runaways(state);
-            if (is_update_due(state.displacement_bound, state.skin))
-                update_contacts(state, base);
-        }
+        if (state.clock.cycle % state.look_interval == 0)
+            look_for_neighbours(state, base);
         if (!total) {
             cycle_plainly<false>(state, base, physics, pairs, force, response, nullptr);
             continue;

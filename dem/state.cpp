@@ -77,8 +77,16 @@ template <class Columns, class AnyTable> Columns base_nodes_of(AnyTable& t) {
     if (t.rows() == 0)
         return {};
     const auto get = [&](const char* name) { return t.template get<double>(name); };
-    return {get("x"),  get("y"),      get("ux"),     get("uy"),          get("vx"),
-            get("vy"), get("load_x"), get("load_y"), get("searched_ux"), get("searched_uy")};
+    return {get("x"),
+            get("y"),
+            get("ux"),
+            get("uy"),
+            get("vx"),
+            get("vy"),
+            t.template get<std::int64_t>("load_x"),
+            t.template get<std::int64_t>("load_y"),
+            get("searched_ux"),
+            get("searched_uy")};
 }
 
 } // namespace
@@ -111,7 +119,7 @@ void add_base_nodes(State& state, std::span<const double> x, std::span<const dou
     for (const char* name : {"vx", "vy"})
         nodes.add<double>(name, "m/s", 0.0);
     for (const char* name : {"load_x", "load_y"})
-        nodes.add<double>(name, "N", 0.0);
+        nodes.add<std::int64_t>(name, "2^-10 N", 0);
     for (const char* name : {"searched_ux", "searched_uy"})
         nodes.add<double>(name, "m", 0.0);
     std::ranges::copy(x, nodes.get<double>("x").begin());
@@ -257,8 +265,9 @@ std::uint64_t hash(const State& state) {
     for (double value : {state.clock.time_step, state.clock.extension, state.ledger.initial,
                          state.ledger.deposited, state.ledger.removed, state.mean_radius,
                          state.inertial_mass_floor, state.skin, state.searched_extension,
-                         state.displacement_bound})
+                         state.displacement_bound, state.window_speed})
         mix(h, value);
+    mix(h, state.look_interval);
     mix(h, state.seed);
     mix(h, state.next_id);
     return h;

@@ -45,6 +45,8 @@ struct State {
     double skin = 0.0;                ///< margin of the neighbour list, m
     double searched_extension = 0.0;  ///< where the last search of all surfaces found them, m
     double displacement_bound = 0.0;  ///< no disc or surface is further from where it was found, m
+    double window_speed = 0.0;        ///< greatest since that bound was last looked at, m/s
+    std::int64_t look_interval = 1;   ///< cycles between looks at it, at multiples
 };
 
 /// Columns that every disc has.
@@ -90,7 +92,7 @@ template <bool writable> struct BasicBaseNodeColumns {
     Values<double> x, y;                     ///< without load, m
     Values<double> ux, uy;                   ///< displacement, m
     Values<double> vx, vy;                   ///< m/s
-    Values<double> load_x, load_y;           ///< of the discs, summed over cycles, N
+    Values<std::int64_t> load_x, load_y;     ///< of the discs, summed over cycles, load_unit
     Values<double> searched_ux, searched_uy; ///< at the last search of all surfaces, m
 };
 

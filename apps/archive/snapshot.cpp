@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view format = "listric snapshot 4";
+constexpr std::string_view format = "listric snapshot 5";
 constexpr std::string_view format_without_checksum = "listric snapshot 3";
 
 /// The state's numbers by name; used to write and to read.
@@ -39,6 +39,8 @@ template <class AnyState, class Visit> void for_each_number(AnyState& s, Visit&&
     visit("skin", s.skin);
     visit("searched_extension", s.searched_extension);
     visit("displacement_bound", s.displacement_bound);
+    visit("window_speed", s.window_speed);
+    visit("look_interval", s.look_interval);
 }
 
 /// The same of a material.
