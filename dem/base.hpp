@@ -57,6 +57,12 @@ enum class Follows {
     breakaway ///< its chain is displaced as the first node is
 };
 
+/// Whose friction a contact with a surface has.
+enum class FrictionRule {
+    wall,   ///< the surface's own
+    smaller ///< the smaller of surface and disc, as PFC has it for walls, too
+};
+
 /// A surface and how it moves. Velocities are in units of the extension speed.
 struct Surface {
     std::string name;
@@ -69,6 +75,7 @@ struct Surface {
     double stretched_length = 0.0;
     Follows follows = Follows::nothing;
     int degree = 2; ///< of the faces between nodes
+    FrictionRule friction_rule = FrictionRule::wall;
 };
 
 /// Closest point of a surface at an extension, m, where nothing deforms; as for its chain.

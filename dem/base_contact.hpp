@@ -5,6 +5,7 @@
 #include "dem/law.hpp"
 #include "dem/order_free.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -34,12 +35,15 @@ inline double slip_rate_on(const Foot& foot, Point wall_velocity, const BaseCont
 
 /// Force on a disc whose closest point of a surface is known and moves with `wall_velocity`, m/s.
 /// Updates the shear force.
-inline BaseContactForce surface_force(const Foot& foot, Point wall_velocity, double friction,
+inline BaseContactForce surface_force(const Surface& surface, const Foot& foot, Point wall_velocity,
                                       const BaseContactDisc& disc, ContactParameters parameters,
                                       double& shear_force) {
     const double nx = foot.normal.x, ny = foot.normal.y;
     const double slip_rate = slip_rate_on(foot, wall_velocity, disc);
-    parameters.friction = static_cast<float>(friction);
+    const auto friction = static_cast<float>(surface.friction);
+    parameters.friction = surface.friction_rule == FrictionRule::smaller
+                              ? std::min(friction, parameters.friction)
+                              : friction;
     std::uint8_t bonded = 0;
     const double normal = contact_force(disc.radius - foot.distance, slip_rate, parameters, 0.0f,
                                         0.0f, shear_force, bonded);
@@ -82,8 +86,8 @@ inline BaseContactForce base_contact_force(const Surface& surface, BaseMoment ba
         shear_force = 0.0;
         return {0.0, 0.0, 0.0};
     }
-    return surface_force(*foot, surface_velocity(surface, base, disc.x, foot->normal),
-                         surface.friction, disc, parameters, shear_force);
+    return surface_force(surface, *foot, surface_velocity(surface, base, disc.x, foot->normal),
+                         disc, parameters, shear_force);
 }
 
 /// Force of a surface that deforms, and to which nodes it goes back.
@@ -151,9 +155,9 @@ inline NodeContactForce node_contact_force(const Surface& surface, const BaseNod
         return {};
     }
     const Point runs = surface_velocity(surface, base, disc.x, motion.foot->normal);
-    const BaseContactForce force =
-        surface_force(*motion.foot, {motion.velocity.x + runs.x, motion.velocity.y + runs.y},
-                      surface.friction, disc, parameters, shear_force);
+    const BaseContactForce force = surface_force(
+        surface, *motion.foot, {motion.velocity.x + runs.x, motion.velocity.y + runs.y}, disc,
+        parameters, shear_force);
     return {force, motion.node, motion.weight};
 }
 

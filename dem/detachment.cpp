@@ -53,7 +53,11 @@ RigidBase make_halfgraben(const DetachmentParameters& detachment, const Extent& 
     base.material = material;
     base.motion = motion;
     base.surfaces = {
-        {"detachment", detachment_chain(detachment, extent.reach()), detachment.friction, 1.0, {}},
+        {.name = "detachment",
+         .chain = detachment_chain(detachment, extent.reach()),
+         .friction = detachment.friction,
+         .conveyor = 1.0,
+         .friction_rule = detachment.friction_rule},
         {"backstop", {line({0.0, high}, {0.0, 0.0})}},
         right_wall(extent.length),
     };

@@ -25,6 +25,7 @@ DetachmentSegment straight(double length, std::optional<double> start_dip = {});
 struct DetachmentParameters {
     double start_dip = 90.0; ///< dip at the breakaway, degrees
     double friction = 0.5;   ///< between discs and the moving base
+    FrictionRule friction_rule = FrictionRule::wall;
     std::vector<DetachmentSegment> segments;
 };
 

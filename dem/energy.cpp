@@ -74,7 +74,7 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         const auto i = static_cast<std::size_t>(b.disc[k]);
         const Surface& surface = base.surfaces[static_cast<std::size_t>(b.surface[k])];
         const ContactParameters p =
-            contact_parameters(base.material, state.materials[d.material[i]], dt);
+            base_contact_parameters(base.material, state.materials[d.material[i]], dt);
         const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
         const BasePlace before{clock.extension - speed_before * dt, nodes.x, nodes.y, ux_before,
                                uy_before};

@@ -196,9 +196,9 @@ std::size_t FastCycle::pack_base_contacts(const State& state, std::size_t row, s
         const Surface& surface = base_.surfaces[static_cast<std::size_t>(b.surface[row])];
         const BaseContact contact{
             b.disc[row], &surface,
-            contact_parameters(base_.material,
-                               state.materials[d.material[static_cast<std::size_t>(b.disc[row])]],
-                               time_step_),
+            base_contact_parameters(
+                base_.material, state.materials[d.material[static_cast<std::size_t>(b.disc[row])]],
+                time_step_),
             b.shear_force[row], static_cast<std::uint32_t>(slot)};
         if (deforms_ && surface.follows != Follows::nothing) {
             strip.node_contacts.push_back({contact, row, places[row], {}});

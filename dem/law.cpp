@@ -14,6 +14,13 @@ ContactParameters contact_parameters(const Material& a, const Material& b, doubl
             static_cast<float>(std::min(a.friction, b.friction))};
 }
 
+ContactParameters base_contact_parameters(const Material& wall, const Material& disc,
+                                          double time_step) {
+    ContactParameters parameters = contact_parameters(wall, disc, time_step);
+    parameters.friction = static_cast<float>(disc.friction);
+    return parameters;
+}
+
 PairParameters::PairParameters(std::span<const Material> materials, double time_step)
     : count_(materials.size()) {
     for (const Material& a : materials)

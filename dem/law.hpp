@@ -22,6 +22,10 @@ struct ContactParameters {
 /// to single precision that it can see being widened again, and the two cycles would differ.
 ContactParameters contact_parameters(const Material& a, const Material& b, double time_step);
 
+/// The same of a disc and a wall, whose friction is the disc's: surface_force() knows the wall's.
+ContactParameters base_contact_parameters(const Material& wall, const Material& disc,
+                                          double time_step);
+
 /// Contact parameters of every pair of a state's materials.
 class PairParameters {
 public:

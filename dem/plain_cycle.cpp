@@ -119,7 +119,7 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
         const Surface& surface = base.surfaces[static_cast<std::size_t>(c.surface[k])];
         const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
         const ContactParameters p =
-            contact_parameters(base.material, state.materials[d.material[i]], clock.time_step);
+            base_contact_parameters(base.material, state.materials[d.material[i]], clock.time_step);
         const double before = c.shear_force[k];
         BaseContactForce f;
         if (deforms && surface.follows != Follows::nothing) {

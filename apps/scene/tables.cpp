@@ -51,6 +51,12 @@ std::vector<Parameter> detachment_parameters() {
         {"start_dip_deg", at<&P::start_dip>, "deg", ranges::dip, "", "dip at the breakaway"},
         {"friction", at<&P::friction>, "", ranges::friction, "",
          "between discs and the moving base"},
+        {"friction_rule",
+         one_of<&P::friction_rule>({"wall", "smaller"}),
+         "",
+         {},
+         "",
+         "the detachment's own friction, or the smaller of its and the disc's, as PFC has it"},
         {"segments", at<&P::segments>, "", {}, "", "arcs and lines, from the breakaway down"},
     };
 }
