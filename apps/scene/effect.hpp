@@ -76,6 +76,7 @@ struct SedimentFacts {
     dem::Target surface{0.0};             ///< line that the surface is adapted to
     double surface_porosity = 0.0;        ///< as deposited
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
+    double porosity_interval = 0.0;       ///< from change to change of porosity, a
 };
 
 /// What effects put into a model besides events: each adds its share in the order of the list.
@@ -112,6 +113,7 @@ struct Observation {
 struct EffectMeasures {
     NamedNumbers numbers = {};                                     ///< also columns of history.csv
     std::vector<std::pair<std::string, NamedNumbers>> groups = {}; ///< objects of summary.json
+    std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {}; ///< of such objects
 };
 
 /// What a prediction multiplies prices with.

@@ -1,4 +1,5 @@
 #include "dem/events/sedimentation.hpp"
+#include "dem/events/sediment_stress.hpp"
 
 #include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
@@ -37,6 +38,48 @@ std::vector<Parameter> parameters() {
     };
 }
 
+/// The event that deposits and, where sediment weighs, the one that looks at what carries it.
+std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts,
+                                     std::span<const StagedEvent>) {
+    const double rate = scene.extension.rate;
+    std::vector<StagedEvent> events;
+    events.push_back(
+        {EventStage::deposit, std::make_unique<dem::Sedimentation>(
+                                  *scene.find<P>(), scene.hanging_wall->radius_ratio, rate)});
+    if (parts.physics.gravity <= 0.0)
+        return events;
+    std::optional<double> compaction; // m of extension
+    if (parts.sediment->porosity_decay)
+        compaction = parts.sediment->porosity_interval * rate;
+    events.push_back({EventStage::sample,
+                      std::make_unique<dem::SedimentStress>(scene.output.interval, compaction, rate,
+                                                            parts.physics)});
+    return events;
+}
+
+EffectMeasures measure(const Observation& now) {
+    const dem::Ledger& ledger = now.state.ledger;
+    EffectMeasures measures{.numbers = {{"deposited_fraction", ledger.deposited / ledger.initial},
+                                        {"eroded_fraction", ledger.removed / ledger.initial}}};
+    const auto* stress = dem::find<const dem::SedimentStress>(now.events);
+    if (!stress)
+        return measures;
+    double sum = 0.0; // not a number without layers
+    std::vector<NamedNumbers> layers;
+    for (const dem::LayerStress& layer : stress->profile()) {
+        sum += layer.ratio;
+        NamedNumbers& numbers = layers.emplace_back();
+        numbers = {{"depth_m", layer.depth}, {"ratio", layer.ratio}};
+        if (layer.after_event_ratio)
+            numbers.emplace_back("after_event_ratio", *layer.after_event_ratio);
+        numbers.emplace_back("damping_share", layer.damping_share);
+    }
+    measures.numbers.emplace_back("sediment_stress_ratio",
+                                  sum / static_cast<double>(layers.size()));
+    measures.lists.emplace_back("sediment_stress_profile", std::move(layers));
+    return measures;
+}
+
 } // namespace
 
 const Effect& sedimentation() {
@@ -71,15 +114,7 @@ const Effect& sedimentation() {
                 parts.materials[dem::sediment] = p.material;
                 parts.sediment = {p.level, dem::Target(p.level, p.target), p.surface_porosity, {}};
             },
-        .make_events =
-            [](const Scene& scene, const ModelParts&, std::span<const StagedEvent>) {
-                std::vector<StagedEvent> events;
-                events.push_back(
-                    {EventStage::deposit, std::make_unique<dem::Sedimentation>(
-                                              *scene.find<P>(), scene.hanging_wall->radius_ratio,
-                                              scene.extension.rate)});
-                return events;
-            },
+        .make_events = make_events,
         .price =
             [](const Scene& scene, const Workload& work) {
                 return work.years / scene.find<P>()->interval * (8e6 + 640.0 * work.discs);
@@ -89,13 +124,7 @@ const Effect& sedimentation() {
             [](const Scene& scene) {
                 return 1.1 * scene.extension.distance * scene.hanging_wall->thickness;
             },
-        .measure =
-            [](const Observation& now) {
-                const dem::Ledger& ledger = now.state.ledger;
-                return EffectMeasures{
-                    .numbers = {{"deposited_fraction", ledger.deposited / ledger.initial},
-                                {"eroded_fraction", ledger.removed / ledger.initial}}};
-            },
+        .measure = measure,
     };
     return effect;
 }
