@@ -48,12 +48,12 @@ std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts
                                   *scene.find<P>(), scene.hanging_wall->radius_ratio, rate)});
     if (parts.physics.gravity <= 0.0)
         return events;
-    std::optional<double> compaction; // m of extension
+    std::optional<double> between_changes; // of porosity, m of extension
     if (parts.sediment->porosity_decay)
-        compaction = parts.sediment->porosity_interval * rate;
+        between_changes = parts.sediment->porosity_interval * rate;
     events.push_back({EventStage::sample,
-                      std::make_unique<dem::SedimentStress>(scene.output.interval, compaction, rate,
-                                                            parts.physics)});
+                      std::make_unique<dem::SedimentStress>(scene.output.interval, between_changes,
+                                                            rate, parts.physics)});
     return events;
 }
 
