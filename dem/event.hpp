@@ -37,8 +37,11 @@ public:
     const std::string& name() const { return name_; }
     const Schedule& schedule() const { return schedule_; }
 
-    /// Extension at which it is to be applied next, m.
-    double next_due() const { return static_cast<double>(applied + 1) * schedule_.spacing(); }
+    /// Extension at which it is to be applied next, m: ascending with `applied`, and of nothing
+    /// else that changes. Once in the schedule's spacing, unless an event says otherwise.
+    virtual double next_due() const {
+        return static_cast<double>(applied + 1) * schedule_.spacing();
+    }
 
     /// Adds the event's columns to a state in which extension has not begun.
     virtual void begin(State&) {}
@@ -58,6 +61,9 @@ private:
 class Observer : public Event {
 public:
     using Event::Event;
+
+    /// Whether it can begin to look in the middle of a run.
+    virtual bool begins_any_time() const { return false; }
 };
 
 /// The first of the events that is an E; null if there is none.

@@ -3,9 +3,44 @@
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace listric::dem {
+
+/// Two discs that touch or are bonded.
+struct PairForce {
+    std::size_t first, second; ///< rows of the disc table
+    Point force;               ///< on the second, N
+};
+
+/// A disc that touches the base.
+struct BaseForce {
+    std::size_t disc, surface;
+    Point foot;  ///< of the disc on the surface, m
+    Point force; ///< on the disc, N
+};
+
+/// What all contacts do, by row of their tables.
+struct ContactForces {
+    std::vector<PairForce> pairs;
+    std::vector<BaseForce> base;
+};
+
+/// A part of the x axis, m.
+struct Strip {
+    double from = -std::numeric_limits<double>::infinity();
+    double to = std::numeric_limits<double>::infinity();
+
+    bool holds(double x) const { return from <= x && x <= to; }
+};
+
+/// Forces as they stand, of the contacts of discs whose centres are in the strip.
+ContactForces contact_forces(const State& state, const RigidBase& base, Strip strip = {});
+
+/// Their sum on every disc, N.
+std::vector<Point> net_forces(const ContactForces& contacts, std::size_t discs);
 
 /// How far the state is from equilibrium [paper, "PFC2D: general features"].
 struct ForceBalance {

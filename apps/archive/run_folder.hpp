@@ -18,7 +18,8 @@ std::vector<std::filesystem::path> list_snapshots(const std::filesystem::path& o
 /// Extension in a snapshot's name, m.
 double snapshot_extension(const std::filesystem::path& snapshot);
 
-/// Gives the events of a scene back what they remembered. Throws StorageError.
+/// Gives the events of a scene back what they remembered. An observer that can begin at any time
+/// does so if the snapshot, of an earlier version, does not know it. Throws StorageError.
 void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<dem::Event>> events);
 
 /// A state and the events that remember its past.

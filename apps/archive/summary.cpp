@@ -95,6 +95,13 @@ Json depocentre_list(const std::vector<Depocentre>& depocentres) {
     return list(rows);
 }
 
+Json bonded_list(const std::vector<BondedLayer>& layers) {
+    std::vector<NamedNumbers> rows;
+    for (const BondedLayer& layer : layers)
+        rows.push_back({{"depth_m", layer.depth}, {"bonded_fraction", layer.share}});
+    return list(rows);
+}
+
 Json fault_object(const Fault& f) {
     const Point top = f.trace.points.front(), bottom = f.trace.points.back();
     Json throws = Json::object();
@@ -178,6 +185,9 @@ std::string summary_json(const SummaryContent& content) {
     json["time_by_part_s"] = seconds_by_part(content.record.seconds_by_part, content.wall_seconds);
     if (content.measures.depocentres)
         json["depocentres"] = depocentre_list(*content.measures.depocentres);
+    if (content.measures.old_sediment_bonded_profile)
+        json["old_sediment_bonded_profile"] =
+            bonded_list(*content.measures.old_sediment_bonded_profile);
     for (const auto& [name, objects] : content.lists)
         json[name] = list(objects);
     add_faults(json, content.faults);

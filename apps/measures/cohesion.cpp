@@ -2,7 +2,9 @@
 
 #include "dem/contacts.hpp"
 
+#include <cmath>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace listric::measures {
@@ -16,18 +18,31 @@ struct Pairs {
     std::int64_t all = 0, bonded = 0;
 };
 
-/// Those whose rows both count.
-template <class Counts> Pairs count_touching(const State& state, Counts&& counts) {
+/// Those whose rows both count, by what group(first, second) makes of them.
+template <class Counts, class Group>
+auto count_touching(const State& state, Counts&& counts, Group&& group) {
     const ConstContactColumns c = contact_columns(state);
     const std::vector<bool> touches = touching(state);
-    Pairs pairs;
-    for (std::size_t k = 0; k < touches.size(); ++k)
-        if (touches[k] && counts(static_cast<std::size_t>(c.first[k])) &&
-            counts(static_cast<std::size_t>(c.second[k]))) {
-            ++pairs.all;
-            pairs.bonded += c.bonded[k] ? 1 : 0;
-        }
-    return pairs;
+    std::map<decltype(group(0, 0)), Pairs> groups;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
+        if (!touches[k] || !counts(i) || !counts(j))
+            continue;
+        Pairs& pairs = groups[group(i, j)];
+        ++pairs.all;
+        pairs.bonded += c.bonded[k] ? 1 : 0;
+    }
+    return groups;
+}
+
+/// All of them.
+template <class Counts> Pairs count_touching(const State& state, Counts&& counts) {
+    return count_touching(state, counts, [](std::size_t, std::size_t) { return 0; })[0];
+}
+
+bool is_old_sediment(const State& state, const ConstDiscColumns& d, std::size_t i, double age) {
+    return d.stratum[i] > 0 && state.clock.extension - d.start_extension[i] > age;
 }
 
 std::optional<double> share(std::int64_t part, std::int64_t all) {
@@ -46,10 +61,26 @@ std::optional<double> bonded_share_of_old_sediment(const State& state, double le
                                                    double age) {
     const ConstDiscColumns d = disc_columns(state);
     const Pairs pairs = count_touching(state, [&](std::size_t i) {
-        return d.stratum[i] > 0 && level - d.y[i] > depth &&
-               state.clock.extension - d.start_extension[i] > age;
+        return is_old_sediment(state, d, i, age) && level - d.y[i] > depth;
     });
     return share(pairs.bonded, pairs.all);
+}
+
+std::vector<BondedLayer> bonded_profile_of_old_sediment(const State& state, double level,
+                                                        double age) {
+    constexpr double height = 1e3; // of a layer, m
+    const ConstDiscColumns d = disc_columns(state);
+    const auto layers = count_touching(
+        state, [&](std::size_t i) { return is_old_sediment(state, d, i, age); },
+        [&](std::size_t i, std::size_t j) {
+            return std::lround((level - 0.5 * (d.y[i] + d.y[j])) / height);
+        });
+    std::vector<BondedLayer> profile;
+    for (const auto& [layer, pairs] : layers)
+        if (layer > 0)
+            profile.push_back(
+                {static_cast<double>(layer) * height, share(pairs.bonded, pairs.all).value()});
+    return profile;
 }
 
 } // namespace listric::measures

@@ -3,6 +3,7 @@
 #include "dem/state.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace listric::measures {
 
@@ -16,5 +17,16 @@ std::optional<double> unbonded_share_of_basement(const dem::State& state);
 /// the level and older than `age` m of extension. None if there are no such pairs.
 std::optional<double> bonded_share_of_old_sediment(const dem::State& state, double level,
                                                    double depth, double age);
+
+/// Bonded share in a layer 1 km high.
+struct BondedLayer {
+    double depth; ///< of its middle below the level, m
+    double share;
+};
+
+/// The same by depth, without a least depth, in layers whose middles are whole kilometres below the
+/// level: a pair is where the middle of its centres is. Layers without such pairs are left out.
+std::vector<BondedLayer> bonded_profile_of_old_sediment(const dem::State& state, double level,
+                                                        double age);
 
 } // namespace listric::measures

@@ -25,7 +25,7 @@ NamedNumbers measure_evolution(const Setting& setting, const RigidBase& base, co
     const RunSoFar run(setting, base, now, past);
     NamedNumbers numbers = measure_main_faults(run, faults, measures.rollover_tilt);
     append(numbers, measure_rock(setting, now));
-    append(numbers, measure_grabens(run, measures.intervening_high));
+    append(numbers, measure_grabens(run));
     append(numbers, measure_hinge(run));
     if (const auto parts = find_ramp_flat_ramp(run.detachment); parts && !past.empty()) {
         append(numbers, measure_kink(run, *parts, faults.faults, segments));

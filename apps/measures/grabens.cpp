@@ -2,26 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace listric::measures {
 
-using namespace dem;
-
 namespace {
-
-/// Relief across the deepest collapse graben: its outer rim is the original surface.
-std::optional<double> relief_ratio(std::span<const Depocentre> basins,
-                                   const std::optional<Point>& intervening_high) {
-    if (!intervening_high)
-        return std::nullopt;
-    double deepest = 0.0;
-    for (const Depocentre& b : basins)
-        if (b.x > intervening_high->x)
-            deepest = std::max(deepest, b.thickness);
-    const double inner = deepest - intervening_high->y;
-    return inner > 0.0 ? std::optional(deepest / inner) : std::nullopt;
-}
 
 /// When a collapse graben first appears, when there first are two, and whether the one before is
 /// then the outer one.
@@ -54,7 +40,7 @@ NamedNumbers measure_order(std::span<const Past> past) {
 
 } // namespace
 
-NamedNumbers measure_grabens(const RunSoFar& run, const std::optional<Point>& intervening_high) {
+NamedNumbers measure_grabens(const RunSoFar& run) {
     const std::vector<Depocentre> basins = find_basins(run.profile);
     const std::vector<Depocentre> grabens = collapse_grabens(basins);
     double most = 0.0;
@@ -62,7 +48,6 @@ NamedNumbers measure_grabens(const RunSoFar& run, const std::optional<Point>& in
         most = std::max(most, b.prominence);
     NamedNumbers numbers;
     add(numbers, "basins", static_cast<double>(basins.size()));
-    add(numbers, "antithetic_over_synthetic_relief", relief_ratio(basins, intervening_high));
     add(numbers, "collapse_grabens", static_cast<double>(grabens.size()));
     add(numbers, "collapse_graben_prominence_m", most);
     append(numbers, measure_order(run.past));

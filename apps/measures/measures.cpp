@@ -63,10 +63,13 @@ void add_intervening_high(Measures& m, const Profile& profile, double column) {
 void add_sediment(Measures& m, const Setting& setting, const State& state, const Profile& profile) {
     if (!setting.sediment)
         return;
-    if (setting.has_bonds)
+    if (setting.has_bonds) {
+        const double level = setting.sediment->level;
+        const double age = old_sediment_age * setting.extension_rate;
         m.old_sediment_bonded_fraction =
-            bonded_share_of_old_sediment(state, setting.sediment->level, old_sediment_depth,
-                                         old_sediment_age * setting.extension_rate);
+            bonded_share_of_old_sediment(state, level, old_sediment_depth, age);
+        m.old_sediment_bonded_profile = bonded_profile_of_old_sediment(state, level, age);
+    }
     m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, depocentre_prominence);
 }
 

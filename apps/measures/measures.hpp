@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/measures/cohesion.hpp"
 #include "apps/measures/depocentres.hpp"
 #include "apps/measures/setting.hpp"
 #include "dem/base.hpp"
@@ -25,6 +26,7 @@ struct Measures {
     std::optional<double> strain_top10, strain_top10_cumulative, strain_gini;
     std::optional<double> basement_unbonded_fraction;
     std::optional<double> old_sediment_bonded_fraction;
+    std::optional<std::vector<BondedLayer>> old_sediment_bonded_profile;
     double mass_error_fraction = 0.0;
     double unbalanced_ratio_mean = 0.0, unbalanced_ratio_max = 0.0;
     double inertial_number = 0.0; ///< of the tenth of the area strained most

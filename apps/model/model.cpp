@@ -74,6 +74,7 @@ EffectMeasures measure_effects(const Observation& now) {
         EffectMeasures measures = part.effect->measure(now);
         std::ranges::move(measures.numbers, std::back_inserter(all.numbers));
         std::ranges::move(measures.groups, std::back_inserter(all.groups));
+        std::ranges::move(measures.lists, std::back_inserter(all.lists));
     }
     return all;
 }

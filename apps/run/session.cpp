@@ -349,6 +349,7 @@ void Session::finish() {
                              .effects = effect_names(scene_),
                              .numbers = summary_numbers(of_effects.numbers),
                              .objects = of_effects.groups,
+                             .lists = of_effects.lists,
                              .wall_seconds = wall_seconds(),
                              .state_hash = simulation_.hash()}));
     log_.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}", extension() / 1e3,

@@ -77,6 +77,7 @@ struct SedimentFacts {
     double surface_porosity = 0.0;        ///< as deposited
     double disc_density = 0.0;            ///< as deposited, kg/m3
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
+    double porosity_interval = 0.0;       ///< from change to change of porosity, a
 };
 
 /// What effects put into a model besides events: each adds its share in the order of the list.
@@ -113,6 +114,7 @@ struct Observation {
 struct EffectMeasures {
     NamedNumbers numbers = {};                                     ///< also columns of history.csv
     std::vector<std::pair<std::string, NamedNumbers>> groups = {}; ///< objects of summary.json
+    std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {}; ///< of such objects
 };
 
 /// What a prediction multiplies prices with.

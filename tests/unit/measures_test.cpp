@@ -274,6 +274,13 @@ TEST(OldSediment, BondedShareOfDeepAndOldPairs) {
     EXPECT_EQ(bonded_share_of_old_sediment(state, 0.0, 1500.0, 2000.0), 0.5);
     EXPECT_EQ(bonded_share_of_old_sediment(state, 0.0, 1500.0, 500.0), 0.25); // the young ones too
     EXPECT_FALSE(bonded_share_of_old_sediment(state, -200.0, 1500.0, 2000.0).has_value());
+
+    const auto profile = bonded_profile_of_old_sediment(state, 0.0, 2000.0);
+    ASSERT_EQ(profile.size(), 1u);
+    EXPECT_EQ(profile[0].depth, 2000.0); // 1,600 m are between 1.5 and 2.5 km
+    EXPECT_EQ(profile[0].share, 0.5);
+    EXPECT_EQ(bonded_profile_of_old_sediment(state, -200.0, 2000.0).at(0).depth, 1000.0);
+    EXPECT_TRUE(bonded_profile_of_old_sediment(state, 0.0, 9000.0).empty());
 }
 
 } // namespace

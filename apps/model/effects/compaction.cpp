@@ -29,6 +29,7 @@ const Effect& compaction() {
         .contribute =
             [](const Scene& scene, ModelParts& parts) {
                 parts.sediment->porosity_decay = scene.find<P>()->coefficient;
+                parts.sediment->porosity_interval = scene.find<P>()->interval;
             },
         .make_events =
             [](const Scene& scene, const ModelParts& parts, std::span<const StagedEvent>) {

@@ -1,4 +1,5 @@
 #include "dem/events/sedimentation.hpp"
+#include "dem/events/sediment_stress.hpp"
 
 #include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
@@ -35,6 +36,48 @@ std::vector<Parameter> parameters() {
         {"friction", at<&P::material, &Material::friction>, "", ranges::friction, "mu_d",
          "of sediment discs"},
     };
+}
+
+/// The event that deposits and, where sediment weighs, the one that looks at what carries it.
+std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts,
+                                     std::span<const StagedEvent>) {
+    const double rate = scene.extension.rate;
+    std::vector<StagedEvent> events;
+    events.push_back(
+        {EventStage::deposit, std::make_unique<dem::Sedimentation>(
+                                  *scene.find<P>(), scene.hanging_wall->radius_ratio, rate)});
+    if (parts.physics.gravity <= 0.0)
+        return events;
+    std::optional<double> between_changes; // of porosity, m of extension
+    if (parts.sediment->porosity_decay)
+        between_changes = parts.sediment->porosity_interval * rate;
+    events.push_back({EventStage::sample,
+                      std::make_unique<dem::SedimentStress>(scene.output.interval, between_changes,
+                                                            rate, parts.physics)});
+    return events;
+}
+
+EffectMeasures measure(const Observation& now) {
+    const dem::Ledger& ledger = now.state.ledger;
+    EffectMeasures measures{.numbers = {{"deposited_fraction", ledger.deposited / ledger.initial},
+                                        {"eroded_fraction", ledger.removed / ledger.initial}}};
+    const auto* stress = dem::find<const dem::SedimentStress>(now.events);
+    if (!stress)
+        return measures;
+    double sum = 0.0; // not a number without layers
+    std::vector<NamedNumbers> layers;
+    for (const dem::LayerStress& layer : stress->profile()) {
+        sum += layer.ratio;
+        NamedNumbers& numbers = layers.emplace_back();
+        numbers = {{"depth_m", layer.depth}, {"ratio", layer.ratio}};
+        if (layer.after_event_ratio)
+            numbers.emplace_back("after_event_ratio", *layer.after_event_ratio);
+        numbers.emplace_back("damping_share", layer.damping_share);
+    }
+    measures.numbers.emplace_back("sediment_stress_ratio",
+                                  sum / static_cast<double>(layers.size()));
+    measures.lists.emplace_back("sediment_stress_profile", std::move(layers));
+    return measures;
 }
 
 } // namespace
@@ -75,15 +118,7 @@ const Effect& sedimentation() {
                                   dem::disc_density(p),
                                   {}};
             },
-        .make_events =
-            [](const Scene& scene, const ModelParts&, std::span<const StagedEvent>) {
-                std::vector<StagedEvent> events;
-                events.push_back(
-                    {EventStage::deposit, std::make_unique<dem::Sedimentation>(
-                                              *scene.find<P>(), scene.hanging_wall->radius_ratio,
-                                              scene.extension.rate)});
-                return events;
-            },
+        .make_events = make_events,
         .price =
             [](const Scene& scene, const Workload& work) {
                 return work.years / scene.find<P>()->interval * (8e6 + 640.0 * work.discs);
@@ -93,13 +128,7 @@ const Effect& sedimentation() {
             [](const Scene& scene) {
                 return 1.1 * scene.extension.distance * scene.hanging_wall->thickness;
             },
-        .measure =
-            [](const Observation& now) {
-                const dem::Ledger& ledger = now.state.ledger;
-                return EffectMeasures{
-                    .numbers = {{"deposited_fraction", ledger.deposited / ledger.initial},
-                                {"eroded_fraction", ledger.removed / ledger.initial}}};
-            },
+        .measure = measure,
     };
     return effect;
 }
