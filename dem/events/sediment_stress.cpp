@@ -100,7 +100,8 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
             const double w = part * below(d.y[i]), weight = d.mass[i] * physics.gravity;
             load.weight += w * weight;
             load.damping +=
-                w * vertical_damping(net[i].y - weight, d.vy[i] - (relative ? static_cast<double>(mean_vy[i]) : 0.0),
+                w * vertical_damping(net[i].y - weight,
+                                     d.vy[i] - (relative ? static_cast<double>(mean_vy[i]) : 0.0),
                                      physics.damping);
             if (d.stratum[i] > 0 && d.y[i] <= top && d.y[i] > top - layer_height)
                 cover += part * pi * d.radius[i] * d.radius[i];

@@ -52,7 +52,7 @@ TEST(SedimentStress, LayersWeighWhatIsAbove) {
 TEST(SedimentStress, DampingIsAgainstTheMeanMotionWhereTheCycleIs) {
     State state = lattice();
     add_mean_velocities(state);
-    std::ranges::fill(state.discs.get<double>("mean_vy"), -2.0); // they rise from their mean
+    std::ranges::fill(state.discs.get<float>("mean_vy"), -2.0f); // they rise from their mean
     const CyclePhysics relative{0.7, 9.81, 150.0};
     const LayerLoad load = layer_loads(state, {}, relative).front();
     EXPECT_NEAR(load.damping, -0.7 * load.weight, 1e-12 * load.weight);
