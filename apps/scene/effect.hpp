@@ -75,6 +75,7 @@ struct SedimentFacts {
     double level = 0.0;                   ///< m, y up
     dem::Target surface{0.0};             ///< line that the surface is adapted to
     double surface_porosity = 0.0;        ///< as deposited
+    double grain_density = 0.0;           ///< kg/m^3
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
 };
 

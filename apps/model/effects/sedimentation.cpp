@@ -69,7 +69,11 @@ const Effect& sedimentation() {
             [](const Scene& scene, ModelParts& parts) {
                 const P& p = *scene.find<P>();
                 parts.materials[dem::sediment] = p.material;
-                parts.sediment = {p.level, dem::Target(p.level, p.target), p.surface_porosity, {}};
+                parts.sediment = {p.level,
+                                  dem::Target(p.level, p.target),
+                                  p.surface_porosity,
+                                  p.grain_density,
+                                  {}};
             },
         .make_events =
             [](const Scene& scene, const ModelParts&, std::span<const StagedEvent>) {
