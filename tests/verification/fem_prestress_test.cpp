@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 namespace listric {
 
@@ -89,6 +90,31 @@ TEST(Prestress, IsBornByALiquidOfTheSameDensity) {
         std::printf("breakaway %.2f, %.2f m; apart by %.1e of %.1f m\n", u[0], u[1],
                     apart / largest, largest);
         EXPECT_LT(apart, 1e-4 * largest);
+    }
+}
+
+/// Relaxed rock, 28 MPa, under 400 MPa: what turns under that weight gives way.
+TEST(Prestress, IsTooMuchForRockThatIsTooSoft) {
+    fem::FootwallRequest request;
+    request.detachment = listric_detachment();
+    request.surface_spring = request.detachment_spring = weight;
+    request.base_spring = 600.0 * gravity;
+    request.elastic_thickness = 10e3;
+    request.cell_size = 2000.0;
+    request.interface_end = 60e3;
+    const auto refusal = [&] {
+        try {
+            fem::make_footwall(request)->compliance();
+        } catch (const fem::FootwallError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    request.relaxation = 1000.0;
+    EXPECT_NE(refusal().find("is too soft to keep its shape"), std::string::npos);
+    for (request.relaxation = 100.0; request.relaxation < 2e4; request.relaxation *= 10.0) {
+        request.skin_thickness = 1e3;
+        EXPECT_EQ(refusal(), "") << request.relaxation;
     }
 }
 
