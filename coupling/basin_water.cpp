@@ -12,12 +12,26 @@ namespace listric::coupling {
 
 using namespace dem;
 
+namespace {
+
+constexpr const char* in_pores = "pore_water"; // of the loads on the interface
+
+std::size_t columns_of(const ConstDiscColumns& d, double width) {
+    return static_cast<std::size_t>(std::max(0.0, std::ranges::max(d.x) / width));
+}
+
+/// Of forces on the interface, which are vertical, N per m of strike.
+double downward(std::span<const double> forces) {
+    return -std::accumulate(forces.begin(), forces.end(), 0.0);
+}
+
+} // namespace
+
 std::vector<double> water_depths(const State& state, double level, double column_width) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstBaseNodeColumns nodes = base_node_columns(state);
     assert(!d.x.empty() && nodes.x.size() > 1);
-    const double right = std::ranges::max(d.x);
-    std::vector<double> floor(static_cast<std::size_t>(std::max(0.0, right / column_width)));
+    std::vector<double> floor(columns_of(d, column_width));
     for (std::size_t k = 0; k < floor.size(); ++k)
         floor[k] = height_at(nodes, (static_cast<double>(k) + 0.5) * column_width);
     for (std::size_t i = 0; i < d.x.size(); ++i)
@@ -31,52 +45,176 @@ std::vector<double> water_depths(const State& state, double level, double column
     return floor;
 }
 
-double water_weight(const State& state) {
-    const std::vector<double> forces = interface_loads(state);
-    return -std::accumulate(forces.begin(), forces.end(), 0.0);
+std::vector<double> pore_water(const State& state, double level, const PoreSpace& pores,
+                               double column_width) {
+    const ConstDiscColumns d = disc_columns(state);
+    const bool compacts = state.discs.has("porosity");
+    const auto porosity =
+        compacts ? state.discs.get<double>("porosity") : std::span<const double>{};
+    std::vector<double> water(columns_of(d, column_width), 0.0);
+    if (water.empty())
+        return water;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        if (d.stratum[i] == 0)
+            continue;
+        const double phi = compacts ? porosity[i] : pores.porosity;
+        const double below = (level - d.y[i] + d.radius[i]) / (2.0 * d.radius[i]);
+        const double column = std::clamp(std::floor(d.x[i] / column_width), 0.0,
+                                         static_cast<double>(water.size() - 1));
+        water[static_cast<std::size_t>(column)] +=
+            std::clamp(below, 0.0, 1.0) * d.mass[i] / pores.grain_density * phi / (1.0 - phi);
+    }
+    return water;
+}
+
+double water_weight(const State& state) { return downward(interface_loads(state)); }
+
+double pore_water_weight(const State& state) {
+    const auto loads = state.base_memory.find("interface_loads");
+    return loads != state.base_memory.end() && loads->second.has(in_pores)
+               ? downward(loads->second.get<double>(in_pores))
+               : 0.0;
+}
+
+std::vector<double> flank_depths(const SurfaceResponse& response, std::span<const double> dry,
+                                 double level, double weight) {
+    // What water adds to its depth is at most its density over the mantle's.
+    constexpr double close = 1e-3; // m
+    constexpr int most = 200;
+    const std::size_t n = response.x.size();
+    assert(dry.size() == n);
+    std::vector<double> depth(n, 0.0);
+    double change = close;
+    for (int round = 0; round < most && change >= close; ++round) {
+        change = 0.0;
+        for (std::size_t k = 0; k < n; ++k) {
+            double height = dry[k];
+            for (std::size_t j = 0; j < n; ++j)
+                height += weight * depth[j] * response.uplift[j * n + k];
+            const double before = depth[k];
+            depth[k] = std::max(0.0, level - height) - std::max(0.0, level);
+            change = std::max(change, std::abs(depth[k] - before));
+        }
+    }
+    return depth;
 }
 
 BasinWater::BasinWater(const Interface& interface, const BasinWaterParameters& parameters,
-                       double gravity, double column_width, double extension_rate)
+                       double gravity, double column_width, double extension_rate,
+                       const std::optional<PoreSpace>& pores, std::optional<Flank> flank)
     : Event("basin_water", {parameters.interval, extension_rate}), parameters_(parameters),
-      gravity_(gravity), column_width_(column_width), nodes_(interface.x.size()) {
+      pores_(pores), flank_(std::move(flank)), gravity_(gravity), column_width_(column_width),
+      nodes_(interface.x.size()) {
     memory.add<double>("start_depth_m", "", 0.0);
+    memory.add<double>("flank_depth_m", "m", 0.0);
     for (double x = 0.0; x + column_width <= interface.x.back(); x += column_width)
         per_pascal_.push_back(pressure_forces(interface, x, x + column_width));
 }
 
 void BasinWater::begin(State& state) {
     interface_load(state, name(), 2 * nodes_);
+    if (pores_)
+        interface_load(state, in_pores, 2 * nodes_);
+    if (flank_)
+        footwall_load(state, name(), 2 * nodes_);
     const std::vector<double> depth = water_depths(state, parameters_.level, column_width_);
-    memory.resize(1);
-    memory.get<double>("start_depth_m")[0] =
-        std::accumulate(depth.begin(), depth.end(), 0.0) / static_cast<double>(depth.size());
+    memory.resize(flank_ ? flank_->response.x.size() : 1);
+    std::ranges::fill(memory.get<double>("start_depth_m"),
+                      std::accumulate(depth.begin(), depth.end(), 0.0) /
+                          static_cast<double>(depth.size()));
+}
+
+/// Puts pressures on the columns, downward, Pa.
+void BasinWater::load_columns(State& state, std::string_view column,
+                              std::span<const double> pressure) const {
+    const std::span<double> load = interface_load(state, column, 2 * nodes_);
+    std::ranges::fill(load, 0.0);
+    for (std::size_t k = 0; k < std::min(pressure.size(), per_pascal_.size()); ++k)
+        for (std::size_t n = 0; n < nodes_; ++n)
+            load[2 * n + 1] -= pressure[k] * per_pascal_[k][n];
 }
 
 bool BasinWater::apply(State& state, const RigidBase&) {
     const double start = memory.get<double>("start_depth_m")[0];
-    const std::vector<double> depth = water_depths(state, parameters_.level, column_width_);
-    const std::span<double> load = interface_load(state, name(), 2 * nodes_);
-    std::ranges::fill(load, 0.0);
-    for (std::size_t k = 0; k < std::min(depth.size(), per_pascal_.size()); ++k) {
-        const double pressure = parameters_.density * gravity_ * std::max(0.0, depth[k] - start);
-        for (std::size_t n = 0; n < nodes_; ++n)
-            load[2 * n + 1] -= pressure * per_pascal_[k][n];
+    const double weight = parameters_.density * gravity_;
+    std::vector<double> pressure = water_depths(state, parameters_.level, column_width_);
+    for (double& p : pressure)
+        p = weight * std::max(0.0, p - start);
+    load_columns(state, name(), pressure);
+    if (pores_) {
+        pressure = pore_water(state, parameters_.level, *pores_, column_width_);
+        for (double& p : pressure)
+            p *= weight / column_width_;
+        load_columns(state, in_pores, pressure);
+    }
+    if (flank_) {
+        std::ranges::copy(
+            flank_depths(flank_->response, flank_->height(state), parameters_.level, weight),
+            memory.get<double>("flank_depth_m").begin());
+        std::ranges::copy(superpose(flank_pressure(), flank_->forces),
+                          footwall_load(state, name(), 2 * nodes_).begin());
     }
     return false;
 }
 
-FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gravity,
-                              double column_width, double extension_rate) {
-    const auto make_event = [=](const LoadSolution& solution) {
-        return LoadingEvent{.event =
-                                std::make_unique<BasinWater>(solution.base.interface(), parameters,
-                                                             gravity, column_width, extension_rate),
-                            .measures = [](const State& state) {
-                                return NamedValues{{"basin_water_n_per_m", water_weight(state)}};
-                            }};
+std::vector<double> BasinWater::flank_pressure() const {
+    std::vector<double> pressure;
+    for (const double depth : memory.get<double>("flank_depth_m"))
+        pressure.push_back(parameters_.density * gravity_ * depth);
+    return pressure;
+}
+
+fem::Load BasinWater::flank_load() const {
+    return surface_load(flank_->response.x, flank_pressure());
+}
+
+double BasinWater::flank_weight() const {
+    const std::vector<double> pressure = flank_pressure();
+    return flank_ ? std::inner_product(pressure.begin(), pressure.end(),
+                                       flank_->response.width.begin(), 0.0)
+                  : 0.0;
+}
+
+namespace {
+
+Flank make_flank(const std::vector<double>& knots, const LoadSolution& solution) {
+    const SurfaceResponse surface(knots, solution.interface, solution.sums, solution.work);
+    const auto height = [knots, uplift = surface_uplift(surface, solution),
+                         others = solution.others](const State& state) {
+        std::vector<double> heights = uplift(state);
+        for (const OtherLoad& other : others)
+            for (std::size_t k = 0; k < heights.size(); ++k)
+                heights[k] += other.cover(knots[k]);
+        return heights;
     };
-    return {{}, make_event};
+    return {surface, solution.forces, height};
+}
+
+} // namespace
+
+FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gravity,
+                              double column_width, double extension_rate,
+                              const std::optional<PoreSpace>& pores,
+                              std::optional<double> flank_left) {
+    const std::vector<double> knots =
+        flank_left ? surface_knots(-*flank_left, *flank_left) : std::vector<double>{};
+    const auto make_event = [=](const LoadSolution& solution) {
+        auto event = std::make_unique<BasinWater>(
+            solution.base.interface(), parameters, gravity, column_width, extension_rate, pores,
+            flank_left ? std::optional(make_flank(knots, solution)) : std::nullopt);
+        const BasinWater& water = *event;
+        LoadingEvent effect{.event = std::move(event), .measures = [&water](const State& state) {
+                                return NamedValues{{"basin_water_n_per_m", water_weight(state)},
+                                                   {"pore_water_n_per_m", pore_water_weight(state)},
+                                                   {"flank_water_n_per_m", water.flank_weight()}};
+                            }};
+        if (flank_left) {
+            effect.amounts = [&water](const State&) { return water.flank_pressure(); };
+            effect.load_elsewhere = [&water](const State&) { return water.flank_load(); };
+        }
+        return effect;
+    };
+    return {surface_loads(knots), make_event};
 }
 
 } // namespace listric::coupling

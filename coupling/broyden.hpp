@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,5 +30,21 @@ private:
     std::vector<double> first_inverse_, inverse_;
     std::size_t unknowns_;
 };
+
+/// What is found at a place.
+struct Trial {
+    std::vector<double> residual;
+    double error = 0.0; ///< by which trials are compared
+    bool is_good = false;
+};
+
+/// Tries places from x on, each a step of Broyden's method from the one before, until one is good.
+/// What was learned is forgotten every eighth time, for residuals that kink. After 24 trials the
+/// place with the least error is tried again, as the last. Returns the number of trials; none if no
+/// place was good or an error was infinite or NaN.
+/// @param x  the start; the last place that was tried on return
+std::optional<int>
+find_root(Broyden& broyden, std::vector<double>& x,
+          const std::function<Trial(std::span<const double> place, bool is_last)>& attempt);
 
 } // namespace listric::coupling

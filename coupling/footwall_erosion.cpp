@@ -10,24 +10,6 @@ namespace listric::coupling {
 
 using namespace dem;
 
-namespace {
-
-/// Uplift of the knots by discs, water and the other effects' loads.
-FootwallErosion::Uplift uplift_of(const SurfaceResponse& surface, const LoadSolution& solution) {
-    std::vector<OtherLoad> others = solution.others;
-    for (OtherLoad& other : others)
-        other.work = surface.uplift_by_work(other.work);
-    return [surface, others, &base = solution.base](const State& state) {
-        std::vector<double> uplift = surface.uplift_by(base.interface_forces(state));
-        for (const OtherLoad& other : others)
-            std::ranges::transform(uplift, superpose(other.amounts(state), other.work),
-                                   uplift.begin(), std::plus());
-        return uplift;
-    };
-}
-
-} // namespace
-
 SurfaceResponse::SurfaceResponse(std::vector<double> knots, std::vector<double> displacement,
                                  std::span<const fem::Vector> sums, std::span<const double> work)
     : x(std::move(knots)), interface(std::move(displacement)) {
@@ -54,6 +36,20 @@ std::vector<double> SurfaceResponse::uplift_by(std::span<const double> forces) c
         result.push_back(-work / width[k]);
     }
     return result;
+}
+
+std::function<std::vector<double>(const State&)> surface_uplift(const SurfaceResponse& surface,
+                                                                const LoadSolution& solution) {
+    std::vector<OtherLoad> others = solution.others;
+    for (OtherLoad& other : others)
+        other.work = surface.uplift_by_work(other.work);
+    return [surface, others, &base = solution.base](const State& state) {
+        std::vector<double> uplift = surface.uplift_by(base.interface_forces(state));
+        for (const OtherLoad& other : others)
+            std::ranges::transform(uplift, superpose(other.amounts(state), other.work),
+                                   uplift.begin(), std::plus());
+        return uplift;
+    };
 }
 
 std::vector<double> surface_knots(double width, double left) {
@@ -166,6 +162,14 @@ FootwallErosion::Areas FootwallErosion::areas() const {
     return areas;
 }
 
+double FootwallErosion::cover(double x) const {
+    std::vector<Point> line;
+    for (std::size_t k = 0; k < response_.x.size(); ++k)
+        line.push_back(
+            {response_.x[k], memory.get<double>("deposited")[k] - memory.get<double>("eroded")[k]});
+    return x < response_.x.front() ? 0.0 : TargetLine(line).height(x);
+}
+
 bool FootwallErosion::apply(State& state, const RigidBase&) {
     const FootwallCover cover{memory.get<double>("eroded"), memory.get<double>("deposited")};
     const TargetLine line = target_.at(state.clock.extension / schedule().extension_rate);
@@ -184,12 +188,13 @@ FootwallLoad footwall_erosion_load(const FootwallErosionParameters& parameters, 
     const auto make_event = [=](const LoadSolution& solution) {
         const SurfaceResponse surface(knots, solution.interface, solution.sums, solution.work);
         auto event = std::make_unique<FootwallErosion>(surface, solution.forces,
-                                                       uplift_of(surface, solution), parameters,
-                                                       gravity, extension_rate);
+                                                       surface_uplift(surface, solution),
+                                                       parameters, gravity, extension_rate);
         const FootwallErosion& erosion = *event;
         return LoadingEvent{.event = std::move(event),
                             .amounts = [&erosion](const State&) { return erosion.pressure(); },
                             .load_elsewhere = [&erosion](const State&) { return erosion.load(); },
+                            .cover = [&erosion](double x) { return erosion.cover(x); },
                             .measures =
                                 [&erosion](const State&) {
                                     const auto [eroded, deposited] = erosion.areas();

@@ -46,6 +46,11 @@ struct SurfaceResponse {
     std::vector<double> uplift_by(std::span<const double> forces) const;
 };
 
+/// Uplift of the surface's knots by discs, by what rests on the interface and by the other effects'
+/// loads, m. Refers to the solution's base.
+std::function<std::vector<double>(const dem::State&)> surface_uplift(const SurfaceResponse& surface,
+                                                                     const LoadSolution& solution);
+
 /// Knots every 2 km at the breakaway and by a quarter of the distance further away, over `width` m
 /// and not beyond the footwall's left side.
 std::vector<double> surface_knots(double width, double left);
@@ -102,6 +107,7 @@ public:
         double eroded, deposited; ///< m^2
     };
     Areas areas() const;
+    double cover(double x) const; ///< height that sediment less erosion has brought, m
 
 private:
     SurfaceResponse response_;

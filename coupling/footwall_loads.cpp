@@ -81,9 +81,14 @@ FootwallLoads::FootwallLoads(fem::Footwall& footwall, const ElasticBase& base,
         for (std::size_t other = 0; other < effects.size(); ++other)
             if (other != e && !unit_loads[other].empty())
                 solution.others.push_back(
-                    {std::move(response.work[other]), [all = effects_, other](const State& state) {
-                         return (*all)[other].amounts(state);
-                     }});
+                    {.work = std::move(response.work[other]),
+                     .amounts = [all = effects_, other](
+                                    const State& state) { return (*all)[other].amounts(state); },
+                     .cover =
+                         [all = effects_, other](double x) {
+                             const LoadingEvent& effect = (*all)[other];
+                             return effect.cover ? effect.cover(x) : 0.0;
+                         }});
         effects_->push_back(effects[e].make_event(solution));
         assert(unit_loads[e].empty() || effects_->back().amounts);
     }

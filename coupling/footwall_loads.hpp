@@ -41,6 +41,7 @@ std::vector<double> superpose(std::span<const double> amounts, std::span<const d
 struct OtherLoad {
     std::vector<double> work; ///< on the displacement by this effect's: see LoadResponse::work
     std::function<std::vector<double>(const dem::State&)> amounts; ///< that act now
+    std::function<double(double x)> cover; ///< as of LoadingEvent; 0 without
 };
 
 /// What an effect's event is made from: the rows are those of its unit loads.
@@ -63,6 +64,9 @@ struct LoadingEvent {
     std::function<std::vector<double>(const dem::State&)> amounts = {};
     /// What acts elsewhere than on the interface now; none: nothing.
     std::function<fem::Load(const dem::State&)> load_elsewhere = {};
+    /// Height that the effect has added to the footwall's surface left of the breakaway by now, m;
+    /// none: nothing.
+    std::function<double(double x)> cover = {};
     std::function<NamedValues(const dem::State&)> measures = {};
 };
 

@@ -14,8 +14,6 @@ using namespace dem;
 
 namespace {
 
-constexpr int most_attempts = 24;
-constexpr int restart_every = 8;         // contacts open and close: what was learned gets old
 constexpr double relative_error = 1e-3;  // of the displacement
 constexpr double error_of_radius = 1e-4; // of the discs' mean radius
 constexpr double hidden_error = 10.0;    // times that where contacts that open and close hide it
@@ -50,22 +48,22 @@ std::vector<double> contact_compliance(const ElasticBase& elastic) {
     return result;
 }
 
-/// Velocities of the interface's unknowns, m/s.
-std::vector<double> node_velocities(const State& state) {
+/// Where the interface's unknowns get in a time at their present velocities, m.
+std::vector<double> node_steps(const State& state, double time) {
     const ConstBaseNodeColumns nodes = base_node_columns(state);
-    std::vector<double> velocity;
+    std::vector<double> step;
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
-        velocity.push_back(nodes.vx[k]);
-        velocity.push_back(nodes.vy[k]);
+        step.push_back(nodes.vx[k] * time);
+        step.push_back(nodes.vy[k] * time);
     }
-    return velocity;
+    return step;
 }
 
-void set_node_velocities(State& state, std::span<const double> velocity) {
+void set_node_steps(State& state, std::span<const double> step, double time) {
     const BaseNodeColumns nodes = base_node_columns(state);
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
-        nodes.vx[k] = velocity[2 * k];
-        nodes.vy[k] = velocity[2 * k + 1];
+        nodes.vx[k] = step[2 * k] / time;
+        nodes.vy[k] = step[2 * k + 1] / time;
     }
 }
 
@@ -126,41 +124,26 @@ int StrongScheme::advance_interval(State& state, std::int64_t cycles) {
     const double noticed = error_of_radius * state.mean_radius; // m
     const double time = static_cast<double>(cycles) * state.clock.time_step;
     const State start = state;
-    std::vector<double> velocity = node_velocities(start), best_velocity = velocity;
-    std::vector<double> step, residual_before;
-    double least_error = std::numeric_limits<double>::infinity();
-    for (int attempts = 1;; ++attempts) {
-        const Attempt attempt = compute(state, cycles);
-        if (!step.empty())
-            broyden_.update(step, difference(attempt.residual, residual_before));
-        if (attempts % restart_every == 0)
-            broyden_.restart();
-        const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
-        const double allowed = std::max(
-            {noticed, relative_error * largest(nodes.ux), relative_error * largest(nodes.uy)});
-        if (attempt.error < allowed ||
-            (attempts > most_attempts && attempt.error < hidden_error * noticed)) {
-            if (execution_.energy)
-                *execution_.energy = attempt.flows;
-            elastic_.book(state, attempt.load);
-            return attempts;
-        }
-        if (attempts > most_attempts || !std::isfinite(attempt.error))
-            report_failure(cycles, attempt.error, noticed);
-        if (attempts < most_attempts && attempt.error < least_error) {
-            least_error = attempt.error;
-            best_velocity = velocity;
-        }
-        step = broyden_.step(attempt.residual);
-        residual_before = attempt.residual;
-        if (attempts == most_attempts)
-            velocity = best_velocity; // the update that follows learns from `step` all the same
-        else
-            for (std::size_t k = 0; k < velocity.size(); ++k)
-                velocity[k] += step[k] / time;
-        state = start;
-        set_node_velocities(state, velocity);
-    }
+    std::vector<double> step = node_steps(start, time);
+    Attempt attempt;
+    const auto attempts =
+        find_root(broyden_, step, [&](std::span<const double> tried, bool is_last) {
+            state = start;
+            set_node_steps(state, tried, time);
+            attempt = compute(state, cycles);
+            const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
+            const double allowed = std::max(
+                {noticed, relative_error * largest(nodes.ux), relative_error * largest(nodes.uy)});
+            return Trial{attempt.residual, attempt.error,
+                         attempt.error < allowed ||
+                             (is_last && attempt.error < hidden_error * noticed)};
+        });
+    if (!attempts)
+        report_failure(cycles, attempt.error, noticed);
+    if (execution_.energy)
+        *execution_.energy = attempt.flows;
+    elastic_.book(state, attempt.load);
+    return *attempts;
 }
 
 } // namespace

@@ -211,7 +211,13 @@ std::vector<double> ElasticFootwall::inverse_of_schur_complement() {
         make_solver(true);
     const std::size_t n = 2 * nodes_.size();
     Mat factors = solver_factors(), inverse = nullptr;
-    must(MatFactorInvertSchurComplement(factors), "condensation");
+    must(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr), "condensation");
+    const PetscErrorCode indefinite = MatFactorInvertSchurComplement(factors);
+    must(PetscPopErrorHandler(), "condensation");
+    if (indefinite)
+        throw FootwallError("rock along the detachment is too soft to keep its shape under the "
+                            "overburden on it; allowed: a shear modulus above that pressure; a "
+                            "thicker skin or a smaller relaxation stiffens it");
     must(MatFactorGetSchurComplement(factors, &inverse, nullptr), "condensation");
     std::vector<double> result(n * n);
     const PetscScalar* values = nullptr;

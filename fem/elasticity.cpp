@@ -192,18 +192,36 @@ void ElasticFootwall::assemble() {
     must(MatSetOption(matrix, MAT_SPD, PETSC_TRUE), "positive definiteness");
 }
 
+/// Adds the lower triangle of what holds a boundary. Rock of weight k = rho g (N/m^3) under its
+/// overburden presses on its boundary as a liquid does that fills it; the energy of such a liquid
+/// is k / 2 times the integral of y^2 dx, and its second variation along the tangent t is
+///   k (u_y v_y n_y + y (v_y du_x/dt + u_y dv_x/dt)) ds.
+/// The first term are the vertical springs; the others turn the pressure with the boundary. In
+/// parts, k (u_y n + y (-du_y/dt, du_x/dt)): stress that the displacement carries along (k u_y n),
+/// and the change of the element on which the pressure stood. Neither is symmetric without the
+/// other. The liquid is what the rock becomes where it keeps its volume: the rest of its prestress,
+/// k times displacement and dilation, is k L / (lambda + 2 mu) of its elasticity, 0.5 % at 15 km.
 void ElasticFootwall::add_springs(const dealii::FEFaceValues<2>& values, Boundary boundary,
                                   const std::vector<unsigned>& component,
                                   dealii::FullMatrix<double>& local) const {
     for (const unsigned q : values.quadrature_point_indices()) {
         const double w = values.JxW(q);
-        const double stiffness[2] = {side_spring(boundary, plain(values.quadrature_point(q))),
-                                     spring(boundary) * std::abs(values.normal_vector(q)[1])};
+        const Vector place = plain(values.quadrature_point(q));
+        const auto normal = values.normal_vector(q);
+        const double stiffness[2] = {side_spring(boundary, place),
+                                     spring(boundary) * std::abs(normal[1])};
+        const double turned = turned_pressure(boundary, place);
+        const Tensor<1, 2> tangent({normal[1], -normal[0]});
         for (unsigned i = 0; i < component.size(); ++i)
-            for (unsigned j = 0; j <= i; ++j)
+            for (unsigned j = 0; j <= i; ++j) {
+                const double ni = values.shape_value(i, q), nj = values.shape_value(j, q);
                 if (component[i] == component[j])
-                    local(i, j) += w * stiffness[component[i]] * values.shape_value(i, q) *
-                                   values.shape_value(j, q);
+                    local(i, j) += w * stiffness[component[i]] * ni * nj;
+                else if (turned != 0.0)
+                    local(i, j) += w * turned *
+                                   (component[i] == 1 ? ni * (values.shape_grad(j, q) * tangent)
+                                                      : nj * (values.shape_grad(i, q) * tangent));
+            }
     }
 }
 

@@ -75,8 +75,8 @@ private:
         dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
         dealii::update_JxW_values;
     static inline const dealii::UpdateFlags face_flags =
-        dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values |
-        dealii::update_normal_vectors;
+        dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
+        dealii::update_JxW_values | dealii::update_normal_vectors;
 
     dealii::QGauss<2> quadrature() const {
         return dealii::QGauss<2>(static_cast<unsigned>(request_.degree) + 1);
@@ -104,6 +104,11 @@ private:
         default:
             return 0.0;
         }
+    }
+    /// What a pressure -k y in the rock turns with a boundary: k y, Pa. The surface has none, and
+    /// at the level base rock and mantle press the same.
+    double turned_pressure(Boundary boundary, Vector place) const {
+        return boundary == Boundary::detachment ? spring(boundary) * place.y : 0.0;
     }
     /// Horizontal stiffness of a far side, Pa/m.
     double side_spring(Boundary boundary, Vector place) const {

@@ -239,7 +239,13 @@ void check_boundary(const Mesh& mesh, const FootwallRequest& request, const Face
                    place(face.center()) + " is " + std::to_string(std::lround(std::abs(off))) +
                    " m off");
     };
-    for (const Vector p : {plain(face.vertex(0)), plain(face.vertex(1))})
+    const Vector start = plain(face.vertex(0)), end = plain(face.vertex(1));
+    const auto must_not_lie = [&](double start_off, double end_off, const char* what) {
+        if (std::max(std::abs(start_off), std::abs(end_off)) < 0.05 * request.cell_size)
+            refuse("the edge at " + place(face.center()) + " is on the " + what +
+                   " and is named surface (physical line 4)");
+    };
+    for (const Vector p : {start, end})
         switch (static_cast<Boundary>(face.boundary_id())) {
         case Boundary::left:
             must_lie(p.x - request.left, "left side");
@@ -250,7 +256,10 @@ void check_boundary(const Mesh& mesh, const FootwallRequest& request, const Face
         case Boundary::right:
             must_lie(p.x - request.right, "right side");
             break;
-        case Boundary::surface: // of any shape
+        case Boundary::surface: // of any shape between the sides
+            must_not_lie(start.x - request.left, end.x - request.left, "left side (1)");
+            must_not_lie(start.x - request.right, end.x - request.right, "right side (3)");
+            must_not_lie(start.y + request.depth, end.y + request.depth, "base (2)");
             break;
         case Boundary::detachment:
             if (mesh.detachment.empty())

@@ -55,7 +55,9 @@ struct FootwallRequest {
     double skin_thickness = 0.0;
 
     /// Vertical springs at the density contrasts: Pa per m of vertical displacement, on the
-    /// horizontal projection of the boundary. rho_c g above, (rho_m - rho_c) g at the base.
+    /// horizontal projection of the boundary. rho_c g above, (rho_m - rho_c) g at the base. On the
+    /// detachment the rock's overburden, -rho_c g y, is taken along: forces there are on the
+    /// undeformed boundary, in the direction that they have.
     double surface_spring = 0.0, detachment_spring = 0.0, base_spring = 0.0;
 
     int degree = 2;                     ///< of the elements: 1 or 2

@@ -184,6 +184,7 @@ Vector ElasticFootwall::reaction() const {
     dealii::FEFaceValues<2> values(mapping_, element_, points, face_flags);
     const dealii::FEValuesExtractors::Vector u(0);
     std::vector<Tensor<1, 2>> found(points.size());
+    std::vector<Tensor<2, 2>> slopes(points.size());
     double sums[2] = {0.0, 0.0};
     for_each_own_cell([&](const auto& cell) {
         for (const unsigned f : cell->face_indices()) {
@@ -192,11 +193,14 @@ Vector ElasticFootwall::reaction() const {
             const auto boundary = static_cast<Boundary>(cell->face(f)->boundary_id());
             values.reinit(cell, f);
             values[u].get_function_values(displacement_, found);
+            values[u].get_function_gradients(displacement_, slopes);
             for (unsigned q = 0; q < points.size(); ++q) {
-                sums[0] -= values.JxW(q) * found[q][0] *
-                           side_spring(boundary, plain(values.quadrature_point(q)));
-                sums[1] -= values.JxW(q) * found[q][1] * spring(boundary) *
-                           std::abs(values.normal_vector(q)[1]);
+                const Vector place = plain(values.quadrature_point(q));
+                const auto normal = values.normal_vector(q);
+                const double stretch = slopes[q][0][0] * normal[1] - slopes[q][0][1] * normal[0];
+                sums[0] -= values.JxW(q) * found[q][0] * side_spring(boundary, place);
+                sums[1] -= values.JxW(q) * (found[q][1] * spring(boundary) * std::abs(normal[1]) +
+                                            turned_pressure(boundary, place) * stretch);
             }
         }
     });

@@ -72,5 +72,43 @@ TEST(Broyden, RestartForgets) {
     EXPECT_EQ(broyden.step(r), first);
 }
 
+TEST(FindRoot, LearnsFromWhatItTriedLast) {
+    // No place is good, as where contacts open and close; the least error is not the last.
+    Broyden broyden = guess();
+    std::vector<double> x{0.0, 0.0};
+    std::vector<std::vector<double>> places, residuals;
+    const auto found = find_root(broyden, x, [&](std::span<const double> place, bool is_last) {
+        places.emplace_back(place.begin(), place.end());
+        const double side = places.size() % 2 == 0 ? 1.0 : -1.0;
+        residuals.push_back({-2.0 * place[0] + 0.3 * side, -30.0 * place[1] + side});
+        EXPECT_EQ(is_last, places.size() == 25);
+        return Trial{residuals.back(), places.size() == 3 ? 1.0 : 2.0, false};
+    });
+    EXPECT_FALSE(found);
+    ASSERT_EQ(places.size(), 25u);
+    EXPECT_EQ(places[24], places[2]);
+    EXPECT_EQ(x, places[2]);
+    // The step between the last two, which was none of Broyden's.
+    const std::vector<double> learned = broyden.step(std::vector<double>{
+        residuals[23][0] - residuals[24][0], residuals[23][1] - residuals[24][1]});
+    for (std::size_t k = 0; k < 2; ++k)
+        EXPECT_NEAR(learned[k], places[24][k] - places[23][k], 1e-12);
+}
+
+TEST(FindRoot, StopsWhereItIsGood) {
+    Broyden broyden = guess();
+    std::vector<double> x{0.0, 0.0};
+    const auto found = find_root(broyden, x, [&](std::span<const double> place, bool) {
+        const std::vector<double> r = residual({place[0], place[1]});
+        const double off = std::hypot(r[0], r[1]);
+        return Trial{r, off, off < 1e-9};
+    });
+    EXPECT_TRUE(found);
+    EXPECT_LT(error(x), 1e-9);
+    EXPECT_FALSE(find_root(broyden, x, [](auto, bool) {
+        return Trial{{0.0, 0.0}, std::nan(""), false};
+    }));
+}
+
 } // namespace
 } // namespace listric::coupling

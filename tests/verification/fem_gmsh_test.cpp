@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 namespace listric {
@@ -15,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace support;
+using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string mesh_file = LISTRIC_SOURCE_DIR "/meshes/lis1-footwall.msh";
@@ -101,6 +103,14 @@ TEST(Gmsh, RefusesWhatIsNoFootwall) {
                 HasSubstr("does not match the scene: its base"));
     EXPECT_THAT(refusal([](auto&, auto& request) { request.left = -290e3; }),
                 HasSubstr("does not match the scene: its left side"));
+    // All lines of a side (1, 3) or of the base (2) by the name of the surface (4).
+    for (const auto& [boundary, name] :
+         {std::pair("1", "left side"), std::pair("2", "base"), std::pair("3", "right side")})
+        EXPECT_THAT(refusal([named = std::string(boundary)](auto& mesh, auto&) {
+                        mesh = std::regex_replace(mesh, std::regex("(\n[0-9]+ 1 2) " + named + " "),
+                                                  "$1 4 ");
+                    }),
+                    AllOf(HasSubstr(name), HasSubstr("is named surface (physical line 4)")));
     EXPECT_THAT(refusal([](auto&, auto& request) { request.mesh_file = "no-such.msh"; }),
                 HasSubstr("no-such.msh: no such mesh file"));
 }

@@ -1,5 +1,6 @@
 #include "coupling/basin_water.hpp"
 
+#include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/model/footwall_summary.hpp"
 #include "apps/scene/effect.hpp"
 
@@ -14,9 +15,15 @@ namespace {
 using P = coupling::BasinWaterParameters;
 
 coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts) {
-    return coupling::basin_water_load(*scene.find<P>(), parts.physics.gravity,
-                                      coupling::water_column_width(scene.hanging_wall->mean_radius),
-                                      scene.extension.rate);
+    std::optional<coupling::PoreSpace> pores;
+    if (parts.sediment)
+        pores = {parts.sediment->grain_density, parts.sediment->surface_porosity};
+    // Where the base's own springs fill what sinks, water has no room.
+    const auto& base = *elastic_base(scene);
+    return coupling::basin_water_load(
+        *scene.find<P>(), parts.physics.gravity,
+        coupling::water_column_width(scene.hanging_wall->mean_radius), scene.extension.rate, pores,
+        base.infill_density > 0.0 ? std::nullopt : std::optional(base.left));
 }
 
 /// Rows x, floor and level, m, from the shore at the breakaway on.
@@ -37,7 +44,7 @@ std::vector<FigureLayer> draw(const Observation& now) {
 const Effect& basin_water() {
     static const Effect effect{
         .name = "basin_water",
-        .doc = "water fills the basin and weighs on the footwall",
+        .doc = "water fills the basin and the pores of its sediment and weighs on the footwall",
         .defaults = make_defaults<P>,
         .address = address_of<P>,
         .parameters =
@@ -60,7 +67,8 @@ const Effect& basin_water() {
         .absence = "water",
         .summarise =
             [](const dem::Table& history, const dem::State&) {
-                return last_values(history, {"basin_water_n_per_m"});
+                return last_values(
+                    history, {"basin_water_n_per_m", "pore_water_n_per_m", "flank_water_n_per_m"});
             },
         .draw = draw,
     };

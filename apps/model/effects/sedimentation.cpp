@@ -115,7 +115,7 @@ const Effect& sedimentation() {
                 parts.sediment = {p.level,
                                   dem::Target(p.level, p.target),
                                   p.surface_porosity,
-                                  dem::disc_density(p),
+                                  p.grain_density,
                                   {}};
             },
         .make_events = make_events,
