@@ -43,6 +43,12 @@ struct FileParameter {
     void (*read)(Scene& scene, const std::string& file, const Refuse& refuse);
 };
 
+/// A key that an effect had once; a scene that has it is refused.
+struct FormerKey {
+    std::string_view key;
+    std::string_view instead; ///< "least_slip_m, the slip itself"
+};
+
 /// A rock whose file, named in [materials], holds defaults of the effect's parameters.
 struct RockSource {
     std::string_view key;  ///< in [materials]
@@ -139,6 +145,7 @@ struct Effect {
     std::any (*defaults)(); ///< parameters; see make_defaults
     PartAddress address;
     std::vector<Parameter> parameters = {};
+    std::vector<FormerKey> former = {};
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too

@@ -61,8 +61,7 @@ struct Fault {
         FaultWeakening fault(p, rate, 9.81, rock_density);
         fault.begin(state);
         // As if what lies above the plane had slid by twice the threshold.
-        const double threshold = p.strain_rate * fault.schedule().seconds() * p.strained_width *
-                                 p.circle_diameters * 2.0 * state.mean_radius;
+        const double threshold = critical_slip(p, 2.0 * state.mean_radius);
         const DiscColumns d = disc_columns(state);
         const auto scanned_x = state.discs.get<double>("scanned_x");
         for (std::size_t i = 0; i < d.x.size(); ++i)
