@@ -100,8 +100,35 @@ Band band_of(const FaultSegment& f, double length) {
 struct Lengths {
     double disc;   ///< mean diameter
     double circle; ///< diameter
+    double gap;    ///< the widest that is closed
     double width;  ///< of a band
 };
+
+/// Gaps between the bands of segments that lie on one line, to the step of the angles that were
+/// tried, where a plane of that line was found in the middle, too. Gaps shorter than a disc are
+/// none.
+std::vector<Band> gaps(const std::vector<FaultSegment>& kept,
+                       const std::vector<FaultSegment>& found, const Lengths& l, double step) {
+    std::vector<Band> result;
+    for (std::size_t a = 0; a < kept.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            const Point from = kept[a].centre, between = kept[b].centre - from;
+            const double gap = norm(between) - l.circle;
+            if (gap < l.disc || gap > l.gap)
+                continue;
+            const Point along = unit(between), middle = from + 0.5 * between;
+            const auto on_line = [&](const FaultSegment& f) {
+                return std::abs(cross(along, {std::cos(f.angle), std::sin(f.angle)})) <
+                       std::sin(1.01 * step);
+            };
+            if (on_line(kept[a]) && on_line(kept[b]) &&
+                std::ranges::any_of(found, [&](const FaultSegment& f) {
+                    return norm(f.centre - middle) < 0.5 * l.width && on_line(f);
+                }))
+                result.push_back({middle - 0.5 * gap * along, middle + 0.5 * gap * along});
+        }
+    return result;
+}
 
 /// Rows of the sound discs in a band; none where most of it is weak already: the slip is that of a
 /// fault known before, which would widen with every scan if the rest were weakened.
@@ -163,7 +190,8 @@ void FaultWeakening::begin(State& state) {
 bool FaultWeakening::apply(State& state, const RigidBase& base) {
     const FaultWeakeningParameters& p = parameters_;
     const double diameter = 2.0 * state.mean_radius;
-    const Lengths l{diameter, p.circle_diameters * diameter, p.band_diameters * diameter};
+    const Lengths l{diameter, p.circle_diameters * diameter,
+                    p.sound_share * p.circle_diameters * diameter, p.band_diameters * diameter};
     // Discs that the last scan did not see have no displacement.
     const double youngest =
         std::max(p.youngest_sediment, 0.99 * p.interval) * schedule().extension_rate;
@@ -172,7 +200,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
         scan(sample, Cells(sample.x, sample.y, 0.5 * l.circle), l.circle, 0.5 * diameter,
              critical_slip(p, diameter), p.angles);
     const std::vector<FaultSegment> faults = thin_out(found, p.spacing_diameters * diameter);
-    std::vector<Band> bands;
+    std::vector<Band> bands = gaps(faults, found, l, pi / p.angles);
     for (const FaultSegment& f : faults)
         bands.push_back(band_of(f, l.circle));
 

@@ -41,9 +41,11 @@ double critical_slip(const FaultWeakeningParameters& p, double mean_diameter);
 double critical_rate(const FaultWeakeningParameters& p, double mean_diameter);
 
 /// Scans the hanging wall with a measure circle for planes whose two sides slid past each other,
-/// and weakens the discs along the most active ones, a band as long as the circle at each. Loose
-/// sediment is not looked at: it deforms everywhere [paper, Fig. 5], and its base would be taken
-/// for a fault.
+/// and weakens the discs along the most active ones: a band as long as the circle at each, and the
+/// gap between the bands of two that lie on one line, if it slips as well. Bands that are mostly
+/// weak are known faults, hence the widest gap, `sound_share` times the circle, that neighbouring
+/// bands would leave for good. Loose sediment is not looked at: it deforms
+/// everywhere [paper, Fig. 5], and its base would be taken for a fault.
 ///
 /// Its memory lists the fault segments found: centre x_m, y_m, dip direction angle_rad, slip_m of
 /// the interval (> 0: the upper side of the plane moved along its direction), found_at_m.

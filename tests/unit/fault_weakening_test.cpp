@@ -85,6 +85,12 @@ struct Block {
         for (std::size_t k = 0; k < x.size(); ++k) {
             const Point centre{x[k], y[k]};
             result.push_back({centre, {std::cos(a[k]), std::sin(a[k])}, circle, width});
+            for (std::size_t m = 0; m < k; ++m) {
+                const Point between = Point{x[m], y[m]} - centre;
+                const double gap = norm(between) - circle;
+                if (gap >= diameter && gap <= 3.5 * diameter)
+                    result.push_back({centre + 0.5 * between, unit(between), gap, width});
+            }
         }
         return result;
     }
@@ -154,6 +160,24 @@ TEST(FaultWeakening, ConvertsTheBandAndNothingElse) {
         }
     }
     EXPECT_GT(bonds, 1000u);
+}
+
+TEST(FaultWeakening, NoGapIsLeftInAFault) {
+    for (const double angle : {30.0, 60.0, 120.0}) {
+        Block b;
+        b.slide(angle * degree, 2.0 * b.threshold);
+        b.apply();
+        // Along the plane, but beyond the last segments.
+        const Point along{std::cos(angle * degree), std::sin(angle * degree)};
+        const DiscColumns d = disc_columns(b.state);
+        for (std::size_t i = 0; i < d.x.size(); ++i) {
+            const double place = dot(along, Point{d.x[i], d.y[i]} - b.middle);
+            if (std::abs(place) < 13.0 * b.diameter &&
+                std::abs(b.off_plane(d.x[i], d.y[i], angle * degree)) < 0.25 * b.diameter) {
+                EXPECT_EQ(d.material[i], weak) << angle << " " << place / b.diameter;
+            }
+        }
+    }
 }
 
 TEST(FaultWeakening, NothingBelowTheThreshold) {
