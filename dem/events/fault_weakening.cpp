@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace listric::dem {
@@ -30,14 +31,16 @@ std::vector<bool> cemented(State& state) {
     return result;
 }
 
-Displacements displacements(State& state, double youngest) {
+/// @param youngest  extension since the deposition of sediment that is looked at where it is
+///                  cemented, m; none: all discs are looked at
+Displacements displacements(State& state, std::optional<double> youngest) {
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
     const std::vector<bool> rock = cemented(state);
     Displacements s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] > 0 && d.material[i] != weak &&
-            (!rock[i] || state.clock.extension - d.start_extension[i] < youngest))
+        if (youngest && d.stratum[i] > 0 && d.material[i] != weak &&
+            (!rock[i] || state.clock.extension - d.start_extension[i] < *youngest))
             continue;
         s.row.push_back(static_cast<std::int32_t>(i));
         s.x.push_back(d.x[i]);
@@ -195,7 +198,8 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     // Discs that the last scan did not see have no displacement.
     const double youngest =
         std::max(p.youngest_sediment, 0.99 * p.interval) * schedule().extension_rate;
-    const Displacements sample = displacements(state, youngest);
+    const Displacements sample =
+        displacements(state, p.whole_domain ? std::nullopt : std::optional(youngest));
     const std::vector<FaultSegment> found =
         scan(sample, Cells(sample.x, sample.y, 0.5 * l.circle), l.circle, 0.5 * diameter,
              critical_slip(p, diameter), p.angles);

@@ -28,6 +28,7 @@ struct FaultWeakeningParameters {
     double sound_share = 0.7;         ///< least share of sound discs in a band that is weakened
     int angles = 12;                  ///< fault angles tried per sampling point
     double youngest_sediment = 2.0e5; ///< sediment younger than this is left alone, a
+    bool whole_domain = false;        ///< looks at young and loose sediment, too [paper]
     Material material{8.5e8, 3.19e8, 0.0, false}; ///< of weakened discs: MAT18-W, never bonded
     double update_interval = 2.5e3;               ///< time between property updates, a
     double mean_stress_ratio = 0.75; ///< mean stress in a fault over lithostatic stress
@@ -44,7 +45,7 @@ double critical_rate(const FaultWeakeningParameters& p, double mean_diameter);
 /// and weakens the discs along the most active ones: a band as long as the circle at each, and the
 /// gap between the bands of two that lie on one line, if it slips as well. Bands that are mostly
 /// weak are known faults, hence the widest gap, `sound_share` times the circle, that neighbouring
-/// bands would leave for good. Loose sediment is not looked at: it deforms
+/// bands would leave for good. Loose sediment is not looked at unless asked for: it deforms
 /// everywhere [paper, Fig. 5], and its base would be taken for a fault.
 ///
 /// Its memory lists the fault segments found: centre x_m, y_m, dip direction angle_rad, slip_m of

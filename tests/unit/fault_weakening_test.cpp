@@ -251,6 +251,21 @@ TEST(FaultWeakening, YoungSedimentIsLeftAlone) {
         }
 }
 
+TEST(FaultWeakening, TheWholeDomainHasLooseAndYoungSediment) {
+    for (const bool whole : {false, true}) {
+        FaultWeakeningParameters p;
+        p.whole_domain = whole;
+        Block b(p);
+        b.state.clock.extension = 500.0;
+        const DiscColumns d = disc_columns(b.state);
+        std::ranges::fill(d.stratum, 1); // deposited when the last scan was over
+        std::ranges::fill(contact_columns(b.state).bonded, std::uint8_t{0});
+        b.slide(60.0 * degree, 1.3 * b.threshold);
+        b.apply();
+        EXPECT_EQ(b.weak_discs() > 0, whole);
+    }
+}
+
 TEST(FaultWeakening, LooseSedimentIsLeftAlone) {
     for (const bool loose : {true, false}) {
         Block b;
