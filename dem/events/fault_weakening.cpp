@@ -175,9 +175,9 @@ double critical_rate(const FaultWeakeningParameters& p, double mean_diameter) {
 }
 
 FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, double extension_rate,
-                               double gravity, double density)
+                               double gravity)
     : Event("fault_weakening", {parameters.interval, extension_rate}), parameters_(parameters),
-      overburden_(gravity * density) {
+      gravity_(gravity) {
     for (const char* name : {"x_m", "y_m", "angle_rad", "slip_m", "found_at_m"})
         memory.add<double>(name, "", 0.0);
 }
@@ -219,13 +219,13 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     for (const std::int32_t row : converted)
         d.material[static_cast<std::size_t>(row)] = weak;
     const std::vector<PowerCell> before = power_cells(state, base, converted);
+    const std::vector<double> weight = overburden(state, converted, gravity_);
     for (std::size_t k = 0; k < converted.size(); ++k) {
         const auto i = static_cast<std::size_t>(converted[k]);
         w.rock_radius[i] = d.radius[i];
         w.rock_area[i] = before[k].closed ? before[k].area : 0.0;
         // Enlarged at once, a soft disc carries the load that the stiff one carried.
-        d.radius[i] *= enlargement(p.mean_stress_ratio * overburden_ * std::max(0.0, -d.y[i]),
-                                   state.materials[weak]);
+        d.radius[i] *= enlargement(p.mean_stress_ratio * weight[k], state.materials[weak]);
     }
     const ContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k)

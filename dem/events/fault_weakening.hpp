@@ -31,7 +31,7 @@ struct FaultWeakeningParameters {
     bool whole_domain = false;        ///< looks at young and loose sediment, too [paper]
     Material material{8.5e8, 3.19e8, 0.0, false}; ///< of weakened discs: MAT18-W, never bonded
     double update_interval = 2.5e3;               ///< time between property updates, a
-    double mean_stress_ratio = 0.75; ///< mean stress in a fault over lithostatic stress
+    double mean_stress_ratio = 0.75; ///< mean stress in a fault over the weight above it
     double largest_change = 0.05;    ///< largest relative radius change per property update
 };
 
@@ -53,14 +53,14 @@ double critical_rate(const FaultWeakeningParameters& p, double mean_diameter);
 class FaultWeakening : public Event {
 public:
     FaultWeakening(const FaultWeakeningParameters& parameters, double extension_rate,
-                   double gravity, double density);
+                   double gravity);
 
     void begin(State& state) override;
     bool apply(State& state, const RigidBase& base) override;
 
 private:
     FaultWeakeningParameters parameters_;
-    double overburden_; ///< weight of rock, N/m^3
+    double gravity_; ///< m/s^2
 };
 
 } // namespace listric::dem

@@ -9,9 +9,9 @@
 namespace listric::dem {
 
 PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,
-                               double gravity, double density)
+                               double gravity)
     : Event("property_update", {parameters.update_interval, extension_rate}),
-      parameters_(parameters), overburden_(gravity * density) {}
+      parameters_(parameters), gravity_(gravity) {}
 
 bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     const std::vector<std::int32_t> rows = weak_rows(state);
@@ -20,6 +20,7 @@ bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
     const std::vector<PowerCell> cells = power_cells(state, base, rows);
+    const std::vector<double> weight = overburden(state, rows, gravity_);
 
     // Volume is conserved by zones, not by disc: the error is averaged over a fault's width.
     std::vector<double> x, y;
@@ -33,8 +34,7 @@ bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const auto i = static_cast<std::size_t>(rows[k]);
         const double factor =
-            enlargement(parameters_.mean_stress_ratio * overburden_ * std::max(0.0, -d.y[i]),
-                        state.materials[weak]);
+            enlargement(parameters_.mean_stress_ratio * weight[k], state.materials[weak]);
         double now = 0.0, before = 0.0;
         near.for_each_near(x[k], y[k], [&](std::int32_t other) {
             const auto o = static_cast<std::size_t>(other);

@@ -41,7 +41,7 @@ struct Block {
     Point middle;
     double diameter, threshold;
 
-    explicit Block(const FaultWeakeningParameters& p = parameters) : event(p, rate, 9.81, 2600.0) {
+    explicit Block(const FaultWeakeningParameters& p = parameters) : event(p, rate, 9.81) {
         std::vector<Disc> discs = cloud(50, 45, r, 8);
         for (Disc& disc : discs)
             disc.y -= 9e3;
@@ -133,6 +133,9 @@ TEST(FaultWeakening, ConvertsTheBandAndNothingElse) {
     b.slide(60.0 * degree, 1.3 * b.threshold);
     const std::vector<double> before(disc_columns(b.state).radius.begin(),
                                      disc_columns(b.state).radius.end());
+    std::vector<std::int32_t> rows(before.size());
+    std::iota(rows.begin(), rows.end(), 0);
+    const std::vector<double> weight = overburden(b.state, rows, 9.81);
     b.apply();
     const DiscColumns d = disc_columns(b.state);
     const WeakenedColumns w = weakened_columns(b.state);
@@ -145,7 +148,7 @@ TEST(FaultWeakening, ConvertsTheBandAndNothingElse) {
         ASSERT_EQ(d.material[i] == weak, in_band) << d.x[i] << " " << d.y[i];
         EXPECT_EQ(w.rock_radius[i], in_band ? before[i] : 0.0);
         EXPECT_EQ(w.scanned_x[i], d.x[i]);
-        const double q = 0.75 * 2600.0 * 9.81 * -d.y[i] / soft;
+        const double q = 0.75 * weight[i] / soft;
         const double enlarged = in_band ? 1.0 + q / (1.0 + 0.42 * q) : 1.0;
         EXPECT_NEAR(d.radius[i], before[i] * enlarged, 1e-12 * before[i]);
     }

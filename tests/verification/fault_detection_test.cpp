@@ -54,7 +54,7 @@ struct Slab {
     Point low, high; ///< corners
 
     Slab(const FaultWeakeningParameters& p, const Field& displacement, double mean_radius = 93.1)
-        : state(packing(mean_radius)), event(p, rate, 9.81, 2600.0) {
+        : state(packing(mean_radius)), event(p, rate, 9.81) {
         event.begin(state);
         const DiscColumns d = disc_columns(state);
         const auto [left, right] = std::ranges::minmax(d.x);

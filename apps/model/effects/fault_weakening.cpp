@@ -88,7 +88,7 @@ std::vector<Parameter> parameters() {
          "",
          {.above = 0, .to = 2},
          "",
-         "mean stress in a fault over lithostatic stress"},
+         "mean stress in a fault over the weight above it"},
         {"largest_change",
          at<&P::largest_change>,
          "",
@@ -102,12 +102,9 @@ std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts
                                      std::span<const StagedEvent>) {
     const P& p = *scene.find<P>();
     const double rate = scene.extension.rate, gravity = parts.physics.gravity;
-    const double density = scene.hanging_wall->rock_density;
     std::vector<StagedEvent> events;
-    events.push_back(
-        {EventStage::adjust, std::make_unique<dem::PropertyUpdate>(p, rate, gravity, density)});
-    events.push_back(
-        {EventStage::weaken, std::make_unique<dem::FaultWeakening>(p, rate, gravity, density)});
+    events.push_back({EventStage::adjust, std::make_unique<dem::PropertyUpdate>(p, rate, gravity)});
+    events.push_back({EventStage::weaken, std::make_unique<dem::FaultWeakening>(p, rate, gravity)});
     return events;
 }
 
