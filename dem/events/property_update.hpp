@@ -11,6 +11,8 @@ namespace listric::dem {
 ///
 /// The radius follows the mean stress expected below what lies above the disc; what that leaves of
 /// a change of volume, measured by power cells around the disc, is taken back step by step.
+/// Feedback from the disc's surroundings lags behind where a zone changes steadily, so that a
+/// common factor takes back the change of all zones together.
 class PropertyUpdate : public Event {
 public:
     PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,

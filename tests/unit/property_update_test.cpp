@@ -1,6 +1,7 @@
 // Weakened discs approach r_rock * (1 + q / (1 + 0.42 q)), q = mean stress over contact stiffness,
 // by at most five percent per update; mass never changes. Where the volume around a disc grew, the
-// correction takes it back. Tolerances are round-off of a few products.
+// correction takes it back, and what all have won or lost together, a common one. Tolerances are
+// round-off of a few products.
 
 #include "dem/events/property_update.hpp"
 #include "tests/support.hpp"
@@ -97,12 +98,27 @@ TEST(PropertyUpdate, LostAndWonVolumeIsTakenBack) {
     for (Lattice* l : {&grown, &shrunk, &same})
         l->apply();
     const double factor = enlargement(same.stress(), same.state.materials[weak]);
-    // dA / A = 2 factor dr / r, of which 0.3 is corrected at a time.
+    // dA / A = 2 factor dr / r, of which 0.3 is corrected at a time for the disc's zone and 0.5 for
+    // all zones together; here the disc is both.
     EXPECT_NEAR(weakened_columns(grown.state).correction[middle],
-                1.0 - 0.3 * (1.0 / 0.99 - 1.0) / (2.0 * factor), 1e-12);
+                1.0 - 0.8 * (1.0 / 0.99 - 1.0) / (2.0 * factor), 1e-12);
     EXPECT_NEAR(weakened_columns(shrunk.state).correction[middle],
-                1.0 - 0.3 * (1.0 / 1.01 - 1.0) / (2.0 * factor), 1e-12);
+                1.0 - 0.8 * (1.0 / 1.01 - 1.0) / (2.0 * factor), 1e-12);
     EXPECT_NEAR(weakened_columns(same.state).correction[middle], 1.0, 1e-12);
+}
+
+TEST(PropertyUpdate, WhatAllHaveLostIsTakenBackByAll) {
+    constexpr std::size_t far = 24; // of another zone, with its volume as it was
+    Lattice l(0.98 * cell);
+    disc_columns(l.state).material[far] = weak;
+    weakened_columns(l.state).rock_radius[far] = r;
+    weakened_columns(l.state).rock_area[far] = cell;
+    const double factor = enlargement(
+        0.75 * overburden(l.state, std::vector{static_cast<std::int32_t>(far)}, heavy)[0],
+        l.state.materials[weak]);
+    l.apply();
+    EXPECT_NEAR(weakened_columns(l.state).correction[far],
+                1.0 - 0.5 * (2.0 / 1.98 - 1.0) / (2.0 * factor), 1e-12);
 }
 
 TEST(PropertyUpdate, VolumeChangeIsThatOfThePowerCells) {
