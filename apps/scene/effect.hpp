@@ -43,6 +43,12 @@ struct FileParameter {
     void (*read)(Scene& scene, const std::string& file, const Refuse& refuse);
 };
 
+/// A key that an effect had once; a scene that has it is refused.
+struct FormerKey {
+    std::string_view key;
+    std::string_view instead; ///< "least_slip_m, the slip itself"
+};
+
 /// A rock whose file, named in [materials], holds defaults of the effect's parameters.
 struct RockSource {
     std::string_view key;  ///< in [materials]
@@ -133,12 +139,6 @@ struct PartAddress {
 
 struct Effect;
 using EffectList = std::span<const Effect* const>;
-
-/// A key that scene files used to have.
-struct FormerKey {
-    std::string_view key;
-    std::string_view instead; ///< what does it now
-};
 
 /// An effect: a table of the scene file and all that follows from its being there. What is null
 /// does not concern the effect.

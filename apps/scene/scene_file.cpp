@@ -181,15 +181,6 @@ std::vector<std::string_view> file_keys(const SceneTable& table) {
     return keys;
 }
 
-void refuse_former_keys(const SceneTable& table, const toml::table& document) {
-    if (table.effect)
-        for (const FormerKey& former : table.effect->former) {
-            const std::string path = fmt::format("{}.{}", table.name, former.key);
-            if (const toml::node* node = document.at_path(path).node())
-                fail({*node, path}, fmt::format("is no longer a key; {}", former.instead));
-        }
-}
-
 /// Parameters of a table that name files and are no part of a scene, of a FileName.
 std::vector<Parameter> file_names(const SceneTable& table) {
     std::vector<Parameter> names;
@@ -242,6 +233,15 @@ toml::table merged_document(const SceneRequest& request, const fs::path& path) {
     return document;
 }
 
+void refuse_former_keys(const toml::table& document, EffectList effects) {
+    for (const Effect* effect : effects)
+        for (const FormerKey& former : effect->former) {
+            const std::string path = fmt::format("{}.{}", effect->name, former.key);
+            if (const toml::node* node = document.at_path(path).node())
+                fail({*node, path}, fmt::format("is no key any more, use {}", former.instead));
+        }
+}
+
 /// Reads what stands above the tables, and puts in the tables that are there, with defaults.
 void begin_scene(Scene& scene, const toml::table& document, const std::vector<SceneTable>& all) {
     for (const auto& [key, node] : document) {
@@ -279,12 +279,11 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     const std::vector<SceneTable> all = scene_tables(effects);
     Scene scene;
     scene.name = path.stem().string();
+    refuse_former_keys(document, effects);
     begin_scene(scene, document, all);
     set_accuracy(scene);
     Rocks rocks(document, effects, path.parent_path());
     take_rocks(scene, rocks, effects);
-    for (const SceneTable& table : all)
-        refuse_former_keys(table, document);
     for (const SceneTable& table : all)
         if (const toml::node* node = document.get(table.name))
             read_table({*node, std::string(table.name)}, table.parameters, table.add(table, scene),

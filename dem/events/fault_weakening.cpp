@@ -2,31 +2,19 @@
 
 #include "dem/cells.hpp"
 #include "dem/contacts.hpp"
+#include "dem/events/measure_circle.hpp"
 #include "dem/events/weakened_discs.hpp"
 #include "dem/power_cell.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <utility>
 
 namespace listric::dem {
 
 namespace {
-
-/// A plane through a sampling point along which the two halves of the measure circle slid.
-struct FaultSegment {
-    Point centre;
-    double angle = 0.0; ///< of the plane against the x axis, rad, in [0, pi)
-    double slip = 0.0;  ///< displacement of the left half less the right half's, along it, m
-};
-
-/// Discs that the scan looks at, with their displacement since the last scan.
-struct Sample {
-    std::vector<std::int32_t> row;
-    std::vector<double> x, y, ux, uy; ///< m
-};
 
 /// Whether a disc is part of a rock: bonded to at least half of the discs that it touches.
 std::vector<bool> cemented(State& state) {
@@ -43,14 +31,16 @@ std::vector<bool> cemented(State& state) {
     return result;
 }
 
-Sample displacements(State& state, double youngest) {
+/// @param youngest  extension since the deposition of sediment that is looked at where it is
+///                  cemented, m; none: all discs are looked at
+Displacements displacements(State& state, std::optional<double> youngest) {
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
     const std::vector<bool> rock = cemented(state);
-    Sample s;
+    Displacements s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] > 0 && d.material[i] != weak &&
-            (!rock[i] || state.clock.extension - d.start_extension[i] < youngest))
+        if (youngest && d.stratum[i] > 0 && d.material[i] != weak &&
+            (!rock[i] || state.clock.extension - d.start_extension[i] < *youngest))
             continue;
         s.row.push_back(static_cast<std::int32_t>(i));
         s.x.push_back(d.x[i]);
@@ -61,35 +51,8 @@ Sample displacements(State& state, double youngest) {
     return s;
 }
 
-/// The most active plane through a point, from the discs of the circle around it.
-FaultSegment most_active_plane(const Sample& s, std::span<const std::int32_t> circle, Point centre,
-                               int angles) {
-    constexpr int fewest = 3; // discs on a side
-    FaultSegment best{centre};
-    for (int a = 0; a < angles; ++a) {
-        const double angle = pi * a / angles;
-        const double tx = std::cos(angle), ty = std::sin(angle);
-        double sum[2] = {0.0, 0.0};
-        int count[2] = {0, 0};
-        for (std::int32_t member : circle) {
-            const auto k = static_cast<std::size_t>(member);
-            const bool left = (s.y[k] - centre.y) * tx - (s.x[k] - centre.x) * ty > 0.0;
-            sum[left] += s.ux[k] * tx + s.uy[k] * ty;
-            ++count[left];
-        }
-        if (count[0] < fewest || count[1] < fewest)
-            continue;
-        const double slip = sum[1] / count[1] - sum[0] / count[0];
-        if (std::abs(slip) > std::abs(best.slip)) {
-            best.angle = angle;
-            best.slip = slip;
-        }
-    }
-    return best;
-}
-
 /// All planes more active than the threshold, the most active first.
-std::vector<FaultSegment> scan(const Sample& s, const Cells& cells, double circle_radius,
+std::vector<FaultSegment> scan(const Displacements& s, const Cells& cells, double diameter,
                                double spacing, double threshold, int angles) {
     std::vector<FaultSegment> found;
     if (s.x.empty())
@@ -100,24 +63,16 @@ std::vector<FaultSegment> scan(const Sample& s, const Cells& cells, double circl
     for (double x = left; x <= right; x += spacing)
         for (double y = bottom; y <= top; y += spacing) {
             circle.clear();
-            constexpr double infinity = std::numeric_limits<double>::infinity();
-            double low_x = infinity, high_x = -infinity, low_y = infinity, high_y = -infinity;
             cells.for_each_near(x, y, [&](std::int32_t member) {
                 const auto k = static_cast<std::size_t>(member);
-                if (std::hypot(s.x[k] - x, s.y[k] - y) > circle_radius)
-                    return;
-                circle.push_back(member);
-                low_x = std::min(low_x, s.ux[k]);
-                high_x = std::max(high_x, s.ux[k]);
-                low_y = std::min(low_y, s.uy[k]);
-                high_y = std::max(high_y, s.uy[k]);
+                if (std::hypot(s.x[k] - x, s.y[k] - y) <= 0.5 * diameter)
+                    circle.push_back(member);
             });
-            // The two halves cannot slide further than the discs differ.
-            if (circle.empty() || std::hypot(high_x - low_x, high_y - low_y) < threshold)
+            if (slip_bound(s, circle) <= threshold)
                 continue;
-            const FaultSegment segment = most_active_plane(s, circle, {x, y}, angles);
+            const FaultSegment segment = most_active_plane(s, circle, {x, y}, diameter, angles);
             if (std::abs(segment.slip) > threshold)
-                found.push_back(segment);
+                found.push_back(along_fault(s, circle, segment, angles));
         }
     std::ranges::stable_sort(found, std::ranges::greater{},
                              [](const FaultSegment& f) { return std::abs(f.slip); });
@@ -128,19 +83,101 @@ std::vector<FaultSegment> scan(const Sample& s, const Cells& cells, double circl
 std::vector<FaultSegment> thin_out(const std::vector<FaultSegment>& found, double distance) {
     std::vector<FaultSegment> kept;
     for (const FaultSegment& f : found)
-        if (std::ranges::none_of(kept, [&](const FaultSegment& k) {
-                return std::hypot(k.centre.x - f.centre.x, k.centre.y - f.centre.y) < distance;
-            }))
+        if (std::ranges::none_of(
+                kept, [&](const FaultSegment& k) { return norm(k.centre - f.centre) < distance; }))
             kept.push_back(f);
     return kept;
 }
 
+/// A stretch of a fault, to be weakened.
+struct Band {
+    Point from, to;
+};
+
+Band band_of(const FaultSegment& f, double length) {
+    const Point half{0.5 * length * std::cos(f.angle), 0.5 * length * std::sin(f.angle)};
+    return {f.centre - half, f.centre + half};
+}
+
+/// What scan and weakening measure with, m.
+struct Lengths {
+    double disc;   ///< mean diameter
+    double circle; ///< diameter
+    double gap;    ///< the widest that is closed
+    double width;  ///< of a band
+};
+
+/// Gaps between the bands of segments that lie on one line, to the step of the angles that were
+/// tried, where a plane of that line was found in the middle, too. Gaps shorter than a disc are
+/// none.
+std::vector<Band> gaps(const std::vector<FaultSegment>& kept,
+                       const std::vector<FaultSegment>& found, const Lengths& l, double step) {
+    std::vector<Band> result;
+    for (std::size_t a = 0; a < kept.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            const Point from = kept[a].centre, between = kept[b].centre - from;
+            const double gap = norm(between) - l.circle;
+            if (gap < l.disc || gap > l.gap)
+                continue;
+            const Point along = unit(between), middle = from + 0.5 * between;
+            const auto on_line = [&](const FaultSegment& f) {
+                return std::abs(cross(along, {std::cos(f.angle), std::sin(f.angle)})) <
+                       std::sin(1.01 * step);
+            };
+            if (on_line(kept[a]) && on_line(kept[b]) &&
+                std::ranges::any_of(found, [&](const FaultSegment& f) {
+                    return norm(f.centre - middle) < 0.5 * l.width && on_line(f);
+                }))
+                result.push_back({middle - 0.5 * gap * along, middle + 0.5 * gap * along});
+        }
+    return result;
+}
+
+/// Rows of the sound discs in a band; none where most of it is weak already: the slip is that of a
+/// fault known before, which would widen with every scan if the rest were weakened.
+std::vector<std::int32_t> sound_discs(const Displacements& s, const DiscColumns& d,
+                                      const Band& band, double width, double least_share) {
+    const Point along = unit(band.to - band.from);
+    const double length = norm(band.to - band.from);
+    double all = 0.0;
+    std::vector<std::int32_t> sound;
+    for (std::size_t k = 0; k < s.x.size(); ++k) {
+        const Point at = Point{s.x[k], s.y[k]} - band.from;
+        if (dot(along, at) < 0.0 || dot(along, at) > length ||
+            std::abs(cross(along, at)) >= 0.5 * width)
+            continue;
+        all += 1.0;
+        if (d.material[static_cast<std::size_t>(s.row[k])] != weak)
+            sound.push_back(s.row[k]);
+    }
+    if (static_cast<double>(sound.size()) < least_share * all)
+        sound.clear();
+    return sound;
+}
+
+/// Distance of the halves' centroids, m.
+double halves_apart(const FaultWeakeningParameters& p, double mean_diameter) {
+    return half_distance * p.circle_diameters * mean_diameter;
+}
+
 } // namespace
 
+double critical_slip(const FaultWeakeningParameters& p, double mean_diameter) {
+    return p.strain_rate > 0.0
+               ? p.strain_rate * p.interval * seconds_per_year * halves_apart(p, mean_diameter)
+               : p.least_slip;
+}
+
+double critical_rate(const FaultWeakeningParameters& p, double mean_diameter) {
+    return p.strain_rate > 0.0
+               ? p.strain_rate
+               : p.least_slip / (p.interval * seconds_per_year * halves_apart(p, mean_diameter));
+}
+
 FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, double extension_rate,
-                               double gravity, double density)
+                               double gravity)
     : Event("fault_weakening", {parameters.interval, extension_rate}), parameters_(parameters),
-      overburden_(gravity * density) {
+      gravity_(gravity) {
     for (const char* name : {"x_m", "y_m", "angle_rad", "slip_m", "found_at_m"})
         memory.add<double>(name, "", 0.0);
 }
@@ -150,52 +187,39 @@ void FaultWeakening::begin(State& state) { add_weakened_columns(state); }
 bool FaultWeakening::apply(State& state, const RigidBase& base) {
     const FaultWeakeningParameters& p = parameters_;
     const double diameter = 2.0 * state.mean_radius;
-    const double circle_radius = 0.5 * p.circle_diameters * diameter;
-    const double threshold =
-        p.strain_rate * schedule().seconds() * p.strained_width * p.circle_diameters * diameter;
-
+    const Lengths l{diameter, p.circle_diameters * diameter,
+                    p.sound_share * p.circle_diameters * diameter, p.band_diameters * diameter};
     // Discs that the last scan did not see have no displacement.
-    const Sample sample = displacements(state, std::max(p.youngest_sediment, 0.99 * p.interval) *
-                                                   schedule().extension_rate);
-    const Cells cells(sample.x, sample.y, circle_radius);
-    const std::vector<FaultSegment> faults =
-        thin_out(scan(sample, cells, circle_radius, 0.5 * diameter, threshold, p.angles),
-                 p.spacing_diameters * diameter);
+    const double youngest =
+        std::max(p.youngest_sediment, 0.99 * p.interval) * schedule().extension_rate;
+    const Displacements sample =
+        displacements(state, p.whole_domain ? std::nullopt : std::optional(youngest));
+    const std::vector<FaultSegment> found =
+        scan(sample, Cells(sample.x, sample.y, 0.5 * l.circle), l.circle, 0.5 * diameter,
+             critical_slip(p, diameter), p.angles);
+    const std::vector<FaultSegment> faults = thin_out(found, p.spacing_diameters * diameter);
+    std::vector<Band> bands = gaps(faults, found, l, pi / p.angles);
+    for (const FaultSegment& f : faults)
+        bands.push_back(band_of(f, l.circle));
 
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
     std::vector<std::int32_t> converted;
-    std::vector<std::int32_t> sound;
-    for (const FaultSegment& f : faults) {
-        const double tx = std::cos(f.angle), ty = std::sin(f.angle);
-        std::size_t band = 0;
-        sound.clear();
-        cells.for_each_near(f.centre.x, f.centre.y, [&](std::int32_t member) {
-            const auto k = static_cast<std::size_t>(member);
-            const double dx = sample.x[k] - f.centre.x, dy = sample.y[k] - f.centre.y;
-            if (std::hypot(dx, dy) >= circle_radius ||
-                std::abs(dy * tx - dx * ty) >= 0.5 * p.band_diameters * diameter)
-                return;
-            ++band;
-            if (d.material[static_cast<std::size_t>(sample.row[k])] != weak)
-                sound.push_back(sample.row[k]);
-        });
-        // Where most of the band is weak already, the slip is that of a fault known before. It
-        // would widen with every scan if the rest were weakened.
-        if (static_cast<double>(sound.size()) < p.sound_share * static_cast<double>(band))
-            continue;
-        for (std::int32_t row : sound)
-            d.material[static_cast<std::size_t>(row)] = weak;
-        converted.insert(converted.end(), sound.begin(), sound.end());
-    }
+    for (const Band& band : bands)
+        for (const std::int32_t row : sound_discs(sample, d, band, l.width, p.sound_share))
+            converted.push_back(row);
+    std::ranges::sort(converted);
+    converted.erase(std::ranges::unique(converted).begin(), converted.end());
+    for (const std::int32_t row : converted)
+        d.material[static_cast<std::size_t>(row)] = weak;
     const std::vector<PowerCell> before = power_cells(state, base, converted);
+    const std::vector<double> weight = overburden(state, converted, gravity_);
     for (std::size_t k = 0; k < converted.size(); ++k) {
         const auto i = static_cast<std::size_t>(converted[k]);
         w.rock_radius[i] = d.radius[i];
         w.rock_area[i] = before[k].closed ? before[k].area : 0.0;
         // Enlarged at once, a soft disc carries the load that the stiff one carried.
-        d.radius[i] *= enlargement(p.mean_stress_ratio * overburden_ * std::max(0.0, -d.y[i]),
-                                   state.materials[weak]);
+        d.radius[i] *= enlargement(p.mean_stress_ratio * weight[k], state.materials[weak]);
     }
     const ContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k)

@@ -8,25 +8,44 @@ namespace listric::dem {
 
 /// Automatic fault detection (AFD) and weakening [paper, Fig. 4c, d; Table 1].
 struct FaultWeakeningParameters {
-    double interval = 5.0e4;        ///< time between scans, Delta t_w, a
-    double strain_rate = 1.0e-13;   ///< least shear strain rate of a fault, 1/s
-    double circle_diameters = 5.0;  ///< measure circle's diameter, mean disc diameters
-    double strained_width = 0.6;    ///< width that the strain rate refers to, circle diameters
-    double spacing_diameters = 5.0; ///< least distance to a more active fault, mean diameters
+    double interval = 5.0e4; ///< time between scans, Delta t_w, a
+    /// Least slip of a fault between scans, d_cw, m: what the paper's 1e-13 per second makes in
+    /// 50,000 a in its circle of five mean diameters of 186 m. In metres, a fault is a fault for
+    /// discs of any size.
+    double least_slip = 62.0;
+    /// If not 0, what decides instead: the least shear strain rate in the measure circle, eps_cw,
+    /// 1/s. The slip that it stands for is in proportion to the disc size.
+    double strain_rate = 0.0;
+    double circle_diameters = 5.0; ///< measure circle's diameter, mean disc diameters
+    /// Least distance to a more active fault, mean diameters: five by the paper's text. Table 1 has
+    /// "5e3 m, about 5 r", that is half of it, if it is meant to be 5e2 m; but then the bands,
+    /// three diameters wide with their contacts, fill a zone of high strain side by side, which the
+    /// distance is there to prevent.
+    double spacing_diameters = 5.0;
     /// Width of the weakened band, mean diameters. With the contacts to both sides the shear zone
     /// is three diameters wide, which the paper found efficient.
     double band_diameters = 2.0;
     double sound_share = 0.7;         ///< least share of sound discs in a band that is weakened
     int angles = 12;                  ///< fault angles tried per sampling point
     double youngest_sediment = 2.0e5; ///< sediment younger than this is left alone, a
+    bool whole_domain = false;        ///< looks at young and loose sediment, too [paper]
     Material material{8.5e8, 3.19e8, 0.0, false}; ///< of weakened discs: MAT18-W, never bonded
     double update_interval = 2.5e3;               ///< time between property updates, a
-    double mean_stress_ratio = 0.75; ///< mean stress in a fault over lithostatic stress
+    double mean_stress_ratio = 0.75; ///< mean stress in a fault over the weight above it
     double largest_change = 0.05;    ///< largest relative radius change per property update
 };
 
+/// Slip above which a plane is a fault, for discs of that mean diameter, m.
+double critical_slip(const FaultWeakeningParameters& p, double mean_diameter);
+
+/// Shear strain rate above which a plane is a fault, 1/s.
+double critical_rate(const FaultWeakeningParameters& p, double mean_diameter);
+
 /// Scans the hanging wall with a measure circle for planes whose two sides slid past each other,
-/// and weakens the discs along the most active ones. Loose sediment is not looked at: it deforms
+/// and weakens the discs along the most active ones: a band as long as the circle at each, and the
+/// gap between the bands of two that lie on one line, if it slips as well. Bands that are mostly
+/// weak are known faults, hence the widest gap, `sound_share` times the circle, that neighbouring
+/// bands would leave for good. Loose sediment is not looked at unless asked for: it deforms
 /// everywhere [paper, Fig. 5], and its base would be taken for a fault.
 ///
 /// Its memory lists the fault segments found: centre x_m, y_m, dip direction angle_rad, slip_m of
@@ -34,14 +53,14 @@ struct FaultWeakeningParameters {
 class FaultWeakening : public Event {
 public:
     FaultWeakening(const FaultWeakeningParameters& parameters, double extension_rate,
-                   double gravity, double density);
+                   double gravity);
 
     void begin(State& state) override;
     bool apply(State& state, const RigidBase& base) override;
 
 private:
     FaultWeakeningParameters parameters_;
-    double overburden_; ///< weight of rock, N/m^3
+    double gravity_; ///< m/s^2
 };
 
 } // namespace listric::dem

@@ -9,18 +9,20 @@ namespace listric::dem {
 /// Adjusts radius and density of weakened discs, which interpenetrate under load, such that the
 /// volume of the rock and its mass are conserved [paper, "Enhanced DE models"].
 ///
-/// The radius follows the mean stress expected at the disc's depth; what that leaves of a change
-/// of volume, measured by power cells around the disc, is taken back step by step.
+/// The radius follows the mean stress expected below what lies above the disc; what that leaves of
+/// a change of volume, measured by power cells around the disc, is taken back step by step.
+/// Feedback from the disc's surroundings lags behind where a zone changes steadily, so that a
+/// common factor takes back the change of all zones together.
 class PropertyUpdate : public Event {
 public:
     PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,
-                   double gravity, double density);
+                   double gravity);
 
     bool apply(State& state, const RigidBase& base) override;
 
 private:
     FaultWeakeningParameters parameters_;
-    double overburden_;
+    double gravity_; ///< m/s^2
 };
 
 } // namespace listric::dem

@@ -3,6 +3,8 @@
 #include "dem/power_cell.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace listric::dem {
 
@@ -32,6 +34,40 @@ WeakenedColumns weakened_columns(State& state) {
 double enlargement(double mean_stress, const Material& weak_material) {
     const double q = std::max(0.0, mean_stress) / (0.5 * weak_material.normal_stiffness);
     return 1.0 + q / (1.0 + 0.42 * q);
+}
+
+std::vector<double> overburden(const State& state, std::span<const std::int32_t> rows,
+                               double gravity) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<double> weight;
+    if (rows.empty())
+        return weight;
+    const double fade = 5.0 * state.mean_radius;
+    std::vector<std::size_t> by_x(d.x.size());
+    std::iota(by_x.begin(), by_x.end(), std::size_t{0});
+    std::ranges::sort(by_x, [&](std::size_t a, std::size_t b) {
+        return d.x[a] != d.x[b] ? d.x[a] < d.x[b] : a < b;
+    });
+    const double left = d.x[by_x.front()] - state.mean_radius;
+    const double right = d.x[by_x.back()] + state.mean_radius;
+    // Width of the column on one side, if it ends at that distance.
+    const auto half_width = [&](double end) {
+        const double w = std::min(end, fade);
+        return w - 0.5 * w * w / fade;
+    };
+    for (const std::int32_t row : rows) {
+        const auto i = static_cast<std::size_t>(row);
+        double mass = 0.0;
+        for (auto at = std::ranges::lower_bound(by_x, d.x[i] - fade, {},
+                                                [&](std::size_t k) { return d.x[k]; });
+             at != by_x.end() && d.x[*at] < d.x[i] + fade; ++at) {
+            const double above =
+                std::clamp(0.5 + 0.5 * (d.y[*at] - d.y[i]) / d.radius[*at], 0.0, 1.0);
+            mass += above * d.mass[*at] * (1.0 - std::abs(d.x[*at] - d.x[i]) / fade);
+        }
+        weight.push_back(gravity * mass / (half_width(d.x[i] - left) + half_width(right - d.x[i])));
+    }
+    return weight;
 }
 
 double weakened_volume_change(const State& state, const RigidBase& base) {

@@ -28,6 +28,12 @@ WeakenedColumns weakened_columns(State& state);
 /// 1 + q / (1 + 0.42 q), q = mean stress over contact stiffness (fit to confined shear zones).
 double enlargement(double mean_stress, const Material& weak_material);
 
+/// Vertical stress at the centre of each disc of the rows from the weight of all that lies above
+/// it, rock and sediment, Pa: masses in a column that fades out over five mean radii to both sides,
+/// per width of it that is between the leftmost and the rightmost disc.
+std::vector<double> overburden(const State& state, std::span<const std::int32_t> rows,
+                               double gravity);
+
 /// Sum of power-cell areas of weakened discs less what it was before weakening, m^2.
 double weakened_volume_change(const State& state, const RigidBase& base);
 

@@ -18,7 +18,7 @@ namespace {
 
 using namespace support;
 
-constexpr double rate = 0.01, rock_density = 2600.0, width = 3e3, depth = 15e3;
+constexpr double rate = 0.01, width = 3e3, depth = 15e3;
 
 GenesisRequest request() {
     GenesisRequest r = packing_request(width, depth, 125.0);
@@ -58,11 +58,10 @@ struct Fault {
     double fastest_disc = 0.0; ///< so far, m/s
 
     explicit Fault(const FaultWeakeningParameters& p) {
-        FaultWeakening fault(p, rate, 9.81, rock_density);
+        FaultWeakening fault(p, rate, 9.81);
         fault.begin(state);
         // As if what lies above the plane had slid by twice the threshold.
-        const double threshold = p.strain_rate * fault.schedule().seconds() * p.strained_width *
-                                 p.circle_diameters * 2.0 * state.mean_radius;
+        const double threshold = critical_slip(p, 2.0 * state.mean_radius);
         const DiscColumns d = disc_columns(state);
         const auto scanned_x = state.discs.get<double>("scanned_x");
         for (std::size_t i = 0; i < d.x.size(); ++i)
@@ -74,7 +73,7 @@ struct Fault {
 
     /// Property updates, each 500 cycles after the last.
     void update(const FaultWeakeningParameters& p, int times) {
-        PropertyUpdate update(p, rate, 9.81, rock_density);
+        PropertyUpdate update(p, rate, 9.81);
         for (int n = 0; n < times; ++n) {
             if (update.apply(state, r.base))
                 find_contacts(state, r.base);

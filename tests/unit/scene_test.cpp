@@ -326,6 +326,12 @@ TEST_F(SceneTest, AParameterWithoutItsTableIsRecognised) {
                          "bond_healing.strain_rate_per_s?"));
 }
 
+TEST_F(SceneTest, AFormerKeyIsAnsweredWithItsSuccessor) {
+    EXPECT_EQ(set_error("fault_weakening.strained_width=0.3"),
+              "--set fault_weakening.strained_width=0.3: fault_weakening.strained_width: is no key "
+              "any more, use least_slip_m, the slip of a fault itself");
+}
+
 TEST_F(SceneTest, NamesLikeNoOtherAreAnsweredWithAllNames) {
     EXPECT_EQ(error(minimal + "[cycle]\ncolour = 'red'\n"),
               "scene.toml:5: cycle.colour: unknown key, allowed: damping, time_step_safety, "

@@ -301,8 +301,8 @@ const Effect& elastic_base() {
         .defaults = make_defaults<P>,
         .address = address_of<P>,
         .parameters = parameters(),
-        .former = {{"averaging_time_s", "give cycle.averaging_time_s, which all scenes have"},
-                   {"disc_damping", "give cycle.averaging_time_s, 0 for absolute"}},
+        .former = {{"averaging_time_s", "cycle.averaging_time_s, which all scenes have"},
+                   {"disc_damping", "cycle.averaging_time_s, 0 for absolute"}},
         .files = {{"mesh_file", "",
                    [](Scene& scene, const std::string& file, const Refuse&) {
                        scene.find<P>()->mesh_file = std::filesystem::absolute(file).string();

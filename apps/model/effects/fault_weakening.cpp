@@ -3,6 +3,8 @@
 #include "apps/scene/effect.hpp"
 #include "dem/events/property_update.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,20 +21,24 @@ std::vector<Parameter> parameters() {
     return {
         {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_w",
          "time between scans for faults"},
-        {"strain_rate_per_s", at<&P::strain_rate>, "1/s", ranges::strain_rate, "eps_cw",
-         "least shear strain rate of a fault"},
+        {"least_slip_m",
+         at<&P::least_slip>,
+         "m",
+         {.above = 0, .to = 1e5},
+         "d_cw",
+         "least slip of a fault between scans"},
+        {"strain_rate_per_s",
+         at<&P::strain_rate>,
+         "1/s",
+         {.from = 0, .to = ranges::strain_rate.to},
+         "eps_cw",
+         "if not 0, in place of the least slip: least shear strain rate in the measure circle"},
         {"circle_diameters",
          at<&P::circle_diameters>,
          "",
          {.from = 2, .to = 100},
          "",
          "diameter of the measure circle, in mean disc diameters"},
-        {"strained_width",
-         at<&P::strained_width>,
-         "",
-         {.above = 0, .to = 1},
-         "",
-         "width that the strain rate refers to, in circle diameters"},
         {"spacing_diameters",
          at<&P::spacing_diameters>,
          "",
@@ -63,6 +69,12 @@ std::vector<Parameter> parameters() {
          {.from = 0, .to = 1e9},
          "",
          "sediment younger than this is left alone, as loose sediment is"},
+        {"whole_domain",
+         one_of<&P::whole_domain>({"true", "false"}),
+         "",
+         {},
+         "",
+         "look at young and loose sediment, too"},
         {"normal_stiffness_pa", at<&P::material, &Material::normal_stiffness>, "Pa",
          ranges::stiffness, "k_n", "normal stiffness of one weakened disc"},
         {"shear_stiffness_pa", at<&P::material, &Material::shear_stiffness>, "Pa",
@@ -76,7 +88,7 @@ std::vector<Parameter> parameters() {
          "",
          {.above = 0, .to = 2},
          "",
-         "mean stress in a fault over lithostatic stress"},
+         "mean stress in a fault over the weight above it"},
         {"largest_change",
          at<&P::largest_change>,
          "",
@@ -90,13 +102,21 @@ std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts
                                      std::span<const StagedEvent>) {
     const P& p = *scene.find<P>();
     const double rate = scene.extension.rate, gravity = parts.physics.gravity;
-    const double density = scene.hanging_wall->rock_density;
     std::vector<StagedEvent> events;
-    events.push_back(
-        {EventStage::adjust, std::make_unique<dem::PropertyUpdate>(p, rate, gravity, density)});
-    events.push_back(
-        {EventStage::weaken, std::make_unique<dem::FaultWeakening>(p, rate, gravity, density)});
+    events.push_back({EventStage::adjust, std::make_unique<dem::PropertyUpdate>(p, rate, gravity)});
+    events.push_back({EventStage::weaken, std::make_unique<dem::FaultWeakening>(p, rate, gravity)});
     return events;
+}
+
+/// What is a fault, in metres and as a rate.
+std::string explain(const Scene& scene, EffectList) {
+    const P& p = *scene.find<P>();
+    const double diameter = 2.0 * scene.hanging_wall->mean_radius;
+    return fmt::format("fault detection\n"
+                       "  a fault slips by at least {:.3g} m in {:g} a: a shear strain rate of "
+                       "{:.2g}/s in its circle of {:.0f} m\n",
+                       dem::critical_slip(p, diameter), p.interval, dem::critical_rate(p, diameter),
+                       p.circle_diameters * diameter);
 }
 
 /// Share of weak discs, and how far weakening has changed the volume of rock.
@@ -128,6 +148,7 @@ const Effect& fault_weakening() {
         .defaults = make_defaults<P>,
         .address = address_of<P>,
         .parameters = parameters(),
+        .former = {{"strained_width", "least_slip_m, the slip of a fault itself"}},
         .rock =
             RockSource{
                 .key = "weakened",
@@ -146,6 +167,7 @@ const Effect& fault_weakening() {
                 parts.detection_circle = p.circle_diameters;
             },
         .make_events = make_events,
+        .explain = explain,
         .price =
             [](const Scene& scene, const Workload& work) {
                 const P& p = *scene.find<P>();

@@ -1,0 +1,171 @@
+#include "dem/events/measure_circle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace listric::dem {
+
+namespace {
+
+using Members = std::span<const std::int32_t>;
+
+constexpr int fewest = 3; ///< discs on a side of a cut
+
+/// |dX1|^2 + |dX2|^2 over dX1 x dX2 of usable halves: 2 in a full circle, infinite for discs in
+/// line.
+constexpr double most_elongated = 4.0;
+
+/// Sums over the discs of a part of the circle.
+struct Part {
+    double discs = 0.0;
+    Point place, displacement; ///< m
+
+    void add(Point at, Point u) {
+        discs += 1.0;
+        place = place + at;
+        displacement = displacement + u;
+    }
+};
+
+Part operator+(const Part& a, const Part& b) {
+    return {a.discs + b.discs, a.place + b.place, a.displacement + b.displacement};
+}
+
+/// Mean of one part less the mean of another.
+struct Difference {
+    Point place, displacement; ///< m
+
+    Difference(const Part& a, const Part& b)
+        : place((1.0 / a.discs) * a.place - (1.0 / b.discs) * b.place),
+          displacement((1.0 / a.discs) * a.displacement - (1.0 / b.discs) * b.displacement) {}
+};
+
+/// Slip of the plane along t, m, from the halves on both sides of it and of the plane across it.
+double slip_along(Point t, const Difference& sides, const Difference& ends, double diameter) {
+    const Point x1 = sides.place, x2 = ends.place;
+    const double area = cross(x1, x2);
+    if (dot(x1, x1) + dot(x2, x2) > most_elongated * std::abs(area))
+        return 0.0;
+    // H v, where v = a dX1 + b dX2
+    const auto gradient_along = [&](Point v) {
+        const double a = cross(v, x2) / area, b = cross(x1, v) / area;
+        return a * sides.displacement + b * ends.displacement;
+    };
+    const Point n{-t.y, t.x};
+    const double strain = dot(t, gradient_along(n)) + dot(n, gradient_along(t));
+    return strain * std::min(half_distance * diameter, std::sqrt(std::abs(area)));
+}
+
+/// Slip of two halves along a plane, besides a common translation and rotation.
+struct TwoBlocks {
+    double slip = 0.0;      ///< of the left half against the right one, m
+    double explained = 0.0; ///< sum of squared displacements less those that it leaves, m^2
+};
+
+TwoBlocks fit_two_blocks(const Displacements& s, Members circle, Point centre, double angle) {
+    const Point t{std::cos(angle), std::sin(angle)};
+    const auto side_of = [&](std::size_t k) {
+        return cross(t, Point{s.x[k], s.y[k]} - centre) > 0.0 ? 0.5 : -0.5;
+    };
+    Part all;
+    double sides = 0.0;
+    for (const std::int32_t member : circle) {
+        const auto k = static_cast<std::size_t>(member);
+        all.add(Point{s.x[k], s.y[k]} - centre, {s.ux[k], s.uy[k]});
+        sides += side_of(k);
+    }
+    // Least squares of u = rotation * r + slip * q, all less their means.
+    double rr = 0.0, rq = 0.0, qq = 0.0, ru = 0.0, qu = 0.0;
+    for (const std::int32_t member : circle) {
+        const auto k = static_cast<std::size_t>(member);
+        const Point dx = Point{s.x[k], s.y[k]} - centre - (1.0 / all.discs) * all.place;
+        const Point u = Point{s.ux[k], s.uy[k]} - (1.0 / all.discs) * all.displacement;
+        const Point r{-dx.y, dx.x}, q = (side_of(k) - sides / all.discs) * t;
+        rr += dot(r, r);
+        rq += dot(r, q);
+        qq += dot(q, q);
+        ru += dot(r, u);
+        qu += dot(q, u);
+    }
+    const double determinant = rr * qq - rq * rq;
+    return {(rr * qu - rq * ru) / determinant,
+            (qq * ru * ru - 2.0 * rq * ru * qu + rr * qu * qu) / determinant};
+}
+
+} // namespace
+
+FaultSegment most_active_plane(const Displacements& s, Members circle, Point centre,
+                               double diameter, int angles) {
+    FaultSegment best{centre};
+    for (int a = 0; 2 * a < angles; ++a) { // beyond a right angle are the conjugate planes
+        const double angle = pi * a / angles;
+        const Point t{std::cos(angle), std::sin(angle)};
+        Part quarter[2][2]; // [left of the plane][behind the centre]
+        for (const std::int32_t member : circle) {
+            const auto k = static_cast<std::size_t>(member);
+            const Point dx = Point{s.x[k], s.y[k]} - centre;
+            quarter[cross(t, dx) > 0.0][dot(t, dx) < 0.0].add(dx, {s.ux[k], s.uy[k]});
+        }
+        const Part left = quarter[1][0] + quarter[1][1], right = quarter[0][0] + quarter[0][1];
+        const Part behind = quarter[0][1] + quarter[1][1], ahead = quarter[0][0] + quarter[1][0];
+        if (std::min({left.discs, right.discs, behind.discs, ahead.discs}) < fewest)
+            continue;
+        const double slip = slip_along(t, {left, right}, {behind, ahead}, diameter);
+        if (std::abs(slip) > std::abs(best.slip)) {
+            best.angle = angle;
+            best.slip = slip;
+        }
+    }
+    return best;
+}
+
+FaultSegment along_fault(const Displacements& s, Members circle, const FaultSegment& f,
+                         int angles) {
+    FaultSegment along = f;
+    double most = 0.0;
+    for (int a = 0; a < angles; ++a) {
+        const double angle = pi * a / angles;
+        const TwoBlocks fit = fit_two_blocks(s, circle, f.centre, angle);
+        if (fit.explained > most) {
+            most = fit.explained;
+            along.angle = angle;
+            along.slip = std::copysign(f.slip, fit.slip);
+        }
+    }
+    return along;
+}
+
+double slip_bound(const Displacements& s, Members circle) {
+    if (circle.empty())
+        return 0.0;
+    Part all;
+    for (const std::int32_t member : circle) {
+        const auto k = static_cast<std::size_t>(member);
+        all.add({s.x[k], s.y[k]}, {s.ux[k], s.uy[k]});
+    }
+    const Point middle = (1.0 / all.discs) * all.place;
+    double turn = 0.0, inertia = 0.0;
+    for (const std::int32_t member : circle) {
+        const auto k = static_cast<std::size_t>(member);
+        const Point dx = Point{s.x[k], s.y[k]} - middle;
+        turn += cross(dx, {s.ux[k], s.uy[k]});
+        inertia += dot(dx, dx);
+    }
+    const double rotation = inertia > 0.0 ? turn / inertia : 0.0;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Point low{infinity, infinity}, high{-infinity, -infinity};
+    for (const std::int32_t member : circle) {
+        const auto k = static_cast<std::size_t>(member);
+        const Point dx = Point{s.x[k], s.y[k]} - middle;
+        const Point u = Point{s.ux[k], s.uy[k]} - rotation * Point{-dx.y, dx.x};
+        low = {std::min(low.x, u.x), std::min(low.y, u.y)};
+        high = {std::max(high.x, u.x), std::max(high.y, u.y)};
+    }
+    // With e = most_elongated, d this difference and A = dX1 x dX2: |a|, |b| of slip_along are
+    // |dX2| / A and |dX1| / A, so the strain is at most 2 d (|dX1| + |dX2|) / A and thus
+    // 2 d sqrt(2 e / A); the slip, at most sqrt(A) times as large, is at most 2 d sqrt(2 e).
+    return 2.0 * std::sqrt(2.0 * most_elongated) * norm(high - low);
+}
+
+} // namespace listric::dem
