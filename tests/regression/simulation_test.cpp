@@ -6,6 +6,7 @@
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/property_update.hpp"
+#include "dem/events/sediment_stress.hpp"
 #include "dem/events/sedimentation.hpp"
 #include "dem/events/strain.hpp"
 #include "dem/genesis.hpp"
@@ -33,10 +34,11 @@ std::uint64_t drive_lis1() {
 
     Simulation sandbox(base, physics);
     sandbox.add<Equilibrium>(2500.0, rate, physics.gravity);
-    sandbox.add<PropertyUpdate>(weakening, rate, physics.gravity, wall.rock_density);
+    sandbox.add<SedimentStress>(500.0, 25.0, rate, physics);
+    sandbox.add<PropertyUpdate>(weakening, rate, physics.gravity);
     sandbox.add<Compaction>(CompactionParameters{}, filling.surface_porosity, rate);
     sandbox.add<BondHealing>(BondHealingParameters{}, bonds, rate);
-    sandbox.add<FaultWeakening>(weakening, rate, physics.gravity, wall.rock_density);
+    sandbox.add<FaultWeakening>(weakening, rate, physics.gravity);
     sandbox.add<Sedimentation>(filling, wall.radius_ratio, rate);
     sandbox.add<Strain>(strain_window, rate);
 

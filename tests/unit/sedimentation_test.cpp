@@ -41,7 +41,7 @@ struct Basin {
 TEST(Sedimentation, WhatOthersRememberOfNewDiscsBeginsAtTheirPlaces) {
     Basin b;
     BondHealing({}, {}, rate).begin(b.state);
-    FaultWeakening({}, rate, 9.81, 2600.0).begin(b.state);
+    FaultWeakening({}, rate, 9.81).begin(b.state);
     for (double& y : disc_columns(b.state).y)
         y += 1.0; // after it was remembered
     ASSERT_TRUE(b.event.apply(b.state, b.base));
