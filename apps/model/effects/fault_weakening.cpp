@@ -21,11 +21,7 @@ std::vector<Parameter> parameters() {
     return {
         {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_w",
          "time between scans for faults"},
-        {"least_slip_m",
-         at<&P::least_slip>,
-         "m",
-         {.above = 0, .to = 1e5},
-         "d_cw",
+        {"least_slip_m", at<&P::least_slip>, "m", ranges::length, "d_cw",
          "least slip of a fault between scans"},
         {"strain_rate_per_s",
          at<&P::strain_rate>,
