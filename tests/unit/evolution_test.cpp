@@ -231,7 +231,7 @@ TEST(ReverseFaults, AboveTheKink) {
     setting.output_interval = 500.0;
     setting.youngest_sediment = weakening.youngest_sediment * setting.extension_rate;
     setting.detection_circle = weakening.circle_diameters;
-    auto detection = std::make_unique<FaultWeakening>(weakening, 0.01, 9.81, density);
+    auto detection = std::make_unique<FaultWeakening>(weakening, 0.01, 9.81);
     const double segments[4][5] = {// x, y, angle, slip, found at
                                    {middle.x, middle.y, 50.0, 90.0, 8e3},
                                    {middle.x + 2e3, middle.y, 50.0, -90.0, 8e3}, // normal
