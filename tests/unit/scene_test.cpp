@@ -334,8 +334,8 @@ TEST_F(SceneTest, AFormerKeyIsAnsweredWithItsSuccessor) {
 
 TEST_F(SceneTest, NamesLikeNoOtherAreAnsweredWithAllNames) {
     EXPECT_EQ(error(minimal + "[cycle]\ncolour = 'red'\n"),
-              "scene.toml:5: cycle.colour: unknown key, allowed: damping, time_step_safety, "
-              "inertial_mass_floor, skin");
+              "scene.toml:5: cycle.colour: unknown key, allowed: damping, averaging_time_s, "
+              "time_step_safety, inertial_mass_floor, skin");
     EXPECT_THAT(
         error(minimal + "[magnetism]\n"),
         AllOf(StartsWith("scene.toml:4: magnetism: unknown table, allowed: name, description, "),
