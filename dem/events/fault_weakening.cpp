@@ -37,6 +37,9 @@ Displacements displacements(State& state, std::optional<double> youngest) {
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
     const std::vector<bool> rock = cemented(state);
+    const bool compacts = state.discs.has("scanned_porosity");
+    const auto porosity = compacts ? state.discs.get<double>("porosity") : std::span<double>();
+    const auto before = compacts ? state.discs.get<double>("scanned_porosity") : porosity;
     Displacements s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (youngest && d.stratum[i] > 0 && d.material[i] != weak &&
@@ -47,6 +50,8 @@ Displacements displacements(State& state, std::optional<double> youngest) {
         s.y.push_back(d.y[i]);
         s.ux.push_back(d.x[i] - w.scanned_x[i]);
         s.uy.push_back(d.y[i] - w.scanned_y[i]);
+        if (compacts)
+            s.compaction.push_back((porosity[i] - before[i]) / (1.0 - porosity[i]));
     }
     return s;
 }
@@ -68,7 +73,7 @@ std::vector<FaultSegment> scan(const Displacements& s, const Cells& cells, doubl
                 if (std::hypot(s.x[k] - x, s.y[k] - y) <= 0.5 * diameter)
                     circle.push_back(member);
             });
-            if (slip_bound(s, circle) <= threshold)
+            if (slip_bound(s, circle, {x, y}) <= threshold)
                 continue;
             const FaultSegment segment = most_active_plane(s, circle, {x, y}, diameter, angles);
             if (std::abs(segment.slip) > threshold)
@@ -182,7 +187,11 @@ FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, doubl
         memory.add<double>(name, "", 0.0);
 }
 
-void FaultWeakening::begin(State& state) { add_weakened_columns(state); }
+void FaultWeakening::begin(State& state) {
+    add_weakened_columns(state);
+    if (state.discs.has("porosity"))
+        state.discs.add_like<double>("scanned_porosity", "1", "porosity");
+}
 
 bool FaultWeakening::apply(State& state, const RigidBase& base) {
     const FaultWeakeningParameters& p = parameters_;
@@ -242,6 +251,9 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
 
     std::ranges::copy(d.x, w.scanned_x.begin());
     std::ranges::copy(d.y, w.scanned_y.begin());
+    if (state.discs.has("scanned_porosity"))
+        std::ranges::copy(state.discs.get<double>("porosity"),
+                          state.discs.get<double>("scanned_porosity").begin());
     return true;
 }
 

@@ -32,6 +32,42 @@ Part operator+(const Part& a, const Part& b) {
     return {a.discs + b.discs, a.place + b.place, a.displacement + b.displacement};
 }
 
+/// The discs of a circle.
+class Circle {
+public:
+    Circle(const Displacements& s, Members members, Point centre)
+        : s_(s), members_(members), centre_(centre) {
+        if (s.compaction.empty() || members.empty())
+            return;
+        for (const std::int32_t member : members)
+            compaction_ += s.compaction[static_cast<std::size_t>(member)];
+        compaction_ /= static_cast<double>(members.size());
+    }
+
+    /// Calls visit(place, displacement) for every disc: the place from the centre, and the
+    /// displacement without compaction, m.
+    template <class Visit> void for_each(Visit&& visit) const {
+        for (const std::int32_t member : members_) {
+            const auto k = static_cast<std::size_t>(member);
+            const Point place = Point{s_.x[k], s_.y[k]} - centre_;
+            visit(place, Point{s_.ux[k], s_.uy[k] - compaction_ * place.y});
+        }
+    }
+
+    /// Sums over all of them.
+    Part all() const {
+        Part part;
+        for_each([&](Point place, Point u) { part.add(place, u); });
+        return part;
+    }
+
+private:
+    const Displacements& s_;
+    Members members_;
+    Point centre_;
+    double compaction_ = 0.0;
+};
+
 /// Mean of one part less the mean of another.
 struct Difference {
     Point place, displacement; ///< m
@@ -63,31 +99,24 @@ struct TwoBlocks {
     double explained = 0.0; ///< sum of squared displacements less those that it leaves, m^2
 };
 
-TwoBlocks fit_two_blocks(const Displacements& s, Members circle, Point centre, double angle) {
+TwoBlocks fit_two_blocks(const Circle& circle, double angle) {
     const Point t{std::cos(angle), std::sin(angle)};
-    const auto side_of = [&](std::size_t k) {
-        return cross(t, Point{s.x[k], s.y[k]} - centre) > 0.0 ? 0.5 : -0.5;
-    };
-    Part all;
+    const auto side_of = [&](Point place) { return cross(t, place) > 0.0 ? 0.5 : -0.5; };
+    const Part all = circle.all();
     double sides = 0.0;
-    for (const std::int32_t member : circle) {
-        const auto k = static_cast<std::size_t>(member);
-        all.add(Point{s.x[k], s.y[k]} - centre, {s.ux[k], s.uy[k]});
-        sides += side_of(k);
-    }
+    circle.for_each([&](Point place, Point) { sides += side_of(place); });
     // Least squares of u = rotation * r + slip * q, all less their means.
     double rr = 0.0, rq = 0.0, qq = 0.0, ru = 0.0, qu = 0.0;
-    for (const std::int32_t member : circle) {
-        const auto k = static_cast<std::size_t>(member);
-        const Point dx = Point{s.x[k], s.y[k]} - centre - (1.0 / all.discs) * all.place;
-        const Point u = Point{s.ux[k], s.uy[k]} - (1.0 / all.discs) * all.displacement;
-        const Point r{-dx.y, dx.x}, q = (side_of(k) - sides / all.discs) * t;
+    circle.for_each([&](Point place, Point displacement) {
+        const Point dx = place - (1.0 / all.discs) * all.place;
+        const Point u = displacement - (1.0 / all.discs) * all.displacement;
+        const Point r{-dx.y, dx.x}, q = (side_of(place) - sides / all.discs) * t;
         rr += dot(r, r);
         rq += dot(r, q);
         qq += dot(q, q);
         ru += dot(r, u);
         qu += dot(q, u);
-    }
+    });
     const double determinant = rr * qq - rq * rq;
     return {(rr * qu - rq * ru) / determinant,
             (qq * ru * ru - 2.0 * rq * ru * qu + rr * qu * qu) / determinant};
@@ -95,18 +124,17 @@ TwoBlocks fit_two_blocks(const Displacements& s, Members circle, Point centre, d
 
 } // namespace
 
-FaultSegment most_active_plane(const Displacements& s, Members circle, Point centre,
+FaultSegment most_active_plane(const Displacements& s, Members members, Point centre,
                                double diameter, int angles) {
+    const Circle circle(s, members, centre);
     FaultSegment best{centre};
     for (int a = 0; 2 * a < angles; ++a) { // beyond a right angle are the conjugate planes
         const double angle = pi * a / angles;
         const Point t{std::cos(angle), std::sin(angle)};
         Part quarter[2][2]; // [left of the plane][behind the centre]
-        for (const std::int32_t member : circle) {
-            const auto k = static_cast<std::size_t>(member);
-            const Point dx = Point{s.x[k], s.y[k]} - centre;
-            quarter[cross(t, dx) > 0.0][dot(t, dx) < 0.0].add(dx, {s.ux[k], s.uy[k]});
-        }
+        circle.for_each([&](Point place, Point u) {
+            quarter[cross(t, place) > 0.0][dot(t, place) < 0.0].add(place, u);
+        });
         const Part left = quarter[1][0] + quarter[1][1], right = quarter[0][0] + quarter[0][1];
         const Part behind = quarter[0][1] + quarter[1][1], ahead = quarter[0][0] + quarter[1][0];
         if (std::min({left.discs, right.discs, behind.discs, ahead.discs}) < fewest)
@@ -120,13 +148,14 @@ FaultSegment most_active_plane(const Displacements& s, Members circle, Point cen
     return best;
 }
 
-FaultSegment along_fault(const Displacements& s, Members circle, const FaultSegment& f,
+FaultSegment along_fault(const Displacements& s, Members members, const FaultSegment& f,
                          int angles) {
+    const Circle circle(s, members, f.centre);
     FaultSegment along = f;
     double most = 0.0;
     for (int a = 0; a < angles; ++a) {
         const double angle = pi * a / angles;
-        const TwoBlocks fit = fit_two_blocks(s, circle, f.centre, angle);
+        const TwoBlocks fit = fit_two_blocks(circle, angle);
         if (fit.explained > most) {
             most = fit.explained;
             along.angle = angle;
@@ -136,32 +165,26 @@ FaultSegment along_fault(const Displacements& s, Members circle, const FaultSegm
     return along;
 }
 
-double slip_bound(const Displacements& s, Members circle) {
-    if (circle.empty())
+double slip_bound(const Displacements& s, Members members, Point centre) {
+    const Circle circle(s, members, centre);
+    const Part all = circle.all();
+    if (all.discs == 0.0)
         return 0.0;
-    Part all;
-    for (const std::int32_t member : circle) {
-        const auto k = static_cast<std::size_t>(member);
-        all.add({s.x[k], s.y[k]}, {s.ux[k], s.uy[k]});
-    }
     const Point middle = (1.0 / all.discs) * all.place;
     double turn = 0.0, inertia = 0.0;
-    for (const std::int32_t member : circle) {
-        const auto k = static_cast<std::size_t>(member);
-        const Point dx = Point{s.x[k], s.y[k]} - middle;
-        turn += cross(dx, {s.ux[k], s.uy[k]});
-        inertia += dot(dx, dx);
-    }
+    circle.for_each([&](Point place, Point u) {
+        turn += cross(place - middle, u);
+        inertia += dot(place - middle, place - middle);
+    });
     const double rotation = inertia > 0.0 ? turn / inertia : 0.0;
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Point low{infinity, infinity}, high{-infinity, -infinity};
-    for (const std::int32_t member : circle) {
-        const auto k = static_cast<std::size_t>(member);
-        const Point dx = Point{s.x[k], s.y[k]} - middle;
-        const Point u = Point{s.ux[k], s.uy[k]} - rotation * Point{-dx.y, dx.x};
+    circle.for_each([&](Point place, Point displacement) {
+        const Point dx = place - middle;
+        const Point u = displacement - rotation * Point{-dx.y, dx.x};
         low = {std::min(low.x, u.x), std::min(low.y, u.y)};
         high = {std::max(high.x, u.x), std::max(high.y, u.y)};
-    }
+    });
     // With e = most_elongated, d this difference and A = dX1 x dX2: |a|, |b| of slip_along are
     // |dX2| / A and |dX1| / A, so the strain is at most 2 d (|dX1| + |dX2|) / A and thus
     // 2 d sqrt(2 e / A); the slip, at most sqrt(A) times as large, is at most 2 d sqrt(2 e).

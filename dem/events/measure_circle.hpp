@@ -16,6 +16,10 @@ inline constexpr double half_distance = 4.0 / (3.0 * pi);
 struct Displacements {
     std::vector<std::int32_t> row;
     std::vector<double> x, y, ux, uy; ///< m
+    /// Vertical strain by compaction since then, below 0; empty where nothing compacts. What a
+    /// buried column loses is no slip, though its strain is as large on planes that dip by 45
+    /// degrees; the mean of a circle is taken out.
+    std::vector<double> compaction;
 };
 
 /// A plane through a sampling point along which the two halves of the measure circle slid.
@@ -47,6 +51,6 @@ FaultSegment along_fault(const Displacements& s, std::span<const std::int32_t> c
                          const FaultSegment& f, int angles);
 
 /// No plane in the circle slips by more than this, m: what makes a search worth its while.
-double slip_bound(const Displacements& s, std::span<const std::int32_t> circle);
+double slip_bound(const Displacements& s, std::span<const std::int32_t> circle, Point centre);
 
 } // namespace listric::dem
