@@ -4,6 +4,7 @@
 #include "dem/material.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -44,7 +45,8 @@ struct State {
     double inertial_mass_floor = 0.0; ///< discs lighter than this move as if they had it, kg
     double skin = 0.0;                ///< margin of the neighbour list, m
     double searched_extension = 0.0;  ///< where the last search of all surfaces found them, m
-    double displacement_bound = 0.0;  ///< no disc or surface is further from where it was found, m
+    /// No disc or surface is further from where it was found, m; none has been looked for yet.
+    double displacement_bound = std::numeric_limits<double>::infinity();
     double window_speed = 0.0;        ///< greatest since that bound was last looked at, m/s
     std::int64_t look_interval = 1;   ///< cycles between looks at it, at multiples
 };
