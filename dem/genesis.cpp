@@ -145,6 +145,8 @@ State make_hanging_wall(const GenesisRequest& request,
     for (std::size_t i = 0; i < radius.size(); ++i)
         d.mass[i] = density * pi * radius[i] * radius[i];
     const CyclePhysics weightless{request.physics.damping, 0.0};
+    // Toward rest, against no mean motion.
+    const CyclePhysics physics{request.physics.damping, request.physics.gravity};
     scatter_and_expand(state, closed, radius, p.length, -p.thickness, lid, request.physics.damping,
                        report);
     sort_discs(state);
@@ -155,14 +157,14 @@ State make_hanging_wall(const GenesisRequest& request,
     // Pressure and gravity travel a layer of discs in a few cycles; settling takes many crossings.
     const int crossing = static_cast<int>(p.thickness / p.mean_radius);
     find_contacts(state, open);
-    settle(state, open, request.physics, 2.5e-3, 150 * crossing,
+    settle(state, open, physics, 2.5e-3, 150 * crossing,
            [&](double share) { report("settling under gravity", share); });
-    grow_floaters(state, open, request.physics, largest);
+    grow_floaters(state, open, physics, largest);
     trim(state, p.length);
     set_masses(state, p.rock_density, area);
     sort_discs(state);
     find_contacts(state, open);
-    settle(state, open, request.physics, 2.5e-3, 150 * crossing,
+    settle(state, open, physics, 2.5e-3, 150 * crossing,
            [&](double share) { report("second equilibrium", share); });
 
     state.materials = request.materials;

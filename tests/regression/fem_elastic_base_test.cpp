@@ -139,8 +139,8 @@ TEST_F(ElasticBaseRun, ThinningLowersTheBase) {
 }
 
 TEST_F(ElasticBaseRun, StopsWhereLinearElasticityEnds) {
-    const Scene soft =
-        load(loads.substr(0, loads.find("[footwall")), {"elastic_base.young_modulus_pa=1e8"});
+    const Scene soft = load(loads.substr(0, loads.find("[footwall")),
+                            {"elastic_base.young_modulus_pa=2e8", "elastic_base.relaxation=3"});
     try {
         run(soft, "soft");
         FAIL() << "a footwall of clay has carried it";

@@ -3,6 +3,7 @@
 // stable and that neither threads nor the kind of cycle change a bit.
 
 #include "dem/monitor.hpp"
+#include "dem/order_free.hpp"
 #include "tests/coupled_discs.hpp"
 
 #include <gtest/gtest.h>
@@ -42,13 +43,13 @@ TEST(ElasticBase, TransferKeepsForceMomentAndWork) {
 
 TEST(ElasticBase, NodesCollectTheReactionOfTheCycle) {
     Coupled coupled(soft);
-    coupled.state.clock.cycle = 1; // no check, which might list anew
+    coupled.state.clock.cycle = 1; // no look, which might list anew
     State before = coupled.state;
     coupled.go(0);
     advance(coupled.state, coupled.base, coupled.physics, 1, {1, Cycle::plain}, nullptr);
     double y = 0.0;
-    for (const double load : base_node_columns(coupled.state).load_y)
-        y += load;
+    for (const std::int64_t load : base_node_columns(coupled.state).load_y)
+        y += load_unit * static_cast<double>(load);
     // The forces of a cycle are those at its start; shear forces are those after it.
     for (std::size_t k = 0; k < before.base_contacts.rows(); ++k)
         base_contact_columns(before).shear_force[k] =
