@@ -47,8 +47,8 @@ struct State {
     double searched_extension = 0.0;  ///< where the last search of all surfaces found them, m
     /// No disc or surface is further from where it was found, m; none has been looked for yet.
     double displacement_bound = std::numeric_limits<double>::infinity();
-    double window_speed = 0.0;        ///< greatest since that bound was last looked at, m/s
-    std::int64_t look_interval = 1;   ///< cycles between looks at it, at multiples
+    double window_speed = 0.0;      ///< greatest since that bound was last looked at, m/s
+    std::int64_t look_interval = 1; ///< cycles between looks at it, at multiples
 };
 
 /// Columns that every disc has.

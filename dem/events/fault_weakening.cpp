@@ -217,7 +217,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
         for (const std::int32_t row : sound_discs(sample, d, band, l.width, p.sound_share))
             converted.push_back(row);
     std::ranges::sort(converted);
-    converted.erase(std::ranges::unique(converted).begin(), converted.end());
+    converted.erase(std::unique(converted.begin(), converted.end()), converted.end());
     for (const std::int32_t row : converted)
         d.material[static_cast<std::size_t>(row)] = weak;
     const std::vector<PowerCell> before = power_cells(state, base, converted);
