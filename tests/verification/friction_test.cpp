@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace listric {
 
 using namespace dem;
@@ -73,6 +75,20 @@ TEST_P(Friction, BlockSlides) {
     // Friction sets in at once and loads the front disc: undamped, the block then rocks and hops a
     // little, a hundredth of the way at most. A disc alone would turn by 1.6.
     EXPECT_NEAR(disc_columns(i.state).rotation[0], 0.0, 0.01 * 0.5 * a / r);
+}
+
+TEST_P(Friction, IsTheWallsOrTheSmallerOfWallAndDisc) {
+    const double dip = pi / 4.0, disc = 0.3;
+    for (const double wall : {0.5, 0.1})
+        for (const FrictionRule rule : {FrictionRule::wall, FrictionRule::smaller}) {
+            Incline i(dip, wall, true, GetParam());
+            i.state.materials[basement].friction = disc;
+            i.base.surfaces[0].friction_rule = rule;
+            i.run(seconds);
+            const double mu = rule == FrictionRule::wall ? wall : std::min(wall, disc);
+            const double a = g * (std::sin(dip) - mu * std::cos(dip));
+            EXPECT_NEAR(i.travelled(), 0.5 * a, 0.01 * 0.5 * a) << wall;
+        }
 }
 
 TEST_P(Friction, BlockStays) {
