@@ -7,17 +7,26 @@
 
 namespace listric::dem {
 
-GroundLevel::GroundLevel(const State& state) : width_(2.0 * state.mean_radius) {
+GroundLevel::GroundLevel(const State& state, double least_age) : width_(2.0 * state.mean_radius) {
     const ConstDiscColumns d = disc_columns(state);
-    assert(!d.x.empty() && width_ > 0.0);
-    const auto [left, right] = std::ranges::minmax(d.x);
-    left_ = left;
+    const auto counts = [&](std::size_t i) {
+        return d.stratum[i] == 0 || state.clock.extension - d.start_extension[i] >= least_age;
+    };
+    left_ = std::numeric_limits<double>::infinity();
+    double right = -left_;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (counts(i)) {
+            left_ = std::min(left_, d.x[i]);
+            right = std::max(right, d.x[i]);
+        }
+    assert(left_ <= right && width_ > 0.0);
     constexpr double nothing = -std::numeric_limits<double>::infinity();
-    std::vector<double> top(static_cast<std::size_t>((right - left) / width_) + 1, nothing);
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        double& t = top[static_cast<std::size_t>((d.x[i] - left) / width_)];
-        t = std::max(t, d.y[i] + d.radius[i]);
-    }
+    std::vector<double> top(static_cast<std::size_t>((right - left_) / width_) + 1, nothing);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (counts(i)) {
+            double& t = top[static_cast<std::size_t>((d.x[i] - left_) / width_)];
+            t = std::max(t, d.y[i] + d.radius[i]);
+        }
     heights_.resize(top.size());
     constexpr std::size_t reach = 2; // columns to either side
     for (std::size_t k = 0; k < top.size(); ++k) {

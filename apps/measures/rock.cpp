@@ -18,7 +18,8 @@ using namespace dem;
 
 namespace {
 
-/// A layer is buried under itself when it is laid down, and compacts over this extension, m.
+/// A layer compacts, and what is below it, over this extension after it was laid down, m. Until
+/// then it is left out, as it counts for no burial yet.
 constexpr double settling = 100.0;
 constexpr double porosity_tolerance = 0.02; ///< from which on porosity is off, relative
 
@@ -88,7 +89,7 @@ NamedNumbers measure_layering(const State& state, const TargetLine& surface) {
 
 NamedNumbers measure_porosity(const State& state, const Sediment& sediment) {
     const ConstDiscColumns d = disc_columns(state);
-    const GroundLevel ground(state);
+    const GroundLevel ground(state, settling);
     const bool weakens = state.discs.has("rock_radius");
     const auto rock_radius =
         weakens ? state.discs.get<double>("rock_radius") : std::span<const double>();

@@ -29,6 +29,7 @@ std::string type_of(const Parameter& parameter) {
         std::string operator()(const Place<std::optional<double>>&) const { return "number"; }
         std::string operator()(const Place<int>&) const { return "integer"; }
         std::string operator()(const Place<std::uint64_t>&) const { return "integer"; }
+        std::string operator()(const Place<bool>&) const { return "true or false"; }
         std::string operator()(const Place<std::string>&) const { return "string"; }
         std::string operator()(const Choice& choice) const {
             return fmt::format("one of \"{}\"", fmt::join(choice.names, "\", \""));

@@ -47,7 +47,7 @@ struct Choice {
 
 /// The value behind a parameter.
 using Value = std::variant<Place<double>, Place<std::optional<double>>, Place<int>,
-                           Place<std::uint64_t>, Place<std::string>, Choice,
+                           Place<std::uint64_t>, Place<bool>, Place<std::string>, Choice,
                            Place<std::vector<double>>, Place<std::vector<dem::DetachmentSegment>>,
                            Place<std::vector<dem::TargetStage>>, Place<std::vector<fem::Layer>>>;
 

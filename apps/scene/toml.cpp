@@ -123,6 +123,11 @@ struct Reader {
     }
     void operator()(const Place<int>& x) const { read_integer(x.reach(object)); }
     void operator()(const Place<std::uint64_t>& x) const { read_integer(x.reach(object)); }
+    void operator()(const Place<bool>& x) const {
+        if (!entry.node.is_boolean())
+            fail_type(entry, type_of(parameter));
+        x.reach(object) = entry.node.as_boolean()->get();
+    }
     void operator()(const Place<std::string>& x) const {
         x.reach(object) = string(entry, parameter);
     }
@@ -351,6 +356,7 @@ struct Writer {
     std::string operator()(const Place<std::uint64_t>& x) const {
         return fmt::format("{}", x.get(object));
     }
+    std::string operator()(const Place<bool>& x) const { return x.get(object) ? "true" : "false"; }
     std::string operator()(const Place<std::string>& x) const { return quoted(x.get(object)); }
     std::string operator()(const Choice& choice) const {
         return quoted(std::string(choice.get(object, choice.names)));

@@ -119,12 +119,12 @@ TEST(Laboratory, PureShearStretchesASlab) {
     request.healing_rates = {1e-15};
     run_laboratory(request);
     const auto s = summary(folder.path);
-    ASSERT_EQ(s["points"].size(), 2u); // the first is that of 62 m in a circle of this slab
+    ASSERT_EQ(s["points"].size(), 1u);
     EXPECT_NEAR(s["predicted_dip_deg"].get<double>(), 45.0 + 8.0, 6.0);
     // A slab that stretched evenly would have 0.1.
-    EXPECT_GT(s["points"][1]["strain_top10"]["mean"], 0.2);
-    EXPECT_GT(s["points"][1]["healed_share"]["mean"], 0.05);
-    EXPECT_LT(s["points"][1]["healed_share"]["mean"], 1.0);
+    EXPECT_GT(s["points"][0]["strain_top10"]["mean"], 0.2);
+    EXPECT_GT(s["points"][0]["healed_share"]["mean"], 0.05);
+    EXPECT_LT(s["points"][0]["healed_share"]["mean"], 1.0);
     EXPECT_TRUE(fs::exists(folder.path / "pure-shear.png"));
     const auto slab = folder.path / "slab-weakening-1e-13-healing-1e-15-seed-1";
     const auto made = fs::last_write_time(slab / "summary.json");

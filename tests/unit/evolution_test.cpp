@@ -118,7 +118,7 @@ TEST(Basins, OfTheDepthOfThePreRiftTop) {
 }
 
 /// Ten sediment discs 1 km deep; one of them has the porosity of a place twice as deep. The discs
-/// of the surface have just been laid down.
+/// of the surface are of basement; what was just laid down on them is no burial yet.
 TEST(Compaction, PorosityBesideThatOfTheDepth) {
     std::vector<Disc> discs = row(10, r);
     for (Disc& disc : discs)
@@ -126,6 +126,7 @@ TEST(Compaction, PorosityBesideThatOfTheDepth) {
     std::ranges::copy(row(10, r), std::back_inserter(discs));
     for (std::size_t i = 10; i < discs.size(); ++i)
         discs[i].y = -r;
+    discs.push_back({r, 5.0 * r, r});
     State state = make_state(discs);
     state.clock.extension = 500.0;
     const DiscColumns c = disc_columns(state);
@@ -133,8 +134,8 @@ TEST(Compaction, PorosityBesideThatOfTheDepth) {
         return 1300.0 * pi * r * r * (1.0 - 0.5 * std::exp(-4e-4 * depth)) / 0.5;
     };
     for (std::size_t i = 0; i < discs.size(); ++i) {
-        c.stratum[i] = 1;
-        c.start_extension[i] = i < 10 ? 0.0 : 500.0;
+        c.stratum[i] = i < 10 || i == 20 ? 1 : 0;
+        c.start_extension[i] = i == 20 ? 450.0 : 0.0;
         c.mass[i] = mass_of(i == 3 ? 2e3 + r : 1e3 + r);
     }
     Setting setting;

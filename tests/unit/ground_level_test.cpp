@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace listric {
 
 using namespace dem;
@@ -24,6 +26,20 @@ TEST(GroundLevel, OfLevelGroundAndOfASlope) {
     EXPECT_NEAR(flat.depth({500.0, -200.0}), 250.0, 1e-9);
     for (const double x : {1010.0, 2000.0, 2345.0}) // a column begins at its disc
         EXPECT_NEAR(steep.height(x + 50.0), 50.0 + 0.3 * x, 1e-9) << x;
+}
+
+TEST(GroundLevel, MayLeaveOutWhatWasLaidDownLately) {
+    std::vector<Disc> discs = row(40, 50.0);
+    for (const Disc& disc : row(42, 50.0))
+        discs.push_back({disc.x - 100.0, 100.0, 50.0});
+    State state = make_state(discs);
+    const DiscColumns d = disc_columns(state);
+    std::ranges::fill(d.stratum.subspan(40), 1);
+    std::ranges::fill(d.start_extension.subspan(40), 200.0);
+    state.clock.extension = 250.0;
+    EXPECT_NEAR(GroundLevel(state).height(777.0), 150.0, 1e-9);
+    EXPECT_NEAR(GroundLevel(state, 50.0).height(777.0), 150.0, 1e-9);
+    EXPECT_NEAR(GroundLevel(state, 51.0).height(777.0), 50.0, 1e-9);
 }
 
 TEST(GroundLevel, GoesOnWhereThereIsNoDisc) {

@@ -115,6 +115,7 @@ struct Bits {
     std::string operator()(const Place<std::uint64_t>& x) const {
         return std::to_string(x.get(object));
     }
+    std::string operator()(const Place<bool>& x) const { return std::to_string(x.get(object)); }
     std::string operator()(const Place<std::string>& x) const { return x.get(object); }
     std::string operator()(const Choice& x) const { return std::string(x.get(object, x.names)); }
     std::string operator()(const Place<std::vector<double>>& x) const {
@@ -324,6 +325,16 @@ TEST_F(SceneTest, AParameterWithoutItsTableIsRecognised) {
     EXPECT_THAT(set_error("strain_rate_per_s=1e-14"),
                 EndsWith("did you mean fault_weakening.strain_rate_per_s or "
                          "bond_healing.strain_rate_per_s?"));
+}
+
+TEST_F(SceneTest, ASwitchIsTrueOrFalse) {
+    EXPECT_THAT(
+        to_toml(load(minimal + "[gravity]\n[bonds]\n[fault_weakening]\nwhole_domain = true\n")),
+        HasSubstr("\nwhole_domain = true "));
+    EXPECT_EQ(set_error("fault_weakening.whole_domain=1"),
+              "--set fault_weakening.whole_domain=1: fault_weakening.whole_domain: wrong type "
+              "(integer 1), "
+              "allowed: true or false");
 }
 
 TEST_F(SceneTest, AFormerKeyIsAnsweredWithItsSuccessor) {
@@ -761,6 +772,10 @@ TEST_F(SceneTest, AwkwardNumbersReadBackTheSame) {
                     continue;
                 }
                 const double x = std::uniform_real_distribution(from, to)(random);
+                if (const auto* choice = std::get_if<Place<bool>>(&parameter.value)) {
+                    choice->reach(part) = random() % 2 == 0;
+                    continue;
+                }
                 if (const auto* number = std::get_if<Place<double>>(&parameter.value))
                     number->reach(part) = x / parameter.per_si;
                 else if (const auto* integer = std::get_if<Place<int>>(&parameter.value))

@@ -66,7 +66,7 @@ std::vector<Parameter> parameters() {
          "",
          "sediment younger than this is left alone, as loose sediment is"},
         {"whole_domain",
-         one_of<&P::whole_domain>({"true", "false"}),
+         at<&P::whole_domain>,
          "",
          {},
          "",
