@@ -5,8 +5,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <vector>
 
 namespace listric::dem {
+
+namespace {
+
+/// Rows of all discs by columns two mean diameters wide, each from the top down.
+struct Columns {
+    std::vector<std::int32_t> column, order; ///< by row; of rows
+
+    explicit Columns(const State& state) {
+        const ConstDiscColumns d = disc_columns(state);
+        const double left = std::ranges::min(d.x), width = 4.0 * state.mean_radius;
+        for (const double x : d.x)
+            column.push_back(static_cast<std::int32_t>((x - left) / width));
+        order.resize(column.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::ranges::sort(order, {}, [&](std::int32_t row) {
+            const auto i = static_cast<std::size_t>(row);
+            return std::tuple(column[i], -d.y[i], row);
+        });
+    }
+};
+
+/// What discs occupy of a column above a place, and what they will once they have compacted.
+struct Cover {
+    std::int32_t column = -1;
+    double now = 0.0, compacted = 0.0;
+
+    double kept() const { return now > 0.0 ? compacted / now : 1.0; }
+};
+
+} // namespace
 
 Compaction::Compaction(const CompactionParameters& parameters, double surface_porosity,
                        double extension_rate)
@@ -27,25 +62,28 @@ bool Compaction::apply(State& state, const RigidBase& base) {
     const auto rock_radius =
         weakening ? state.discs.get<double>("rock_radius") : std::span<double>{};
     const auto rock_area = weakening ? state.discs.get<double>("rock_area") : std::span<double>{};
-    const bool averages = state.discs.has("mean_vy");
-    const auto mean_vy = averages ? state.discs.get<float>("mean_vy") : std::span<float>{};
-    const Motion& motion = base.motion;
     const double extension = state.clock.extension;
     const double seconds =
-        motion.time_at(extension + schedule().spacing()) - motion.time_at(extension);
+        base.motion.time_at(extension + schedule().spacing()) - base.motion.time_at(extension);
     const GroundLevel ground(state);
+    const Columns columns(state);
+    Cover cover;
     std::ranges::fill(radius_rate, 0.0);
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] == 0)
-            continue;
-        const double sinks = averages ? -seconds * mean_vy[i] : 0.0;
-        const double depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}) + sinks);
+    for (const std::int32_t row : columns.order) {
+        const auto i = static_cast<std::size_t>(row);
+        if (columns.column[i] != cover.column)
+            cover = {.column = columns.column[i]};
+        const double depth = cover.kept() * std::max(0.0, ground.depth({d.x[i], d.y[i]}));
         const double wanted = surface_porosity_ * std::exp(-parameters_.coefficient * depth);
-        if (wanted >= porosity[i])
+        const double area = d.radius[i] * d.radius[i];
+        const bool shrinks = d.stratum[i] > 0 && wanted < porosity[i];
+        const double kept = shrinks ? (1.0 - porosity[i]) / (1.0 - wanted) : 1.0; // grains are kept
+        cover.now += area;
+        cover.compacted += kept * area;
+        if (!shrinks)
             continue;
-        // Of the radius; grains are kept.
         const double shrinkage =
-            std::max(std::sqrt((1.0 - porosity[i]) / (1.0 - wanted)), 1.0 - fastest * seconds);
+            std::max(std::sqrt(kept), 1.0 - fastest * seconds); // of the radius
         porosity[i] = 1.0 - (1.0 - porosity[i]) / (shrinkage * shrinkage);
         radius_rate[i] = (shrinkage - 1.0) * d.radius[i] / seconds;
         if (weakening) {

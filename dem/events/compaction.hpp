@@ -13,9 +13,12 @@ struct CompactionParameters {
 /// Lets sediment discs shrink as they are buried; mass is kept and uplift restores nothing.
 ///
 /// At once, discs would shrink by more than they overlap: contacts open, bonds break, and the
-/// column is held up by damping while it rings. So a disc shrinks a little in every cycle, and what
-/// its porosity will be at the next application is what its depth there will ask for, if it goes on
-/// sinking as it does. What is buried faster than discs may shrink follows as it can.
+/// column is held up by damping while it rings. So a disc shrinks a little in every cycle, to what
+/// its depth asks for, or as far as it may, by the next application.
+///
+/// A layer that is laid down at once buries discs by more than when it has compacted, and all above
+/// them with it. Nothing restores porosity, so it follows from the depth that a disc will have
+/// then: from the top down, its depth times the share of the discs above that compaction leaves.
 ///
 /// Columns of discs: `porosity`, what it will be at the next application; radius_rate,
 /// inertial_radius.
