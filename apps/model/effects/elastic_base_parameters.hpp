@@ -32,10 +32,10 @@ struct ElasticBaseParameters {
     fem::Solver solver = fem::Solver::mumps;
     int refinements = 0; ///< times that all elements are halved
     coupling::CouplingScheme scheme = coupling::CouplingScheme::modal;
-    int update_interval = 5;       ///< cycles
-    int modes = 100;               ///< 0: all
-    double mass_factor = 0.6;      ///< of the modes
-    double swing_damping = 0.1;    ///< of the modes with the discs, over critical
+    int update_interval = 5;    ///< cycles
+    int modes = 100;            ///< 0: all
+    double mass_factor = 0.6;   ///< of the modes
+    double swing_damping = 0.1; ///< of the modes with the discs, over critical
 };
 
 /// Those of a scene; null where its base does not bend.
