@@ -82,8 +82,8 @@ bool Compaction::apply(State& state, const RigidBase& base) {
         cover.compacted += kept * area;
         if (!shrinks)
             continue;
-        const double shrinkage =
-            std::max(std::sqrt(kept), 1.0 - fastest * seconds); // of the radius
+        const double shrinkage = // of the radius
+            std::max(std::sqrt(1.0 - approach * (1.0 - kept)), 1.0 - fastest * seconds);
         porosity[i] = 1.0 - (1.0 - porosity[i]) / (shrinkage * shrinkage);
         radius_rate[i] = (shrinkage - 1.0) * d.radius[i] / seconds;
         if (weakening) {

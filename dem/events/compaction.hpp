@@ -13,8 +13,8 @@ struct CompactionParameters {
 /// Lets sediment discs shrink as they are buried; mass is kept and uplift restores nothing.
 ///
 /// At once, discs would shrink by more than they overlap: contacts open, bonds break, and the
-/// column is held up by damping while it rings. So a disc shrinks a little in every cycle, to what
-/// its depth asks for, or as far as it may, by the next application.
+/// column is held up by damping while it rings. So a disc shrinks a little in every cycle, toward
+/// what its depth asks for.
 ///
 /// A layer that is laid down at once buries discs by more than when it has compacted, and all above
 /// them with it. Nothing restores porosity, so it follows from the depth that a disc will have
@@ -27,6 +27,10 @@ public:
     /// No disc shrinks faster than by this share of its radius, 1/s: overlaps of fresh sediment,
     /// which is buried by up to a layer when it is laid down, then last for some hundred cycles.
     static constexpr double fastest = 1e-3;
+    /// Share of what it has to lose that a disc loses by the next application. Nothing gives it
+    /// back, so neither a layer that is loose because it was just laid down nor a rough surface may
+    /// count at once.
+    static constexpr double approach = 0.25;
 
     Compaction(const CompactionParameters& parameters, double surface_porosity,
                double extension_rate);
