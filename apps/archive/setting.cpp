@@ -1,6 +1,5 @@
 #include "apps/archive/setting.hpp"
 
-#include "dem/events/sedimentation.hpp"
 #include "dem/units.hpp"
 
 #include <cassert>
@@ -21,9 +20,7 @@ measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
     setting.youngest_sediment = parts.youngest_sediment * scene.extension.rate;
     setting.detection_circle = parts.detection_circle;
     if (const auto& s = parts.sediment)
-        setting.sediment = {s->level, s->surface, s->surface_porosity,
-                            dem::disc_density({.surface_porosity = s->surface_porosity,
-                                               .grain_density = s->grain_density}),
+        setting.sediment = {s->level, s->surface, s->surface_porosity, s->disc_density,
                             s->porosity_decay};
     return setting;
 }

@@ -6,7 +6,6 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml.hpp"
 #include "dem/contacts.hpp"
-#include "dem/events/fault_weakening.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>
@@ -54,15 +53,13 @@ std::vector<std::string> assignments(const CriticalRates& rates) {
 }
 
 CriticalRates critical_rates(const Scene& scene) {
-    const auto* weakening = scene.find<FaultWeakeningParameters>();
-    assert(weakening);
     const toml::table document = toml::parse(to_toml(scene));
     const auto number = [&](std::string_view parameter) {
         const auto value = document.at_path(parameter).value<double>();
         assert(value);
         return *value;
     };
-    return {critical_rate(*weakening, 2.0 * scene.hanging_wall->mean_radius), number(healing_rate)};
+    return {number(weakening_rate), number(healing_rate)};
 }
 
 bool StretchedSlab::conjugate() const {

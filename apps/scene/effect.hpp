@@ -82,6 +82,7 @@ struct SedimentFacts {
     dem::Target surface{0.0};             ///< line that the surface is adapted to
     double surface_porosity = 0.0;        ///< as deposited
     double grain_density = 0.0;           ///< kg/m3
+    double disc_density = 0.0;            ///< as deposited, kg/m3
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
     double porosity_interval = 0.0;       ///< from change to change of porosity, a
 };

@@ -1,6 +1,6 @@
-// A cemented column at rest under a burial by 25 m: bonds break by what the column does, not by the
-// event. Bonds hold 20 kPa, some hundredths of a millimetre of gap; discs of 100 m overlap by up to
-// 0.3 m at 5 km and shrink by 0.4 m.
+// A cemented column at rest under a burial by 100 m: bonds break by what the column does, not by
+// the event. Bonds hold 20 kPa, some hundredths of a millimetre of gap; discs of 100 m overlap by
+// up to 0.3 m at 5 km and shrink by 0.4 m.
 
 #include "dem/cycle.hpp"
 #include "dem/events/compaction.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace support;
 
-constexpr double surface_porosity = 0.5, extension_rate = 0.01, buried_by = 25.0;
+constexpr double surface_porosity = 0.5, extension_rate = 0.01, buried_by = 100.0;
 
 struct Column {
     GenesisRequest request = packing_request(3e3, 5e3, 100.0);

@@ -116,6 +116,7 @@ const Effect& sedimentation() {
                                   dem::Target(p.level, p.target),
                                   p.surface_porosity,
                                   p.grain_density,
+                                  disc_density(p),
                                   {}};
             },
         .make_events = make_events,
