@@ -18,8 +18,8 @@ using namespace dem;
 
 namespace {
 
-/// A layer compacts, and what is below it, for two thirds in this extension after it was laid down,
-/// m. Until then it is left out, as it counts for no burial yet.
+/// A layer compacts, and what is below it, in this extension after it was laid down, m: in four
+/// looks of Compaction (its `approach`). Until then it is left out, as it counts for no burial yet.
 constexpr double settling = 100.0;
 constexpr double porosity_tolerance = 0.02; ///< from which on porosity is off, relative
 

@@ -29,8 +29,8 @@ public:
     static constexpr double fastest = 1e-3;
     /// Share of what it has to lose that a disc loses by the next application. Nothing gives it
     /// back, so neither a layer that is loose because it was just laid down nor a rough surface may
-    /// count at once.
-    static constexpr double approach = 0.25;
+    /// count at once; but the slower it is, the more do stiff columns carry of what is around them.
+    static constexpr double approach = 0.5;
 
     Compaction(const CompactionParameters& parameters, double surface_porosity,
                double extension_rate);
