@@ -47,7 +47,7 @@ TEST_F(RecordedHash, HoldsForTheAccountOfEnergy) {
     EXPECT_EQ(hash_of(2, false, {"energy={}"}), recorded("state_and_energy"));
 }
 
-// every-effect-begun is the folder of a run to 100 m by version 0.1.0+6b8f991, whose snapshot shall
+// every-effect-begun is the folder of a run to 100 m by version 0.1.0+e8998d0, whose snapshot shall
 // stay good: users resume by a newer program.
 TEST_F(RecordedHash, HoldsForARunThatAnEarlierVersionBegan) {
     RunOptions o = options("run");
