@@ -2,7 +2,6 @@
 
 #include "dem/fast_cycle.hpp"
 #include "dem/plain_cycle.hpp"
-#include "dem/simd.hpp"
 
 #include <cassert>
 
@@ -11,12 +10,10 @@ namespace listric::dem {
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
              const Execution& execution, BaseResponse* response) {
     assert(cycles >= 0 && execution.threads >= 1 && state.clock.time_step > 0.0);
-    const bool plain = execution.energy || execution.cycle == Cycle::plain ||
-                       (execution.cycle == Cycle::best && !has_wide_registers);
-    if (plain)
+    if (execution.energy || execution.cycle == Cycle::plain)
         advance_plainly(state, base, physics, cycles, response, execution.energy);
     else
-        advance_fast(state, base, physics, cycles, execution.threads, response);
+        advance_fast(state, base, physics, cycles, execution.threads, execution.cycle, response);
 }
 
 } // namespace listric::dem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base.hpp"
+#include "dem/cycle_choice.hpp"
 #include "dem/cycle_physics.hpp"
 #include "dem/energy.hpp"
 #include "dem/state.hpp"
@@ -9,14 +10,10 @@
 
 namespace listric::dem {
 
-/// The plain cycle is the scalar specification of the fast one; best is the fast one where the
-/// machine has the registers for it.
-enum class Cycle { best, plain, fast };
-
 /// How the cycle is computed; the result is the same to the last bit.
 struct Execution {
     int threads = 1;
-    Cycle cycle = Cycle::best;
+    Cycle cycle = best_cycle();
     /// Adds up energies, if given: then the cycle is the plain one, on one thread.
     EnergyFlows* energy = nullptr;
 };

@@ -11,9 +11,11 @@
 
 namespace listric::dem {
 
+using namespace fast;
+
 FastCycle::FastCycle(const State& state, const RigidBase& base, const CyclePhysics& physics,
-                     int threads)
-    : base_(base), physics_(physics), time_step_(state.clock.time_step) {
+                     int threads, Cycle level)
+    : level_(level), base_(base), physics_(physics), time_step_(state.clock.time_step) {
     const ConstDiscColumns d = disc_columns(state);
     disc_count_ = d.x.size();
     // Whole groups, and two discs far from everything for the idle lanes of a block.
@@ -24,8 +26,8 @@ FastCycle::FastCycle(const State& state, const RigidBase& base, const CyclePhysi
     discs_[padded + 1].place[0] = 1e30;
     const RadiusRates radii(state);
     for (std::size_t i = 0; i < disc_count_; ++i) {
-        discs_[i].place = Double4{d.x[i], d.y[i], d.rotation[i], d.radius[i]};
-        discs_[i].velocity = Double4{d.vx[i], d.vy[i], d.spin[i], radii[i]};
+        discs_[i] = {{d.x[i], d.y[i], d.rotation[i], d.radius[i]},
+                     {d.vx[i], d.vy[i], d.spin[i], radii[i]}};
         const double acceleration_per_force =
             time_step_ / std::max(d.mass[i], state.inertial_mass_floor);
         const double radius = radii.of_inertia(i, d.radius[i]);

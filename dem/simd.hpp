@@ -1,20 +1,7 @@
-#pragma once
-
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <limits>
-
-#if defined __SSE2__
-#include <immintrin.h>
-#endif
-
-namespace listric::dem {
-
 // Vectors of the compiler (gcc and clang). Every lane is computed as a scalar would be, so all
-// widths give the same bits. One source serves them: `Lanes` is the widest that the machine has in
-// one register. Only the square root and the test for any set lane need the machine's own names.
+// widths give the same bits. One source serves them: `Lanes` is the widest that LISTRIC_LEVEL has
+// in one register. Only the square root and the test for any set lane need the machine's own names.
+// Text for fast_cycle_level.hpp.
 using Double4 [[gnu::vector_size(32)]] = double;
 using Double8 [[gnu::vector_size(64)]] = double;
 using Float4 [[gnu::vector_size(16)]] = float;
@@ -22,7 +9,7 @@ using Float8 [[gnu::vector_size(32)]] = float;
 using Mask4 [[gnu::vector_size(32)]] = std::int64_t;
 using Mask8 [[gnu::vector_size(64)]] = std::int64_t;
 
-#if defined __AVX512F__
+#if LISTRIC_LEVEL >= 4
 using Lanes = Double8;
 using Mask = Mask8;
 using FloatLanes = Float8;
@@ -33,13 +20,6 @@ using FloatLanes = Float4;
 #endif
 inline constexpr int lane_count = sizeof(Lanes) / sizeof(double);
 
-/// Without AVX the compiler takes vectors apart, and the plain cycle is faster.
-#if defined __AVX__
-inline constexpr bool has_wide_registers = true;
-#else
-inline constexpr bool has_wide_registers = false;
-#endif
-
 inline Lanes load(const double* from) {
     Lanes v;
     std::memcpy(&v, from, sizeof v);
@@ -47,7 +27,7 @@ inline Lanes load(const double* from) {
 }
 
 inline Lanes load(const float* from) {
-#if defined __AVX512F__
+#if LISTRIC_LEVEL >= 4
     return reinterpret_cast<Lanes>(_mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from)));
 #else
     FloatLanes v;
@@ -59,9 +39,9 @@ inline Lanes load(const float* from) {
 inline void store(double* to, Lanes v) { std::memcpy(to, &v, sizeof v); }
 
 inline Lanes square_root(Lanes v) {
-#if defined __AVX512F__
+#if LISTRIC_LEVEL >= 4
     return reinterpret_cast<Lanes>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(v)));
-#elif defined __AVX__
+#elif LISTRIC_LEVEL >= 3
     return reinterpret_cast<Lanes>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(v)));
 #else
     for (int lane = 0; lane < lane_count; ++lane)
@@ -71,10 +51,10 @@ inline Lanes square_root(Lanes v) {
 }
 
 inline bool any(Mask mask) {
-#if defined __AVX512F__
+#if LISTRIC_LEVEL >= 4
     const auto bits = reinterpret_cast<__m512i>(mask);
     return _mm512_test_epi64_mask(bits, bits) != 0;
-#elif defined __AVX__
+#elif LISTRIC_LEVEL >= 3
     return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
 #else
     std::int64_t all = 0;
@@ -84,7 +64,7 @@ inline bool any(Mask mask) {
 #endif
 }
 
-#if defined __AVX512F__
+#if LISTRIC_LEVEL >= 4
 inline Double8 magnitude(Double8 v) {
     return reinterpret_cast<Double8>(reinterpret_cast<Mask8>(v) &
                                      std::numeric_limits<std::int64_t>::max());
@@ -100,12 +80,7 @@ inline Double4 magnitude(Double4 v) {
 // rows k and k + 4 share one, so that nothing moves between its halves; where four are, it holds
 // row k.
 
-/// Where the row of a lane lies among those of eight lanes, stored register by register.
-inline constexpr std::size_t stored_row(std::size_t lane) {
-    return lane_count == 8 ? 2 * (lane % 4) + lane / 4 : lane;
-}
-
-#if defined __AVX512F__
+#if LISTRIC_LEVEL >= 4
 
 /// Register k of the rows at numbers + places[lane]. The compiler would load two rows and shuffle.
 inline Double8 load_rows(const double* numbers, const std::uint32_t* places, int k) {
@@ -170,5 +145,3 @@ inline Lanes4 transpose(const Lanes4& r) {
     return {first_halves(even_ab, even_cd), first_halves(odd_ab, odd_cd),
             second_halves(even_ab, even_cd), second_halves(odd_ab, odd_cd)};
 }
-
-} // namespace listric::dem

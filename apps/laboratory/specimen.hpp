@@ -16,7 +16,7 @@ public:
     dem::State state;
     dem::RigidBase base;
     dem::CyclePhysics physics;
-    dem::Cycle cycle = dem::Cycle::best;
+    dem::Cycle cycle = dem::best_cycle();
     StopToken stop;
 
     /// Lets a surface go on with a velocity, m/s, from where it is.

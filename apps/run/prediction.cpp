@@ -46,7 +46,7 @@ CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool ac
     // Long enough that packing the state for the fast cycle does not count.
     const auto batch = std::max<std::int64_t>(5, 4'000'000 / static_cast<std::int64_t>(discs));
     EnergyFlows flows;
-    const Execution execution{threads, Cycle::best, accounted ? &flows : nullptr};
+    const Execution execution{threads, best_cycle(), accounted ? &flows : nullptr};
     advance(state, base, {}, batch / 4 + 1, execution);
     const auto start = SteadyClock::now();
     const std::clock_t cpu_start = std::clock(); // of all threads

@@ -72,7 +72,7 @@ double Session::target() const {
 }
 
 Execution Session::execution() const {
-    return {options_.threads, options_.plain ? Cycle::plain : Cycle::best};
+    return {options_.threads, options_.plain ? Cycle::plain : best_cycle()};
 }
 
 /// Condenses the footwall of a scene that has one.

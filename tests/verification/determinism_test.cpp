@@ -61,7 +61,7 @@ TEST(Determinism, NeitherThreadsNorRegistersMatter) {
     advance(plain.state, plain.base, physics, 1500, {1, Cycle::plain});
     for (int threads : {1, 2, 5}) {
         Fall fast;
-        advance(fast.state, fast.base, physics, 1500, {threads, Cycle::fast});
+        advance(fast.state, fast.base, physics, 1500, {threads, fast_cycle()});
         EXPECT_EQ(hash(fast.state), hash(plain.state)) << threads << " threads";
     }
 }

@@ -106,7 +106,7 @@ TEST(ElasticBase, HasTheSameBitsWithAnyThreadsAndInParts) {
         Coupled fast = settled(soft);
         fast.base.motion = {1.0, 1.0};
         for (const int part : {1, 3, 496, 2000}) // not multiples of the interval
-            fast.go(part, {threads, Cycle::fast});
+            fast.go(part, {threads, fast_cycle()});
         EXPECT_EQ(hash(fast.state), hash(plain.state)) << threads;
     }
     EXPECT_GT(plain.greatest_displacement(), 0.01);
@@ -117,7 +117,7 @@ TEST(ElasticBase, AbsoluteDampingHasTheSameBitsToo) {
     for (Coupled* c : {&plain, &fast})
         c->base.motion = {1.0, 1.0};
     plain.go(500, {1, Cycle::plain});
-    fast.go(500, {2, Cycle::fast});
+    fast.go(500, {2, fast_cycle()});
     EXPECT_EQ(hash(fast.state), hash(plain.state));
     EXPECT_FALSE(plain.state.discs.has("mean_vx"));
 }

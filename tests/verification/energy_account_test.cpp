@@ -273,7 +273,7 @@ TEST(EnergyAccount, ChangesNothing) {
     State plain = a.state, fast = a.state;
     a.pass(3000);
     advance(plain, a.base, a.physics, 3000, {1, Cycle::plain});
-    advance(fast, a.base, a.physics, 3000, {2, Cycle::fast});
+    advance(fast, a.base, a.physics, 3000, {2, fast_cycle()});
     EXPECT_EQ(hash(a.state), hash(plain));
     EXPECT_EQ(hash(a.state), hash(fast));
 }
@@ -284,7 +284,7 @@ TEST(EnergyAccount, ChangesNothingOnABaseThatDeforms) {
     a.response = &shaking;
     State fast = a.state;
     a.pass(3000);
-    advance(fast, a.base, a.physics, 3000, {2, Cycle::fast}, &shaking);
+    advance(fast, a.base, a.physics, 3000, {2, fast_cycle()}, &shaking);
     EXPECT_EQ(hash(a.state), hash(fast));
 }
 

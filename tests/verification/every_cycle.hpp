@@ -25,8 +25,8 @@ namespace support {
 class OnEveryCycle : public testing::TestWithParam<Execution> {};
 
 inline auto every_cycle() {
-    return testing::Values(Execution{1, Cycle::plain}, Execution{1, Cycle::fast},
-                           Execution{2, Cycle::fast});
+    return testing::Values(Execution{1, Cycle::plain}, Execution{1, fast_cycle()},
+                           Execution{2, fast_cycle()});
 }
 
 inline std::string cycle_name(const testing::TestParamInfo<Execution>& test) {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/cycle_choice.hpp"
+#include "dem/fast_cycle_records.hpp"
+
+#include <span>
+
+namespace listric::dem::fast {
+
+/// What the velocity of a disc is damped against; with or without a sample for the mean.
+enum class DampedAgainst { rest, mean_motion, mean_motion_sampled, stretching };
+
+/// What all strips share.
+struct Shared {
+    std::span<Disc> discs;
+    std::span<Inertia> inertia;
+    Slot* slots;
+    double time_step;
+    double damping;
+    double mean_share; ///< of a sample in the mean velocity
+};
+
+/// The inner loops, compiled for one level.
+struct Kernels {
+    void (*compute_boundary)(const Shared& shared, Strip& strip);
+    double (*sweep)(const Shared& shared, Strip& strip, Stretching thins);
+    double (*sampling_sweep)(const Shared& shared, Strip& strip,
+                             Stretching thins); ///< at every
+                                                ///< averaging_interval
+};
+
+/// The cycle is compiled for contacts with and without bonds and friction, and chosen when contacts
+/// are packed: bonds never form within a cycle.
+Kernels choose_kernels(Cycle level, bool bonded, bool frictional, DampedAgainst motion);
+
+} // namespace listric::dem::fast
