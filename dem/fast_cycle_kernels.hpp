@@ -25,9 +25,8 @@ struct Shared {
 struct Kernels {
     void (*compute_boundary)(const Shared& shared, Strip& strip);
     double (*sweep)(const Shared& shared, Strip& strip, Stretching thins);
-    double (*sampling_sweep)(const Shared& shared, Strip& strip,
-                             Stretching thins); ///< at every
-                                                ///< averaging_interval
+    /// At every averaging_interval.
+    double (*sampling_sweep)(const Shared& shared, Strip& strip, Stretching thins);
 };
 
 /// The cycle is compiled for contacts with and without bonds and friction, and chosen when contacts

@@ -209,7 +209,7 @@ template <bool bonded, bool frictional> Kernels kernels_of(DampedAgainst motion)
     return {boundary, any, any};
 }
 
-Kernels choose_kernels(bool bonded, bool frictional, DampedAgainst motion) {
+inline Kernels choose_kernels(bool bonded, bool frictional, DampedAgainst motion) {
     if (bonded)
         return frictional ? kernels_of<true, true>(motion) : kernels_of<true, false>(motion);
     return frictional ? kernels_of<false, true>(motion) : kernels_of<false, false>(motion);

@@ -27,6 +27,7 @@ struct SummaryContent {
     std::string scene = {}, accuracy = {}; ///< names
     std::uint64_t seed = 0;
     int threads = 1;
+    std::string cycle = {};  ///< name
     const dem::State& state; ///< at the end
     const RunRecord& record;
     const measures::Measures& measures;

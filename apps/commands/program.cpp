@@ -6,6 +6,7 @@
 #include "apps/support/log.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/version.hpp"
+#include "dem/cycle_choice.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -58,6 +59,15 @@ ExitCode call_or_advise(const Command& command) {
     }
 }
 
+/// Refuses a LISTRIC_CYCLE that cannot be run before anything is done.
+void require_cycle() {
+    try {
+        dem::best_cycle();
+    } catch (const std::invalid_argument& error) {
+        throw UsageError(error.what());
+    }
+}
+
 ExitCode dispatch(int argc, char** argv) {
     CLI::App app{"listric: a numerical sandbox for halfgrabens", "listric"};
     app.set_version_flag("--version", std::string(version));
@@ -75,6 +85,7 @@ ExitCode dispatch(int argc, char** argv) {
     }
     const auto called = std::ranges::find_if(
         commands, [](const Command& command) { return command.parser->parsed(); });
+    require_cycle();
     const ExitCode code = call_or_advise(*called);
     if (!std::cout.flush())
         throw StorageError("standard output cannot be written");

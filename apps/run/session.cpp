@@ -342,6 +342,7 @@ void Session::finish() {
                              .accuracy = scene_.accuracy,
                              .seed = scene_.seed,
                              .threads = options_.threads,
+                             .cycle = std::string(name(execution().cycle)),
                              .state = simulation_.state(),
                              .record = record_,
                              .measures = measures,

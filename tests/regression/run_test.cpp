@@ -103,7 +103,7 @@ json summary(const fs::path& output) { return json::parse(contents(output / "sum
 json results(const fs::path& output) {
     json all = summary(output);
     for (const char* name :
-         {"threads", "wall_s", "predicted_wall_s", "disc_steps_per_s", "time_by_part_s"})
+         {"threads", "cycle", "wall_s", "predicted_wall_s", "disc_steps_per_s", "time_by_part_s"})
         all.erase(name);
     return all;
 }
@@ -852,6 +852,7 @@ TEST_F(RunTest, TheSummaryHasEveryName) {
                              "accuracy",
                              "seed",
                              "threads",
+                             "cycle",
                              "discs",
                              "cycles",
                              "wall_s",
@@ -1043,13 +1044,29 @@ TEST_F(RunTest, BenchPrintsOneObject) {
     EXPECT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(ended.err, "");
     const json result = json::parse(ended.out);
-    EXPECT_THAT(result, SizeIs(6));
+    EXPECT_THAT(result, SizeIs(7));
     EXPECT_EQ(result["discs"], 6);
     EXPECT_EQ(result["contacts"], 9);
     EXPECT_EQ(result["steps"], 300);
     EXPECT_TRUE(result["threads"].is_number_integer());
     EXPECT_GT(result["disc_steps_per_s"].get<double>(), 0.0);
     EXPECT_GT(result["disc_steps_per_cpu_s"].get<double>(), 0.0);
+}
+
+TEST_F(RunTest, TheEnvironmentNamesTheCycle) {
+    const auto bench_with = [&](std::string_view cycle) {
+        return call({"bench", "--discs", "10", "--steps", "1"},
+                    [=] { setenv("LISTRIC_CYCLE", std::string(cycle).c_str(), 1); });
+    };
+    for (const Cycle cycle : cycles()) {
+        const Ended ended = bench_with(name(cycle));
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        EXPECT_EQ(json::parse(ended.out)["cycle"], name(cycle));
+    }
+    const Ended ended = bench_with("v5");
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("LISTRIC_CYCLE: this processor has no cycle 'v5'; "
+                                     "there are plain, baseline"));
 }
 
 TEST_F(RunTest, BenchNamesTheLineOfAMalformedPacking) {

@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""A program for any x86-64 processor has instructions beyond SSE2 only in what is compiled for a
+level (dem/fast_cycle_kernels.cpp) and called on processors that have it; and fused multiply-add,
+whose results differ, nowhere.
+
+    python3 tests/checks/instructions.py PROGRAM      prints the violations
+"""
+
+import re
+import subprocess
+import sys
+
+from source_tree import report
+
+LEVEL = re.compile(r"\blistric::dem::fast::v[34]::")
+FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
+INSTRUCTION = re.compile(r"^ +[0-9a-f]+:\t(?:(?:bnd|data16|lock|notrack|rep|repz|repnz|cs|ds) )*(\w+)")
+# AVX and AVX-512, whose names begin with v or work on masks (k); BMI, and what came with it.
+BEYOND_SSE2 = re.compile(r"v(?!err|erw|mcall|mlaunch)|k(?:add|and|mov|not|or|shift|test|unpck|xn?or)"
+                         r"|andn(?!p)|bextr|bls|bzhi|mulx|pdep|pext|rorx|sarx|shlx|shrx|movbe|lzcnt|tzcnt"
+                         r"|popcnt|crc32|p?blendv|round[sp][sd]|dpp[sd]|pshufb|haddp|pcmpeqq")
+FUSED = re.compile(r"vfn?m(?:add|sub)")
+
+
+def violations(disassembly):
+    """One line for every function of `objdump -d -C` with an instruction that it must not have."""
+    found, function = {}, ""
+    for line in disassembly:
+        if head := FUNCTION.match(line):
+            function = head[1]
+        elif instruction := INSTRUCTION.match(line):
+            name = instruction[1]
+            if FUSED.match(name) or (BEYOND_SSE2.match(name) and not LEVEL.search(function)):
+                found.setdefault(function, name)
+    return [f"{function}: {name}" for function, name in found.items()]
+
+
+if __name__ == "__main__":
+    with subprocess.Popen(["objdump", "-d", "-C", "--no-show-raw-insn", sys.argv[1]], text=True,
+                          stdout=subprocess.PIPE) as objdump:
+        sys.exit(report(violations(objdump.stdout)))

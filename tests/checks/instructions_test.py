@@ -1,0 +1,38 @@
+import unittest
+
+from instructions import violations
+
+
+def disassembly(function, *instructions):
+    return [f"0000000000402f10 <{function}>:", *(f"  402f1{k}:\t{text}"
+                                                 for k, text in enumerate(instructions)), ""]
+
+
+class PlantedViolations(unittest.TestCase):
+    def test_what_every_processor_has(self):
+        self.assertEqual(violations(disassembly(
+            "std::vector<double>::size() const", "movsd  (%rdi),%xmm0", "verr   %ax",
+            "rep stos %al,%es:(%rdi)", "sqrtpd %xmm0,%xmm0", "call   402f10 <vmovd>")), [])
+
+    def test_a_level(self):
+        self.assertEqual(violations(disassembly(
+            "double listric::dem::fast::v4::(anonymous namespace)::sweep<true>(Strip&)",
+            "vmulpd %zmm0,%zmm1,%zmm2", "kmovb  %k1,%eax", "shlx   %rax,%rbx,%rcx")), [])
+
+    def test_a_template_that_a_level_compiled_for_all(self):
+        for instruction in ("vmovsd (%rdi),%xmm0", "kmovb  %k1,%eax", "bzhi   %rax,%rbx,%rcx",
+                            "lock popcnt %rax,%rbx"):
+            self.assertEqual(violations(disassembly(
+                "listric::dem::fast::baseline::(anonymous namespace)::sweep(Strip&)", "ret",
+                instruction)),
+                ["listric::dem::fast::baseline::(anonymous namespace)::sweep(Strip&): "
+                 + instruction.split()[-2]])
+
+    def test_fused_multiply_add(self):
+        name = "listric::dem::fast::v4::(anonymous namespace)::sweep(Strip&)"
+        self.assertEqual(violations(disassembly(name, "vfmadd231pd %zmm0,%zmm1,%zmm2")),
+                         [f"{name}: vfmadd231pd"])
+
+
+if __name__ == "__main__":
+    unittest.main()
