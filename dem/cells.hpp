@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dem/shared_loop.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -28,10 +30,12 @@ public:
         rows_ = static_cast<std::int64_t>((top - bottom) / width_) + 1;
         begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
         std::vector<std::int32_t> cell(x.size());
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            cell[i] = static_cast<std::int32_t>(column(x[i]) * rows_ + row(y[i]));
-            ++begin_[static_cast<std::size_t>(cell[i]) + 1];
-        }
+        in_pieces(x.size(), 8192, [&](std::size_t i, std::size_t end) {
+            for (; i < end; ++i)
+                cell[i] = static_cast<std::int32_t>(column(x[i]) * rows_ + row(y[i]));
+        });
+        for (const std::int32_t c : cell)
+            ++begin_[static_cast<std::size_t>(c) + 1];
         for (std::size_t c = 1; c < begin_.size(); ++c)
             begin_[c] += begin_[c - 1];
         discs_.resize(x.size());

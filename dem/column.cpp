@@ -1,5 +1,7 @@
 #include "dem/column.hpp"
 
+#include "dem/shared_loop.hpp"
+
 #include <algorithm>
 #include <cassert>
 
@@ -53,15 +55,18 @@ void Table::reorder(std::span<const std::int32_t> order) {
     assert(std::ranges::all_of(order, [&](std::int32_t row) {
         return row >= 0 && static_cast<std::size_t>(row) < rows_;
     }));
-    for (Column& column : columns_)
-        std::visit(
-            [&](auto& values) {
-                std::decay_t<decltype(values)> moved(order.size());
-                for (std::size_t k = 0; k < order.size(); ++k)
-                    moved[k] = values[static_cast<std::size_t>(order[k])];
-                values = std::move(moved);
-            },
-            column.values);
+    const std::size_t worth = 1 + 20000 / (order.size() + 1); // columns
+    in_pieces(columns_.size(), worth, [&](std::size_t column, std::size_t end) {
+        for (; column < end; ++column)
+            std::visit(
+                [&](auto& values) {
+                    std::decay_t<decltype(values)> moved(order.size());
+                    for (std::size_t k = 0; k < order.size(); ++k)
+                        moved[k] = values[static_cast<std::size_t>(order[k])];
+                    values = std::move(moved);
+                },
+                columns_[column].values);
+    });
     rows_ = order.size();
 }
 

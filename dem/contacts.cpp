@@ -3,6 +3,7 @@
 #include "dem/base_place.hpp"
 #include "dem/cells.hpp"
 #include "dem/order_free.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,45 +32,56 @@ Searched all_discs(const State& state) {
     return searched;
 }
 
-/// Gives a table the rows of `kept` (rows that stay, in order) and `found` (sorted pairs), sorted
-/// by pair. A found pair that was listed before keeps its columns, others start afresh. Returns
+/// What a table is merged to: the former row that each row has, and the pairs that are new.
+struct Merged {
+    std::vector<std::int32_t> rows;
+    std::vector<Pair> added;
+};
+
+/// Gives a table the rows that stay, as keeps(row) says, and `found` (sorted pairs), sorted by
+/// pair. A found pair that was listed before keeps its columns, others start afresh. Returns
 /// whether anything changed.
 template <class Keeps>
 bool merge(Table& table, const char* first_name, const char* second_name,
            std::span<const Pair> found, Keeps&& keeps) {
     const auto first = table.get<std::int32_t>(first_name);
     const auto second = table.get<std::int32_t>(second_name);
-    const auto old_rows = static_cast<std::int32_t>(first.size());
-    std::vector<std::int32_t> inherited;
-    std::vector<Pair> added;
-    inherited.reserve(first.size() + found.size());
-    auto next = found.begin();
-    const auto add = [&] {
-        inherited.push_back(old_rows); // a row of initial values, appended below
-        added.push_back(*next++);
-    };
-    for (std::int32_t row = 0; row < old_rows; ++row) {
-        const auto k = static_cast<std::size_t>(row);
-        const Pair pair{first[k], second[k]};
-        while (next != found.end() && *next < pair)
+    const auto pair_of = [&](std::size_t k) { return Pair{first[k], second[k]}; };
+    const auto new_row = static_cast<std::int32_t>(first.size()); // initial values, appended below
+    auto pieces = by_piece(first.size(), 4096, [&](std::size_t row, std::size_t end) {
+        Merged merged;
+        auto next = row == 0 ? found.begin() : std::ranges::lower_bound(found, pair_of(row));
+        const auto last =
+            end == first.size() ? found.end() : std::ranges::lower_bound(found, pair_of(end));
+        const auto add = [&] {
+            merged.rows.push_back(new_row);
+            merged.added.push_back(*next++);
+        };
+        merged.rows.reserve(end - row + static_cast<std::size_t>(last - next));
+        for (; row < end; ++row) {
+            while (next != last && *next < pair_of(row))
+                add();
+            const bool again = next != last && *next == pair_of(row);
+            if (again)
+                ++next;
+            if (again || keeps(row))
+                merged.rows.push_back(static_cast<std::int32_t>(row));
+        }
+        while (next != last)
             add();
-        const bool again = next != found.end() && *next == pair;
-        if (again)
-            ++next;
-        if (again || keeps(k))
-            inherited.push_back(row);
-    }
-    while (next != found.end())
-        add();
-    if (added.empty() && inherited.size() == first.size())
+        return merged;
+    });
+    const std::vector<Pair> added = joined(std::span(pieces), &Merged::added);
+    const std::vector<std::int32_t> rows = joined(std::span(pieces), &Merged::rows);
+    if (added.empty() && rows.size() == first.size())
         return false;
     table.resize(first.size() + 1);
-    table.reorder(inherited);
+    table.reorder(rows);
     const auto new_first = table.get<std::int32_t>(first_name);
     const auto new_second = table.get<std::int32_t>(second_name);
     auto pair = added.begin();
-    for (std::size_t k = 0; k < inherited.size(); ++k)
-        if (inherited[k] == old_rows) {
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        if (rows[k] == new_row) {
             new_first[k] = pair->first;
             new_second[k] = pair->second;
             ++pair;
@@ -83,27 +95,32 @@ bool find_disc_contacts(State& state, const Searched& searched) {
     const Cells cells(d.searched_x, d.searched_y, 2.0 * largest + state.skin);
     const bool all = searched.rows.size() == d.x.size();
 
-    std::vector<Pair> found;
-    found.reserve(4 * searched.rows.size());
-    for (const std::int32_t row : searched.rows) {
-        const auto i = static_cast<std::size_t>(row);
-        const auto pairs_before = static_cast<std::ptrdiff_t>(found.size());
-        cells.for_each_near(d.searched_x[i], d.searched_y[i], [&](std::int32_t candidate) {
-            const auto j = static_cast<std::size_t>(candidate);
-            // Of two searched discs, the first finds the pair.
-            if (j == i || (j < i && searched.flags[j]))
-                return;
-            const double dx = d.searched_x[j] - d.searched_x[i];
-            const double dy = d.searched_y[j] - d.searched_y[i];
-            const double reach = d.radius[i] + d.radius[j] + state.skin;
-            if (dx * dx + dy * dy < reach * reach)
-                found.push_back({std::min(row, candidate), std::max(row, candidate)});
-        });
-        if (all)
-            std::sort(found.begin() + pairs_before, found.end());
-    }
+    const auto find = [&](std::size_t k, std::size_t end) {
+        std::vector<Pair> found;
+        found.reserve(4 * (end - k));
+        for (; k < end; ++k) {
+            const std::int32_t row = searched.rows[k];
+            const auto i = static_cast<std::size_t>(row);
+            const auto pairs_before = static_cast<std::ptrdiff_t>(found.size());
+            cells.for_each_near(d.searched_x[i], d.searched_y[i], [&](std::int32_t candidate) {
+                const auto j = static_cast<std::size_t>(candidate);
+                // Of two searched discs, the first finds the pair.
+                if (j == i || (j < i && searched.flags[j]))
+                    return;
+                const double dx = d.searched_x[j] - d.searched_x[i];
+                const double dy = d.searched_y[j] - d.searched_y[i];
+                const double reach = d.radius[i] + d.radius[j] + state.skin;
+                if (dx * dx + dy * dy < reach * reach)
+                    found.push_back({std::min(row, candidate), std::max(row, candidate)});
+            });
+            if (all)
+                std::sort(found.begin() + pairs_before, found.end());
+        }
+        return found;
+    };
+    std::vector<Pair> found = joined(by_piece(searched.rows.size(), 512, find));
     if (!all)
-        std::ranges::sort(found);
+        sort_shared(std::span(found), std::less{});
     const ConstContactColumns c = contact_columns(std::as_const(state));
     return merge(state.contacts, "first", "second", found, [&](std::size_t k) {
         return c.bonded[k] || !(searched.flags[static_cast<std::size_t>(c.first[k])] ||
@@ -116,21 +133,27 @@ bool find_base_contacts(State& state, const RigidBase& base, const Searched& sea
     const BasePlace place = searched_base_place(state);
     // The rigid chain is found faster than the deformed wall, and rules out most discs.
     const double displacement = 1.1 * greatest_node_displacement(place);
-    std::vector<Pair> found;
-    for (const std::int32_t row : searched.rows)
-        for (std::size_t s = 0; s < base.surfaces.size(); ++s) {
-            const auto i = static_cast<std::size_t>(row);
-            const Point p{d.searched_x[i], d.searched_y[i]};
-            const double reach = d.radius[i] + state.skin;
-            auto foot = nearest(base.surfaces[s], state.searched_extension, p);
-            if (place.deforms(base.surfaces[s]) &&
-                !(foot && foot->distance > reach + state.skin + displacement))
-                foot = nearest(base.surfaces[s], place, p);
-            // Beyond an open end a surface has no foot, but a disc may come back within the skin.
-            if ((foot && foot->distance <= reach) ||
-                end_distance(base.surfaces[s], place, p) <= reach)
-                found.push_back({row, static_cast<std::int32_t>(s)});
-        }
+    const auto find = [&](std::size_t k, std::size_t end) {
+        std::vector<Pair> found;
+        for (; k < end; ++k)
+            for (std::size_t s = 0; s < base.surfaces.size(); ++s) {
+                const std::int32_t row = searched.rows[k];
+                const auto i = static_cast<std::size_t>(row);
+                const Point p{d.searched_x[i], d.searched_y[i]};
+                const double reach = d.radius[i] + state.skin;
+                auto foot = nearest(base.surfaces[s], state.searched_extension, p);
+                if (place.deforms(base.surfaces[s]) &&
+                    !(foot && foot->distance > reach + state.skin + displacement))
+                    foot = nearest(base.surfaces[s], place, p);
+                // Beyond an open end a surface has no foot, but a disc may come back within the
+                // skin.
+                if ((foot && foot->distance <= reach) ||
+                    end_distance(base.surfaces[s], place, p) <= reach)
+                    found.push_back({row, static_cast<std::int32_t>(s)});
+            }
+        return found;
+    };
+    const std::vector<Pair> found = joined(by_piece(searched.rows.size(), 512, find));
     const ConstBaseContactColumns c = base_contact_columns(std::as_const(state));
     return merge(state.base_contacts, "disc", "surface", found, [&](std::size_t k) {
         return !searched.flags[static_cast<std::size_t>(c.disc[k])];
@@ -173,9 +196,13 @@ void find_contacts(State& state, const RigidBase& base) {
 double greatest_displacement(const State& state, const RigidBase& base) {
     const ConstDiscColumns d = disc_columns(state);
     double greatest = 0.0;
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        greatest = greater(greatest, displacement_square(d, i));
-    }
+    for (const double of_piece : by_piece(d.x.size(), 16384, [&](std::size_t i, std::size_t end) {
+             double most = 0.0;
+             for (; i < end; ++i)
+                 most = greater(most, displacement_square(d, i));
+             return most;
+         }))
+        greatest = greater(greatest, of_piece);
     return greater(std::sqrt(greatest), surface_travel(state, base, state.clock.extension));
 }
 
@@ -188,13 +215,17 @@ bool update_contacts(State& state, const RigidBase& base) {
     const DiscColumns d = disc_columns(state);
     const double stays = 0.2 * state.skin;
     Searched searched{{}, std::vector<std::uint8_t>(d.x.size(), 0)};
-    for (std::size_t i = 0; i < d.x.size(); ++i)
-        if (displacement_square(d, i) > stays * stays) {
-            searched.rows.push_back(static_cast<std::int32_t>(i));
-            searched.flags[i] = 1;
-            d.searched_x[i] = d.x[i];
-            d.searched_y[i] = d.y[i];
-        }
+    searched.rows = joined(by_piece(d.x.size(), 16384, [&](std::size_t i, std::size_t end) {
+        std::vector<std::int32_t> rows;
+        for (; i < end; ++i)
+            if (displacement_square(d, i) > stays * stays) {
+                rows.push_back(static_cast<std::int32_t>(i));
+                searched.flags[i] = 1;
+                d.searched_x[i] = d.x[i];
+                d.searched_y[i] = d.y[i];
+            }
+        return rows;
+    }));
     bool changed = find_disc_contacts(state, searched);
     if (surface_travel(state, base, state.clock.extension) > stays) {
         mark_surfaces(state);
@@ -209,12 +240,15 @@ std::vector<bool> touching(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
     std::vector<bool> result(c.first.size());
-    for (std::size_t k = 0; k < result.size(); ++k) {
-        const auto i = static_cast<std::size_t>(c.first[k]),
-                   j = static_cast<std::size_t>(c.second[k]);
-        result[k] =
-            c.bonded[k] || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) < d.radius[i] + d.radius[j];
-    }
+    constexpr std::size_t least = 4096; // whole words of bits
+    in_pieces(result.size(), least, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k) {
+            const auto i = static_cast<std::size_t>(c.first[k]),
+                       j = static_cast<std::size_t>(c.second[k]);
+            result[k] = c.bonded[k] ||
+                        std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) < d.radius[i] + d.radius[j];
+        }
+    });
     return result;
 }
 

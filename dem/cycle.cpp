@@ -2,6 +2,7 @@
 
 #include "dem/fast_cycle.hpp"
 #include "dem/plain_cycle.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <cassert>
 
@@ -10,6 +11,7 @@ namespace listric::dem {
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
              const Execution& execution, BaseResponse* response) {
     assert(cycles >= 0 && execution.threads >= 1 && state.clock.time_step > 0.0);
+    const Team team(execution.threads);
     if (execution.energy || execution.cycle == Cycle::plain)
         advance_plainly(state, base, physics, cycles, response, execution.energy);
     else

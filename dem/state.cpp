@@ -1,6 +1,7 @@
 #include "dem/state.hpp"
 
 #include "dem/hash.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -154,9 +155,10 @@ void reorder_discs(State& state, std::span<const std::int32_t> order) {
         if (first >= 0)
             kept.push_back(static_cast<std::int32_t>(c));
     }
-    std::ranges::sort(kept, {}, [&](std::int32_t c) {
-        const auto k = static_cast<std::size_t>(c);
-        return std::pair(contacts.first[k], contacts.second[k]);
+    sort_shared(std::span(kept), [&](std::int32_t a, std::int32_t b) {
+        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+        return std::pair(contacts.first[i], contacts.second[i]) <
+               std::pair(contacts.first[j], contacts.second[j]);
     });
     state.contacts.reorder(kept);
 
@@ -180,7 +182,7 @@ void sort_discs(State& state) {
     const double strip = 3.0 * state.mean_radius;
     std::vector<std::int32_t> order(d.x.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
+    sort_shared(std::span(order), [&](std::int32_t a, std::int32_t b) {
         const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
         const double si = std::floor(d.x[i] / strip), sj = std::floor(d.x[j] / strip);
         if (si != sj)

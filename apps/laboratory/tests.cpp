@@ -1,7 +1,7 @@
 #include "apps/laboratory/tests.hpp"
 
 #include "apps/support/memory.hpp"
-#include "apps/support/parallel.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,8 @@ void for_each_reported(const Laboratory& lab, std::string_view stage, std::size_
                        const std::function<void(std::size_t)>& work) {
     std::atomic<std::size_t> done = 0;
     lab.report(stage, 0, count);
-    for_each_on_threads(count, lab.threads, [&](std::size_t k) {
+    const Team team(lab.threads);
+    for_each_shared(count, [&](std::size_t k) {
         lab.stop.check();
         work(k);
         lab.report(stage, ++done, count);

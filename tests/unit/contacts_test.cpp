@@ -1,6 +1,7 @@
 // The neighbour search lists exactly the pairs closer than the skin, and what a pair remembers
 // survives it. Comparisons are exact: the brute force below decides with the same arithmetic.
 
+#include "dem/shared_loop.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>
@@ -208,6 +209,32 @@ TEST(Contacts, TranslatingSurfacesAreFoundWhereTheyAre) {
     state.clock.extension = 1000.0;
     find_contacts(state, base);
     EXPECT_THAT(base_contact_columns(state).disc, testing::ElementsAre(1));
+}
+
+TEST(Contacts, ThreadsListTheSame) {
+    // Loops over thousands of discs are cut.
+    const RigidBase base = box(15000.0, 20000.0);
+    std::vector<State> states;
+    states.reserve(4);
+    for (int threads : {1, 2, 3, 5}) {
+        const Team team(threads);
+        State& state = states.emplace_back(random_discs(20000, 15000.0, 8));
+        sort_discs(state);
+        find_contacts(state, base);
+        const std::size_t before = state.contacts.rows();
+        for (std::size_t k = 0; k < before; ++k)
+            contact_columns(state).shear_force[k] = static_cast<double>(k);
+        move_randomly(state, 9.0, 9); // some by more than a fifth of the skin, some by less
+        const State moved = state;
+        EXPECT_TRUE(update_contacts(state, base));
+        EXPECT_NE(state.contacts.rows(), before);
+        EXPECT_NE(hash(state), hash(moved));
+        const std::vector<bool> touches = touching(state);
+        for (std::size_t k = 0; k < touches.size(); ++k)
+            contact_columns(state).bonded[k] = touches[k];
+        EXPECT_EQ(hash(state), hash(states.front())) << threads << " threads";
+        EXPECT_EQ(greatest_displacement(state, base), greatest_displacement(states.front(), base));
+    }
 }
 
 TEST(Contacts, TouchingMeansOverlapOrBond) {

@@ -4,7 +4,6 @@
 
 #include "apps/support/error.hpp"
 #include "apps/support/memory.hpp"
-#include "apps/support/parallel.hpp"
 #include "dem/cycle.hpp"
 #include "dem/team.hpp"
 #include "fem/footwall.hpp"
@@ -12,12 +11,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 namespace listric {
@@ -86,25 +83,6 @@ TEST(ExitCodeDeathTest, FaultsOnThreadsEndTheProgramWithTheirCode) {
     EXPECT_EXIT(on_a_thread(std::bad_alloc()), testing::ExitedWithCode(4), "about 7 MB");
     EXPECT_EXIT(on_a_thread(std::logic_error("planted")), testing::ExitedWithCode(70),
                 "internal error: planted");
-}
-
-TEST(Parallel, TheFirstFailureInOrderIsThrownAndNothingElseBegun) {
-    for (int threads : {1, 3}) {
-        std::vector<int> done(2000);
-        try {
-            for_each_on_threads(done.size(), threads, [&](std::size_t k) {
-                done[k] = 1;
-                std::this_thread::sleep_for(std::chrono::milliseconds(k == 3 ? 20 : 5));
-                if (k == 7 || k == 3)
-                    throw std::runtime_error(std::to_string(k));
-            });
-            FAIL();
-        } catch (const std::runtime_error& error) {
-            EXPECT_STREQ(error.what(), "3");
-        }
-        EXPECT_TRUE(done[0] && done[1] && done[2] && done[3]);
-        EXPECT_FALSE(done.back());
-    }
 }
 
 } // namespace
