@@ -3,6 +3,7 @@
 #include "dem/contacts.hpp"
 #include "dem/monitor.hpp"
 #include "dem/packing.hpp"
+#include "dem/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -15,8 +16,8 @@ namespace listric::dem {
 namespace {
 
 /// Grows discs with fewer than three contacts until they carry load (FISHTank's floaters).
-void grow_floaters(State& state, const RigidBase& base, const CyclePhysics& physics,
-                   double largest) {
+void grow_floaters(State& state, const RigidBase& base, const CyclePhysics& physics, double largest,
+                   const Execution& execution) {
     for (int round = 0; round < 40; ++round) {
         const std::vector<int> contacts = coordination(state, base);
         const DiscColumns d = disc_columns(state);
@@ -29,7 +30,7 @@ void grow_floaters(State& state, const RigidBase& base, const CyclePhysics& phys
         if (floaters < d.x.size() / 500)
             break;
         find_contacts(state, base);
-        advance(state, base, physics, 50);
+        advance(state, base, physics, 50, execution);
     }
 }
 
@@ -108,6 +109,7 @@ double stable_time_step(double mass, std::span<const Material> materials, double
 
 State make_hanging_wall(const GenesisRequest& request,
                         const std::function<void(std::string_view, double)>& report) {
+    const Team team(request.execution.threads);
     const HangingWallParameters& p = request.hanging_wall;
     const auto [smallest, largest] = radius_range(p.mean_radius, p.radius_ratio);
 
@@ -148,24 +150,27 @@ State make_hanging_wall(const GenesisRequest& request,
     // Toward rest, against no mean motion.
     const CyclePhysics physics{request.physics.damping, request.physics.gravity};
     scatter_and_expand(state, closed, radius, p.length, -p.thickness, lid, request.physics.damping,
-                       report);
+                       report, request.execution);
     sort_discs(state);
     find_contacts(state, closed);
-    settle(state, closed, weightless, 1e-2, 2000,
-           [&](double share) { report("first equilibrium", share); });
+    settle(
+        state, closed, weightless, 1e-2, 2000,
+        [&](double share) { report("first equilibrium", share); }, request.execution);
 
     // Pressure and gravity travel a layer of discs in a few cycles; settling takes many crossings.
     const int crossing = static_cast<int>(p.thickness / p.mean_radius);
     find_contacts(state, open);
-    settle(state, open, physics, 2.5e-3, 150 * crossing,
-           [&](double share) { report("settling under gravity", share); });
-    grow_floaters(state, open, physics, largest);
+    settle(
+        state, open, physics, 2.5e-3, 150 * crossing,
+        [&](double share) { report("settling under gravity", share); }, request.execution);
+    grow_floaters(state, open, physics, largest, request.execution);
     trim(state, p.length);
     set_masses(state, p.rock_density, area);
     sort_discs(state);
     find_contacts(state, open);
-    settle(state, open, physics, 2.5e-3, 150 * crossing,
-           [&](double share) { report("second equilibrium", share); });
+    settle(
+        state, open, physics, 2.5e-3, 150 * crossing,
+        [&](double share) { report("second equilibrium", share); }, request.execution);
 
     state.materials = request.materials;
     if (request.bonds)

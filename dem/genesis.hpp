@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/base.hpp"
-#include "dem/cycle_physics.hpp"
+#include "dem/cycle.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>
@@ -43,6 +43,7 @@ struct GenesisRequest {
     double inertial_mass_floor = 0.75; ///< mean basement disc masses
     double skin = 0.25;                ///< mean radii
     std::uint64_t seed = 1;
+    Execution execution = {};
 };
 
 /// Makes a settled, bonded hanging wall [paper, Fig. 2b]: random small discs in its shape, expanded

@@ -3,6 +3,7 @@
 #include "dem/base_place.hpp"
 #include "dem/law.hpp"
 #include "dem/order_free.hpp"
+#include "dem/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -13,12 +14,14 @@ namespace listric::dem {
 
 namespace {
 
-/// Calls visit(row, i, j, normal, overlap) for every pair that touches or is bonded and has a disc
-/// in the strip.
-template <class Visit> void for_each_touching(const State& state, Strip strip, Visit&& visit) {
+/// Calls visit(row, i, j, normal, overlap) for every pair from row k on, before the end, that
+/// touches or is bonded and has a disc in the strip.
+template <class Visit>
+void for_each_touching(const State& state, Strip strip, std::size_t k, std::size_t end,
+                       Visit&& visit) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
-    for (std::size_t k = 0; k < c.first.size(); ++k) {
+    for (; k < end; ++k) {
         const auto i = static_cast<std::size_t>(c.first[k]),
                    j = static_cast<std::size_t>(c.second[k]);
         if (!strip.holds(d.x[i]) && !strip.holds(d.x[j]))
@@ -29,6 +32,10 @@ template <class Visit> void for_each_touching(const State& state, Strip strip, V
         if (overlap > 0.0 || c.bonded[k])
             visit(k, i, j, Point{dx / distance, dy / distance}, overlap);
     }
+}
+
+template <class Visit> void for_each_touching(const State& state, Visit&& visit) {
+    for_each_touching(state, {}, 0, state.contacts.rows(), visit);
 }
 
 template <class Visit>
@@ -63,11 +70,16 @@ ContactForces contact_forces(const State& state, const RigidBase& base, Strip st
         return state.materials[d.material[i]];
     };
     ContactForces forces;
-    for_each_touching(
-        state, strip, [&](std::size_t k, std::size_t i, std::size_t j, Point n, double overlap) {
-            forces.pairs.push_back(
-                {i, j, acting(material(i), material(j), n, overlap, c.shear_force[k])});
-        });
+    forces.pairs = joined(by_piece(c.first.size(), 2048, [&](std::size_t begin, std::size_t end) {
+        std::vector<PairForce> pairs;
+        for_each_touching(
+            state, strip, begin, end,
+            [&](std::size_t k, std::size_t i, std::size_t j, Point n, double overlap) {
+                pairs.push_back(
+                    {i, j, acting(material(i), material(j), n, overlap, c.shear_force[k])});
+            });
+        return pairs;
+    }));
     for_each_base_contact(
         state, base, strip,
         [&](std::size_t k, std::size_t i, std::size_t s, Point n, double overlap) {
@@ -105,20 +117,38 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
     }
     for (std::size_t s = 0; s < reaction.size(); ++s)
         balance.reaction[s] = {reaction[s][0].value(), reaction[s][1].value()};
+    struct Sums {
+        OrderFreeSum weight, unbalanced;
+        double max_unbalanced = 0.0;
+    };
     OrderFreeSum weight_sum, unbalanced_sum, contact_sum;
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        const double weight = d.mass[i] * gravity;
-        const double unbalanced = std::hypot(force[i].x, force[i].y - weight);
-        weight_sum += weight;
-        unbalanced_sum += unbalanced;
-        balance.max_unbalanced = greater(balance.max_unbalanced, unbalanced);
+    for (const Sums& piece : by_piece(d.x.size(), 2048, [&](std::size_t i, std::size_t end) {
+             Sums sums;
+             for (; i < end; ++i) {
+                 const double weight = d.mass[i] * gravity;
+                 const double unbalanced = std::hypot(force[i].x, force[i].y - weight);
+                 sums.weight += weight;
+                 sums.unbalanced += unbalanced;
+                 sums.max_unbalanced = greater(sums.max_unbalanced, unbalanced);
+             }
+             return sums;
+         })) {
+        weight_sum += piece.weight;
+        unbalanced_sum += piece.unbalanced;
+        balance.max_unbalanced = greater(balance.max_unbalanced, piece.max_unbalanced);
     }
     balance.weight = weight_sum.value();
     if (!d.x.empty())
         balance.mean_unbalanced = unbalanced_sum.value() / static_cast<double>(d.x.size());
     balance.touching = static_cast<std::int64_t>(contacts.pairs.size());
-    for (const PairForce& pair : contacts.pairs)
-        contact_sum += std::hypot(pair.force.x, pair.force.y);
+    for (const OrderFreeSum& piece :
+         by_piece(contacts.pairs.size(), 2048, [&](std::size_t k, std::size_t end) {
+             OrderFreeSum sum;
+             for (; k < end; ++k)
+                 sum += std::hypot(contacts.pairs[k].force.x, contacts.pairs[k].force.y);
+             return sum;
+         }))
+        contact_sum += piece;
     if (balance.touching)
         balance.mean_contact = contact_sum.value() / static_cast<double>(balance.touching);
     return balance;
@@ -153,16 +183,16 @@ std::vector<Stress> disc_stresses(const State& state, const RigidBase& base) {
         stress[i].yy += fy * arm * out.y / area;
         stress[i].xy += 0.5 * arm * (fx * out.y + fy * out.x) / area;
     };
-    for_each_touching(
-        state, {}, [&](std::size_t k, std::size_t i, std::size_t j, Point n, double overlap) {
-            const double normal = contact_parameters(state.materials[d.material[i]],
-                                                     state.materials[d.material[j]], 1.0)
-                                      .normal_stiffness *
-                                  overlap;
-            const Point t{-n.y, n.x};
-            add(i, d.radius[i] - 0.5 * overlap, n, normal, t, -c.shear_force[k]);
-            add(j, d.radius[j] - 0.5 * overlap, {-n.x, -n.y}, normal, t, c.shear_force[k]);
-        });
+    for_each_touching(state, [&](std::size_t k, std::size_t i, std::size_t j, Point n,
+                                 double overlap) {
+        const double normal =
+            contact_parameters(state.materials[d.material[i]], state.materials[d.material[j]], 1.0)
+                .normal_stiffness *
+            overlap;
+        const Point t{-n.y, n.x};
+        add(i, d.radius[i] - 0.5 * overlap, n, normal, t, -c.shear_force[k]);
+        add(j, d.radius[j] - 0.5 * overlap, {-n.x, -n.y}, normal, t, c.shear_force[k]);
+    });
     for_each_base_contact(
         state, base, {}, [&](std::size_t k, std::size_t i, std::size_t, Point n, double overlap) {
             const double normal =
@@ -176,7 +206,7 @@ std::vector<Stress> disc_stresses(const State& state, const RigidBase& base) {
 
 std::vector<int> coordination(const State& state, const RigidBase& base) {
     std::vector<int> count(state.discs.rows(), 0);
-    for_each_touching(state, {}, [&](std::size_t, std::size_t i, std::size_t j, Point, double) {
+    for_each_touching(state, [&](std::size_t, std::size_t i, std::size_t j, Point, double) {
         ++count[i];
         ++count[j];
     });

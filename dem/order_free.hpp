@@ -27,6 +27,11 @@ public:
         middle_ += static_cast<std::int64_t>(middle);
         low_ += std::llrint((rest - middle * 0x1p-2) * 0x1p34);
     }
+    void operator+=(const OrderFreeSum& other) {
+        high_ += other.high_;
+        middle_ += other.middle_;
+        low_ += other.low_;
+    }
     double value() const {
         // Carries first: equal sums must not differ in how they are shared among the parts.
         const std::int64_t middle = middle_ + (low_ >> 32);

@@ -80,7 +80,8 @@ void stop_discs(State& state) {
 
 void scatter_and_expand(State& state, const RigidBase& base, std::span<const double> radius,
                         double width, double bottom, double top, double damping,
-                        const std::function<void(std::string_view, double)>& report) {
+                        const std::function<void(std::string_view, double)>& report,
+                        const Execution& execution) {
     constexpr double start_scale = 0.55;
     constexpr int increments = 150;
     const DiscColumns d = disc_columns(state);
@@ -101,7 +102,7 @@ void scatter_and_expand(State& state, const RigidBase& base, std::span<const dou
         find_contacts(state, base);
         for (int batch = 0; batch < 3; ++batch) {
             stop_discs(state);
-            advance(state, base, {damping, 0.0}, 4);
+            advance(state, base, {damping, 0.0}, 4, execution);
         }
         if (k % 10 == 0)
             report("expanding discs", static_cast<double>(k) / increments);
@@ -110,10 +111,10 @@ void scatter_and_expand(State& state, const RigidBase& base, std::span<const dou
 }
 
 void settle(State& state, const RigidBase& base, const CyclePhysics& physics, double ratio,
-            int limit, const std::function<void(double)>& report) {
+            int limit, const std::function<void(double)>& report, const Execution& execution) {
     constexpr int batch = 250;
     for (int n = 0; n < limit; n += batch) {
-        advance(state, base, physics, batch);
+        advance(state, base, physics, batch, execution);
         report(static_cast<double>(n) / limit);
         const ForceBalance balance = force_balance(state, base, physics.gravity);
         double lift = 0.0;

@@ -39,12 +39,13 @@ void stop_discs(State& state);
 /// grow while they push each other apart. Weightless.
 void scatter_and_expand(State& state, const RigidBase& base, std::span<const double> radius,
                         double width, double bottom, double top, double damping,
-                        const std::function<void(std::string_view, double)>& report);
+                        const std::function<void(std::string_view, double)>& report,
+                        const Execution& execution = {});
 
 /// Cycles until the mean unbalanced force falls below `ratio` of the mean contact force, and, with
 /// gravity, the base carries the weight to one percent; or until the limit.
 void settle(State& state, const RigidBase& base, const CyclePhysics& physics, double ratio,
-            int limit, const std::function<void(double)>& report);
+            int limit, const std::function<void(double)>& report, const Execution& execution = {});
 
 /// Bonds every touching pair. Strengths are keyed by `occasion`.
 void bond_touching(State& state, const BondStrength& strength, std::int64_t occasion);

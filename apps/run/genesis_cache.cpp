@@ -67,7 +67,7 @@ fs::path genesis_cache_path(const Scene& scene, const ModelParts& parts) {
 }
 
 State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, Log& log,
-                                  StopToken stop) {
+                                  StopToken stop, int threads) {
     const fs::path cache = genesis_cache_path(scene, parts);
     if (auto state = recall(cache, parts.materials, log))
         return std::move(*state);
@@ -81,7 +81,8 @@ State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, L
         .time_step_safety = scene.cycle.time_step_safety,
         .inertial_mass_floor = scene.cycle.inertial_mass_floor,
         .skin = scene.cycle.skin,
-        .seed = scene.seed};
+        .seed = scene.seed,
+        .execution = {.threads = threads}};
     State state = make_hanging_wall(request, [&](std::string_view stage, double share) {
         if (stop.requested())
             throw Interrupted{};

@@ -16,6 +16,6 @@ std::filesystem::path genesis_cache_path(const Scene& scene, const ModelParts& p
 /// The hanging wall of a scene before extension: the one that an earlier run has kept, or a new one
 /// that is kept for later runs. Throws Interrupted, NumericalFailure.
 dem::State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, Log& log,
-                                       StopToken stop);
+                                       StopToken stop, int threads);
 
 } // namespace listric

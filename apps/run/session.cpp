@@ -134,7 +134,7 @@ void Session::begin() {
     State state;
     {
         const Stopwatch watch(record_.seconds_by_part["genesis"]);
-        state = make_or_recall_hanging_wall(scene_, parts_, log_, options_.stop);
+        state = make_or_recall_hanging_wall(scene_, parts_, log_, options_.stop, options_.threads);
     }
     if (footwall_)
         state = settled_on_base(std::move(state));

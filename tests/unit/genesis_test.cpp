@@ -150,6 +150,15 @@ TEST(Genesis, SeedDecides) {
     EXPECT_NE(hash(first), hash(other));
 }
 
+TEST(Genesis, ThreadsMakeTheSameHangingWall) {
+    GenesisRequest r = request(600.0, 1); // some 400 discs, four tiles of the cycle
+    const std::uint64_t alone = hash(make(r));
+    for (int threads : {2, 3, 5}) {
+        r.execution.threads = threads;
+        EXPECT_EQ(hash(make(r)), alone) << threads << " threads";
+    }
+}
+
 TEST(Genesis, AreaAboveTheDetachment) {
     // The square of the flat's depth less a quarter circle is footwall. The chain is sampled at
     // 20000 points, so a chord's sagitta of 1e-4 m times the length.
