@@ -2,6 +2,7 @@
 
 #include "dem/base_place.hpp"
 #include "dem/cells.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,38 +56,40 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
     const double reach = 5.0 * state.mean_radius;
     const Cells cells(d.x, d.y, reach);
     std::vector<PowerCell> result(rows.size());
-    std::vector<Corner> polygon, scratch;
     const BasePlace place = base_place(state);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        const auto i = static_cast<std::size_t>(rows[k]);
-        const double half = 0.5 * reach;
-        polygon = {{{-half, -half}, true},
-                   {{half, -half}, true},
-                   {{half, half}, true},
-                   {{-half, half}, true}};
-        for (const Surface& s : base.surfaces)
-            if (const auto foot = nearest(s, place, {d.x[i], d.y[i]});
-                foot && foot->distance < half)
-                clip(polygon, scratch, {-foot->normal.x, -foot->normal.y}, foot->distance);
-        cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
-            const auto j = static_cast<std::size_t>(row);
-            const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
-            const double square = dx * dx + dy * dy;
-            if (j == i || square > reach * reach || square == 0.0)
-                return;
-            clip(polygon, scratch, {dx, dy},
-                 0.5 * (square + radius[i] * radius[i] - radius[j] * radius[j]));
-        });
-        double twice = 0.0;
-        bool closed = true;
-        for (std::size_t c = 0; c < polygon.size(); ++c) {
-            const Corner& a = polygon[c];
-            const Corner& b = polygon[(c + 1) % polygon.size()];
-            twice += a.p.x * b.p.y - a.p.y * b.p.x;
-            closed = closed && !a.open;
+    in_pieces(rows.size(), 64, [&](std::size_t k, std::size_t end) {
+        std::vector<Corner> polygon, scratch;
+        for (; k < end; ++k) {
+            const auto i = static_cast<std::size_t>(rows[k]);
+            const double half = 0.5 * reach;
+            polygon = {{{-half, -half}, true},
+                       {{half, -half}, true},
+                       {{half, half}, true},
+                       {{-half, half}, true}};
+            for (const Surface& s : base.surfaces)
+                if (const auto foot = nearest(s, place, {d.x[i], d.y[i]});
+                    foot && foot->distance < half)
+                    clip(polygon, scratch, {-foot->normal.x, -foot->normal.y}, foot->distance);
+            cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
+                const auto j = static_cast<std::size_t>(row);
+                const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+                const double square = dx * dx + dy * dy;
+                if (j == i || square > reach * reach || square == 0.0)
+                    return;
+                clip(polygon, scratch, {dx, dy},
+                     0.5 * (square + radius[i] * radius[i] - radius[j] * radius[j]));
+            });
+            double twice = 0.0;
+            bool closed = true;
+            for (std::size_t c = 0; c < polygon.size(); ++c) {
+                const Corner& a = polygon[c];
+                const Corner& b = polygon[(c + 1) % polygon.size()];
+                twice += a.p.x * b.p.y - a.p.y * b.p.x;
+                closed = closed && !a.open;
+            }
+            result[k] = {0.5 * twice, closed && polygon.size() > 2};
         }
-        result[k] = {0.5 * twice, closed && polygon.size() > 2};
-    }
+    });
     return result;
 }
 

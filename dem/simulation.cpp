@@ -2,6 +2,7 @@
 
 #include "dem/contacts.hpp"
 #include "dem/events/energy_account.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -60,6 +61,7 @@ void Simulation::resume(State state) {
 bool Simulation::extend_to(double goal, const Execution& execution, const Report& report) {
     assert(has_state_);
     assert(!execution.energy); // that is EnergyAccount's
+    const Team team(execution.threads);
     while (extension() < goal - tolerance()) {
         const double stop = std::min(next_due(), goal);
         cycle_toward(stop, execution);

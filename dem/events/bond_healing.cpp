@@ -2,6 +2,7 @@
 
 #include "dem/bond.hpp"
 #include "dem/contacts.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,28 +50,30 @@ bool BondHealing::apply(State& state, const RigidBase&) {
     // Discs laid down at the last healing, to half a cycle, have a whole interval behind them.
     const double latest = state.clock.extension - 0.75 * schedule().spacing();
     const std::vector<bool> touches = touching(state);
-    for (std::size_t k = 0; k < c.first.size(); ++k) {
-        const auto i = static_cast<std::size_t>(c.first[k]),
-                   j = static_cast<std::size_t>(c.second[k]);
-        if (c.bonded[k] || !touches[k] || !state.materials[d.material[i]].bondable ||
-            !state.materials[d.material[j]].bondable ||
-            std::max(d.start_extension[i], d.start_extension[j]) > latest)
-            continue;
-        const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
-        const double old_dx = h.x[j] - h.x[i], old_dy = h.y[j] - h.y[i];
-        const double distance = std::hypot(dx, dy), old_distance = std::hypot(old_dx, old_dy);
-        // Slip at the contact: turning of the line of centres less rolling of the two discs. A
-        // pair that turns as one body does not slip.
-        const double turn = std::atan2(old_dx * dy - old_dy * dx, old_dx * dx + old_dy * dy);
-        const double half = 0.5 * (d.radius[i] + d.radius[j] - distance);
-        const double slip = distance * turn -
-                            (d.radius[i] - half) * (d.rotation[i] - h.rotation[i]) -
-                            (d.radius[j] - half) * (d.rotation[j] - h.rotation[j]);
-        const double opening =
-            parameters_.measure == HealingMeasure::slip ? 0.0 : distance - old_distance;
-        if (std::hypot(slip, opening) < strain * (d.radius[i] + d.radius[j]))
-            install_bond(state, k, strength_, state.clock.cycle);
-    }
+    in_pieces(c.first.size(), 4096, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k) {
+            const auto i = static_cast<std::size_t>(c.first[k]),
+                       j = static_cast<std::size_t>(c.second[k]);
+            if (c.bonded[k] || !touches[k] || !state.materials[d.material[i]].bondable ||
+                !state.materials[d.material[j]].bondable ||
+                std::max(d.start_extension[i], d.start_extension[j]) > latest)
+                continue;
+            const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+            const double old_dx = h.x[j] - h.x[i], old_dy = h.y[j] - h.y[i];
+            const double distance = std::hypot(dx, dy), old_distance = std::hypot(old_dx, old_dy);
+            // Slip at the contact: turning of the line of centres less rolling of the two discs. A
+            // pair that turns as one body does not slip.
+            const double turn = std::atan2(old_dx * dy - old_dy * dx, old_dx * dx + old_dy * dy);
+            const double half = 0.5 * (d.radius[i] + d.radius[j] - distance);
+            const double slip = distance * turn -
+                                (d.radius[i] - half) * (d.rotation[i] - h.rotation[i]) -
+                                (d.radius[j] - half) * (d.rotation[j] - h.rotation[j]);
+            const double opening =
+                parameters_.measure == HealingMeasure::slip ? 0.0 : distance - old_distance;
+            if (std::hypot(slip, opening) < strain * (d.radius[i] + d.radius[j]))
+                install_bond(state, k, strength_, state.clock.cycle);
+        }
+    });
     remember(state);
     return false;
 }

@@ -5,10 +5,12 @@
 #include "dem/events/measure_circle.hpp"
 #include "dem/events/weakened_discs.hpp"
 #include "dem/power_cell.hpp"
+#include "dem/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace listric::dem {
@@ -58,26 +60,35 @@ Displacements displacements(State& state, double youngest, bool loose) {
 /// All planes more active than the threshold, the most active first.
 std::vector<FaultSegment> scan(const Displacements& s, const Cells& cells, double diameter,
                                double spacing, double threshold, int angles) {
-    std::vector<FaultSegment> found;
     if (s.x.empty())
-        return found;
+        return {};
     const auto [left, right] = std::ranges::minmax(s.x);
     const auto [bottom, top] = std::ranges::minmax(s.y);
-    std::vector<std::int32_t> circle;
+    std::vector<double> columns;
     for (double x = left; x <= right; x += spacing)
-        for (double y = bottom; y <= top; y += spacing) {
-            circle.clear();
-            cells.for_each_near(x, y, [&](std::int32_t member) {
-                const auto k = static_cast<std::size_t>(member);
-                if (std::hypot(s.x[k] - x, s.y[k] - y) <= 0.5 * diameter)
-                    circle.push_back(member);
-            });
-            if (slip_bound(s, circle, {x, y}) <= threshold)
-                continue;
-            const FaultSegment segment = most_active_plane(s, circle, {x, y}, diameter, angles);
-            if (std::abs(segment.slip) > threshold)
-                found.push_back(along_fault(s, circle, segment, angles));
-        }
+        columns.push_back(x);
+    std::vector<FaultSegment> found =
+        joined(by_piece(columns.size(), 1, [&](std::size_t column, std::size_t end) {
+            std::vector<FaultSegment> in_columns;
+            std::vector<std::int32_t> circle;
+            for (; column < end; ++column)
+                for (double y = bottom; y <= top; y += spacing) {
+                    const double x = columns[column];
+                    circle.clear();
+                    cells.for_each_near(x, y, [&](std::int32_t member) {
+                        const auto k = static_cast<std::size_t>(member);
+                        if (std::hypot(s.x[k] - x, s.y[k] - y) <= 0.5 * diameter)
+                            circle.push_back(member);
+                    });
+                    if (slip_bound(s, circle, {x, y}) <= threshold)
+                        continue;
+                    const FaultSegment segment =
+                        most_active_plane(s, circle, {x, y}, diameter, angles);
+                    if (std::abs(segment.slip) > threshold)
+                        in_columns.push_back(along_fault(s, circle, segment, angles));
+                }
+            return in_columns;
+        }));
     std::ranges::stable_sort(found, std::ranges::greater{},
                              [](const FaultSegment& f) { return std::abs(f.slip); });
     return found;
@@ -212,10 +223,14 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
 
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
-    std::vector<std::int32_t> converted;
-    for (const Band& band : bands)
-        for (const std::int32_t row : sound_discs(sample, d, band, l.width, p.sound_share))
-            converted.push_back(row);
+    std::vector<std::int32_t> converted =
+        joined(by_piece(bands.size(), 4, [&](std::size_t k, std::size_t end) {
+            std::vector<std::int32_t> rows;
+            for (; k < end; ++k)
+                std::ranges::copy(sound_discs(sample, d, bands[k], l.width, p.sound_share),
+                                  std::back_inserter(rows));
+            return rows;
+        }));
     std::ranges::sort(converted);
     converted.erase(std::unique(converted.begin(), converted.end()), converted.end());
     for (const std::int32_t row : converted)

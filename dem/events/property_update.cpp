@@ -2,6 +2,7 @@
 
 #include "dem/cells.hpp"
 #include "dem/power_cell.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,29 +50,32 @@ bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     const double zone = parameters_.band_diameters * state.mean_radius;
     const Cells near(x, y, zone);
     constexpr double gain = 0.3, common_gain = 0.5;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        const auto i = static_cast<std::size_t>(rows[k]);
-        const double factor =
-            enlargement(parameters_.mean_stress_ratio * weight[k], state.materials[weak]);
-        double now = 0.0, before = 0.0;
-        near.for_each_near(x[k], y[k], [&](std::int32_t other) {
-            const auto o = static_cast<std::size_t>(other);
-            const double rock_area = w.rock_area[static_cast<std::size_t>(rows[o])];
-            if (cells[o].closed && rock_area > 0.0 && std::hypot(x[o] - x[k], y[o] - y[k]) < zone) {
-                now += cells[o].area;
-                before += rock_area;
+    in_pieces(rows.size(), 64, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k) {
+            const auto i = static_cast<std::size_t>(rows[k]);
+            const double factor =
+                enlargement(parameters_.mean_stress_ratio * weight[k], state.materials[weak]);
+            double now = 0.0, before = 0.0;
+            near.for_each_near(x[k], y[k], [&](std::int32_t other) {
+                const auto o = static_cast<std::size_t>(other);
+                const double rock_area = w.rock_area[static_cast<std::size_t>(rows[o])];
+                if (cells[o].closed && rock_area > 0.0 &&
+                    std::hypot(x[o] - x[k], y[o] - y[k]) < zone) {
+                    now += cells[o].area;
+                    before += rock_area;
+                }
+            });
+            if (before > 0.0) {
+                // At constant stress a spacing follows twice the radius: dA / A = 2 factor dr / r.
+                const double error = gain * (now / before - 1.0) + common_gain * common_error;
+                w.correction[i] =
+                    std::clamp(w.correction[i] * (1.0 - error / (2.0 * factor)), 1.0 / factor, 1.5);
             }
-        });
-        if (before > 0.0) {
-            // At constant stress a spacing follows twice the radius: dA / A = 2 factor dr / r.
-            const double error = gain * (now / before - 1.0) + common_gain * common_error;
-            w.correction[i] =
-                std::clamp(w.correction[i] * (1.0 - error / (2.0 * factor)), 1.0 / factor, 1.5);
+            const double target = w.rock_radius[i] * factor * w.correction[i];
+            d.radius[i] = std::clamp(target, d.radius[i] * (1.0 - parameters_.largest_change),
+                                     d.radius[i] * (1.0 + parameters_.largest_change));
         }
-        const double target = w.rock_radius[i] * factor * w.correction[i];
-        d.radius[i] = std::clamp(target, d.radius[i] * (1.0 - parameters_.largest_change),
-                                 d.radius[i] * (1.0 + parameters_.largest_change));
-    }
+    });
     return true;
 }
 

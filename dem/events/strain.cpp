@@ -2,6 +2,7 @@
 
 #include "dem/cells.hpp"
 #include "dem/gradient.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,22 +44,24 @@ std::vector<double> shear_strain(const State& state) {
     const double reach = 2.6 * 2.0 * state.mean_radius;
     const Cells cells(d.x, d.y, reach);
     std::vector<double> strain(d.x.size(), 0.0);
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (!in_window[i])
-            continue;
-        // Neighbours now; gradient with respect to where they were.
-        GradientFit fit;
-        const double ux_i = d.x[i] - old_x[i], uy_i = d.y[i] - old_y[i];
-        cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
-            const auto j = static_cast<std::size_t>(row);
-            if (!in_window[j] || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
-                return;
-            fit.add(old_x[j] - old_x[i], old_y[j] - old_y[i], d.x[j] - old_x[j] - ux_i,
-                    d.y[j] - old_y[j] - uy_i);
-        });
-        if (const auto gradient = fit.gradient(flattest))
-            strain[i] = gradient->shear();
-    }
+    in_pieces(d.x.size(), 512, [&](std::size_t i, std::size_t end) {
+        for (; i < end; ++i) {
+            if (!in_window[i])
+                continue;
+            // Neighbours now; gradient with respect to where they were.
+            GradientFit fit;
+            const double ux_i = d.x[i] - old_x[i], uy_i = d.y[i] - old_y[i];
+            cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
+                const auto j = static_cast<std::size_t>(row);
+                if (!in_window[j] || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
+                    return;
+                fit.add(old_x[j] - old_x[i], old_y[j] - old_y[i], d.x[j] - old_x[j] - ux_i,
+                        d.y[j] - old_y[j] - uy_i);
+            });
+            if (const auto gradient = fit.gradient(flattest))
+                strain[i] = gradient->shear();
+        }
+    });
     return strain;
 }
 

@@ -1,6 +1,7 @@
 #include "dem/events/weakened_discs.hpp"
 
 #include "dem/power_cell.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,13 +40,13 @@ double enlargement(double mean_stress, const Material& weak_material) {
 std::vector<double> overburden(const State& state, std::span<const std::int32_t> rows,
                                double gravity) {
     const ConstDiscColumns d = disc_columns(state);
-    std::vector<double> weight;
+    std::vector<double> weight(rows.size());
     if (rows.empty())
         return weight;
     const double fade = 5.0 * state.mean_radius;
     std::vector<std::size_t> by_x(d.x.size());
     std::iota(by_x.begin(), by_x.end(), std::size_t{0});
-    std::ranges::sort(by_x, [&](std::size_t a, std::size_t b) {
+    sort_shared(std::span(by_x), [&](std::size_t a, std::size_t b) {
         return d.x[a] != d.x[b] ? d.x[a] < d.x[b] : a < b;
     });
     const double left = d.x[by_x.front()] - state.mean_radius;
@@ -55,18 +56,20 @@ std::vector<double> overburden(const State& state, std::span<const std::int32_t>
         const double w = std::min(end, fade);
         return w - 0.5 * w * w / fade;
     };
-    for (const std::int32_t row : rows) {
-        const auto i = static_cast<std::size_t>(row);
-        double mass = 0.0;
-        for (auto at = std::ranges::lower_bound(by_x, d.x[i] - fade, {},
-                                                [&](std::size_t k) { return d.x[k]; });
-             at != by_x.end() && d.x[*at] < d.x[i] + fade; ++at) {
-            const double above =
-                std::clamp(0.5 + 0.5 * (d.y[*at] - d.y[i]) / d.radius[*at], 0.0, 1.0);
-            mass += above * d.mass[*at] * (1.0 - std::abs(d.x[*at] - d.x[i]) / fade);
+    in_pieces(rows.size(), 64, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k) {
+            const auto i = static_cast<std::size_t>(rows[k]);
+            double mass = 0.0;
+            for (auto at = std::ranges::lower_bound(by_x, d.x[i] - fade, {},
+                                                    [&](std::size_t disc) { return d.x[disc]; });
+                 at != by_x.end() && d.x[*at] < d.x[i] + fade; ++at) {
+                const double above =
+                    std::clamp(0.5 + 0.5 * (d.y[*at] - d.y[i]) / d.radius[*at], 0.0, 1.0);
+                mass += above * d.mass[*at] * (1.0 - std::abs(d.x[*at] - d.x[i]) / fade);
+            }
+            weight[k] = gravity * mass / (half_width(d.x[i] - left) + half_width(right - d.x[i]));
         }
-        weight.push_back(gravity * mass / (half_width(d.x[i] - left) + half_width(right - d.x[i])));
-    }
+    });
     return weight;
 }
 
