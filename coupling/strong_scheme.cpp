@@ -105,6 +105,7 @@ private:
 StrongScheme::Attempt StrongScheme::compute(State& state, std::int64_t cycles) const {
     Attempt attempt;
     Execution how = execution_;
+    how.packed = nullptr; // attempts begin from copies
     if (execution_.energy) {
         attempt.flows = *execution_.energy;
         how.energy = &attempt.flows;

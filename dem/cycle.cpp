@@ -12,10 +12,13 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics, s
              const Execution& execution, BaseResponse* response) {
     assert(cycles >= 0 && execution.threads >= 1 && state.clock.time_step > 0.0);
     const Team team(execution.threads);
-    if (execution.energy || execution.cycle == Cycle::plain)
+    if (execution.energy || execution.cycle == Cycle::plain) {
+        if (execution.packed)
+            execution.packed->forget();
         advance_plainly(state, base, physics, cycles, response, execution.energy);
-    else
-        advance_fast(state, base, physics, cycles, execution.threads, execution.cycle, response);
+    } else {
+        advance_fast(state, base, physics, cycles, execution, response);
+    }
 }
 
 } // namespace listric::dem

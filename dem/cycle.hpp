@@ -1,22 +1,13 @@
 #pragma once
 
 #include "dem/base.hpp"
-#include "dem/cycle_choice.hpp"
 #include "dem/cycle_physics.hpp"
-#include "dem/energy.hpp"
+#include "dem/execution.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>
 
 namespace listric::dem {
-
-/// How the cycle is computed; the result is the same to the last bit.
-struct Execution {
-    int threads = 1;
-    Cycle cycle = best_cycle();
-    /// Adds up energies, if given: then the cycle is the plain one, on one thread.
-    EnergyFlows* energy = nullptr;
-};
 
 /// Advances by `cycles` cycles, searching neighbours whenever discs may have come closer than the
 /// list knows. One cycle: contact forces from positions and the velocities half a step earlier;

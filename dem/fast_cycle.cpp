@@ -7,6 +7,7 @@
 #include "dem/team.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -54,7 +55,7 @@ double FastCycle::move_base(State& state, const BaseNodeColumns& nodes, const Cl
 DampedAgainst FastCycle::damped_against() const {
     if (physics_.averaging_time > 0.0)
         return DampedAgainst::mean_motion;
-    return stretching(base_, 0.0).rate > 0.0 ? DampedAgainst::stretching : DampedAgainst::rest;
+    return stretching(*base_, 0.0).rate > 0.0 ? DampedAgainst::stretching : DampedAgainst::rest;
 }
 
 /// Square of the greatest distance of the strip's discs from their searched places, m^2.
@@ -68,31 +69,60 @@ double FastCycle::furthest(const Strip& strip) const {
     return greatest;
 }
 
-std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* response) {
+/// By what furthest() has found in the strips, m.
+double FastCycle::greatest_displacement(const State& state, double extension) const {
+    double square = 0.0;
+    for (const Strip& strip : strips_)
+        square = greater(square, strip.furthest);
+    return greater(std::sqrt(square), surface_travel(state, *base_, extension));
+}
+
+/// Lets the team's size follow what it does, in disc-steps.
+std::int64_t FastCycle::run(State& state, std::int64_t cycles, BestTeam& team,
+                            BaseResponse* response) {
+    std::int64_t done = 0;
+    for (bool holds = true; holds && done < cycles;) {
+        std::int64_t piece = cycles - done;
+        if (team.most() > 1)
+            piece = std::min(piece, 1 + static_cast<std::int64_t>(
+                                            team.piece() / static_cast<double>(disc_count_ + 1)));
+        const std::int64_t ran = run_piece(state, piece, team, response);
+        holds = ran == piece;
+        done += ran;
+    }
+    return done;
+}
+
+std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& team,
+                                  BaseResponse* response) {
+    const auto begin = std::chrono::steady_clock::now();
     const Kernels kernels = choose_kernels(level_, bonded_, frictional_, damped_against());
     const Shared shared{
         discs_,     inertia_,         slots_.data(),
         time_step_, physics_.damping, averaging_interval * time_step_ / physics_.averaging_time};
     const Clock start = state.clock;
     const Watch watched{state.displacement_bound, state.window_speed, state.look_interval};
-    const double surface_translation = greatest_translation(base_);
+    const double surface_translation = greatest_translation(*base_);
     const BaseNodeColumns nodes = base_node_columns(state);
-    Barrier barrier(static_cast<int>(strips_.size()));
-    run_team(static_cast<int>(strips_.size()), [&](int thread) {
+    const int threads = std::min(team.size(), static_cast<int>(strips_.size()));
+    Barrier barrier(threads);
+    Claims claims(strips_.size());
+    run_team(threads, [&](int thread) {
         // Each thread keeps clock and watch for itself; all come to the same decisions.
-        Strip& strip = strips_[static_cast<std::size_t>(thread)];
+        const std::size_t own =
+            strips_.size() * static_cast<std::size_t>(thread) / static_cast<std::size_t>(threads);
+        unsigned phase = 0;
+        const auto for_free_strips = [&](auto&& work) {
+            claims.take(own, ++phase, [&](std::size_t k) { work(strips_[k]); });
+        };
         Clock clock = start;
         Watch watch = watched;
         for (std::int64_t n = 0; n < cycles; ++n) {
             if (clock.cycle % watch.look_interval == 0) {
                 if (is_check_due(watch.bound, state.skin)) {
-                    strip.furthest = furthest(strip);
+                    for_free_strips([&](Strip& strip) { strip.furthest = furthest(strip); });
                     barrier.wait();
-                    double square = 0.0;
-                    for (const Strip& s : strips_)
-                        square = greater(square, s.furthest);
-                    watch.bound =
-                        greater(std::sqrt(square), surface_travel(state, base_, clock.extension));
+                    watch.bound = greatest_displacement(state, clock.extension);
                     if (is_update_due(watch.bound, state.skin))
                         break;
                 }
@@ -100,21 +130,24 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
                                                          clock.time_step, state.skin);
                 watch.speed = 0.0;
             }
-            const double speed = base_.motion.speed_at(clock.time());
-            compute_base(strip, {clock.extension, speed});
-            if (deforms_)
-                compute_nodes(strip, nodes, {clock.extension, speed});
-            kernels.compute_boundary(shared, strip);
+            const double speed = base_->motion.speed_at(clock.time());
+            for_free_strips([&](Strip& strip) {
+                compute_base(strip, {clock.extension, speed});
+                if (deforms_)
+                    compute_nodes(strip, nodes, {clock.extension, speed});
+                kernels.compute_boundary(shared, strip);
+            });
             barrier.wait();
             const auto parity = static_cast<std::size_t>(clock.cycle % 2);
             // No disc looks at the nodes between the two barriers.
             if (deforms_ && thread == 0)
                 fastest_node_[parity] = move_base(state, nodes, clock, response);
-            Stretching thins = stretching(base_, clock.extension);
+            Stretching thins = stretching(*base_, clock.extension);
             thins.rate *= speed;
             const auto sweep =
                 clock.cycle % averaging_interval == 0 ? kernels.sampling_sweep : kernels.sweep;
-            strip.fastest[parity] = sweep(shared, strip, thins);
+            for_free_strips(
+                [&](Strip& strip) { strip.fastest[parity] = sweep(shared, strip, thins); });
             barrier.wait();
             double fastest = greater(surface_translation * speed, fastest_node_[parity]);
             for (const Strip& s : strips_)
@@ -132,14 +165,29 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BaseResponse* res
             state.look_interval = watch.look_interval;
         }
     });
-    return state.clock.cycle - start.cycle;
+    const std::int64_t done = state.clock.cycle - start.cycle;
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    team.report(static_cast<double>(done) * static_cast<double>(disc_count_), seconds.count(),
+                barrier.asleep());
+    return done;
 }
 
 void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
-                  std::int64_t cycles, int threads, Cycle level, BaseResponse* response) {
-    FastCycle fast(state, base, physics, threads, level);
+                  std::int64_t cycles, const Execution& execution, BaseResponse* response) {
+    Packed for_this_call;
+    Packed& packed = execution.packed ? *execution.packed : for_this_call;
+    if (!packed.cycle_ || !packed.cycle_->is_for(base, execution)) {
+        packed.cycle_ = std::make_shared<FastCycle>(execution.threads, execution.cycle);
+        packed.holds_ = false;
+    }
+    if (packed.team_.most() != execution.threads)
+        packed.team_ = BestTeam(execution.threads);
+    FastCycle& fast = *packed.cycle_;
+    if (!packed.holds_)
+        fast.pack(state, base, physics);
+    packed.holds_ = false; // until all has gone well
     while (cycles > 0) {
-        cycles -= fast.run(state, cycles, response);
+        cycles -= fast.run(state, cycles, packed.team_, response);
         if (cycles == 0)
             break;
         fast.unpack(state);
@@ -149,6 +197,7 @@ void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physi
         fast.pack_searched_places(state);
     }
     fast.unpack(state);
+    packed.holds_ = true;
 }
 
 } // namespace listric::dem

@@ -4,6 +4,7 @@
 #include "dem/base.hpp"
 #include "dem/base_contact.hpp"
 #include "dem/cycle_physics.hpp"
+#include "dem/execution.hpp"
 #include "dem/fast_cycle_kernels.hpp"
 #include "dem/state.hpp"
 
@@ -34,19 +35,27 @@ namespace listric::dem {
 //   large pages for that, see aligned_vector.hpp: another 1.1 times.
 // - Scenes without bonds or friction run cycles compiled without them.
 
-/// The same as advance_plainly() without an account of energy. `threads` >= 1.
+/// The same as advance_plainly() without an account of energy.
 void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
-                  std::int64_t cycles, int threads, Cycle level, BaseResponse* response);
+                  std::int64_t cycles, const Execution& execution, BaseResponse* response);
 
 class FastCycle {
 public:
-    /// Packs a state. `threads` >= 1. Base and physics must outlive this.
-    FastCycle(const State& state, const RigidBase& base, const CyclePhysics& physics, int threads,
-              Cycle level);
+    /// For so many threads at most.
+    FastCycle(int threads, Cycle level) : threads_(threads), level_(level) {}
+
+    /// Whether what is packed, if anything is, is of that base.
+    bool is_for(const RigidBase& base, const Execution& execution) const {
+        return threads_ == execution.threads && level_ == execution.cycle &&
+               (base_ == &base || base_ == nullptr);
+    }
+
+    /// Base and physics must outlive it.
+    void pack(const State& state, const RigidBase& base, const CyclePhysics& physics);
 
     /// Runs until `cycles` cycles are done or the lists must be updated. Updates clock and bound of
     /// the state and the nodes of its base, nothing else. Returns the number of cycles done.
-    std::int64_t run(State& state, std::int64_t cycles, BaseResponse* response = nullptr);
+    std::int64_t run(State& state, std::int64_t cycles, BestTeam& team, BaseResponse* response);
 
     /// Packs new contact lists, of the same discs.
     void pack_contacts(const State& state);
@@ -54,7 +63,7 @@ public:
     void pack_searched_places(const State& state);
 
     /// Writes positions, velocities, shear forces and bonds back into the state's columns.
-    void unpack(State& state) const;
+    void unpack(State& state);
 
 private:
     struct Place {
@@ -67,12 +76,18 @@ private:
         std::int64_t look_interval;
     };
 
-    void divide_work(const State& state, int threads);
-    std::size_t pack_blocks(const State& state, std::size_t row, fast::Strip& strip);
-    std::size_t pack_base_contacts(const State& state, std::size_t row, std::size_t slot,
-                                   fast::Strip& strip);
-    std::size_t assign_slots(std::size_t slot, fast::Strip& strip);
-    void pack_gathers(const State& state);
+    std::int64_t run_piece(State& state, std::int64_t cycles, BestTeam& team,
+                           BaseResponse* response);
+    void divide_work(const State& state);
+    /// Calls work(strip) for all strips, which the threads at hand share.
+    template <class Work> void for_each_strip(Work&& work);
+    void pack_discs(const State& state, const fast::Strip& strip);
+    void pack_blocks(const State& state, fast::Strip& strip);
+    static std::size_t ring_of(const fast::Strip& strip);
+    void assign_slots(fast::Strip& strip);
+    void pack_base_contacts(const State& state, fast::Strip& strip);
+    void pack_gathers(const State& state, fast::Strip& strip);
+    void unpack(const fast::Strip& strip, State& state) const;
 
     void compute_base(fast::Strip& strip, BaseMoment base);
     void compute_nodes(fast::Strip& strip, const BaseNodeColumns& nodes, BaseMoment base);
@@ -80,12 +95,14 @@ private:
                      BaseResponse* response);
     fast::DampedAgainst damped_against() const;
     double furthest(const fast::Strip& strip) const;
+    double greatest_displacement(const State& state, double extension) const;
 
+    int threads_;
     Cycle level_;
-    const RigidBase& base_;
+    const RigidBase* base_ = nullptr;
     CyclePhysics physics_;
-    double time_step_;
-    std::size_t disc_count_;
+    double time_step_ = 0.0;
+    std::size_t disc_count_ = 0;
     AlignedVector<fast::Disc> discs_;
     AlignedVector<fast::Inertia> inertia_;
     std::vector<Place> searched_places_;

@@ -69,13 +69,17 @@ struct Tile {
     std::size_t end_group;
 };
 
-/// The contiguous discs of one thread.
+/// Contiguous discs that one thread computes.
 struct Strip {
     std::size_t first_disc = 0, end_disc = 0;
-    Blocks inner;                           ///< contacts of its discs, by tiles
-    Blocks boundary;                        ///< those with a second disc in a later strip
-    std::vector<BaseContact> base_contacts; ///< with rigid surfaces
-    std::vector<std::size_t> base_rows;     ///< of the table
+    std::size_t first_row = 0, end_row = 0;           ///< of its contacts in the table
+    std::size_t first_base_row = 0, end_base_row = 0; ///< of its base contacts
+    std::size_t first_slot = 0, ring = 0; ///< slots of inner blocks; boundary's and base's follow
+    bool bonded = false, frictional = false; ///< whether any contact is
+    Blocks inner;                            ///< contacts of its discs, by tiles
+    Blocks boundary;                         ///< those with a second disc in a later strip
+    std::vector<BaseContact> base_contacts;  ///< with rigid surfaces
+    std::vector<std::size_t> base_rows;      ///< of the table
     std::vector<NodeContact> node_contacts;
     std::vector<Tile> tiles;
     std::size_t look_ahead = 0;           ///< discs between the one that moves and those fetched

@@ -30,6 +30,7 @@ void grow_floaters(State& state, const RigidBase& base, const CyclePhysics& phys
         if (floaters < d.x.size() / 500)
             break;
         find_contacts(state, base);
+        execution.packed->forget();
         advance(state, base, physics, 50, execution);
     }
 }
@@ -73,6 +74,19 @@ void set_masses(State& state, double rock_density, double area) {
         d.mass[i] = rock_density * area / solid * pi * d.radius[i] * d.radius[i];
 }
 
+/// What discs do counts from here.
+void begin_history(State& state) {
+    const DiscColumns d = disc_columns(state);
+    std::iota(d.id.begin(), d.id.end(), 0);
+    state.next_id = static_cast<std::int64_t>(d.id.size());
+    std::ranges::copy(d.x, d.start_x.begin());
+    std::ranges::copy(d.y, d.start_y.begin());
+    std::ranges::fill(d.rotation, 0.0);
+    state.ledger.initial = std::accumulate(d.mass.begin(), d.mass.end(), 0.0);
+    state.clock.cycle = 0;
+    state.clock.extension = 0.0;
+}
+
 } // namespace
 
 double hanging_wall_area(const HangingWallParameters& p, const Chain& detachment) {
@@ -110,6 +124,9 @@ double stable_time_step(double mass, std::span<const Material> materials, double
 State make_hanging_wall(const GenesisRequest& request,
                         const std::function<void(std::string_view, double)>& report) {
     const Team team(request.execution.threads);
+    Packed packed;
+    Execution execution = request.execution;
+    execution.packed = &packed;
     const HangingWallParameters& p = request.hanging_wall;
     const auto [smallest, largest] = radius_range(p.mean_radius, p.radius_ratio);
 
@@ -143,47 +160,39 @@ State make_hanging_wall(const GenesisRequest& request,
     add_discs(state, disc_count(p, area + lid * p.length));
     const std::vector<double> radius =
         draw_radii({smallest, largest}, state.discs.rows(), state.seed);
-    DiscColumns d = disc_columns(state);
+    const DiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < radius.size(); ++i)
         d.mass[i] = density * pi * radius[i] * radius[i];
     const CyclePhysics weightless{request.physics.damping, 0.0};
     // Toward rest, against no mean motion.
     const CyclePhysics physics{request.physics.damping, request.physics.gravity};
     scatter_and_expand(state, closed, radius, p.length, -p.thickness, lid, request.physics.damping,
-                       report, request.execution);
+                       report, execution);
     sort_discs(state);
     find_contacts(state, closed);
     settle(
         state, closed, weightless, 1e-2, 2000,
-        [&](double share) { report("first equilibrium", share); }, request.execution);
+        [&](double share) { report("first equilibrium", share); }, execution);
 
     // Pressure and gravity travel a layer of discs in a few cycles; settling takes many crossings.
     const int crossing = static_cast<int>(p.thickness / p.mean_radius);
     find_contacts(state, open);
     settle(
         state, open, physics, 2.5e-3, 150 * crossing,
-        [&](double share) { report("settling under gravity", share); }, request.execution);
-    grow_floaters(state, open, physics, largest, request.execution);
+        [&](double share) { report("settling under gravity", share); }, execution);
+    grow_floaters(state, open, physics, largest, execution);
     trim(state, p.length);
     set_masses(state, p.rock_density, area);
     sort_discs(state);
     find_contacts(state, open);
     settle(
         state, open, physics, 2.5e-3, 150 * crossing,
-        [&](double share) { report("second equilibrium", share); }, request.execution);
+        [&](double share) { report("second equilibrium", share); }, execution);
 
     state.materials = request.materials;
     if (request.bonds)
         bond_touching(state, *request.bonds, 0);
-    d = disc_columns(state);
-    std::iota(d.id.begin(), d.id.end(), 0);
-    state.next_id = static_cast<std::int64_t>(d.id.size());
-    std::ranges::copy(d.x, d.start_x.begin());
-    std::ranges::copy(d.y, d.start_y.begin());
-    std::ranges::fill(d.rotation, 0.0);
-    state.ledger.initial = std::accumulate(d.mass.begin(), d.mass.end(), 0.0);
-    state.clock.cycle = 0;
-    state.clock.extension = 0.0;
+    begin_history(state);
     return state;
 }
 

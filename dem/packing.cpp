@@ -102,6 +102,8 @@ void scatter_and_expand(State& state, const RigidBase& base, std::span<const dou
         find_contacts(state, base);
         for (int batch = 0; batch < 3; ++batch) {
             stop_discs(state);
+            if (execution.packed)
+                execution.packed->forget();
             advance(state, base, {damping, 0.0}, 4, execution);
         }
         if (k % 10 == 0)
@@ -113,8 +115,13 @@ void scatter_and_expand(State& state, const RigidBase& base, std::span<const dou
 void settle(State& state, const RigidBase& base, const CyclePhysics& physics, double ratio,
             int limit, const std::function<void(double)>& report, const Execution& execution) {
     constexpr int batch = 250;
+    Packed for_this_call;
+    Execution how = execution;
+    if (!how.packed)
+        how.packed = &for_this_call;
+    how.packed->forget();
     for (int n = 0; n < limit; n += batch) {
-        advance(state, base, physics, batch, execution);
+        advance(state, base, physics, batch, how);
         report(static_cast<double>(n) / limit);
         const ForceBalance balance = force_balance(state, base, physics.gravity);
         double lift = 0.0;

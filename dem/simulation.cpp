@@ -14,8 +14,10 @@ namespace listric::dem {
 
 namespace {
 
-/// Cycles of a batch: what a core does in a fraction of a second.
-double greatest_batch(double discs) { return std::max(1.0, std::floor(2e7 / discs)); }
+/// Cycles of a batch: what so many cores do in a fraction of a second.
+double greatest_batch(double discs, int threads) {
+    return std::max(1.0, std::floor(2e7 * threads / discs));
+}
 
 } // namespace
 
@@ -92,6 +94,7 @@ template <class Work> void Simulation::timed(const std::string& part, Work&& wor
 }
 
 void Simulation::search_contacts() {
+    packed_.forget();
     timed("rebuild", [&] { find_contacts(state_, base_); });
 }
 
@@ -104,6 +107,8 @@ void Simulation::apply_due_events() {
     for (const auto& event : events_) {
         if (event->next_due() > extension() + tolerance())
             continue;
+        if (!dynamic_cast<const Observer*>(event.get()))
+            packed_.forget();
         timed(event->name(), [&] { search_due |= event->apply(state_, base_); });
         ++event->applied;
         if (!energy_)
@@ -122,13 +127,15 @@ void Simulation::apply_due_events() {
 void Simulation::cycle_toward(double goal, Execution execution) {
     const double per_cycle = base_.motion.speed * state_.clock.time_step;
     const auto discs = static_cast<double>(state_.discs.rows());
-    const auto batch = static_cast<std::int64_t>(
-        std::clamp(std::floor((goal - extension()) / per_cycle), 1.0, greatest_batch(discs)));
+    const auto batch =
+        static_cast<std::int64_t>(std::clamp(std::floor((goal - extension()) / per_cycle), 1.0,
+                                             greatest_batch(discs, execution.threads)));
     EnergyFlows flows;
     if (energy_) {
         flows = energy_->flows();
         execution.energy = &flows;
     }
+    execution.packed = &packed_;
     timed("cycle", [&] { advance_(state_, base_, physics_, batch, execution); });
     if (energy_)
         energy_->put(flows);

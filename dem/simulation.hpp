@@ -79,7 +79,11 @@ public:
     double tolerance() const; ///< half a cycle's extension, m
 
     const State& state() const { return state_; }
-    State& state() { return state_; } ///< for what is no event: keep contacts up to date
+    /// For what is no event, before the next cycles: keep contacts up to date.
+    State& state() {
+        packed_.forget();
+        return state_;
+    }
     const RigidBase& base() const { return base_; }
     const CyclePhysics& physics() const { return physics_; }
     std::span<const std::unique_ptr<Event>> events() const { return events_; }
@@ -112,6 +116,7 @@ private:
     std::vector<std::unique_ptr<Event>> events_;
     EnergyAccount* energy_ = nullptr; ///< one of the events, if it is on
     Advance advance_;
+    Packed packed_; ///< of the state
     TimeReport time_report_;
     double disc_steps_ = 0.0;
     bool has_state_ = false;

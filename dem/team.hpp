@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <thread>
 #include <vector>
 
@@ -32,8 +34,13 @@ public:
                 return;
             pause();
         }
+        const auto before = std::chrono::steady_clock::now();
         round_.wait(round, std::memory_order_acquire);
+        asleep_ += std::chrono::nanoseconds(std::chrono::steady_clock::now() - before).count();
     }
+
+    /// How long threads have slept here, all together, s.
+    double asleep() const { return 1e-9 * static_cast<double>(asleep_.load()); }
 
 private:
     static void pause() {
@@ -45,6 +52,32 @@ private:
     const int threads_;
     alignas(64) std::atomic<int> arrived_ = 0;
     alignas(64) std::atomic<unsigned> round_ = 0;
+    std::atomic<std::int64_t> asleep_ = 0; ///< ns
+};
+
+/// Work that the threads of a team take in phases which end at a barrier. Everyone begins with its
+/// own and goes on with what nobody has begun, so that a thread without a core takes less.
+class Claims {
+public:
+    explicit Claims(std::size_t items) : taken_(items) {}
+
+    /// Calls work(item) for items that are free, from `own` on. Phases count from 1.
+    template <class Work> void take(std::size_t own, unsigned phase, Work&& work) {
+        for (std::size_t k = 0; k < taken_.size(); ++k) {
+            const std::size_t item = (own + k) % taken_.size();
+            std::atomic<unsigned>& taken = taken_[item].in_phase;
+            unsigned before = taken.load(std::memory_order_relaxed);
+            if (before != phase &&
+                taken.compare_exchange_strong(before, phase, std::memory_order_relaxed))
+                work(item);
+        }
+    }
+
+private:
+    struct alignas(64) Taken {
+        std::atomic<unsigned> in_phase = 0; ///< the last
+    };
+    std::vector<Taken> taken_;
 };
 
 /// Keeps the calling thread on one core while it lives, if `threads` threads are to fill all cores:

@@ -175,7 +175,7 @@ void Session::extend() {
         simulation_.extend_to(std::min(next_window, target()), execution(),
                               [&](const Simulation& s) {
                                   record_.disc_steps = steps_before + s.disc_steps();
-                                  report_progress();
+                                  report_progress(s);
                                   return !options_.stop.requested();
                               });
         if (extension() < next_window - tolerance)
@@ -197,12 +197,12 @@ void Session::end_window() {
     save();
 }
 
-void Session::report_progress() {
+void Session::report_progress(const Simulation& simulation) {
     const double share = std::max(1e-3, extension() / target());
     const double cycling = std::max(1e-9, record_.seconds_by_part["cycle"]);
     log_.progress(
         fmt::format("cycle {}  extension {:.2f} of {:.2f} km  {:.1f} M disc-steps/s  {} left",
-                    simulation_.state().clock.cycle, extension() / 1e3, target() / 1e3,
+                    simulation.state().clock.cycle, extension() / 1e3, target() / 1e3,
                     record_.disc_steps / cycling / 1e6,
                     rough_duration(wall_seconds() / share * (1.0 - share))));
 }

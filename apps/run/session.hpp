@@ -44,7 +44,7 @@ private:
     double target() const;
     double wall_seconds() const;
 
-    void report_progress();
+    void report_progress(const dem::Simulation& simulation);
     Observation now() const;
     measures::Measures measure_now() const;
     measures::FaultReport faults_now();

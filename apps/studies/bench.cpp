@@ -135,8 +135,10 @@ std::string bench(const BenchRequest& request) {
     state.skin = 0.25 * state.mean_radius;
     state.clock.time_step = 0.005; // s, that of the peers' decks
     const std::int64_t contacts = make_contacts(p, request.bonded);
-    const Execution execution{request.threads, request.plain ? Cycle::plain : best_cycle()};
-    advance(state, p.base, p.physics, 200, execution); // warm caches
+    Packed packed;
+    const Execution execution{request.threads, request.plain ? Cycle::plain : best_cycle(), nullptr,
+                              &packed};
+    advance(state, p.base, p.physics, 200, execution); // packs, warms caches
     const auto wall = SteadyClock::now();
     const std::clock_t cpu = std::clock();
     advance(state, p.base, p.physics, request.steps, execution);

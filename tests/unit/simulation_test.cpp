@@ -44,6 +44,28 @@ public:
     }
 };
 
+/// Moves a disc and breaks a bond, but lists stay.
+class Kick : public Event {
+public:
+    Kick() : Event("kick", {2.0, 1.0}) {}
+    bool apply(State& state, const RigidBase&) override {
+        disc_columns(state).vx[5] += 10.0;
+        contact_columns(state).bonded[static_cast<std::size_t>(applied)] = 0;
+        return false;
+    }
+};
+
+/// Only looks.
+class Onlooker : public Observer {
+public:
+    Onlooker() : Observer("onlooker", {1.0, 1.0}) { memory.add<double>("x", "m", 0.0); }
+    bool apply(State& state, const RigidBase&) override {
+        memory.resize(memory.rows() + 1);
+        memory.get<double>("x").back() = disc_columns(state).x[5];
+        return false;
+    }
+};
+
 constexpr double time_step = 1e-3;      ///< s
 constexpr double cycle_extension = 0.3; ///< m: spacings are no multiples of it
 
@@ -101,6 +123,25 @@ TEST_F(SimulationEvents, FindContactsAgainWhereTheyMust) {
     EXPECT_EQ(parts["rebuild"], 2);
     EXPECT_EQ(simulation.find<Thief>()->applied, 2);
     EXPECT_EQ(simulation.find<Witness>(), nullptr);
+}
+
+TEST_F(SimulationEvents, ChangeWhatCyclesGoOnFrom) {
+    const auto hash_of = [](const Execution& execution) {
+        Simulation simulation(moving_box(), {.gravity = 9.81});
+        simulation.add<Onlooker>();
+        simulation.add<Kick>();
+        State state = discs_at_rest();
+        support::bond_all(state, moving_box());
+        simulation.begin(std::move(state));
+        simulation.extend_to(10.0, execution);
+        simulation.state().discs.get<double>("vy")[3] -= 5.0; // by what is no event
+        simulation.extend_to(20.0, execution);
+        EXPECT_EQ(simulation.find<Kick>()->applied, 10);
+        return simulation.hash();
+    };
+    const std::uint64_t plain = hash_of({1, Cycle::plain});
+    for (int threads : {1, 2, 3})
+        EXPECT_EQ(hash_of({threads, fast_cycle()}), plain) << threads << " threads";
 }
 
 TEST_F(SimulationEvents, AStoppedAndResumedSimulationIsTheSame) {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace listric {
 
 using namespace dem;
@@ -64,6 +66,59 @@ TEST(Determinism, NeitherThreadsNorRegistersMatter) {
         advance(fast.state, fast.base, physics, 1500, {threads, fast_cycle()});
         EXPECT_EQ(hash(fast.state), hash(plain.state)) << threads << " threads";
     }
+}
+
+TEST(Determinism, WhatIsPackedMayBeKept) {
+    for (int threads : {1, 2, 3, 5}) {
+        Fall kept, anew;
+        Packed packed;
+        const Execution fast{threads, fast_cycle(), nullptr, &packed};
+        const auto advance_both = [&](std::int64_t cycles) {
+            advance(kept.state, kept.base, physics, cycles, fast);
+            advance(anew.state, anew.base, physics, cycles, {1, Cycle::plain});
+        };
+        for (std::int64_t cycles : {1, 700, 800})
+            advance_both(cycles);
+        EXPECT_EQ(hash(kept.state), hash(anew.state)) << threads << " threads";
+        const auto kick = [](State& state) {
+            disc_columns(state).vx[7] += 1.0;
+            contact_columns(state).bonded[3] = 0;
+        };
+        kick(kept.state);
+        kick(anew.state);
+        packed.forget();
+        advance_both(800);
+        EXPECT_EQ(hash(kept.state), hash(anew.state)) << threads << " threads";
+        // The plain cycle changes the state, too.
+        advance(kept.state, kept.base, physics, 10, {1, Cycle::plain, nullptr, &packed});
+        advance(anew.state, anew.base, physics, 10, {1, Cycle::plain});
+        advance_both(100);
+        EXPECT_EQ(hash(kept.state), hash(anew.state)) << threads << " threads";
+        kick(kept.state); // and nobody is told
+        kick(anew.state);
+        advance_both(100);
+        EXPECT_NE(hash(kept.state), hash(anew.state)) << "nothing was kept";
+    }
+}
+
+TEST(Determinism, TeamsMayShrinkAndGrow) {
+    Fall one, many;
+    Packed packed;
+    std::set<int> sizes;
+    bool shrinks = true;
+    for (int k = 0; k < 20; ++k) {
+        advance(many.state, many.base, physics, 100, {3, fast_cycle(), nullptr, &packed});
+        // What makes it try another size, and like it.
+        const int before = packed.team().size();
+        shrinks = before == 3 || (shrinks && before != 1);
+        while (packed.team().size() == before)
+            packed.team().report(1.0, 1.0, shrinks ? before : 0.0);
+        sizes.insert(packed.team().size());
+        packed.team().report(2.0, 1.0, 0.0);
+    }
+    advance(one.state, one.base, physics, 2000, {1, Cycle::plain});
+    EXPECT_EQ(hash(many.state), hash(one.state));
+    EXPECT_EQ(sizes, (std::set<int>{1, 2, 3}));
 }
 
 TEST_P(Determinism, CopiesGoOnAlike) {

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/best_team.hpp"
+#include "dem/cycle_choice.hpp"
+#include "dem/cycle_physics.hpp"
+#include "dem/energy.hpp"
+#include "dem/state.hpp"
+
+#include <cstdint>
+#include <memory>
+
+namespace listric::dem {
+
+class FastCycle;
+
+/// What the fast cycle has packed, and what team is best for it, kept from call to call: packing
+/// takes as long as some ten cycles. Whoever keeps it forgets what is packed when anything but
+/// advance() has changed the state.
+class Packed {
+public:
+    Packed() = default;
+    Packed(const Packed&) = delete;
+    Packed& operator=(const Packed&) = delete;
+    Packed(Packed&&) = default;
+    Packed& operator=(Packed&&) = default;
+
+    void forget() { holds_ = false; }
+    BestTeam& team() { return team_; }
+
+private:
+    friend void advance_fast(State&, const RigidBase&, const CyclePhysics&, std::int64_t,
+                             const struct Execution&, BaseResponse*);
+
+    std::shared_ptr<FastCycle> cycle_; ///< shared with nobody: it destroys what is only named here
+    BestTeam team_{1};
+    bool holds_ = false; ///< whether it is what the state is
+};
+
+/// How the cycle is computed; the result is the same to the last bit.
+struct Execution {
+    int threads = 1;
+    Cycle cycle = best_cycle();
+    /// Adds up energies, if given: then the cycle is the plain one, on one thread.
+    EnergyFlows* energy = nullptr;
+    Packed* packed = nullptr; ///< none: every call packs anew
+};
+
+} // namespace listric::dem
