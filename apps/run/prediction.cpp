@@ -130,7 +130,7 @@ Prediction predict(const Scene& scene, double rate, int threads) {
                         .at_start = start,
                         .cycles = static_cast<double>(p.cycles),
                         .years = scene.extension.distance / scene.extension.rate};
-    // All but the cycle takes one thread.
+    // Of all but the cycle threads share some loops: counted is the worst, that it takes one.
     const double serial = price_of_genesis(h, start) + price_of_windows(scene, work) +
                           price_of_effects(scene, work) +
                           price_of_figures(scene, work.discs, parts.base_moves);
