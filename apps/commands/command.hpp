@@ -27,6 +27,7 @@ Command add_bench(CLI::App& program);
 Command add_laboratory(CLI::App& program);
 Command add_calibrate(CLI::App& program);
 Command add_study(CLI::App& program);
+Command add_trace(CLI::App& program);
 Command add_validate(CLI::App& program);
 
 // Options that several calls share.

@@ -32,22 +32,8 @@ DiscPlaces::DiscPlaces(const State& state)
     }
 }
 
-ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age) {
-    ShearField field;
-    field.diameter = now.diameter;
-    field.window = now.extension - before.extension;
-    std::vector<double> old_x, old_y;
-    for (std::size_t i = 0; i < now.id.size(); ++i) {
-        const auto id = static_cast<std::size_t>(now.id[i]);
-        if (id >= before.row_of.size() || before.row_of[id] < 0 || now.age[i] < least_age)
-            continue;
-        const auto old = static_cast<std::size_t>(before.row_of[id]);
-        field.x.push_back(now.x[i]);
-        field.y.push_back(now.y[i]);
-        field.id.push_back(now.id[i]);
-        old_x.push_back(before.x[old]);
-        old_y.push_back(before.y[old]);
-    }
+void fit_gradients(ShearField& field, std::span<const double> old_x,
+                   std::span<const double> old_y) {
     const std::size_t count = field.x.size();
     for (auto* values : {&field.xx, &field.xy, &field.yx, &field.yy})
         values->assign(count, 0.0);
@@ -77,6 +63,25 @@ ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double l
             field.yy[i] = gradient->yy;
         }
     }
+}
+
+ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age) {
+    ShearField field;
+    field.diameter = now.diameter;
+    field.window = now.extension - before.extension;
+    std::vector<double> old_x, old_y;
+    for (std::size_t i = 0; i < now.id.size(); ++i) {
+        const auto id = static_cast<std::size_t>(now.id[i]);
+        if (id >= before.row_of.size() || before.row_of[id] < 0 || now.age[i] < least_age)
+            continue;
+        const auto old = static_cast<std::size_t>(before.row_of[id]);
+        field.x.push_back(now.x[i]);
+        field.y.push_back(now.y[i]);
+        field.id.push_back(now.id[i]);
+        old_x.push_back(before.x[old]);
+        old_y.push_back(before.y[old]);
+    }
+    fit_gradients(field, old_x, old_y);
     return field;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace listric::measures {
@@ -55,6 +56,9 @@ struct ShearField {
 
     PlaneShear components(std::size_t k) const { return {xx[k] - yy[k], xy[k] + yx[k]}; }
 };
+
+/// Fits the gradients of a field whose points are known, and where they were before, m.
+void fit_gradients(ShearField& field, std::span<const double> old_x, std::span<const double> old_y);
 
 /// Discs of both states that are `least_age` m of extension old in `now` or belong to the basement.
 ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age);

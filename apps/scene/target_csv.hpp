@@ -13,7 +13,4 @@ namespace listric {
 std::vector<dem::TargetStage> read_target_csv(const std::filesystem::path& file,
                                               std::string_view value = "y_m");
 
-/// Whether a CSV file's header has a column. Throws SceneError if it cannot be read.
-bool csv_has_column(const std::filesystem::path& file, std::string_view name);
-
 } // namespace listric

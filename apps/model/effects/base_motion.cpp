@@ -2,6 +2,7 @@
 
 #include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
+#include "apps/support/csv.hpp"
 
 #include <fmt/format.h>
 

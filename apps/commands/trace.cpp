@@ -1,0 +1,60 @@
+#include "apps/archive/traced_faults.hpp"
+#include "apps/commands/command.hpp"
+#include "apps/measures/moved_points.hpp"
+#include "apps/support/csv.hpp"
+#include "apps/support/error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <iostream>
+#include <memory>
+
+namespace listric {
+
+namespace {
+
+/// Depth positive down in the file, y up in the program.
+measures::MovedPoints read_moved_points(const std::string& file) {
+    constexpr std::array<std::string_view, 4> names{"x_m", "depth_m", "dx_m", "ddepth_m"};
+    constexpr std::size_t fewest = 30;
+    CsvRows rows = read_csv(file, names);
+    if (rows.size() < fewest)
+        throw SceneError(
+            fmt::format("{}: has {} points, needs at least {}", file, rows.size(), fewest));
+    for (const std::size_t column : {1, 3})
+        for (double& value : rows.columns[column])
+            value = -value;
+    return {std::move(rows.columns[0]), std::move(rows.columns[1]), std::move(rows.columns[2]),
+            std::move(rows.columns[3])};
+}
+
+} // namespace
+
+Command add_trace(CLI::App& program) {
+    struct Request {
+        std::string file;
+        measures::FaultTraceOptions options;
+    };
+    const auto request = std::make_shared<Request>();
+    CLI::App* command =
+        program.add_subcommand("trace", "Faults in points of any code or image, as JSON");
+    command
+        ->add_option("POINTS", request->file,
+                     "CSV with the columns x_m, depth_m (before), dx_m, ddepth_m (displacement)")
+        ->required();
+    command
+        ->add_option("--least-strain", request->options.least_strain, "Shear strain along a fault")
+        ->check(CLI::Range(1e-6, 1e3))
+        ->capture_default_str();
+    command->add_option("--certain-strain", request->options.certain_strain, "and somewhere on it")
+        ->check(CLI::Range(1e-6, 1e3))
+        ->capture_default_str();
+    return {command, [request] {
+                std::cout << archive::to_json(
+                    measures::trace_faults(read_moved_points(request->file), request->options));
+                return ExitCode::done;
+            }};
+}
+
+} // namespace listric

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "apps/measures/fault_trace.hpp"
+
+#include <vector>
+
+namespace listric::measures {
+
+/// Points of a section and how they have moved: particles of any code, or the grid of image
+/// velocimetry.
+struct MovedPoints {
+    std::vector<double> x, y;   ///< before, m, y up
+    std::vector<double> dx, dy; ///< displacement, m
+};
+
+/// Typical distance of neighbours before they moved, m: median over the points of the mean distance
+/// of the four closest. For discs in a packing it is about their diameter. Of at least five points.
+double spacing_of(const MovedPoints& points);
+
+/// Their strain, with that spacing for a diameter; its window is one strain_window.
+ShearField shear_field(const MovedPoints& points);
+
+/// A fault of which no more is known than how the points beside it have moved.
+struct TracedFault {
+    FaultTrace trace;
+    double dip = 0.0;        ///< of the best straight line, degrees
+    bool normal = true;      ///< else reverse
+    double slip = 0.0;       ///< median along the trace, m, without sign
+    double throw_down = 0.0; ///< of the side above the fault relative to that below, m; > 0: normal
+    double width = 0.0;      ///< median along the trace, in spacings
+};
+
+/// The faults, the longest first. The least strains of the options are those of the whole
+/// displacement.
+std::vector<TracedFault> trace_faults(const MovedPoints& points,
+                                      const FaultTraceOptions& options = {});
+
+} // namespace listric::measures

@@ -1,0 +1,97 @@
+// Faults in points that no disc made. The truth is a plane through the origin that dips by `dip`
+// and slips by three spacings; a strain fit sees the points beside it, so its trace must lie within
+// a spacing of the plane, and the throw within a quarter of what the points on both sides show.
+
+#include "apps/measures/moved_points.hpp"
+#include "apps/support/csv.hpp"
+#include "apps/support/error.hpp"
+#include "tests/support.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+namespace listric::measures {
+
+using namespace dem;
+namespace {
+
+constexpr double spacing = 10.0;
+
+/// A grid of 81 by 41 points at rest, moved off their places by up to a fifth of the spacing.
+MovedPoints section() {
+    MovedPoints points;
+    support::Random random(7);
+    for (int i = -40; i <= 40; ++i)
+        for (int j = -40; j <= 0; ++j) {
+            points.x.push_back(spacing * (i + random.between(-0.2, 0.2)));
+            points.y.push_back(spacing * (j + random.between(-0.2, 0.2)));
+        }
+    points.dx.assign(points.x.size(), 0.0);
+    points.dy.assign(points.x.size(), 0.0);
+    return points;
+}
+
+TEST(MovedPoints, SpacingIsThatOfNeighbours) {
+    EXPECT_NEAR(spacing_of(section()), spacing, 0.1 * spacing);
+}
+
+TEST(MovedPoints, AFaultIsTracedToWithinASpacing) {
+    for (const double dip : {50.0, 60.0, 70.0, 120.0}) {
+        const double angle = dip * std::numbers::pi / 180.0;
+        const Point down{std::cos(angle), -std::sin(angle)};
+        MovedPoints points = section();
+        for (std::size_t i = 0; i < points.x.size(); ++i)
+            if ((cross(down, {points.x[i], points.y[i]}) > 0.0) == (dip < 90.0)) {
+                points.dx[i] = 3.0 * spacing * down.x;
+                points.dy[i] = 3.0 * spacing * down.y;
+            }
+        const std::vector<TracedFault> faults = trace_faults(points);
+        ASSERT_EQ(faults.size(), 1u) << dip;
+        const TracedFault& fault = faults[0];
+        EXPECT_NEAR(fault.dip, std::min(dip, 180.0 - dip), 3.0) << dip;
+        EXPECT_TRUE(fault.normal) << dip;
+        const double throw_down = -3.0 * spacing * down.y;
+        EXPECT_NEAR(fault.throw_down, throw_down, 0.25 * throw_down) << dip;
+        for (const Point& at : fault.trace.points)
+            EXPECT_LT(std::abs(cross(down, at)), spacing) << dip;
+    }
+}
+
+TEST(MovedPoints, NeitherRotationNorEvenShearIsAFault) {
+    for (const double spin : {0.0, 0.3}) {
+        MovedPoints points = section();
+        for (std::size_t i = 0; i < points.x.size(); ++i) {
+            points.dx[i] = 0.1 * points.y[i] - spin * points.y[i];
+            points.dy[i] = spin * points.x[i];
+        }
+        EXPECT_TRUE(trace_faults(points).empty()) << spin;
+    }
+}
+
+TEST(MovedPoints, AFileThatIsNoneIsRefusedByLineAndColumn) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "points.csv";
+    constexpr std::array<std::string_view, 2> names{"x_m", "depth_m"};
+    const auto refusal = [&](const char* text) -> std::string {
+        std::ofstream(file) << text;
+        try {
+            read_csv(file.string(), names);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refusal("x_m,depth_m\n1,2\n"), "");
+    EXPECT_THAT(refusal("x_m,depht_m\n1,2\n"), testing::HasSubstr("no column depth_m"));
+    EXPECT_THAT(refusal("x_m,depth_m\n1,2\n1,two\n"), testing::HasSubstr("points.csv:3"));
+    EXPECT_THAT(refusal("x_m,depth_m\n1\n"), testing::HasSubstr("points.csv:2"));
+    std::filesystem::remove(file);
+}
+
+} // namespace
+} // namespace listric::measures
