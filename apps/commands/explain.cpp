@@ -2,7 +2,6 @@
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/model/model.hpp"
-#include "apps/run/prediction.hpp"
 #include "fem/plate.hpp"
 
 #include <fmt/format.h>
@@ -52,15 +51,15 @@ std::string explain_effects(const Scene& scene, EffectList effects) {
 
 std::string explain_size(const Scene& scene, const Prediction& p) {
     const ExtensionParameters& extension = scene.extension;
-    return fmt::format(
-        "size\n"
-        "  {} discs at the start, about {} at the end, mean radius {} m\n"
-        "  {:g} km of extension at {} m/a: {:g} Ma\n"
-        "  time step {:.3g} s, {:.3g} million cycles at {} m/s\n"
-        "  {:.2g} disc-steps, about {:.0f} MB of memory\n\n",
-        p.discs_at_start, p.discs_at_end, scene.hanging_wall->mean_radius, extension.distance / 1e3,
-        extension.rate, extension.distance / extension.rate / 1e6, p.time_step,
-        static_cast<double>(p.cycles) / 1e6, extension.speed, p.disc_steps, p.memory / 1e6);
+    return fmt::format("size\n"
+                       "  {} discs at the start, about {} at the end, mean radius {} m\n"
+                       "  {:g} km of extension at {} m/a: {:g} Ma\n"
+                       "  time step {:.3g} s, {:.3g} million cycles at {} m/s\n"
+                       "  {:.2g} disc-steps, about {:.0f} MB of memory\n\n",
+                       p.discs_at_start, p.discs_at_end, scene.hanging_wall->mean_radius,
+                       extension.distance / 1e3, extension.rate,
+                       extension.distance / extension.rate / 1e6, p.time_step, p.cycles / 1e6,
+                       extension.speed, p.disc_steps, p.memory / 1e6);
 }
 
 /// What effects say of themselves; those that need another one are spoken for by it.
@@ -86,7 +85,7 @@ std::string explain_cost(const Scene& scene, const Prediction& p, const CycleSpe
         other.hanging_wall->mean_radius = level.mean_radius;
         other.extension.speed = level.speed;
         const Prediction q = predict(other, rate, threads);
-        text += fmt::format("  {:<10} {:>10.4g} {:>9} {:>12} {:>9}{}\n", level.name,
+        text += fmt::format("  {:<10} {:>10.4g} {:>9} {:>12.0f} {:>9}{}\n", level.name,
                             level.mean_radius, q.discs_at_start, q.cycles, duration(q.seconds),
                             level.mean_radius == scene.hanging_wall->mean_radius ? "   <- this call"
                                                                                  : "");
@@ -100,10 +99,16 @@ std::string explain_cost(const Scene& scene, const Prediction& p, const CycleSpe
 } // namespace
 
 std::string explain(const Scene& scene, int threads, EffectList effects) {
+    CycleSpeed speed;
+    if (scene.hanging_wall)
+        speed =
+            measure_speed(estimated_discs(scene), threads, 1.0, make_parts(scene).accounts_energy);
+    return explain(scene, speed, threads, effects);
+}
+
+std::string explain(const Scene& scene, const CycleSpeed& speed, int threads, EffectList effects) {
     if (scene.flexure)
         return explain_flexure(scene);
-    const CycleSpeed speed =
-        measure_speed(estimated_discs(scene), threads, 1.0, make_parts(scene).accounts_energy);
     const Prediction p = predict(scene, speed.disc_steps_per_second, threads);
     return fmt::format("{}: {}\n\n", scene.name, scene.description) +
            explain_effects(scene, effects) + explain_size(scene, p) +

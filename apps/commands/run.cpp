@@ -2,6 +2,7 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/run/oversize.hpp"
 
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@ struct RunCall {
     RunOptions options;
     std::optional<std::string> until;
     std::string output;
+    bool force_size = false;
 };
 
 /// "5km", "5000m" or "5000" in metres.
@@ -35,6 +37,9 @@ double parse_length(const std::string& text) {
 
 ExitCode run(RunCall& call) {
     const Scene scene = load_scene(call.scene);
+    if (!call.force_size)
+        if (const auto oversize = oversize_of(scene, program_effects(), machine_memory()))
+            refuse_scene(call.scene, oversize->parameter, oversize->message);
     if (call.until)
         call.options.until = parse_length(*call.until);
     call.options.output = call.output.empty() ? "out/" + scene.name : call.output;
@@ -56,6 +61,7 @@ Command add_run(CLI::App& program) {
     command->add_option("--until", call->until, "End at this extension, such as 5km");
     command->add_flag("--resume", call->options.resume, "Go on from the newest snapshot");
     command->add_flag("--force", call->options.force, "Replace a run in the same folder");
+    command->add_flag("--force-size", call->force_size, "Begin a run however large it is");
     command->add_flag("--quiet", call->options.quiet, "No progress");
     return {command, [call] { return run(*call); }};
 }

@@ -122,22 +122,28 @@ Prediction predict(const Scene& scene, double rate, int threads) {
     p.discs_at_end = p.discs_at_start + new_discs(scene);
     const double time =
         scene.extension.distance / scene.extension.speed + 0.5 * scene.extension.ramp;
-    p.cycles = static_cast<std::int64_t>(time / p.time_step);
-    p.disc_steps = 0.5 * static_cast<double>(p.discs_at_start + p.discs_at_end) *
-                   static_cast<double>(p.cycles);
+    p.cycles = std::floor(time / p.time_step);
+    p.disc_steps = 0.5 * static_cast<double>(p.discs_at_start + p.discs_at_end) * p.cycles;
     const auto start = static_cast<double>(p.discs_at_start);
     const Workload work{.discs = 0.5 * (start + static_cast<double>(p.discs_at_end)),
                         .at_start = start,
-                        .cycles = static_cast<double>(p.cycles),
+                        .cycles = p.cycles,
                         .years = scene.extension.distance / scene.extension.rate};
     // Of all but the cycle threads share some loops: counted is the worst, that it takes one.
     const double serial = price_of_genesis(h, start) + price_of_windows(scene, work) +
                           price_of_effects(scene, work) +
                           price_of_figures(scene, work.discs, parts.base_moves);
     const double cycling_threads = parts.accounts_energy ? 1.0 : threads;
+    p.work = cycle_price * p.disc_steps + serial;
     p.seconds = (cycle_price * p.disc_steps + serial * cycling_threads) / rate;
-    // Columns of a disc, three contacts each, and the neighbour search's copies.
-    p.memory = 20e6 + static_cast<double>(p.discs_at_end) * (25 * 8.0 + 3 * 29.0 * 2.0 + 100.0);
+    // Columns of a disc, its listed contacts, and the neighbour search's copies.
+    const double contacts =
+        std::max(3.0, 0.42 * (2.0 + scene.cycle.skin) * (2.0 + scene.cycle.skin));
+    p.memory =
+        20e6 + static_cast<double>(p.discs_at_end) * (25 * 8.0 + contacts * 29.0 * 2.0 + 100.0);
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->memory)
+            p.memory += part.effect->memory(scene);
     return p;
 }
 

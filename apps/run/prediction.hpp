@@ -2,7 +2,7 @@
 
 #include "apps/scene/scene.hpp"
 
-#include <cstdint>
+#include <cstddef>
 
 namespace listric {
 
@@ -15,9 +15,10 @@ struct CycleSpeed {
 /// What a scene will cost on this machine.
 struct Prediction {
     std::size_t discs_at_start = 0, discs_at_end = 0;
-    double time_step = 0.0;  ///< s
-    std::int64_t cycles = 0; ///< after genesis
+    double time_step = 0.0; ///< s
+    double cycles = 0.0;    ///< after genesis
     double disc_steps = 0.0;
+    double work = 0.0;    ///< all that is done, disc-steps of the bare cycle
     double memory = 0.0;  ///< bytes
     double seconds = 0.0; ///< wall time, when nothing else runs
 };

@@ -54,10 +54,8 @@ std::string with_hint(const std::exception& error, const fs::path& output, std::
 MemoryError out_of_memory(const Scene& scene, int threads) {
     const double bytes = scene.hanging_wall ? predict(scene, 1.0, threads).memory : 0.0;
     const std::string discs =
-        bytes > 0.0
-            ? fmt::format("the run needs about {:.0f} MB{}", std::ceil(bytes / 1e6),
-                          has_effect(scene, "elastic_base") ? " and what its footwall takes" : "")
-            : "the elastic base takes more than there is";
+        bytes > 0.0 ? fmt::format("the run needs about {:.0f} MB", std::ceil(bytes / 1e6))
+                    : "the elastic base takes more than there is";
     return MemoryError("memory is short: " + discs);
 }
 

@@ -172,6 +172,8 @@ struct Effect {
 
     /// Time that it takes, disc-steps of the bare cycle.
     double (*price)(const Scene& scene, const Workload& work) = nullptr;
+    /// Memory that it takes beside the discs, bytes.
+    double (*memory)(const Scene& scene) = nullptr;
     /// Area that comes as discs, m^2 of the packing at the start.
     double (*new_area)(const Scene& scene) = nullptr;
 

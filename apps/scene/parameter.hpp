@@ -143,7 +143,7 @@ std::vector<std::string_view> keys(const std::vector<Parameter>& parameters);
 // Ranges that several parameters share.
 namespace ranges {
 inline constexpr Range years{.from = 1, .to = 1e7};
-inline constexpr Range length{.above = 0, .to = 1e6};
+inline constexpr Range length{.from = 1e-3, .to = 1e6};
 inline constexpr Range height{.from = -1e5, .to = 1e5};
 inline constexpr Range dip{
     .from = 0, .to = 90, .reason = "else the detachment rises or folds back"};
@@ -151,7 +151,7 @@ inline constexpr Range friction{.from = 0, .to = 10};
 inline constexpr Range stiffness{.from = 1e3, .to = 1e15};
 inline constexpr Range strength{.from = 0, .to = 1e12};
 inline constexpr Range density{.from = 100, .to = 20e3};
-inline constexpr Range strain_rate{.above = 0, .to = 1e-3};
+inline constexpr Range strain_rate{.from = 1e-30, .to = 1e-3};
 } // namespace ranges
 
 } // namespace listric

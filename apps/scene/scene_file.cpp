@@ -24,7 +24,7 @@ namespace {
 constexpr Shelf scenes{"scene",
                        "a scene has at least [hanging_wall] and [detachment] or [stretching], "
                        "or [flexure] and [elastic_base]",
-                       "LISTRIC_SCENES", "apps/scenes"};
+                       "LISTRIC_SCENES", "scenes"};
 
 [[noreturn]] void fail_unknown(const Entry& entry, const std::vector<Parameter>& top,
                                const std::vector<SceneTable>& all) {
@@ -294,6 +294,12 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     check_scene(scene, document, effects);
     check_rocks(scene, rocks, document);
     return scene;
+}
+
+void refuse_scene(const SceneRequest& request, const std::string& path,
+                  const std::string& message) {
+    const toml::table document = merged_document(request, scenes.find(request.scene));
+    fail(entry_at(document, path), message);
 }
 
 std::string to_toml(const Scene& scene) {

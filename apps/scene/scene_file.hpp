@@ -24,6 +24,11 @@ struct SceneRequest {
 /// that there are. Its name is the file's without folder and ending. Throws SceneError.
 Scene load_scene(const SceneRequest& request, EffectList effects);
 
+/// Refuses a scene that has been loaded because of the value at "table.key", as load_scene does.
+/// Throws SceneError.
+[[noreturn]] void refuse_scene(const SceneRequest& request, const std::string& path,
+                               const std::string& message);
+
 /// All parameters in force as TOML that load_scene reads back to the same scene.
 std::string to_toml(const Scene& scene);
 

@@ -492,10 +492,10 @@ TEST_F(SceneTest, SegmentsAreArcsOrLines) {
         return error("[hanging_wall]\n[detachment]\nsegments = [\n" + list + "\n]\n");
     };
     EXPECT_EQ(segments("{arc = {}}"), "scene.toml:4: detachment.segments[0].arc: needs radius_m "
-                                      "(radius of the arc; above 0, at most 1e6)");
+                                      "(radius of the arc; at least 0.001, at most 1e6)");
     EXPECT_EQ(segments("{arc = {radius_m = 1e4}},\n{line = {start_dip_deg = 3}}"),
               "scene.toml:5: detachment.segments[1].line: needs length_m "
-              "(length of the line; above 0, at most 1e6)");
+              "(length of the line; at least 0.001, at most 1e6)");
     EXPECT_THAT(segments("{arc = {radius_m = 1e4}, line = {length_m = 1e4}}"),
                 StartsWith("scene.toml:4: detachment.segments[0]: needs exactly one of arc and "));
     EXPECT_THAT(segments("{}"), HasSubstr("needs exactly one of arc and line"));
@@ -509,7 +509,7 @@ TEST_F(SceneTest, SegmentsAreArcsOrLines) {
               "did you mean radius_m?");
     EXPECT_EQ(segments("{line = {length_m = 0}}"),
               "scene.toml:4: detachment.segments[0].line.length_m: out of range (0), "
-              "allowed: above 0, at most 1e6");
+              "allowed: at least 0.001, at most 1e6");
     EXPECT_EQ(segments("{arc = {radius_m = 1e4, end_dip_deg = 91}}"),
               "scene.toml:4: detachment.segments[0].arc.end_dip_deg: out of range (91), "
               "allowed: at least 0, at most 90; else the detachment rises or folds back");

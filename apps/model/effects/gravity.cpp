@@ -22,7 +22,7 @@ const Effect& gravity() {
         .parameters = {{"acceleration_m_per_s2",
                         at<&P::acceleration>,
                         "m/s2",
-                        {.above = 0, .to = 100},
+                        {.from = 1e-6, .to = 100},
                         "g",
                         "gravitational acceleration"}},
         .without_discs = true,

@@ -46,7 +46,7 @@ const Effect& lower_crust_thinning() {
                 {"thickness_m",
                  at<&P::thickness>,
                  "m",
-                 {.above = 0, .to = 1e5},
+                 {.from = 1, .to = 1e5},
                  "",
                  "of the lower crust before extension"},
                 {"width_m",

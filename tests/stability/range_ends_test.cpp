@@ -1,0 +1,141 @@
+// Every number that a scene may hold, at both ends of its range: what is told of the run is finite,
+// and the run ends or is refused, however odd its physics are.
+
+#include "apps/commands/explain.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/run/oversize.hpp"
+#include "apps/scene/tables.hpp"
+#include "apps/support/spelling.hpp"
+#include "tests/program.hpp"
+#include "tests/scene_runs.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace listric {
+namespace {
+
+using support::Ended;
+using support::Program;
+using testing::AnyOf;
+using testing::Not;
+
+class RangeEnds : public support::SceneRuns {};
+
+/// "table.key=value" for both ends of all numbers in the tables of a scene.
+std::vector<std::string> ends_in(const Scene& scene) {
+    std::vector<std::string> ends;
+    for (const SceneTable& table : scene_tables(program_effects())) {
+        if (!table.in(scene))
+            continue;
+        for (const Parameter& parameter : table.parameters) {
+            const bool whole = std::holds_alternative<Place<int>>(parameter.value);
+            if (!whole && !std::holds_alternative<Place<double>>(parameter.value))
+                continue;
+            const Range& range = parameter.range;
+            const double least = std::isfinite(range.from) ? range.from : range.above,
+                         greatest = std::isfinite(range.to)
+                                        ? range.to
+                                        : std::nextafter(range.below, -Range::infinity);
+            for (const double value : {least, greatest}) {
+                EXPECT_TRUE(range.contains(value))
+                    << table.name << '.' << parameter.key << ": has no end within its range";
+                const std::string number = text(value);
+                ends.push_back(std::string(table.name) + '.' + std::string(parameter.key) + '=' +
+                               (whole ? std::to_string(static_cast<long>(value)) : number));
+            }
+        }
+    }
+    return ends;
+}
+
+SceneRequest request_of(const std::string& scene, const std::string& set) {
+    return {.scene = scene, .set = {set}, .accuracy = "draft"};
+}
+
+const std::string every_effect = support::test_scene("every-effect.toml");
+
+TEST_F(RangeEnds, ExplainIsFinite) {
+    for (const std::string& scene :
+         {every_effect, std::string("lis1-elastic"), std::string("flexure")}) {
+        int told = 0;
+        for (const std::string& end : ends_in(load_scene({.scene = scene}))) {
+            std::string told_of_it;
+            try {
+                told_of_it = explain(load_scene(request_of(scene, end)),
+                                     {.disc_steps_per_second = 1e8}, 2, program_effects());
+            } catch (const SceneError&) {
+                continue; // does not go with the rest of the scene
+            }
+            ++told;
+            EXPECT_THAT(told_of_it, Not(testing::ContainsRegex("[^a-z](inf|nan)[^a-z]|-9223372")))
+                << end;
+        }
+        EXPECT_GT(told, 10) << scene;
+    }
+}
+
+TEST_F(RangeEnds, ARunEndsOrIsRefused) {
+    const std::vector<std::string> ends = ends_in(load_scene({.scene = every_effect}));
+    ASSERT_GT(ends.size(), 80u);
+    for (const std::string& end : ends) {
+        const Program program(folder,
+                              {"run", every_effect, "--until", "20m", "--set", end, "--threads",
+                               "1", "--quiet", "--force", "--output", (folder / "out").string()});
+        const auto begun = std::chrono::steady_clock::now();
+        while (program.runs() &&
+               std::chrono::steady_clock::now() - begun < std::chrono::seconds(60))
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        const bool hangs = program.runs();
+        if (hangs)
+            program.send(SIGKILL);
+        const Ended ended = program.wait();
+        EXPECT_FALSE(hangs) << end;
+        EXPECT_THAT(ended.code, AnyOf(0, 2, 3)) << end << '\n' << ended.err;
+        EXPECT_TRUE(ended.code == 0 || !ended.err.empty()) << end;
+    }
+}
+
+TEST_F(RangeEnds, WhatNobodyWaitsForIsRefusedByTheNameOfItsCause) {
+    const auto cause = [](const char* set, double memory) {
+        const auto oversize =
+            oversize_of(load_scene(request_of("lis1", set)), program_effects(), memory);
+        return oversize ? oversize->parameter : "";
+    };
+    constexpr double memory = 24e9;
+    EXPECT_EQ(cause("seed=1", memory), "");
+    EXPECT_EQ(cause("cycle.time_step_safety=1e-6", memory), "cycle.time_step_safety");
+    EXPECT_EQ(cause("extension.speed_m_per_s=1e-6", memory), "extension.speed_m_per_s");
+    EXPECT_EQ(cause("output.interval_m=1e-6", memory), "output.interval_m");
+    EXPECT_EQ(cause("hanging_wall.mean_radius_m=6", 1e9), "hanging_wall.mean_radius_m");
+    EXPECT_EQ(cause("hanging_wall.mean_radius_m=6", memory), "");
+}
+
+TEST_F(RangeEnds, ARefusalNamesFileValueAndCure) {
+    const auto call = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"run",        "lis1",
+                                       "--accuracy", "draft",
+                                       "--set",      "cycle.time_step_safety=1e-6",
+                                       "--output",   (folder / "out").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return Program(folder, words);
+    };
+    const Ended refused = call({}).wait();
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err,
+                testing::AllOf(testing::HasSubstr("cycle.time_step_safety"),
+                               testing::HasSubstr("1e-06"), testing::HasSubstr("--force-size")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    // Its beginning is soon done.
+    EXPECT_EQ(call({"--until", "0", "--force-size", "--quiet"}).wait().code, 0);
+}
+
+} // namespace
+} // namespace listric
