@@ -7,7 +7,10 @@
 #include "apps/support/version.hpp"
 #include "dem/hash.hpp"
 
+#include <fmt/format.h>
+
 #include <bit>
+#include <charconv>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -21,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view format = "listric snapshot 5";
-constexpr std::string_view format_without_checksum = "listric snapshot 3";
+constexpr int format = 5; // raised when a file of before no longer has all that a state needs
+constexpr std::string_view kind = "listric snapshot ";
 
 /// The state's numbers by name; used to write and to read.
 template <class AnyState, class Visit> void for_each_number(AnyState& s, Visit&& visit) {
@@ -221,7 +224,7 @@ std::vector<std::byte> file_image(const State& state,
     check(H5Pset_fapl_core(in_memory, 1 << 20, false), "core driver");
     const Handle file(H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose,
                       "cannot create the file");
-    write_text_attribute(file, "format", std::string(format));
+    write_text_attribute(file, "format", std::string(kind) + std::to_string(format));
     write_text_attribute(file, "version", std::string(version));
     write_state(file, state);
     write_memories(file, events);
@@ -239,15 +242,26 @@ std::vector<std::byte> file_image(const State& state,
 /// Errors are thrown, not printed.
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
+void check_format(const std::string& found, const std::string& writer) {
+    int number = 0;
+    if (found.starts_with(kind))
+        std::from_chars(found.data() + kind.size(), found.data() + found.size(), number);
+    if (number == 0)
+        throw StorageError("is not a snapshot");
+    if (number != format)
+        throw UsageError(fmt::format("is of format {}, written by version {}, and this program "
+                                     "({}) reads format {}; go on with {}",
+                                     number, writer, version, format,
+                                     number > format ? "a newer program" : "that version"));
+}
+
 /// HDF5 must not see a damaged file, for it reads beyond what is damaged: the checksum comes first.
 Snapshot read_verified(const fs::path& path) {
     const bool verified = verify_checksum(path);
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
                       "cannot be opened as HDF5");
-    const std::string found = read_text_attribute(file, "format");
-    if (found != format && found != format_without_checksum)
-        throw StorageError("is not a snapshot of this version of the program");
-    if (found == format && !verified)
+    check_format(read_text_attribute(file, "format"), read_text_attribute(file, "version"));
+    if (!verified)
         throw StorageError("is damaged (it lacks its checksum)");
     Snapshot snapshot;
     snapshot.state = read_state(file);
@@ -274,6 +288,8 @@ Snapshot read_snapshot(const fs::path& path) {
     silence_hdf5();
     try {
         return read_verified(path);
+    } catch (const UsageError& error) {
+        throw UsageError(path.string() + ": " + error.what());
     } catch (const std::exception& error) {
         throw StorageError(path.string() + ": " + error.what());
     }

@@ -34,7 +34,8 @@ struct Snapshot {
 void write_snapshot(const std::filesystem::path& path, const dem::State& state,
                     std::span<const std::unique_ptr<dem::Event>> events, const RunRecord& record);
 
-/// Throws StorageError if the file is missing, incomplete or of another kind.
+/// Throws StorageError if the file is missing, incomplete or of another kind, UsageError if it is
+/// of another format: a run is then gone on with by the version that wrote it.
 Snapshot read_snapshot(const std::filesystem::path& path);
 
 /// Hash of the state and of what the events remember: equal for equal runs.

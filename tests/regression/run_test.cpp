@@ -1,6 +1,7 @@
 // Runs from beginning to end: reproducible, resumable after anything, honest about what fails.
 // Most runs are made in-process; where signals and exit codes matter, by the program.
 
+#include "apps/archive/checksum.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
@@ -19,6 +20,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <functional>
@@ -551,6 +553,30 @@ TEST_F(RunTest, ADamagedLastSnapshotIsReplacedInTheEnd) {
     EXPECT_NO_THROW(read_snapshot(list_snapshots(output).back()));
 }
 
+TEST_F(RunTest, ASnapshotOfAnotherFormatIsRefusedAndTheRunIsKept) {
+    const fs::path output = run(scene(), "run", {.until = 133.7});
+    fs::remove(output / "summary.json");
+    for (const auto& [digit, cure] : {std::pair{'4', "that version"}, {'6', "a newer program"}}) {
+        for (const fs::path& file : list_snapshots(output)) {
+            std::string text = contents(file);
+            const auto at = text.find("listric snapshot ");
+            ASSERT_NE(at, std::string::npos);
+            text[at + std::strlen("listric snapshot ")] = digit;
+            std::vector<std::byte> bytes(text.size() - 24); // without the checksum
+            std::memcpy(bytes.data(), text.data(), bytes.size());
+            append_checksum(bytes);
+            write(file, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+        }
+        const auto before = tree(output / "snapshots");
+        const Ended refused = call_run(output, {"--resume", "--until", "133.7"});
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_THAT(refused.err,
+                    AllOf(HasSubstr(std::string("format ") + digit), HasSubstr("reads format 5"),
+                          HasSubstr("version"), HasSubstr(cure)));
+        EXPECT_TRUE(tree(output / "snapshots") == before);
+    }
+}
+
 // --------------------------------------------------------------------------------- output folder
 
 TEST_F(RunTest, AFinishedRunIsReplacedOnlyByForce) {
@@ -685,11 +711,12 @@ TEST_F(RunTest, ABadSceneIsRefusedBeforeAnythingIsCreated) {
         {"out of range",
          "= 4000.0",
          "= -4000.0",
-         {":2: hanging_wall.length_m: out of range (-4000)", "allowed: above 0, at most 1e6"}},
+         {":2: hanging_wall.length_m: out of range (-4000)",
+          "allowed: at least 0.001, at most 1e6"}},
         {"not a number",
          "= 4000.0",
          "= nan",
-         {":2: hanging_wall.length_m: out of range (nan)", "allowed: above 0"}},
+         {":2: hanging_wall.length_m: out of range (nan)", "allowed: at least 0.001"}},
         {"missing table",
          "[sedimentation]\ninterval_a = 6000.0\n",
          "",
