@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <memory>
+#include <utility>
 
 namespace listric {
 
@@ -27,16 +29,25 @@ void FigureFrames::draw(const std::string& kind) const {
         throw StorageError(problem);
 }
 
-std::string draw_figures(const Observation& now, const FaultReport& faults,
-                         const fs::path& folder) {
+std::future<std::string> draw_figures(const Observation& now, const FaultReport& faults,
+                                      const fs::path& folder) {
+    std::unique_ptr<FigureFrames> frames;
+    std::string problem;
     try {
-        FigureFrames frames(folder);
-        frames.add(now, faults);
-        frames.draw("sections");
+        frames = std::make_unique<FigureFrames>(folder);
+        frames->add(now, faults);
     } catch (const std::exception& error) {
-        return error.what();
+        problem = error.what();
     }
-    return {};
+    return std::async(std::launch::async, [frames = std::move(frames), problem] {
+        try {
+            if (problem.empty())
+                frames->draw("sections");
+        } catch (const std::exception& error) {
+            return std::string(error.what());
+        }
+        return problem;
+    });
 }
 
 } // namespace listric

@@ -5,14 +5,16 @@
 #include "apps/support/file.hpp"
 
 #include <filesystem>
+#include <future>
 #include <string>
 
 namespace listric {
 
-/// Draws the pictures of one state into `folder`. Returns an empty string, or why it could not:
-/// pictures are worth a warning, not the run.
-std::string draw_figures(const Observation& now, const measures::FaultReport& faults,
-                         const std::filesystem::path& folder);
+/// Draws the pictures of one state into `folder`. The state is read at once; the drawing goes on
+/// beside what follows. Gives an empty string, or why it could not: pictures are worth a warning,
+/// not the run.
+std::future<std::string> draw_figures(const Observation& now, const measures::FaultReport& faults,
+                                      const std::filesystem::path& folder);
 
 /// Pictures of several moments of a run: the arrays that the drawing script reads, in a folder that
 /// vanishes with this object.

@@ -281,24 +281,28 @@ void Session::draw() {
     const FaultReport faults = faults_now();
     const Stopwatch watch(record_.seconds_by_part["figures"]);
     drawn_at_ = extension();
-    const std::string problem = draw_figures(now(), faults, options_.output / "figures");
-    if (!problem.empty())
-        log_.say("warning: no figures: " + problem);
+    figures_.push_back(draw_figures(now(), faults, options_.output / "figures"));
 }
 
-/// The moments of the experiment on one sheet.
-void Session::draw_sheet() {
-    if (!options_.figures)
-        return;
-    const Stopwatch watch(record_.seconds_by_part["figures"]);
+/// The moments of the experiment on one sheet. Returns what is wrong.
+std::string Session::draw_sheet() const {
     try {
         const RunFolder run(options_.output, scene_);
         if (parts_.base_moves)
             draw_base(run);
         draw_experiment(run, history_);
     } catch (const std::exception& error) {
-        log_.say(std::string("warning: no sheet of figures: ") + error.what());
+        return error.what();
     }
+    return "";
+}
+
+void Session::await_figures() {
+    const Stopwatch watch(record_.seconds_by_part["figures"]);
+    for (std::future<std::string>& figure : figures_)
+        if (const std::string problem = figure.get(); !problem.empty())
+            log_.say("warning: no figures: " + problem);
+    figures_.clear();
 }
 
 /// Solves for the base once more on a finer mesh.
@@ -331,12 +335,14 @@ void Session::finish() {
         draw();
     if (kept_ != snapshot_path(output, extension()))
         save();
-    draw_sheet();
+    if (options_.figures)
+        figures_.push_back(std::async(std::launch::async, [this] { return draw_sheet(); }));
     const Measures measures = measure_now();
     warn_of_haste(measures);
     const FaultReport faults = faults_now();
     check_base();
     const EffectMeasures of_effects = measure_effects(now());
+    await_figures();
     write_text(output / "summary.json",
                summary_json({.scene = scene_.name,
                              .accuracy = scene_.accuracy,

@@ -11,7 +11,10 @@
 #include "dem/simulation.hpp"
 
 #include <filesystem>
+#include <future>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace listric {
 
@@ -55,7 +58,8 @@ private:
     void save();
     void save_field();
     void draw();
-    void draw_sheet();
+    std::string draw_sheet() const;
+    void await_figures();
     void check_base();
 
     const Scene& scene_;
@@ -72,8 +76,9 @@ private:
     SteadyClock::time_point started_ = SteadyClock::now();
     double seconds_before_ = 0.0; ///< wall time of the sessions that this one resumes
     std::filesystem::path kept_;  ///< snapshot of the present state, if there is one
-    double drawn_at_ = -1.0;      ///< extension of the last figures, m
-    bool has_warned_ = false;     ///< that the run is too fast
+    std::vector<std::future<std::string>> figures_; ///< being drawn; each says what is wrong
+    double drawn_at_ = -1.0;                        ///< extension of the last figures, m
+    bool has_warned_ = false;                       ///< that the run is too fast
 };
 
 } // namespace listric
