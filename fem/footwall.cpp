@@ -28,9 +28,20 @@ std::string number(double x) {
 
 [[noreturn]] void refuse(const std::string& message) { throw FootwallError(message); }
 
+/// The environment's LISTRIC_FEM_PLUGIN, else what is installed beside the executable, else what
+/// was built. Empty: there is none.
+std::string find_plugin() {
+    if (const char* path = std::getenv("LISTRIC_FEM_PLUGIN"); path && *path)
+        return path;
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    const auto installed = program.parent_path() / LISTRIC_FEM_INSTALLED;
+    return std::filesystem::is_regular_file(installed, error) ? installed.string()
+                                                              : LISTRIC_FEM_PLUGIN;
+}
+
 MakeFootwall load_plugin() {
-    const char* path = std::getenv("LISTRIC_FEM_PLUGIN");
-    const std::string file = path && *path ? path : LISTRIC_FEM_PLUGIN;
+    const std::string file = find_plugin();
     // Threads of the linear algebra would fight with those of the discs.
     setenv("OPENBLAS_NUM_THREADS", "1", 0);
     void* library = file.empty() ? nullptr : dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -24,7 +24,7 @@ void take_microproperties(dem::Material& material, const RockMaterial& rock);
 
 /// Where the program's materials are; the environment's LISTRIC_MATERIALS names another folder.
 inline constexpr Shelf materials{"material", "a material has at least [material]",
-                                 "LISTRIC_MATERIALS", "apps/materials"};
+                                 "LISTRIC_MATERIALS", "materials"};
 
 /// Reads and checks a material, with changes such as "material.friction=1". Throws SceneError.
 RockMaterial read_material(const std::filesystem::path& file,

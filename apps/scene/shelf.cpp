@@ -23,7 +23,7 @@ bool is_path(const std::string& name_or_path) {
 
 fs::path Shelf::path() const {
     const char* other = std::getenv(variable);
-    return other && *other ? fs::path(other) : source_folder() / folder;
+    return other && *other ? fs::path(other) : resource_folder() / folder;
 }
 
 std::vector<std::string> Shelf::names() const {

@@ -14,7 +14,7 @@ struct Shelf {
     std::string_view kind;     ///< scene
     std::string_view contents; ///< what such a file must have, told where it is empty
     const char* variable;      ///< of the environment: another folder
-    std::string_view folder;   ///< in the source tree
+    std::string_view folder;   ///< in resource_folder()
 
     std::filesystem::path path() const;
     std::vector<std::string> names() const; ///< of the files on it, sorted

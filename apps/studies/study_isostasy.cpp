@@ -173,7 +173,7 @@ StudyResult study_isostasy(const StudyRequest& asked) {
     std::vector<double> thicknesses =
         request.values.empty() ? std::vector{2e3, 5e3, 10e3, 15e3, 30e3} : request.values;
     std::ranges::sort(thicknesses);
-    const Fills fills = read_fills(source_folder() / "apps/studies/isostasy.toml");
+    const Fills fills = read_fills(resource_folder() / "studies/isostasy.toml");
     StudyResult result;
     result.title =
         fmt::format("Isostasy: flank uplift of {} against the thin plate", request.scene);

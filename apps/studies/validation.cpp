@@ -55,8 +55,8 @@ fs::path document_of(const ValidationRequest& request, const fs::path& runs) {
 }
 
 ValidationPlan plan_of(const ValidationRequest& request) {
-    return load_validation_plan(
-        request.plan.empty() ? source_folder() / "apps/studies/validation.toml" : request.plan);
+    return load_validation_plan(request.plan.empty() ? resource_folder() / "studies/validation.toml"
+                                                     : request.plan);
 }
 
 void check_accuracy(const std::string& accuracy) {

@@ -16,7 +16,7 @@ using namespace dem;
 
 namespace {
 
-const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", "", "apps/studies"};
+const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", "", "studies"};
 
 std::vector<std::string> words(const std::string& text) {
     std::istringstream in(text);

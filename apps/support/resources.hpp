@@ -4,7 +4,9 @@
 
 namespace listric {
 
-/// Where the program's own files are: scenes, materials, scripts.
-std::filesystem::path source_folder();
+/// Where the program's own files are (scenes, materials, scripts): the folder LISTRIC_SHARE of the
+/// environment, else share/listric beside the folder of the executable, else the source tree that
+/// it was built from.
+std::filesystem::path resource_folder();
 
 } // namespace listric

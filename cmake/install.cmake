@@ -1,0 +1,28 @@
+# What is installed beside the libraries: the program, what it reads, and what find_package reads.
+
+include(CMakePackageConfigHelpers)
+
+install(TARGETS listric RUNTIME COMPONENT program)
+set(share ${CMAKE_INSTALL_DATADIR}/listric)
+install(DIRECTORY apps/scenes apps/materials DESTINATION ${share} COMPONENT program)
+install(DIRECTORY apps/studies/ DESTINATION ${share}/studies COMPONENT program
+  FILES_MATCHING PATTERN *.toml)
+install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT program
+  FILES_MATCHING PATTERN *.py)
+install(FILES LICENSE README.md CHANGELOG.md CITATION.cff
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+if(TARGET listric_fem)
+  install(TARGETS listric_fem LIBRARY DESTINATION ${plugin_folder} COMPONENT elastic_base)
+endif()
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Listric)
+install(DIRECTORY include/listric DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(EXPORT listric NAMESPACE listric:: FILE ListricTargets.cmake DESTINATION ${package}
+  COMPONENT development)
+configure_package_config_file(cmake/ListricConfig.cmake.in ListricConfig.cmake
+  INSTALL_DESTINATION ${package})
+write_basic_package_version_file(ListricConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/ListricConfig.cmake
+  ${PROJECT_BINARY_DIR}/ListricConfigVersion.cmake DESTINATION ${package} COMPONENT development)
+
+include(cmake/package.cmake)

@@ -1,0 +1,38 @@
+# Libraries that others link as listric::NAME: from an installation (find_package(Listric)), or where
+# this project is part of theirs (add_subdirectory, FetchContent).
+
+include(GNUInstallDirs)
+set(headers_folder ${CMAKE_INSTALL_INCLUDEDIR}/listric)
+
+# What all of them hand on: the language, and flags without which inline functions of their headers
+# would compute other bits.
+add_library(listric_flags INTERFACE)
+target_compile_features(listric_flags INTERFACE cxx_std_20)
+target_compile_options(listric_flags INTERFACE ${floating_point_flags})
+
+# listric_library(NAME SOURCES ... LINK ...): the static library listric_NAME. Headers include each
+# other from the project's root.
+function(listric_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 library "" "" "SOURCES;LINK")
+  add_library(listric_${name} STATIC ${library_SOURCES})
+  add_library(listric::${name} ALIAS listric_${name})
+  target_link_libraries(listric_${name} PUBLIC listric_flags ${library_LINK})
+  target_include_directories(listric_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${headers_folder}>)
+endfunction()
+
+# listric_install(NAME HEADERS...): installs the library and its public headers, paths below this
+# folder. Those that it does not name are private.
+function(listric_install name)
+  set_target_properties(listric_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS listric_${name} EXPORT listric COMPONENT development
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/listric)
+  foreach(header ${ARGN})
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}
+      OUTPUT_VARIABLE folder)
+    cmake_path(GET header PARENT_PATH below)
+    install(FILES ${header} DESTINATION ${headers_folder}/${folder}/${below} COMPONENT development)
+  endforeach()
+endfunction()
+listric_install(flags)

@@ -1,0 +1,21 @@
+# cpack -G DEB: listric (the program), listric-elastic-base (its plug-in) and liblistric-dev.
+
+set(CPACK_PACKAGE_NAME listric)
+set(CPACK_PACKAGE_VENDOR "The Listric developers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Numerical sandbox for halfgrabens")
+set(CPACK_PACKAGE_HOMEPAGE_URL ${PROJECT_HOMEPAGE_URL})
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Listric developers")
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_COMPONENTS_ALL program elastic_base development)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME listric)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3-matplotlib, python3-numpy")
+set(CPACK_DEBIAN_ELASTIC_BASE_PACKAGE_NAME listric-elastic-base)
+set(CPACK_DEBIAN_ELASTIC_BASE_PACKAGE_DEPENDS "listric (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblistric-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "libfmt-dev, libtomlplusplus-dev, nlohmann-json3-dev, libhdf5-dev, pkg-config")
+include(CPack)

@@ -1,0 +1,8 @@
+#pragma once
+
+/// Folders of runs: snapshots, scene, history, measures. Link listric::archive.
+
+#include "apps/archive/examine.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/run_history.hpp"
+#include "apps/archive/snapshot.hpp"

@@ -1,0 +1,100 @@
+"""What is installed serves strangers: moved away from where it was installed, without the sources,
+the program runs and other projects link the libraries.
+
+    LISTRIC_BUILD=build/native python3 -m unittest install_test      in this folder
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SOURCES = HERE.parents[1]
+BUILD = Path(os.environ.get("LISTRIC_BUILD", SOURCES / "build/native")).resolve()
+
+# Hides a folder from what follows; needs no root where users may have namespaces.
+HIDE = ["unshare", "--mount", "--map-root-user", "sh", "-c",
+        'mount -t tmpfs none "$0" && exec "$@"']
+
+
+def call(*command, **options):
+    """Its output; an error shows it."""
+    done = subprocess.run([str(word) for word in command], text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, **options)
+    if done.returncode:
+        raise AssertionError(f"{' '.join(map(str, command))}\nexit {done.returncode}\n{done.stdout}")
+    return done.stdout
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.place = Path(tempfile.mkdtemp(prefix="listric-installed-"))
+        cls.addClassCleanup(shutil.rmtree, cls.place)
+        call("cmake", "--install", BUILD, "--prefix", cls.place / "first")
+        cls.prefix = cls.place / "moved"
+        (cls.place / "first").rename(cls.prefix)
+        cls.elsewhere = cls.place / "elsewhere"
+        cls.elsewhere.mkdir()
+        cls.program("run", "lis1", "--accuracy", "draft", "--until", "500m", "--quiet")
+        summary = cls.elsewhere / "out/lis1/summary.json"
+        cls.state_hash = json.loads(summary.read_text())["state_hash"]
+
+    @classmethod
+    def program(cls, *words):
+        """A call in an empty folder; sources and build are hidden where that is allowed."""
+        hides = subprocess.run([*HIDE, SOURCES, "true"], capture_output=True).returncode == 0
+        return call(*([*HIDE, SOURCES] if hides else []), cls.prefix / "bin/listric", *words,
+                    cwd=cls.elsewhere)
+
+    def project(self, name, *definitions):
+        """Configures and builds one of the projects here; the folder of its programs."""
+        folder = self.place / name
+        call("cmake", "-G", "Ninja", "-S", HERE / name, "-B", folder, "-DCMAKE_BUILD_TYPE=Release",
+             *definitions)
+        call("cmake", "--build", folder, "--target", "all" if name == "consumer" else "drive_lis1")
+        return folder
+
+    def test_the_program_runs_without_the_sources(self):
+        figures = list((self.elsewhere / "out/lis1/figures").glob("*.png"))
+        self.assertTrue(figures, "no figures")
+        self.program("laboratory", "uniaxial", "mat18-b")
+        self.assertIn("lis1-elastic", self.program("scenes"))
+        if any(self.prefix.rglob("liblistric_fem.so")):
+            self.program("run", "flexure")
+
+    def test_a_project_finds_the_package(self):
+        folder = self.project("consumer", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        self.assertEqual(call(folder / "drive_lis1").strip(), self.state_hash)
+        faults = [[float(word) for word in line.split()]
+                  for line in call(folder / "trace_fault").splitlines()]
+        self.assertEqual(len(faults), 1)
+        dip, slip, throw, misfit = faults[0]
+        self.assertAlmostEqual(dip, 60.0, delta=2.0)
+        # Across one spacing on each side, a fit sees three quarters of the slip or more.
+        self.assertAlmostEqual(throw, 30.0 * 3 ** 0.5 / 2, delta=0.25 * 26.0)
+        self.assertLess(misfit, 1.0)
+
+    def test_a_project_builds_the_sources_with_its_own(self):
+        folder = self.project("fetched", f"-DLISTRIC_SOURCE_DIR={SOURCES}", "-DLISTRIC_FEM=OFF")
+        self.assertEqual(call(folder / "drive_lis1").strip(), self.state_hash)
+
+    def test_what_others_read_names_no_folder_of_ours(self):
+        for file in self.prefix.rglob("*.cmake"):
+            self.assertNotIn(str(SOURCES), file.read_text(), file)
+
+    def test_public_headers_include_only_public_headers(self):
+        headers = self.prefix / "include/listric"
+        include = re.compile(r'^#include "([^"]*)"', re.MULTILINE)
+        for header in headers.rglob("*.hpp"):
+            for name in include.findall(header.read_text()):
+                self.assertTrue((headers / name).exists(), f"{header}: {name} is not installed")
+
+
+if __name__ == "__main__":
+    unittest.main()
