@@ -50,7 +50,8 @@ void search_one(benchmark::State& run) {
 void pack(benchmark::State& run) {
     const State state = packing(static_cast<std::size_t>(run.range(0)));
     const RigidBase base;
-    FastCycle cycle(state, base, {}, 1, fast_cycle());
+    FastCycle cycle(1, fast_cycle());
+    cycle.pack(state, base, {});
     for (auto _ : run)
         cycle.pack_contacts(state);
     per_disc(run, state);
