@@ -75,7 +75,7 @@ std::vector<Parameter> extension_parameters() {
         {"rate_m_per_a",
          at<&P::rate>,
          "m/a",
-         {.from = 1e-6, .to = 1},
+         {.from = 1e-9, .to = 1},
          "",
          "geological extension rate"},
         {"speed_m_per_s",

@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 namespace listric {
 
 using namespace dem;
@@ -104,21 +102,15 @@ TEST(Determinism, WhatIsPackedMayBeKept) {
 TEST(Determinism, TeamsMayShrinkAndGrow) {
     Fall one, many;
     Packed packed;
-    std::set<int> sizes;
-    bool shrinks = true;
     for (int k = 0; k < 20; ++k) {
+        // Waiting long, and doing more by fewer, it shrinks.
+        packed.team() = BestTeam(3);
+        for (double speed = 1.0; packed.team().size() != 3 - k % 3; speed *= 2.0)
+            packed.team().report(speed, 1.0, 3.0);
         advance(many.state, many.base, physics, 100, {3, fast_cycle(), nullptr, &packed});
-        // What makes it try another size, and like it.
-        const int before = packed.team().size();
-        shrinks = before == 3 || (shrinks && before != 1);
-        while (packed.team().size() == before)
-            packed.team().report(1.0, 1.0, shrinks ? before : 0.0);
-        sizes.insert(packed.team().size());
-        packed.team().report(2.0, 1.0, 0.0);
     }
     advance(one.state, one.base, physics, 2000, {1, Cycle::plain});
     EXPECT_EQ(hash(many.state), hash(one.state));
-    EXPECT_EQ(sizes, (std::set<int>{1, 2, 3}));
 }
 
 TEST_P(Determinism, CopiesGoOnAlike) {

@@ -232,7 +232,10 @@ void check(const Scene& scene, const Refuse& refuse) {
         refuse("elastic_base.solver",
                "makes no factors, which a base under discs is condensed with; allowed: mumps");
     try {
-        fem::check(make_footwall_request(scene, make_parts(scene)));
+        const fem::FootwallRequest request = make_footwall_request(scene, make_parts(scene));
+        fem::check(request);
+        if (base.mesh_file.empty())
+            fem::make_blocks(request);
     } catch (const fem::FootwallError& error) {
         refuse("elastic_base", error.what());
     }
