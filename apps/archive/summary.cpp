@@ -52,7 +52,7 @@ Json summary_head(const SummaryContent& content) {
         {"accuracy", content.accuracy},
         {"seed", content.seed},
         {"threads", content.threads},
-        {"cycle", content.cycle},
+        {"cycle_level", content.cycle},
         {"discs", content.state.discs.rows()},
         {"cycles", content.state.clock.cycle},
         {"wall_s", content.wall_seconds},

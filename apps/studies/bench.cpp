@@ -149,7 +149,7 @@ std::string bench(const BenchRequest& request) {
     const nlohmann::ordered_json json = {{"discs", state.discs.rows()},
                                          {"contacts", contacts},
                                          {"threads", request.threads},
-                                         {"cycle", name(execution.cycle)},
+                                         {"cycle_level", name(execution.cycle)},
                                          {"steps", request.steps},
                                          {"disc_steps_per_s", disc_steps / wall_seconds},
                                          {"disc_steps_per_cpu_s", disc_steps / cpu_seconds}};

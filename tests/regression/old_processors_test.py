@@ -32,7 +32,7 @@ class OldProcessors(unittest.TestCase):
                 **os.environ, "XDG_CACHE_HOME": self.cache, **environment})
             self.assertEqual(ended.returncode, 0, ended.stderr)
             summary = json.loads(pathlib.Path(folder, "run", "summary.json").read_text())
-            return summary["cycle"], summary["state_hash"]
+            return summary["cycle_level"], summary["state_hash"]
 
     def test_without_avx(self):
         emulator = ("qemu-x86_64", "-cpu", "Nehalem")

@@ -104,8 +104,8 @@ json summary(const fs::path& output) { return json::parse(contents(output / "sum
 /// What of the summary depends on the scene alone.
 json results(const fs::path& output) {
     json all = summary(output);
-    for (const char* name :
-         {"threads", "cycle", "wall_s", "predicted_wall_s", "disc_steps_per_s", "time_by_part_s"})
+    for (const char* name : {"threads", "cycle_level", "wall_s", "predicted_wall_s",
+                             "disc_steps_per_s", "time_by_part_s"})
         all.erase(name);
     return all;
 }
@@ -533,16 +533,10 @@ TEST_F(RunTest, DamageIsNoticedBeforeHdf5ReadsTheFile) {
             EXPECT_THAT(error.what(), HasSubstr("checksum"));
         }
     }
-    // A snapshot of an earlier version of the program has an earlier format and no mark.
-    write(file, bytes);
-    const auto with = run_hash(read_snapshot(file));
-    std::string earlier = bytes.substr(0, bytes.size() - mark);
-    write(file, earlier);
+    write(file, bytes.substr(0, bytes.size() - mark));
     EXPECT_THROW(read_snapshot(file), StorageError);
-    const std::string format = "listric snapshot ";
-    earlier[earlier.find(format) + format.size()] = '3';
-    write(file, earlier);
-    EXPECT_EQ(run_hash(read_snapshot(file)), with);
+    write(file, bytes);
+    EXPECT_NO_THROW(read_snapshot(file));
 }
 
 TEST_F(RunTest, ADamagedLastSnapshotIsReplacedInTheEnd) {
@@ -879,7 +873,7 @@ TEST_F(RunTest, TheSummaryHasEveryName) {
                              "accuracy",
                              "seed",
                              "threads",
-                             "cycle",
+                             "cycle_level",
                              "discs",
                              "cycles",
                              "wall_s",
@@ -1088,7 +1082,7 @@ TEST_F(RunTest, TheEnvironmentNamesTheCycle) {
     for (const Cycle cycle : cycles()) {
         const Ended ended = bench_with(name(cycle));
         EXPECT_EQ(ended.code, 0) << ended.err;
-        EXPECT_EQ(json::parse(ended.out)["cycle"], name(cycle));
+        EXPECT_EQ(json::parse(ended.out)["cycle_level"], name(cycle));
     }
     const Ended ended = bench_with("v5");
     EXPECT_EQ(ended.code, 2);
