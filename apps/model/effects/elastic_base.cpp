@@ -96,7 +96,7 @@ std::vector<Parameter> footwall_parameters() {
         {"cell_size_m",
          at<&P::cell_size>,
          "m",
-         {.from = 10, .to = 1e5},
+         {.from = 100, .to = 1e5},
          "",
          "elements at the detachment; its default depends on the accuracy"},
         {"refinements",
