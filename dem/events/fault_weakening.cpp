@@ -63,7 +63,7 @@ std::vector<FaultSegment> scan(const Displacements& s, const Cells& cells, doubl
     if (s.x.empty())
         return {};
     const auto [left, right] = std::ranges::minmax(s.x);
-    const auto [bottom, top] = std::ranges::minmax(s.y);
+    const auto height = std::ranges::minmax(s.y);
     std::vector<double> columns;
     for (double x = left; x <= right; x += spacing)
         columns.push_back(x);
@@ -72,7 +72,7 @@ std::vector<FaultSegment> scan(const Displacements& s, const Cells& cells, doubl
             std::vector<FaultSegment> in_columns;
             std::vector<std::int32_t> circle;
             for (; column < end; ++column)
-                for (double y = bottom; y <= top; y += spacing) {
+                for (double y = height.min; y <= height.max; y += spacing) {
                     const double x = columns[column];
                     circle.clear();
                     cells.for_each_near(x, y, [&](std::int32_t member) {
