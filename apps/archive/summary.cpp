@@ -1,5 +1,7 @@
 #include "apps/archive/summary.hpp"
 
+#include "apps/archive/traced_faults.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -104,21 +106,14 @@ Json bonded_list(const std::vector<BondedLayer>& layers) {
 }
 
 Json fault_object(const Fault& f) {
-    const Point top = f.trace.points.front(), bottom = f.trace.points.back();
     Json throws = Json::object();
     for (const auto& [stratum, value] : f.throws)
         throws[fmt::format("{}", stratum)] = value;
     Json points = Json::array();
     for (Point p : f.trace.points)
         points.push_back({std::round(p.x), std::round(-p.y)});
-    Json json = {{"x_top_m", top.x},
-                 {"z_top_m", -top.y},
-                 {"x_bottom_m", bottom.x},
-                 {"z_bottom_m", -bottom.y},
-                 {"length_m", f.trace.length()},
-                 {"dip_deg", f.dip},
-                 {"sense", f.normal ? "normal" : "reverse"},
-                 {"attitude", f.synthetic ? "synthetic" : "antithetic"},
+    Json json = trace_object(f.trace, f.dip, f.normal);
+    json.update({{"attitude", f.synthetic ? "synthetic" : "antithetic"},
                  {"rate_mm_per_a", f.rate},
                  {"width_diameters", f.width},
                  {"curvature_per_m", f.curvature},
@@ -129,7 +124,7 @@ Json fault_object(const Fault& f) {
                  {"foot_x_m", f.foot.x},
                  {"foot_z_m", -f.foot.y},
                  {"throw_m", throws},
-                 {"points_m", points}};
+                 {"points_m", points}});
     if (f.pre_rift_throw)
         json["pre_rift_throw_m"] = *f.pre_rift_throw;
     return json;

@@ -1,16 +1,6 @@
 // The library alone: a client of dem drives LIS1 and gets the bits of the program's run.
 
-#include "dem/detachment.hpp"
-#include "dem/events/bond_healing.hpp"
-#include "dem/events/compaction.hpp"
-#include "dem/events/equilibrium.hpp"
-#include "dem/events/fault_weakening.hpp"
-#include "dem/events/property_update.hpp"
-#include "dem/events/sediment_stress.hpp"
-#include "dem/events/sedimentation.hpp"
-#include "dem/events/strain.hpp"
-#include "dem/genesis.hpp"
-#include "dem/simulation.hpp"
+#include "tests/install/consumer/drive_lis1.hpp"
 #include "tests/scene_runs.hpp"
 
 namespace listric {
@@ -19,46 +9,11 @@ namespace {
 
 using namespace dem;
 
-constexpr int line_before = __LINE__;
-/// LIS1 at draft accuracy to 500 m of extension, with all its effects.
-std::uint64_t drive_lis1() {
-    const double rate = 0.01; // m/a: the clock of all events
-    const HangingWallParameters wall{.mean_radius = 186.2};
-    const CyclePhysics physics{.gravity = 9.81, .averaging_time = 150.0};
-    const BondStrength bonds;
-    const FaultWeakeningParameters weakening;
-    const SedimentationParameters filling;
-    const RigidBase base = make_halfgraben({.segments = {arc_to_dip(0.0, 15e3), straight(60e3)}},
-                                           {wall.length, wall.thickness, 10e3}, Material{},
-                                           {.speed = 1.25, .ramp = 24.0});
-
-    Simulation sandbox(base, physics);
-    sandbox.add<Equilibrium>(2500.0, rate, physics.gravity);
-    sandbox.add<SedimentStress>(500.0, 25.0, rate, physics);
-    sandbox.add<PropertyUpdate>(weakening, rate, physics.gravity);
-    sandbox.add<Compaction>(CompactionParameters{}, filling.surface_porosity, rate);
-    sandbox.add<BondHealing>(BondHealingParameters{}, bonds, rate);
-    sandbox.add<FaultWeakening>(weakening, rate, physics.gravity);
-    sandbox.add<Sedimentation>(filling, wall.radius_ratio, rate);
-    sandbox.add<Strain>(strain_window, rate);
-
-    sandbox.begin(
-        make_hanging_wall({.hanging_wall = wall,
-                           .base = base,
-                           .materials = {Material{}, filling.material, weakening.material},
-                           .bonds = bonds,
-                           .physics = physics},
-                          [](std::string_view, double) {}));
-    sandbox.extend_to(500.0, {.threads = 2});
-    return sandbox.hash();
-}
-static_assert(__LINE__ - line_before - 1 <= 40);
-
 class SimulationOfAScene : public support::SceneRuns {};
 
 TEST_F(SimulationOfAScene, HasTheBitsOfTheRun) {
     const Scene scene = load_scene({.scene = "lis1", .accuracy = "draft"});
-    EXPECT_EQ(run(scene, "run", 500.0)["state_hash"], fmt::format("{:016x}", drive_lis1()));
+    EXPECT_EQ(run(scene, "run", 500.0)["state_hash"], fmt::format("{:016x}", drive_lis1(2)));
 }
 
 } // namespace

@@ -1,38 +1,7 @@
-// LIS1 at draft accuracy to 500 m of extension, with all its effects; prints the hash of the state.
+// Prints the hash of the state that LIS1 comes to, driven from C++.
 
-#include <listric/dem.hpp>
+#include "drive_lis1.hpp"
 
 #include <cstdio>
 
-using namespace listric::dem;
-
-int main() {
-    const double rate = 0.01; // m/a: the clock of all events
-    const HangingWallParameters wall{.mean_radius = 186.2};
-    const CyclePhysics physics{.gravity = 9.81, .averaging_time = 150.0};
-    const BondStrength bonds;
-    const FaultWeakeningParameters weakening;
-    const SedimentationParameters filling;
-    const RigidBase base = make_halfgraben({.segments = {arc_to_dip(0.0, 15e3), straight(60e3)}},
-                                           {wall.length, wall.thickness, 10e3}, Material{},
-                                           {.speed = 1.25, .ramp = 24.0});
-
-    Simulation sandbox(base, physics);
-    sandbox.add<Equilibrium>(2500.0, rate, physics.gravity);
-    sandbox.add<SedimentStress>(500.0, 25.0, rate, physics);
-    sandbox.add<PropertyUpdate>(weakening, rate, physics.gravity);
-    sandbox.add<Compaction>(CompactionParameters{}, filling.surface_porosity, rate);
-    sandbox.add<BondHealing>(BondHealingParameters{}, bonds, rate);
-    sandbox.add<FaultWeakening>(weakening, rate, physics.gravity);
-    sandbox.add<Sedimentation>(filling, wall.radius_ratio, rate);
-    sandbox.add<Strain>(strain_window, rate);
-    sandbox.begin(
-        make_hanging_wall({.hanging_wall = wall,
-                           .base = base,
-                           .materials = {Material{}, filling.material, weakening.material},
-                           .bonds = bonds,
-                           .physics = physics},
-                          [](std::string_view, double) {}));
-    sandbox.extend_to(500.0);
-    std::printf("%016llx\n", static_cast<unsigned long long>(sandbox.hash()));
-}
+int main() { std::printf("%016llx\n", static_cast<unsigned long long>(drive_lis1(1))); }
