@@ -131,10 +131,10 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
                 watch.speed = 0.0;
             }
             const double speed = base_->motion.speed_at(clock.time());
+            const BaseMoment moment{clock.extension, speed};
             for_free_strips([&](Strip& strip) {
-                compute_base(strip, {clock.extension, speed});
                 if (deforms_)
-                    compute_nodes(strip, nodes, {clock.extension, speed});
+                    compute_nodes(strip, nodes, moment);
                 kernels.compute_boundary(shared, strip);
             });
             barrier.wait();
@@ -146,8 +146,10 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
             thins.rate *= speed;
             const auto sweep =
                 clock.cycle % averaging_interval == 0 ? kernels.sampling_sweep : kernels.sweep;
-            for_free_strips(
-                [&](Strip& strip) { strip.fastest[parity] = sweep(shared, strip, thins); });
+            for_free_strips([&](Strip& strip) {
+                compute_base(strip, moment);
+                strip.fastest[parity] = sweep(shared, strip, thins);
+            });
             barrier.wait();
             double fastest = greater(surface_translation * speed, fastest_node_[parity]);
             for (const Strip& s : strips_)

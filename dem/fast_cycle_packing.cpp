@@ -80,7 +80,7 @@ void FastCycle::pack_discs(const State& state, const Strip& strip) {
 /// base contact as five. Large packings are cut into some strips a thread, so that a thread which
 /// is late holds up little; small ones are not, for contacts between strips cost more than others.
 void FastCycle::divide_work(const State& state) {
-    constexpr std::size_t large = 20000; // discs of a strip
+    constexpr std::size_t large = 2500; // discs of a strip
     const std::span<const std::int32_t> first = contact_columns(state).first;
     const std::span<const std::int32_t> base_disc = base_contact_columns(state).disc;
     const auto work_before = [&](std::size_t disc) {
