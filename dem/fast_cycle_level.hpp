@@ -150,17 +150,22 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
             prefetch(ahead(inertias, first + 64), group_discs * sizeof(Inertia));
             prefetch(ahead(gathers, static_cast<std::size_t>(list - gathers.data()) + 512), 128);
             Double4 force[group_discs] = {};
-            const std::uint32_t in = list[0], out = list[1];
+            const std::uint32_t more_in = list[0], more_out = list[1];
             list += 2;
-            for (std::uint32_t k = 0; k < in; ++k, list += group_discs)
-                for (std::size_t m = 0; m < group_discs; ++m)
-                    force[m] += load_four(slots + list[m]);
+            const auto gather = [&](std::uint32_t slots_of_a_disc, auto&& add) {
+                for (std::uint32_t k = 0; k < slots_of_a_disc; ++k, list += group_discs)
+                    for (std::size_t m = 0; m < group_discs; ++m)
+                        add(force[m], load_four(slots + list[m]));
+            };
+            const auto plus = [](Double4& sum, Double4 f) { sum += f; };
+            const auto minus = [](Double4& sum, Double4 f) { sum -= f; };
+            gather(usual_slots, plus);
+            gather(more_in, plus);
             // From the moment on the second disc to that on the first.
             for (Double4& f : force)
                 f = __builtin_shufflevector(f, f, 0, 1, 3, 2);
-            for (std::uint32_t k = 0; k < out; ++k, list += group_discs)
-                for (std::size_t m = 0; m < group_discs; ++m)
-                    force[m] -= load_four(slots + list[m]);
+            gather(usual_slots, minus);
+            gather(more_out, minus);
             for (std::size_t m = 0; m < group_discs; ++m) {
                 Disc& disc = discs[group * group_discs + m];
                 Inertia& inertia = inertias[group * group_discs + m];

@@ -257,9 +257,9 @@ void FastCycle::pack_base_contacts(const State& state, Strip& strip) {
     }
 }
 
-/// Gathering lists. Per group of discs: how many slots come in (from the base and as second disc)
-/// and go out (as first disc), then the slots, interleaved by disc; short lists are filled up with
-/// the zero slot.
+/// Gathering lists. Per group of discs: how many slots beyond the usual ones come in (from the base
+/// and as second disc) and go out (as first disc), then the slots, interleaved by disc; short lists
+/// are filled up with the zero slot.
 void FastCycle::pack_gathers(const State& state, Strip& strip) {
     const ConstContactColumns c = contact_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);
@@ -301,7 +301,7 @@ void FastCycle::pack_gathers(const State& state, Strip& strip) {
         strip.gathers.resize(counts + 2);
         const auto interleave = [&](std::span<const std::uint32_t> slots,
                                     std::span<const std::uint32_t> begin) {
-            std::uint32_t most = 0;
+            std::uint32_t most = usual_slots;
             for (std::size_t i = disc; i < disc + group_discs; ++i)
                 most = std::max(most, begin[i + 1] - begin[i]);
             const std::size_t start = strip.gathers.size();
@@ -312,7 +312,7 @@ void FastCycle::pack_gathers(const State& state, Strip& strip) {
                      ++k, to += group_discs)
                     *to = static_cast<std::uint32_t>(slot_numbers * slots[k]);
             }
-            return most;
+            return most - usual_slots;
         };
         strip.gathers[counts] = interleave(in, in_begin);
         strip.gathers[counts + 1] = interleave(out, out_begin);

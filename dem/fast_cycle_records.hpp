@@ -92,6 +92,9 @@ struct Strip {
 
 inline constexpr std::size_t tile_discs = 128; ///< a tile's records and slots fit the cache
 inline constexpr std::size_t group_discs = 4;  ///< discs that gather together
+/// Slots that a group gathers at least, a disc and a direction. Most need no more, so that the
+/// processor seldom guesses a loop's end wrongly: 7 % of a faulted basin's time.
+inline constexpr std::uint32_t usual_slots = 4;
 /// Discs and slots are addressed by their first number: the processor scales by 8, not by more.
 inline constexpr std::size_t disc_numbers = sizeof(Disc) / 8, slot_numbers = sizeof(Slot) / 8;
 inline constexpr float not_bonded = -std::numeric_limits<float>::infinity();
