@@ -37,7 +37,7 @@ const Effect& bond_healing() {
             },
         .price =
             [](const Scene& scene, const Workload& work) {
-                return work.years / scene.find<P>()->interval * 5.0 * work.discs;
+                return work.years / scene.find<P>()->interval * 15.0 * work.discs;
             },
     };
     return effect;

@@ -42,7 +42,7 @@ const Effect& compaction() {
             },
         .price =
             [](const Scene& scene, const Workload& work) {
-                return work.years / scene.find<P>()->interval * 0.5 * work.discs;
+                return work.years / scene.find<P>()->interval * 4.0 * work.discs;
             },
         // With burial sediment shrinks: lis1 takes 1.85 times the discs of a packing of the area
         // that it fills, of which 1.1 have been counted.

@@ -163,7 +163,7 @@ const Effect& fault_weakening() {
             [](const Scene& scene, const Workload& work) {
                 const P& p = *scene.find<P>();
                 return work.years / p.interval * 330.0 * work.discs +
-                       work.years / p.update_interval * 25.0 * work.discs;
+                       work.years / p.update_interval * 18.0 * work.discs;
             },
         .measure = measure,
         .draw = draw,

@@ -122,7 +122,7 @@ const Effect& sedimentation() {
         .make_events = make_events,
         .price =
             [](const Scene& scene, const Workload& work) {
-                return work.years / scene.find<P>()->interval * (8e6 + 640.0 * work.discs);
+                return work.years / scene.find<P>()->interval * (6e6 + 480.0 * work.discs);
             },
         // Fills distance times thickness, and small discs fill up to the target.
         .new_area =
