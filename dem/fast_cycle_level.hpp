@@ -120,6 +120,18 @@ template <bool bonded, bool frictional> void compute_boundary(const Shared& shar
     compute_blocks<bonded, frictional>(shared, strip.boundary, 0, strip.boundary.blocks.size());
 }
 
+/// Adds slots to the forces of a group, `each` of every disc, or takes them off; goes on in the
+/// list.
+template <int sign>
+[[gnu::always_inline]] inline void gather(Double4 (&force)[group_discs], const double* slots,
+                                          std::uint32_t each, const std::uint32_t*& list) {
+    for (std::uint32_t k = 0; k < each; ++k, list += group_discs)
+        for (std::size_t m = 0; m < group_discs; ++m) {
+            const Double4 f = load_four(slots + list[m]);
+            force[m] = sign > 0 ? force[m] + f : force[m] - f;
+        }
+}
+
 template <bool bonded, bool frictional, DampedAgainst motion>
 double sweep(const Shared& shared, Strip& strip, Stretching thins) {
     const Double4 no_force = {};
@@ -152,20 +164,13 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
             Double4 force[group_discs] = {};
             const std::uint32_t more_in = list[0], more_out = list[1];
             list += 2;
-            const auto gather = [&](std::uint32_t slots_of_a_disc, auto&& add) {
-                for (std::uint32_t k = 0; k < slots_of_a_disc; ++k, list += group_discs)
-                    for (std::size_t m = 0; m < group_discs; ++m)
-                        add(force[m], load_four(slots + list[m]));
-            };
-            const auto plus = [](Double4& sum, Double4 f) { sum += f; };
-            const auto minus = [](Double4& sum, Double4 f) { sum -= f; };
-            gather(usual_slots, plus);
-            gather(more_in, plus);
+            gather<1>(force, slots, usual_slots, list);
+            gather<1>(force, slots, more_in, list);
             // From the moment on the second disc to that on the first.
             for (Double4& f : force)
                 f = __builtin_shufflevector(f, f, 0, 1, 3, 2);
-            gather(usual_slots, minus);
-            gather(more_out, minus);
+            gather<-1>(force, slots, usual_slots, list);
+            gather<-1>(force, slots, more_out, list);
             for (std::size_t m = 0; m < group_discs; ++m) {
                 Disc& disc = discs[group * group_discs + m];
                 Inertia& inertia = inertias[group * group_discs + m];
