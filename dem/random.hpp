@@ -16,6 +16,7 @@ enum class Purpose : std::uint64_t {
     bond_shear,
     deposition_place,
     deposition_radius,
+    sweep_order,
 };
 
 /// Counter-based generator: a pure function of its key, so a number depends on what it is for and

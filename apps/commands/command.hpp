@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/commands/exit_code.hpp"
+#include "apps/run/exit_code.hpp"
 #include "apps/scene/scene_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -27,6 +27,7 @@ Command add_bench(CLI::App& program);
 Command add_laboratory(CLI::App& program);
 Command add_calibrate(CLI::App& program);
 Command add_study(CLI::App& program);
+Command add_sweep(CLI::App& program);
 Command add_trace(CLI::App& program);
 Command add_validate(CLI::App& program);
 

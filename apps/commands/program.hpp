@@ -2,7 +2,7 @@
 
 namespace listric {
 
-/// The command line. Returns the exit code (apps/commands/exit_code.hpp).
+/// The command line. Returns the exit code (apps/run/exit_code.hpp).
 int program(int argc, char** argv);
 
 } // namespace listric

@@ -1,6 +1,6 @@
 #include "apps/commands/signals.hpp"
 
-#include "apps/commands/exit_code.hpp"
+#include "apps/run/exit_code.hpp"
 
 #include <atomic>
 #include <csignal>

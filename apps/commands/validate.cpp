@@ -18,6 +18,9 @@ Command add_validate(CLI::App& program) {
                         fmt::format("Accuracy of the runs: {}", fmt::join(accuracy_names(), ", ")));
     command->add_option("--seeds", request->seeds, "Runs per experiment")
         ->check(CLI::Range(1, 1000));
+    command->add_option("--first-seed", request->first_seed, "Seed of the first run")
+        ->check(CLI::Range(0, 1'000'000'000));
+    command->add_option("--jobs", request->jobs, "Runs at a time")->check(CLI::Range(1, 1024));
     command->add_option("--runs", request->runs, "Folder of the runs (out/validation-ACCURACY)");
     command->add_option(
         "--output", request->output,

@@ -27,7 +27,7 @@ public:
     void add(const Observation& now, const measures::FaultReport& faults);
 
     /// @param kind  "sections" of every frame, one "experiment" sheet, an "animation" or
-    ///              a "gallery", gallery.png
+    ///              a "gallery", gallery.png, or "multiples", multiples.png
     /// Throws StorageError if it cannot be drawn.
     void draw(const std::string& kind) const;
 

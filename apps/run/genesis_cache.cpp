@@ -9,11 +9,17 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <fcntl.h>
 #include <optional>
 #include <string_view>
+#include <sys/file.h>
 #include <system_error>
+#include <thread>
+#include <unistd.h>
 
 namespace listric {
 
@@ -50,6 +56,40 @@ void keep(const State& state, const fs::path& cache, Log& log) {
     }
 }
 
+/// Held by the process that makes a hanging wall, so that runs side by side make equal ones once.
+/// Where no file can be written nothing is locked.
+class MakingLock {
+public:
+    /// Waits for the process that holds it. Throws Interrupted.
+    MakingLock(const fs::path& cache, Log& log, StopToken stop) {
+        std::error_code ignored;
+        fs::create_directories(cache.parent_path(), ignored);
+        file_ = open((cache.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        while (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            if (!has_waited_)
+                log.say("hanging wall: another run makes it");
+            has_waited_ = true;
+            if (stop.requested()) {
+                close(file_);
+                throw Interrupted{};
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+    }
+    ~MakingLock() {
+        if (file_ >= 0)
+            close(file_);
+    }
+    MakingLock(const MakingLock&) = delete;
+    MakingLock& operator=(const MakingLock&) = delete;
+
+    bool has_waited() const { return has_waited_; }
+
+private:
+    int file_ = -1;
+    bool has_waited_ = false;
+};
+
 } // namespace
 
 fs::path genesis_cache_path(const Scene& scene, const ModelParts& parts) {
@@ -71,6 +111,10 @@ State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, L
     const fs::path cache = genesis_cache_path(scene, parts);
     if (auto state = recall(cache, parts.materials, log))
         return std::move(*state);
+    const MakingLock lock(cache, log, stop);
+    if (lock.has_waited())
+        if (auto state = recall(cache, parts.materials, log))
+            return std::move(*state);
     // The hanging wall comes to rest on a base that does too, so its mean motion is none.
     const GenesisRequest request{
         .hanging_wall = *scene.hanging_wall,

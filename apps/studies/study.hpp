@@ -94,7 +94,16 @@ struct StudyRun {
 std::filesystem::path folder_of_run(const StudyRequest& request, const StudyRun& run,
                                     std::int64_t seed);
 
-/// The summary of a run by one seed, which is made unless it is there; none if the numerics failed.
+struct SeededRun {
+    StudyRun run;
+    std::int64_t seed;
+};
+
+/// The summaries of runs, which are made unless they are there; none where the numerics failed.
+std::vector<std::optional<nlohmann::json>> summaries_of_runs(const StudyRequest& request,
+                                                             std::span<const SeededRun> wanted);
+
+/// The summary of one.
 std::optional<nlohmann::json> summary_of_run(const StudyRequest& request, const StudyRun& run,
                                              std::int64_t seed);
 

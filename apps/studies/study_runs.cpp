@@ -4,7 +4,8 @@
 
 #include "apps/archive/json_file.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/run/run.hpp"
+#include "apps/run/batch.hpp"
+#include "apps/run/exit_code.hpp"
 #include "apps/support/log.hpp"
 #include "dem/cycle.hpp"
 
@@ -114,40 +115,61 @@ std::filesystem::path folder_of_run(const StudyRequest& request, const StudyRun&
     return request.output / "runs" / fmt::format("{}-seed={}", run.parameter, seed);
 }
 
+std::vector<std::optional<Json>> summaries_of_runs(const StudyRequest& request,
+                                                   std::span<const SeededRun> wanted) {
+    std::vector<BatchRun> runs;
+    for (const auto& [run, seed] : wanted) {
+        SceneRequest scene;
+        scene.scene = request.scene;
+        scene.set = run.set;
+        scene.set.insert(scene.set.end(), request.set.begin(), request.set.end());
+        scene.seed = seed;
+        scene.accuracy = run.accuracy;
+        scene.without = run.without;
+        RunOptions options;
+        options.stop = request.stop;
+        options.output = folder_of_run(request, run, seed);
+        options.threads = request.threads;
+        options.quiet = request.quiet;
+        runs.push_back({fmt::format("{}, seed {}", run.parameter, seed), load_scene(scene),
+                        std::move(options)});
+    }
+    Log log(request.quiet);
+    // One at a time: what a run takes is what is studied.
+    const std::vector<BatchEnding> endings = make_runs(runs, 1, log, request.stop);
+    std::vector<std::optional<Json>> summaries;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        if (endings[k].exit_code == static_cast<int>(ExitCode::numerics_failed)) {
+            warn(fmt::format("{}: {}", runs[k].name, endings[k].reason));
+            summaries.emplace_back();
+            continue;
+        }
+        require_finished(runs[k], endings[k]);
+        summaries.emplace_back(read_json(runs[k].options.output / "summary.json"));
+    }
+    return summaries;
+}
+
 std::optional<Json> summary_of_run(const StudyRequest& request, const StudyRun& run,
                                    std::int64_t seed) {
-    SceneRequest scene_request;
-    scene_request.scene = request.scene;
-    scene_request.set = run.set;
-    scene_request.set.insert(scene_request.set.end(), request.set.begin(), request.set.end());
-    scene_request.seed = seed;
-    scene_request.accuracy = run.accuracy;
-    scene_request.without = run.without;
-    const Scene scene = load_scene(scene_request);
-    RunOptions options;
-    options.stop = request.stop;
-    options.output = folder_of_run(request, run, seed);
-    options.threads = request.threads;
-    options.resume = true;
-    options.quiet = request.quiet;
-    try {
-        if (run_scene(scene, options) == RunOutcome::interrupted)
-            throw Interrupted{};
-    } catch (const NumericalFailure& failure) {
-        warn(fmt::format("{}: {}", run.parameter, failure.what()));
-        return std::nullopt;
-    }
-    return read_json(options.output / "summary.json");
+    const SeededRun alone[]{{run, seed}};
+    return summaries_of_runs(request, alone)[0];
 }
 
 void sweep_runs(const StudyRequest& request, const std::string& method,
                 const std::vector<StudyRun>& runs, std::size_t reference,
                 const std::vector<StudyQuantity>& quantities, StudyResult& result) {
-    std::vector<std::vector<std::optional<Json>>> summaries;
-    for (const StudyRun& run : runs) {
-        summaries.emplace_back();
+    std::vector<SeededRun> seeded;
+    for (const StudyRun& run : runs)
         for (int k = 0; k < std::min(request.seeds, run.most_seeds); ++k)
-            summaries.back().push_back(summary_of_run(request, run, request.seed + k));
+            seeded.push_back({run, request.seed + k});
+    const auto all = summaries_of_runs(request, seeded);
+    std::vector<std::vector<std::optional<Json>>> summaries;
+    auto next = all.begin();
+    for (const StudyRun& run : runs) {
+        const auto end = next + std::min(request.seeds, run.most_seeds);
+        summaries.emplace_back(next, end);
+        next = end;
     }
     for (const StudyQuantity& quantity : quantities) {
         const std::vector<Values> best = values_of(summaries[reference], quantity.name);

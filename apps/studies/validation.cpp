@@ -6,7 +6,7 @@
 #include "apps/figures/figures.hpp"
 #include "apps/measures/fault_history.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/run/run.hpp"
+#include "apps/run/batch.hpp"
 #include "apps/studies/validation_plan.hpp"
 #include "apps/studies/validation_report.hpp"
 #include "apps/studies/validation_store.hpp"
@@ -95,6 +95,7 @@ public:
                                                             store_,
                                                             {},
                                                             request.accuracy,
+                                                            request.first_seed,
                                                             request.seeds,
                                                             document_.parent_path() /
                                                                 document_.stem()} {
@@ -108,11 +109,13 @@ public:
     }
 
     void carry_out() {
+        std::set<std::string> names;
         for (const ValidationExperiment& x : findings_.experiments)
-            for (const std::string& name : x.runs) {
-                make_runs(findings_.plan.run(name));
-                measure_runs(findings_.plan.run(name));
-            }
+            names.insert(x.runs.begin(), x.runs.end());
+        if (!request_.without_runs)
+            make_missing(names);
+        for (const std::string& name : names)
+            measure_runs(findings_.plan.run(name));
         save_measures();
         for (const ValidationExperiment& x : findings_.experiments)
             for (const ValidationPicture& picture : x.pictures)
@@ -133,30 +136,38 @@ private:
         return finished_hash(folder_of(run, seed), accuracy_of(run), seed);
     }
 
-    void make_runs(const ValidationRun& run) {
-        for (int seed = 1; seed <= findings_.seeds_of(run) && !request_.without_runs; ++seed) {
-            if (!hash_of(run, seed).empty())
-                continue;
-            SceneRequest scene;
-            scene.scene = run.scene;
-            scene.set = run.set;
-            scene.without = run.without;
-            scene.accuracy = accuracy_of(run);
-            scene.seed = seed;
-            RunOptions options;
-            options.output = folder_of(run, seed);
-            options.threads = request_.threads;
-            options.resume = true;
-            options.stop = request_.stop;
-            if (run_scene(load_scene(scene), options) != RunOutcome::finished)
-                throw Interrupted{};
+    /// Makes the runs that are not there.
+    void make_missing(const std::set<std::string>& names) {
+        std::vector<BatchRun> runs;
+        for (const std::string& name : names) {
+            const ValidationRun& run = findings_.plan.run(name);
+            for (int seed : findings_.seeds_of(run)) {
+                if (!hash_of(run, seed).empty())
+                    continue;
+                SceneRequest scene;
+                scene.scene = run.scene;
+                scene.set = run.set;
+                scene.without = run.without;
+                scene.accuracy = accuracy_of(run);
+                scene.seed = seed;
+                RunOptions options;
+                options.output = folder_of(run, seed);
+                options.threads = request_.threads;
+                options.quiet = request_.jobs > 1;
+                options.stop = request_.stop;
+                runs.push_back({run_name(run.name, seed), load_scene(scene), std::move(options)});
+            }
         }
+        const std::vector<BatchEnding> endings =
+            make_runs(runs, request_.jobs, log_, request_.stop);
+        for (std::size_t k = 0; k < runs.size(); ++k)
+            require_finished(runs[k], endings[k]);
     }
 
     /// The runs that are there, by seed.
     void measure_runs(const ValidationRun& run) {
         bool measured = false;
-        for (int seed = 1; seed <= findings_.seeds_of(run); ++seed) {
+        for (int seed : findings_.seeds_of(run)) {
             const std::string hash = hash_of(run, seed);
             if (hash.empty())
                 continue;
@@ -192,9 +203,11 @@ private:
         std::vector<Frame> frames;
         for (const auto& row : picture.rows) {
             const ValidationRun& run = findings_.plan.run(row.run);
-            const int all = findings_.seeds_of(run);
+            std::vector<int> seeds = findings_.seeds_of(run);
+            if (row.seeds > 0 && std::ssize(seeds) > row.seeds)
+                seeds.resize(static_cast<std::size_t>(row.seeds));
             const std::size_t before = frames.size();
-            for (int seed = 1; seed <= (row.seeds > 0 ? std::min(row.seeds, all) : all); ++seed)
+            for (int seed : seeds)
                 if (!hash_of(run, seed).empty())
                     frames.push_back({row.run, seed, row.at});
             if (frames.size() == before)

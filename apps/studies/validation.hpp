@@ -11,8 +11,10 @@ namespace listric {
 /// A call of `listric validate`.
 struct ValidationRequest {
     std::string accuracy = "standard";
+    int first_seed = 1;
     int seeds = 5;
-    int threads = 1;
+    int jobs = 1;                    ///< runs at a time
+    int threads = 1;                 ///< of a run
     std::filesystem::path runs;      ///< folder of the runs; empty: out/validation-ACCURACY
     std::filesystem::path output;    ///< document; empty: docs/validation.md at standard, else
                                      ///< validation.md beside the runs

@@ -1,14 +1,13 @@
 #include "apps/studies/validation_plan.hpp"
 
 #include "apps/scene/shelf.hpp"
+#include "apps/studies/plan_file.hpp"
 #include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <sstream>
 
 namespace listric {
 
@@ -18,48 +17,10 @@ namespace {
 
 const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", "", "studies"};
 
-std::vector<std::string> words(const std::string& text) {
-    std::istringstream in(text);
-    return {std::istream_iterator<std::string>(in), {}};
-}
-
 /// The names of an enumeration's values, in their order.
 const std::vector<std::string_view> kinds = {"kinematics", "faults", "conservation"};
 const std::vector<std::string_view> needs = {"each", "most", "mean"};
 const std::vector<std::string_view> absences = {"missed", "met"};
-
-/// Reads every table of the array `key`, if it is there, with read(entry).
-template <class Read> void for_each_table(const Entry& parent, const char* key, Read&& read) {
-    const toml::node* node = parent.node.as_table()->get(key);
-    if (!node)
-        return;
-    const std::string path = parent.path.empty() ? key : parent.path + "." + key;
-    if (!node->is_array_of_tables())
-        fail_type({*node, path}, fmt::format("tables [[{}]]", path));
-    std::size_t number = 0;
-    for (const toml::node& item : *node->as_array())
-        read(Entry{item, fmt::format("{}[{}]", path, number++)});
-}
-
-/// Reads the keys of a table but those of the given tables in it.
-void read_values(const Entry& entry, const std::vector<Parameter>& parameters, void* object,
-                 const std::vector<std::string_view>& tables = {}) {
-    std::vector<std::string_view> allowed = keys(parameters);
-    allowed.insert(allowed.end(), tables.begin(), tables.end());
-    for (const auto& [key, node] : *entry.node.as_table()) {
-        const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
-        if (std::ranges::find(allowed, key.str()) == allowed.end())
-            fail(inner, fmt::format("unknown key, {}", advice(key.str(), allowed)));
-        const auto parameter = std::ranges::find(parameters, key.str(), &Parameter::key);
-        if (parameter != parameters.end())
-            read(inner, *parameter, object);
-    }
-}
-
-void need(const Entry& entry, const char* key, bool present) {
-    if (!present)
-        fail(entry, fmt::format("needs {}", key));
-}
 
 /// A run as the file says it.
 struct RunText {
@@ -128,7 +89,7 @@ ValidationPicture read_picture(const Entry& entry) {
                  {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}},
                 &picture, {"rows"});
     need(entry, "name", !picture.name.empty());
-    for_each_table(entry, "rows", [&](const Entry& item) {
+    for (const Entry& item : tables(entry, "rows")) {
         using Row = ValidationPicture::Row;
         Row row;
         read_values(item,
@@ -137,7 +98,7 @@ ValidationPicture read_picture(const Entry& entry) {
                      {"seeds", at<&Row::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"}},
                     &row);
         picture.rows.push_back(row);
-    });
+    }
     return picture;
 }
 
@@ -178,13 +139,13 @@ ValidationExperiment read_experiment(const Entry& entry,
                 x.expectations.push_back(std::move(e));
             }
     }
-    for_each_table(entry, "expect", [&](const Entry& item) {
+    for (const Entry& item : tables(entry, "expect")) {
         x.expectations.push_back(read_expectation(item));
         if (x.expectations.back().run.empty())
             x.expectations.back().run = x.runs.front();
-    });
-    for_each_table(entry, "picture",
-                   [&](const Entry& item) { x.pictures.push_back(read_picture(item)); });
+    }
+    for (const Entry& item : tables(entry, "picture"))
+        x.pictures.push_back(read_picture(item));
     return x;
 }
 
@@ -202,7 +163,8 @@ ValidationPlan load_validation_plan(const std::filesystem::path& file) {
                  fmt::format("unknown key, {}", advice(key.str(), {"run", "experiment"})));
     ValidationPlan plan;
     const Entry top{document, ""};
-    for_each_table(top, "run", [&](const Entry& e) { plan.runs.push_back(read_run(e)); });
+    for (const Entry& entry : tables(top, "run"))
+        plan.runs.push_back(read_run(entry));
     const auto check = [&](const Entry& entry, const std::string& name) {
         std::vector<std::string_view> names;
         for (const ValidationRun& run : plan.runs)
@@ -210,7 +172,7 @@ ValidationPlan load_validation_plan(const std::filesystem::path& file) {
         if (!name.empty() && std::ranges::find(names, name) == names.end())
             fail(entry, fmt::format("no run {}, {}", name, advice(name, names)));
     };
-    for_each_table(top, "experiment", [&](const Entry& entry) {
+    for (const Entry& entry : tables(top, "experiment")) {
         plan.experiments.push_back(read_experiment(entry, plan.experiments));
         const ValidationExperiment& x = plan.experiments.back();
         for (const std::string& name : x.runs)
@@ -223,7 +185,7 @@ ValidationPlan load_validation_plan(const std::filesystem::path& file) {
         for (const ValidationPicture& picture : x.pictures)
             for (const auto& row : picture.rows)
                 check(entry, row.run);
-    });
+    }
     return plan;
 }
 

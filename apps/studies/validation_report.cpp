@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 namespace listric {
@@ -39,7 +40,7 @@ std::pair<std::set<std::string>, std::set<std::string>> runs_of(const Validation
                                                                 const ValidationExperiment& x) {
     std::set<std::string> present, all;
     for (const std::string& name : x.runs)
-        for (int seed = 1; seed <= f.seeds_of(f.plan.run(name)); ++seed)
+        for (int seed : f.seeds_of(f.plan.run(name)))
             all.insert(run_name(name, seed));
     std::ranges::set_intersection(all, f.finished, std::inserter(present, present.end()));
     return {present, all};
@@ -56,10 +57,12 @@ std::string introduction(const ValidationFindings& f) {
     std::string text = fmt::format(
         "# Validation\n\n"
         "Made by `listric validate` from the files of {} of {} runs at accuracy {}, up to {} "
-        "seeds each; do not edit. What is expected, and by whom, is in "
+        "seeds each{}; do not edit. What is expected, and by whom, is in "
         "`apps/studies/validation.toml`; [measures.md](measures.md) defines the measures; "
         "[measures.csv]({}/measures.csv) has every number.\n\n",
-        there.size(), wanted.size(), f.accuracy, f.seeds, f.beside.filename().string());
+        there.size(), wanted.size(), f.accuracy, f.seeds,
+        f.first_seed == 1 ? "" : fmt::format(", from {} on", f.first_seed),
+        f.beside.filename().string());
     return text + "A value is the mean over the seeds ± its standard deviation (smallest to "
                   "largest). *Met* says how many seeds fulfil the expectation; where it asks for "
                   "most seeds or for the mean, that decides. Rows of kind *kinematics* check the "
@@ -116,8 +119,11 @@ std::string table(const ValidationFindings& f, const ValidationExperiment& x) {
 
 } // namespace
 
-int ValidationFindings::seeds_of(const ValidationRun& run) const {
-    return run.seeds > 0 ? std::min(run.seeds, seeds) : seeds;
+std::vector<int> ValidationFindings::seeds_of(const ValidationRun& run) const {
+    std::vector<int> all(
+        static_cast<std::size_t>(run.seeds > 0 ? std::min(run.seeds, seeds) : seeds));
+    std::iota(all.begin(), all.end(), first_seed);
+    return all;
 }
 
 std::vector<std::optional<double>> ValidationFindings::values(const Expectation& e,
@@ -128,7 +134,7 @@ std::vector<std::optional<double>> ValidationFindings::values(const Expectation&
     const auto number = [&](const std::string& name, int seed, double where) {
         return number_at(store, {name, seed, where}, e.measure);
     };
-    for (int seed = 1; seed <= seeds_of(run); ++seed) {
+    for (int seed : seeds_of(run)) {
         if (!store.contains({of, seed, at}) ||
             (!e.minus.empty() && !store.contains({e.minus, seed, at})))
             continue;

@@ -17,11 +17,12 @@ struct ValidationFindings {
     const MeasureStore& store;
     std::set<std::string> finished; ///< names of the runs that are there, by run_name()
     std::string accuracy;
+    int first_seed = 1;
     int seeds = 1;                ///< of a run at most
     std::filesystem::path beside; ///< folder of the pictures, named as the document
 
-    /// How many seeds a run has, finished or not.
-    int seeds_of(const ValidationRun& run) const;
+    /// Seeds of a run, finished or not.
+    std::vector<int> seeds_of(const ValidationRun& run) const;
 
     /// The value of each seed that has run; an empty one where the measure has no meaning.
     /// @param of  name of the run

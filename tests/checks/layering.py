@@ -24,7 +24,7 @@ FOREIGN = {
     "fem": SYSTEM,
     "coupling": ("Eigen/",),
     "apps/measures": (),
-    "apps": SYSTEM + ("fmt/", "nlohmann/", "toml++/", "CLI/", "hdf5.h"),
+    "apps": SYSTEM + ("fmt/", "nlohmann/", "toml++/", "CLI/", "hdf5.h", "Eigen/"),
 }
 
 

@@ -1,6 +1,6 @@
 // What exceptions mean for the call that they end: README's table of exit codes.
 
-#include "apps/commands/exit_code.hpp"
+#include "apps/run/exit_code.hpp"
 
 #include "apps/support/error.hpp"
 #include "apps/support/memory.hpp"

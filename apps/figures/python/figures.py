@@ -10,6 +10,7 @@ Every folder in DATA_DIR is a frame (frame.py says what it holds).  KIND is
   animation   one picture per frame: animation-<extension>km.mp4, or .gif
               where there is no ffmpeg
   gallery     frames of different runs below each other, small: gallery.png
+  multiples   the strain of frames of different runs in a grid: multiples.png
 Every file is written under a temporary name and then renamed.  On bad input: one
 line on stderr, exit status 1.
 """
@@ -22,10 +23,10 @@ from plot import STYLE, InputError, matplotlib, run
 from animation import save_animation
 from frame import load_frame
 from sections import save_sections
-from sheet import save_gallery, save_sheet
+from sheet import save_gallery, save_multiples, save_sheet
 
 KINDS = {"sections": save_sections, "experiment": save_sheet, "animation": save_animation,
-         "gallery": save_gallery}
+         "gallery": save_gallery, "multiples": save_multiples}
 USAGE = f"figures.py {'|'.join(KINDS)} DATA_DIR FIGURES_DIR"
 
 

@@ -1,4 +1,5 @@
-"""Frames beside each other at one scale: the sheet of an experiment, the gallery of all."""
+"""Frames beside each other at one scale: of an experiment, of all, of the runs of a sweep."""
+import textwrap
 from collections.abc import Sequence
 
 from axes import LEGEND
@@ -15,6 +16,7 @@ ON_SHEET = ("strata", "bonds", "behaviour", "strain")
 ONLY_WITH_BONDS = ("bonds", "behaviour")
 IN_GALLERY = ("strata", "strain")
 GALLERY_DPI = 75
+MULTIPLES_ACROSS = 4
 GALLERY_ROW_ABOVE = 0.36
 GALLERY_STRAIN_TOP = 0.5              # strain where the colours end
 
@@ -117,14 +119,53 @@ def draw_gallery(frames: Sequence[Frame]) -> Figure:
     return figure
 
 
+def draw_multiples(frames: Sequence[Frame]) -> Figure:
+    """Strain of every frame in a grid, small, at one scale."""
+    share_scales(frames, GALLERY_STRAIN_TOP)
+    columns = min(MULTIPLES_ACROSS, len(frames))
+    rows = -(-len(frames) // columns)
+    span, rise = max(frame.span for frame in frames), max(frame.rise for frame in frames)
+    step = (SHEET_WIDTH - LEFT - RIGHT) / columns
+    inch = (step - SHEET_GAP) / span
+    height = inch * rise + GALLERY_ROW_ABOVE
+    total = 0.2 + XLABEL + rows * height
+    figure = new_figure(SHEET_WIDTH, total, GALLERY_DPI)
+    for number, frame in enumerate(frames):
+        row, column = divmod(number, columns)
+        frame.legends = {}     # collected and not drawn
+        x, y = LEFT + column * step, total - 0.1 - (row + 1) * height
+        ax = add_axes(figure, x, y, inch * frame.span, inch * frame.rise)
+        cax = add_axes(figure, SHEET_WIDTH - RIGHT + 0.12, y, 0.15, inch * frame.rise)
+        PANELS["strain"](ax, cax, frame)
+        cax.set_visible(number + 1 == columns)
+        if column:
+            ax.set_ylabel("")
+            ax.tick_params(labelleft=False)
+        title = textwrap.fill(str(frame.meta.get("title", "")), int(step * 15))
+        ax.annotate(title, (0, 1), (0, 3), fontsize=7, xycoords="axes fraction",
+                    textcoords="offset points", annotation_clip=False)
+        name_distance(ax, lowest=number + columns >= len(frames))
+    return figure
+
+
 def save_sheet(frames: Sequence[Frame], folder: str) -> None:
     """experiment-<extension>km.png"""
     save(draw_sheet(frames), folder, f"experiment-{extension_text(frames[-1])}km")
 
 
 def save_gallery(frames: Sequence[Frame], folder: str) -> None:
-    """gallery.png, with a palette of 256 colours where Pillow is there: a third of the size."""
-    path = save(draw_gallery(frames), folder, "gallery")
+    """gallery.png"""
+    save_small(draw_gallery(frames), folder, "gallery")
+
+
+def save_multiples(frames: Sequence[Frame], folder: str) -> None:
+    """multiples.png"""
+    save_small(draw_multiples(frames), folder, "multiples")
+
+
+def save_small(figure: Figure, folder: str, name: str) -> None:
+    """With a palette of 256 colours where Pillow is there: a third of the size."""
+    path = save(figure, folder, name)
     try:
         from PIL import Image
     except ImportError:

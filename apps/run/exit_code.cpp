@@ -1,4 +1,4 @@
-#include "apps/commands/exit_code.hpp"
+#include "apps/run/exit_code.hpp"
 
 #include "apps/support/error.hpp"
 #include "apps/support/memory.hpp"

@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+"""Effects of a sweep's parameters.
+
+Usage: effects.py DIR
+
+DIR holds effects.csv as `listric sweep` wrote it; it gets effects.png: a panel a measure, a bar a
+term, the largest first, with two standard errors.  A bar that is longer than they are is dark.
+The file is written under a temporary name and then renamed.  On bad input: one line on stderr,
+exit status 1.
+"""
+import os
+import sys
+
+sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
+from plot import FAINT, INK, STYLE, matplotlib, new_figure, read_rows, run, save, without_frame
+
+COLUMNS = 3
+WIDTH, LABELS = 4.9, 2.3       # inches of a panel with its labels, of these alone
+BAR, AROUND = 0.21, 0.75       # inches of a bar, around the bars
+MOST_BARS = 15
+CLEAR, UNCLEAR = "#1f6fb4", "#b9cfe3"
+
+
+def load(folder: str) -> dict[str, list[tuple[str, float, float | None]]]:
+    """By measure: term, effect, standard error; the largest effect first."""
+    measures = {}
+    for row in read_rows(os.path.join(folder, "effects.csv")):
+        error = float(row["standard_error"]) if row["standard_error"] else None
+        measures.setdefault(row["measure"], []).append((row["term"], float(row["effect"]), error))
+    for effects in measures.values():
+        effects.sort(key=lambda effect: -abs(effect[1]))
+    return measures
+
+
+def draw_panel(ax, measure: str, effects: list[tuple[str, float, float | None]]) -> None:
+    shown = effects[:MOST_BARS]
+    for y, (_, effect, error) in enumerate(shown):
+        clear = error is None or abs(effect) > 2.0 * error
+        ax.barh(y, effect, color=CLEAR if clear else UNCLEAR, height=0.7)
+        if error is not None:
+            ax.errorbar(effect, y, xerr=2.0 * error, color=INK, linewidth=0.9, capsize=2)
+    ax.axvline(0.0, color=INK, linewidth=0.8)
+    ax.set_yticks(range(len(shown)), [term.replace(":", " :\n") for term, _, _ in shown],
+                  fontsize=7)
+    ax.set_ylim(len(shown) - 0.4, -0.6)
+    left_out = len(effects) - len(shown)
+    ax.set_title(measure + (f" ({left_out} smaller ones left out)" if left_out else ""),
+                 fontsize=10, weight="semibold")
+    without_frame(ax)
+
+
+def main(folder: str) -> None:
+    measures = load(folder)
+    columns = min(COLUMNS, len(measures))
+    rows = -(-len(measures) // columns)
+    height = AROUND + BAR * max(min(len(e), MOST_BARS) for e in measures.values())
+    across, up = columns * WIDTH, rows * height + 0.35
+    with matplotlib.rc_context(STYLE):
+        figure = new_figure(across, up, 130)
+        for index, (measure, effects) in enumerate(measures.items()):
+            column, row = index % columns, index // columns
+            x, y = column * WIDTH + LABELS, up - (row + 1) * height
+            draw_panel(figure.add_axes((x / across, (y + 0.3) / up, (WIDTH - LABELS - 0.25) / across,
+                                        (height - AROUND) / up)), measure, effects)
+        figure.text(0.1 / across, 0.1 / up, "change from the least to the greatest value of a "
+                    "parameter; bars: two standard errors, from the spread between seeds",
+                    fontsize=7.5, color=FAINT)
+        save(figure, folder, "effects")
+
+
+if __name__ == "__main__":
+    run(main, "effects.py DIR")

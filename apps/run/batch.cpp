@@ -1,0 +1,192 @@
+#include "apps/run/batch.hpp"
+
+#include "apps/archive/json_file.hpp"
+#include "apps/run/exit_code.hpp"
+#include "apps/run/run.hpp"
+#include "apps/support/file.hpp"
+#include "apps/support/memory.hpp"
+#include "dem/cycle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#if defined __linux__
+#include <sys/prctl.h>
+#endif
+
+namespace listric {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path failure_of(const BatchRun& run) { return run.options.output / "failure.json"; }
+
+/// How a run ended before, if there is no use in making it again.
+std::optional<BatchEnding> known_ending(const BatchRun& run) {
+    std::error_code error;
+    if (!fs::exists(failure_of(run), error))
+        return std::nullopt;
+    const auto failure = read_json(failure_of(run));
+    if (failure.value("exit_code", 0) == static_cast<int>(ExitCode::numerics_failed))
+        return BatchEnding{failure.at("exit_code"), failure.value("reason", "")};
+    fs::remove(failure_of(run), error);
+    return std::nullopt;
+}
+
+/// Makes a run; leaves what went wrong in its folder. Returns the process' exit code.
+int make(const BatchRun& run) {
+    Ending ending{ExitCode::done, ""};
+    try {
+        fs::create_directories(run.options.output);
+        RunOptions options = run.options;
+        options.resume = true;
+        if (run_scene(run.scene, options) == RunOutcome::interrupted)
+            ending.code = ExitCode::interrupted;
+    } catch (...) {
+        ending = ending_of(std::current_exception());
+    }
+    const int code = static_cast<int>(ending.code);
+    if (!ending.message.empty()) {
+        const std::string reason = ending.message.substr(0, ending.message.find('\n'));
+        try {
+            const nlohmann::ordered_json failure = {{"exit_code", code}, {"reason", reason}};
+            write_text(failure_of(run), failure.dump(2) + "\n");
+        } catch (const StorageError&) {
+            // the exit code says it
+        }
+    }
+    return code;
+}
+
+/// Processes of runs. What is still under way when it ends is stopped and waited for.
+class Processes {
+public:
+    Processes() = default;
+    ~Processes() {
+        stop();
+        for (const auto& [process, run] : runs_)
+            waitpid(process, nullptr, 0);
+    }
+    Processes(const Processes&) = delete;
+    Processes& operator=(const Processes&) = delete;
+
+    std::size_t count() const { return runs_.size(); }
+
+    void begin(std::size_t number, const BatchRun& run) {
+        const pid_t parent = getpid();
+        std::fflush(nullptr); // or else both would write what waits
+        const pid_t process = fork();
+        if (process < 0)
+            throw MemoryError("no process can be started for a run");
+        if (process > 0) {
+            runs_[process] = number;
+            return;
+        }
+#if defined __linux__
+        prctl(PR_SET_PDEATHSIG, SIGTERM);
+#endif
+        _exit(getppid() == parent ? make(run) : static_cast<int>(ExitCode::interrupted));
+    }
+
+    void stop() const {
+        for (const auto& [process, run] : runs_)
+            kill(process, SIGTERM);
+    }
+
+    /// Calls ended(run, exit code) for those that have ended.
+    template <class Ended> void reap(Ended&& ended) {
+        for (auto it = runs_.begin(); it != runs_.end();) {
+            int status = 0;
+            const auto [process, run] = *it;
+            if (waitpid(process, &status, WNOHANG) != process) {
+                ++it;
+                continue;
+            }
+            it = runs_.erase(it);
+            ended(run, WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status));
+        }
+    }
+
+private:
+    std::map<pid_t, std::size_t> runs_;
+};
+
+BatchEnding ending_of_process(const BatchRun& run, int exit_code) {
+    BatchEnding ending{exit_code};
+    std::error_code error;
+    if (exit_code == 0)
+        return ending;
+    if (exit_code == static_cast<int>(ExitCode::interrupted))
+        ending.reason = "interrupted";
+    else if (exit_code > 128)
+        ending.reason = fmt::format("ended by signal {}", exit_code - 128);
+    else if (fs::exists(failure_of(run), error))
+        ending.reason = read_json(failure_of(run)).value("reason", "");
+    if (ending.reason.empty())
+        ending.reason = fmt::format("ended with exit code {}", exit_code);
+    return ending;
+}
+
+} // namespace
+
+std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, int jobs, Log& log,
+                                   StopToken stop) {
+    std::vector<BatchEnding> endings(runs.size());
+    std::size_t next = 0, ended = 0;
+    const auto end = [&](std::size_t k, BatchEnding ending) {
+        endings[k] = std::move(ending);
+        log.say(fmt::format("{} of {}: {}: {}", ++ended, runs.size(), runs[k].name,
+                            endings[k].reason.empty() ? "finished" : endings[k].reason));
+    };
+    Processes processes;
+    bool stopping = false;
+    while (next < runs.size() || processes.count() > 0) {
+        if (stop.requested() && !stopping) {
+            stopping = true;
+            next = runs.size();
+            processes.stop();
+        }
+        while (next < runs.size() && processes.count() < static_cast<std::size_t>(jobs)) {
+            if (const auto known = known_ending(runs[next]))
+                end(next, *known);
+            else
+                processes.begin(next, runs[next]);
+            ++next;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        processes.reap(
+            [&](std::size_t k, int exit_code) { end(k, ending_of_process(runs[k], exit_code)); });
+    }
+    stop.check();
+    return endings;
+}
+
+void require_finished(const BatchRun& run, const BatchEnding& ending) {
+    const std::string what = fmt::format("{}: {}", run.options.output.string(), ending.reason);
+    switch (static_cast<ExitCode>(ending.exit_code)) {
+    case ExitCode::done:
+        return;
+    case ExitCode::bad_call:
+        throw UsageError(what);
+    case ExitCode::numerics_failed:
+        throw dem::NumericalFailure(what);
+    case ExitCode::storage_failed:
+        throw StorageError(what);
+    case ExitCode::interrupted:
+        throw Interrupted{};
+    default:
+        throw std::runtime_error(what);
+    }
+}
+
+} // namespace listric

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "apps/run/options.hpp"
+#include "apps/scene/scene.hpp"
+#include "apps/support/log.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// A run among many.
+struct BatchRun {
+    std::string name; ///< for people
+    Scene scene;
+    RunOptions options; ///< it goes on with what is in its folder
+};
+
+/// How it ended.
+struct BatchEnding {
+    int exit_code = 0;       ///< ExitCode's, or 128 and the signal that ended it
+    std::string reason = {}; ///< what was wrong, its first line; empty if it is finished
+};
+
+/// Makes runs, each in a process of its own, `jobs` at a time, so that what ends one does not end
+/// the others. What is finished is not made again; nor is what numerics have failed in, which
+/// failure.json in its folder says: without that file it is. Throws Interrupted, once the runs
+/// under way have saved, and StorageError. The same call goes on from there; if this process is
+/// killed the runs save and stop, too (Linux).
+std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, int jobs, Log& log,
+                                   StopToken stop);
+
+/// Throws what the run has thrown, if it is not finished.
+void require_finished(const BatchRun& run, const BatchEnding& ending);
+
+} // namespace listric

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "apps/scene/toml.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+// How plans of many runs are read: tables of declared parameters, and arrays of such tables.
+
+namespace listric {
+
+/// The words of a text, which blanks separate.
+std::vector<std::string> words(const std::string& text);
+
+/// Reads the keys of a table but those of `elsewhere`, which are allowed. Throws SceneError.
+void read_values(const Entry& entry, const std::vector<Parameter>& parameters, void* object,
+                 const std::vector<std::string_view>& elsewhere = {});
+
+/// Refuses a table whose key is not `present`. Throws SceneError.
+void need(const Entry& entry, const char* key, bool present);
+
+/// The tables of the array `key`, if it is there, and their paths. Throws SceneError.
+std::vector<Entry> tables(const Entry& parent, const char* key);
+
+} // namespace listric

@@ -1,0 +1,243 @@
+#include "apps/studies/sweep.hpp"
+
+#include "apps/archive/examine.hpp"
+#include "apps/archive/json_file.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/setting.hpp"
+#include "apps/figures/figures.hpp"
+#include "apps/run/batch.hpp"
+#include "apps/run/exit_code.hpp"
+#include "apps/studies/sweep_effects.hpp"
+#include "apps/studies/sweep_plan.hpp"
+#include "apps/studies/sweep_table.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+#include "apps/support/python.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+namespace listric {
+
+using namespace archive;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_on_sheet = 100;
+
+/// The measures of a finished run, none where it has no such number.
+std::vector<std::optional<double>> measures_of(const SweepPlan& plan, const fs::path& folder,
+                                               const nlohmann::json& summary) {
+    std::set<double> extensions;
+    for (const SweepMeasure& measure : plan.measures)
+        if (measure.at)
+            extensions.insert(*measure.at);
+    const std::vector<double> at(extensions.begin(), extensions.end());
+    const auto earlier =
+        at.empty() ? std::vector<std::pair<double, NamedNumbers>>{} : examine_run(folder, at);
+    std::vector<std::optional<double>> values;
+    for (const SweepMeasure& measure : plan.measures) {
+        values.emplace_back();
+        if (!measure.at) {
+            const auto found = summary.find(measure.name);
+            if (found != summary.end() && found->is_number())
+                values.back() = found->get<double>();
+            continue;
+        }
+        for (const auto& [extension, numbers] : earlier)
+            for (const auto& [name, number] : numbers)
+                if (extension == *measure.at && name == measure.name)
+                    values.back() = number;
+    }
+    return values;
+}
+
+class Sweep {
+public:
+    explicit Sweep(const SweepRequest& request)
+        : request_(request), plan_(load_sweep_plan(request.plan)), points_(sweep_points(plan_)),
+          output_(output_of(request, plan_)), log_(request.quiet) {
+        make_folder(output_);
+    }
+
+    bool carry_out() {
+        const std::vector<SweepRow> rows = request_.merge.empty() ? make() : merge();
+        write_text(output_ / "sweep.csv", to_csv(plan_, points_, rows));
+        const auto failed =
+            std::ranges::count_if(rows, [](const SweepRow& r) { return r.failed(); });
+        log_.say(fmt::format("{}: {} runs{}", (output_ / "sweep.csv").string(), rows.size(),
+                             failed ? fmt::format(", {} of them failed", failed) : ""));
+        if (!request_.task) {
+            warn_of_empty_columns(rows);
+            write_effects(rows);
+            draw_sheet(rows);
+        }
+        return failed < std::ssize(rows);
+    }
+
+private:
+    static fs::path output_of(const SweepRequest& request, const SweepPlan& plan) {
+        if (!request.output.empty())
+            return request.output;
+        const std::string task =
+            request.task ? fmt::format("-{}-of-{}", request.task->number, request.task->of) : "";
+        return fmt::format("out/sweep-{}{}", plan.name, task);
+    }
+
+    std::string name_of(const SweepRow& row) const {
+        std::string text = fmt::format("run {}, seed {}", row.run, row.seed);
+        for (std::size_t k = 0; k < plan_.parameters.size(); ++k)
+            text += fmt::format(", {}={}", plan_.parameters[k].name, points_[row.run - 1][k].text);
+        return text;
+    }
+
+    /// The rows that are asked for, seeds of a point together: their packings differ, so that runs
+    /// side by side seldom wait for the same.
+    std::vector<SweepRow> asked() const {
+        std::vector<SweepRow> rows;
+        std::size_t number = 0;
+        for (std::size_t run = 1; run <= points_.size(); ++run)
+            for (int k = 0; k < plan_.seeds; ++k, ++number) {
+                const SweepTask task = request_.task.value_or(SweepTask{});
+                if (number % static_cast<std::size_t>(task.of) ==
+                    static_cast<std::size_t>(task.number - 1))
+                    rows.push_back({run, plan_.first_seed + k});
+            }
+        return rows;
+    }
+
+    std::vector<SweepRow> make() {
+        std::vector<SweepRow> rows = asked();
+        std::vector<BatchRun> runs;
+        for (SweepRow& row : rows) {
+            row.folder = output_ / "runs" / fmt::format("{:04}-seed={}", row.run, row.seed);
+            RunOptions options;
+            options.output = row.folder;
+            options.threads = request_.threads;
+            options.quiet = request_.quiet || request_.jobs > 1;
+            options.figures = false;
+            options.stop = request_.stop;
+            runs.push_back({name_of(row), scene_at(plan_, points_[row.run - 1], row.seed),
+                            std::move(options)});
+        }
+        const std::vector<BatchEnding> endings =
+            make_runs(runs, request_.jobs, log_, request_.stop);
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            request_.stop.check();
+            log_.progress(fmt::format("measuring run {} of {}", k + 1, rows.size()));
+            rows[k].exit_code = endings[k].exit_code;
+            rows[k].outcome = endings[k].reason.empty() ? "finished" : endings[k].reason;
+            if (rows[k].failed()) {
+                rows[k].measures.resize(plan_.measures.size());
+                continue;
+            }
+            const nlohmann::json summary = read_json(rows[k].folder / "summary.json");
+            rows[k].state_hash = summary.value("state_hash", "");
+            rows[k].measures = measures_of(plan_, rows[k].folder, summary);
+        }
+        return rows;
+    }
+
+    /// The rows that tasks have left.
+    std::vector<SweepRow> merge() const {
+        std::vector<SweepRow> rows;
+        for (const fs::path& folder : request_.merge)
+            for (SweepRow& row : read_sweep(plan_, points_, folder / "sweep.csv")) {
+                row.folder = folder / "runs" / fmt::format("{:04}-seed={}", row.run, row.seed);
+                rows.push_back(std::move(row));
+            }
+        const auto place = [](const SweepRow& row) { return std::pair(row.run, row.seed); };
+        std::ranges::sort(rows, {}, place);
+        const auto twice = std::ranges::adjacent_find(rows, {}, place);
+        if (twice != rows.end())
+            throw UsageError(fmt::format("--merge: run {}, seed {} is in {} and in {}", twice->run,
+                                         twice->seed, twice->folder.parent_path().string(),
+                                         std::next(twice)->folder.parent_path().string()));
+        for (const SweepRow& row : asked())
+            if (!std::ranges::binary_search(rows, place(row), {}, place))
+                throw UsageError(fmt::format("--merge: run {}, seed {} is in none of the folders; "
+                                             "name those of all tasks",
+                                             row.run, row.seed));
+        return rows;
+    }
+
+    void warn_of_empty_columns(const std::vector<SweepRow>& rows) {
+        for (std::size_t m = 0; m < plan_.measures.size(); ++m)
+            if (std::ranges::none_of(rows,
+                                     [&](const SweepRow& r) { return r.measures[m].has_value(); }))
+                log_.say(fmt::format("warning: no run has the measure {} (docs/measures.md)",
+                                     plan_.measures[m].text));
+    }
+
+    void write_effects(const std::vector<SweepRow>& rows) {
+        const std::vector<SweepFactor> factors = factors_of(plan_, points_, rows);
+        std::vector<std::size_t> run;
+        std::vector<int> seed;
+        for (const SweepRow& row : rows) {
+            run.push_back(row.run);
+            seed.push_back(row.seed);
+        }
+        std::string text = "measure,term,effect,standard_error\n";
+        for (std::size_t m = 0; m < plan_.measures.size(); ++m) {
+            std::vector<std::optional<double>> values;
+            for (const SweepRow& row : rows)
+                values.push_back(row.measures[m]);
+            for (const SweepEffect& e :
+                 effects_on(plan_.measures[m].text, factors, run, seed, values))
+                text +=
+                    fmt::format("{},{},{:.6g},{}\n", e.measure, e.term, e.effect,
+                                e.standard_error ? fmt::format("{:.3g}", *e.standard_error) : "");
+        }
+        for (const SweepFactor& factor : factors)
+            if (!factor.word.empty())
+                log_.say(fmt::format("{} has more than two words, which have no order: effects.csv "
+                                     "has no effect of it",
+                                     factor.name));
+        write_text(output_ / "effects.csv", text);
+        draw_or_warn("effects.py", {output_.string()});
+    }
+
+    /// The last state of every point, by its first seed that is finished.
+    void draw_sheet(const std::vector<SweepRow>& rows) {
+        FigureFrames figure(output_);
+        std::size_t last = 0, drawn = 0;
+        for (const SweepRow& row : rows) {
+            if (row.failed() || row.run == last || drawn == most_on_sheet)
+                continue;
+            request_.stop.check();
+            last = row.run;
+            RunFolder folder(row.folder);
+            folder.scene.description = name_of(row);
+            const Moment moment = folder.read(folder.snapshots.back());
+            figure.add({folder.scene, folder.parts, moment.state, moment.events},
+                       report_faults(make_setting(folder.scene, folder.parts), folder.parts.base,
+                                     moment.state, RunHistory(folder.snapshots)));
+            ++drawn;
+        }
+        if (drawn == 0)
+            return;
+        try {
+            figure.draw("multiples");
+            fs::rename(output_ / "multiples.png", output_ / "sheet.png");
+        } catch (const StorageError& error) {
+            log_.say(std::string("warning: ") + error.what());
+        }
+    }
+
+    const SweepRequest& request_;
+    SweepPlan plan_;
+    std::vector<SweepPoint> points_;
+    fs::path output_;
+    Log log_;
+};
+
+} // namespace
+
+bool run_sweep(const SweepRequest& request) { return Sweep(request).carry_out(); }
+
+} // namespace listric

@@ -1,0 +1,126 @@
+#include "apps/studies/sweep_effects.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace listric {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Columns of a linear model, a row a run.
+struct Columns {
+    std::vector<VectorXd> columns = {};
+
+    MatrixXd matrix() const {
+        MatrixXd m(columns[0].size(), static_cast<Eigen::Index>(columns.size()));
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            m.col(static_cast<Eigen::Index>(k)) = columns[k];
+        return m;
+    }
+    /// One for every value but the first, of which the others tell the difference.
+    template <class Value> void add_indicators(const std::vector<Value>& of) {
+        std::set<Value> all(of.begin(), of.end());
+        if (!all.empty())
+            all.erase(all.begin());
+        for (const Value& value : all) {
+            VectorXd column(static_cast<Eigen::Index>(of.size()));
+            for (std::size_t k = 0; k < of.size(); ++k)
+                column(static_cast<Eigen::Index>(k)) = of[k] == value ? 1.0 : 0.0;
+            columns.push_back(std::move(column));
+        }
+    }
+};
+
+/// What is kept of a list by run.
+template <class Value>
+std::vector<Value> kept(std::span<const Value> all, const std::vector<std::size_t>& runs) {
+    std::vector<Value> result;
+    for (std::size_t k : runs)
+        result.push_back(all[k]);
+    return result;
+}
+
+/// Variance of a run about the mean of its point and seed; none without repeated points.
+std::optional<double> variance_of_repeats(const std::vector<std::size_t>& point,
+                                          const std::vector<int>& seed, const VectorXd& y) {
+    Columns means{{VectorXd::Ones(y.size())}};
+    means.add_indicators(point);
+    means.add_indicators(seed);
+    const MatrixXd m = means.matrix();
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(m);
+    const auto freedom = static_cast<double>(y.size() - solver.rank());
+    if (freedom < 1.0)
+        return std::nullopt;
+    return (y - m * solver.solve(y)).squaredNorm() / freedom;
+}
+
+} // namespace
+
+std::vector<SweepEffect> effects_on(const std::string& measure,
+                                    std::span<const SweepFactor> factors,
+                                    std::span<const std::size_t> point, std::span<const int> seed,
+                                    std::span<const std::optional<double>> values) {
+    std::vector<std::size_t> runs;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (values[k])
+            runs.push_back(k);
+    std::vector<SweepEffect> effects;
+    if (runs.empty())
+        return effects;
+    const auto n = static_cast<Eigen::Index>(runs.size());
+    VectorXd y(n);
+    for (Eigen::Index k = 0; k < n; ++k)
+        y(k) = *values[runs[static_cast<std::size_t>(k)]];
+    const std::vector<int> seeds = kept(seed, runs);
+
+    Columns model{{VectorXd::Ones(n)}};
+    model.add_indicators(seeds);
+    std::vector<std::pair<std::string, VectorXd>> main;
+    for (const SweepFactor& factor : factors)
+        if (factor.word.empty()) {
+            const std::vector<double> place = kept(std::span(factor.place), runs);
+            main.emplace_back(factor.name, Eigen::Map<const VectorXd>(place.data(), n));
+        } else {
+            model.add_indicators(kept(std::span(factor.word), runs));
+        }
+    const std::size_t first_term = model.columns.size();
+    std::vector<std::string> terms;
+    const auto add = [&](std::string term, VectorXd column) {
+        terms.push_back(std::move(term));
+        model.columns.push_back(std::move(column));
+    };
+    for (const auto& [name, column] : main)
+        add(name, column);
+    for (std::size_t a = 0; a < main.size(); ++a)
+        for (std::size_t b = a + 1; b < main.size(); ++b)
+            add(main[a].first + ":" + main[b].first, main[a].second.cwiseProduct(main[b].second));
+
+    const MatrixXd m = model.matrix();
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(m);
+    const MatrixXd inverse = solver.pseudoInverse();
+    const VectorXd fit = inverse * y;
+    const MatrixXd told_apart = inverse * m; // the identity, as far as columns are independent
+    const auto variance = variance_of_repeats(kept(point, runs), seeds, y);
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+        const auto j = static_cast<Eigen::Index>(first_term + k);
+        VectorXd rest = told_apart.row(j);
+        rest(j) -= 1.0;
+        if (rest.cwiseAbs().maxCoeff() > 1e-8)
+            continue;
+        SweepEffect effect{measure, terms[k], 2.0 * fit(j), std::nullopt};
+        if (variance)
+            effect.standard_error = 2.0 * std::sqrt(*variance * inverse.row(j).squaredNorm());
+        effects.push_back(std::move(effect));
+    }
+    return effects;
+}
+
+} // namespace listric

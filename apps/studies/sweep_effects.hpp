@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// A parameter of many runs, as effects see it.
+struct SweepFactor {
+    std::string name;
+    /// By run: from -1 at the least value to 1 at the greatest, or -1 and 1 for two words.
+    std::vector<double> place;
+    /// Number of the word, by run, where there are more than two: they have no order, so that no
+    /// effect is given, but what they change is not taken for another's.
+    std::vector<std::size_t> word = {};
+};
+
+/// What a parameter, or two together, change.
+struct SweepEffect {
+    std::string measure;
+    std::string term; ///< a or a:b
+    /// Of a: change of the measure from the least value of a to the greatest, others in their
+    /// middle. Of a:b: half of what that effect of a changes from the least b to the greatest.
+    double effect = 0.0;
+    std::optional<double> standard_error; ///< none: no run was repeated with another seed
+};
+
+/// Least squares on all main effects and two-way interactions with a constant for each seed, since
+/// runs of one seed begin with one packing (a block; Montgomery, Design and Analysis of
+/// Experiments, ch. 5 and 6). A term that the runs cannot tell from others is left out. Errors are
+/// those of repeated points: the spread between seeds once the mean difference of seeds is off.
+/// @param point   number of the design point, by run
+/// @param values  by run; none: it failed or the measure has no meaning
+std::vector<SweepEffect> effects_on(const std::string& measure,
+                                    std::span<const SweepFactor> factors,
+                                    std::span<const std::size_t> point, std::span<const int> seed,
+                                    std::span<const std::optional<double>> values);
+
+} // namespace listric

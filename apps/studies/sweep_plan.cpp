@@ -1,0 +1,271 @@
+#include "apps/studies/sweep_plan.hpp"
+
+#include "apps/model/effects.hpp"
+#include "apps/scene/shelf.hpp"
+#include "apps/studies/plan_file.hpp"
+#include "dem/random.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace listric {
+
+namespace {
+
+constexpr Shelf shelf{"sweep plan", "it needs scene, measures and [[vary]]", "", "studies"};
+constexpr double most_runs = 100'000;
+
+/// Runs of a plan without its parameters and measures.
+struct PlanText {
+    SweepPlan plan;
+    std::string set, without;
+};
+
+const std::vector<Parameter>& plan_parameters() {
+    using T = PlanText;
+    using P = SweepPlan;
+    static const std::vector<Parameter> parameters{
+        {"scene", at<&T::plan, &P::scene>, "", {}, "", "that is run"},
+        {"accuracy", at<&T::plan, &P::accuracy>, "", {}, "", "level; empty: the scene's"},
+        {"set", at<&T::set>, "", {}, "", "changes for every run, table.key=value"},
+        {"without", at<&T::without>, "", {}, "", "tables taken out of every run"},
+        {"seeds", at<&T::plan, &P::seeds>, "", {.from = 1, .to = 1000}, "", "runs a point"},
+        {"first_seed", at<&T::plan, &P::first_seed>, "", {.from = 0, .to = 1e9}, "", ""},
+        {"design",
+         one_of<&T::plan, &P::design>({"grid", "list", "latin-hypercube"}),
+         "",
+         {},
+         "",
+         "how values are combined"},
+        {"samples",
+         at<&T::plan, &P::samples>,
+         "",
+         {.from = 0, .to = most_runs},
+         "",
+         "of a Latin hypercube"}};
+    return parameters;
+}
+
+SweepValue value_of(const Entry& entry) {
+    if (const auto* word = entry.node.as_string()) {
+        if (word->get().find_first_of(",\"\n") != std::string::npos)
+            fail(entry, "a comma, a quotation mark or a line's end does not fit into a table");
+        return {word->get(), quoted(word->get()), std::nullopt};
+    }
+    if (const auto* yes = entry.node.as_boolean()) {
+        const std::string text = yes->get() ? "true" : "false";
+        return {text, text, std::nullopt};
+    }
+    const auto number = entry.node.value<double>();
+    if (!entry.node.is_number() || !number || !std::isfinite(*number))
+        fail_type(entry, "a number, a string, true or false");
+    const std::string text = fmt::format("{}", *number);
+    return {text, text, number};
+}
+
+/// The elements of an array.
+std::vector<Entry> elements(const Entry& entry, std::string_view allowed) {
+    if (!entry.node.is_array())
+        fail_type(entry, allowed);
+    std::vector<Entry> all;
+    for (const toml::node& node : *entry.node.as_array())
+        all.push_back({node, fmt::format("{}[{}]", entry.path, all.size())});
+    return all;
+}
+
+SweepValue number_value(double number) {
+    const std::string text = fmt::format("{:.6g}", number);
+    return {text, text, std::strtod(text.c_str(), nullptr)};
+}
+
+/// Refuses a value that the scene refuses.
+void try_value(const SweepPlan& plan, const Entry& entry, const SweepParameter& parameter,
+               const SweepValue& value) {
+    SweepPlan alone = plan;
+    alone.parameters = {parameter};
+    try {
+        scene_at(alone, {value}, plan.first_seed);
+    } catch (const SceneError& error) {
+        fail(entry, error.what());
+    }
+}
+
+SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
+    SweepParameter parameter;
+    read_values(entry, {{"parameter", at<&SweepParameter::name>, "", {}, "", "table.key"}},
+                &parameter, {"values", "range"});
+    need(entry, "parameter", !parameter.name.empty());
+    const toml::table& table = *entry.node.as_table();
+    const toml::node* const values = table.get("values");
+    const toml::node* const range = table.get("range");
+    if (!values == !range)
+        fail(entry, "needs either values or range");
+    if (values) {
+        const Entry list{*values, entry.path + ".values"};
+        for (const Entry& element : elements(list, "an array of values")) {
+            parameter.values.push_back(value_of(element));
+            try_value(plan, element, parameter, parameter.values.back());
+        }
+        if (parameter.values.empty())
+            fail(list, "is empty, needs at least one value");
+        return parameter;
+    }
+    const Entry pair{*range, entry.path + ".range"};
+    if (plan.design != SweepDesign::latin_hypercube)
+        fail(pair, "is for design = \"latin-hypercube\"; a grid or a list needs values");
+    const std::vector<Entry> ends = elements(pair, "[least, greatest]");
+    if (ends.size() != 2)
+        fail(pair, "needs two numbers, [least, greatest]");
+    const auto least = value_of(ends[0]).number, greatest = value_of(ends[1]).number;
+    if (!least || !greatest || !(*least < *greatest))
+        fail(pair, "needs two numbers, the first less than the second");
+    parameter.range = {*least, *greatest};
+    for (std::size_t k = 0; k < 2; ++k)
+        try_value(plan, ends[k], parameter, value_of(ends[k]));
+    return parameter;
+}
+
+SweepMeasure read_measure(const Entry& entry) {
+    const auto* text = entry.node.as_string();
+    if (!text)
+        fail_type(entry, "the name of a measure, NAME or NAME@METRES");
+    SweepMeasure measure{text->get(), text->get(), std::nullopt};
+    const std::size_t sign = measure.text.find('@');
+    if (measure.text.empty() || measure.text.find_first_of(", \"\n") != std::string::npos)
+        fail(entry, "is no name of a measure (docs/measures.md)");
+    if (sign == std::string::npos)
+        return measure;
+    measure.name = measure.text.substr(0, sign);
+    char* end = nullptr;
+    measure.at = std::strtod(measure.text.c_str() + sign + 1, &end);
+    if (*end != '\0' || sign + 1 == measure.text.size() || !(*measure.at >= 0.0))
+        fail(entry, "after @ comes an extension in metres, such as strain_top10@5000");
+    return measure;
+}
+
+/// Refuses what cannot be combined.
+void check_design(const Entry& top, const SweepPlan& plan) {
+    const auto key = [&](const char* name) {
+        const toml::node* node = top.node.as_table()->get(name);
+        return node ? Entry{*node, name} : top;
+    };
+    if (plan.design == SweepDesign::latin_hypercube && plan.samples < 2)
+        fail(key("design"), "a Latin hypercube needs samples, at least 2");
+    if (plan.design != SweepDesign::latin_hypercube && plan.samples > 0)
+        fail(key("samples"), "is for design = \"latin-hypercube\" alone");
+    if (plan.design == SweepDesign::list)
+        for (const SweepParameter& parameter : plan.parameters)
+            if (parameter.values.size() != plan.parameters[0].values.size())
+                fail(key("vary"),
+                     fmt::format("a list needs as many values of each parameter: {} has {}, {} {}",
+                                 plan.parameters[0].name, plan.parameters[0].values.size(),
+                                 parameter.name, parameter.values.size()));
+    double runs = plan.seeds;
+    if (plan.design == SweepDesign::grid)
+        for (const SweepParameter& parameter : plan.parameters)
+            runs *= static_cast<double>(parameter.values.size());
+    if (runs > most_runs)
+        fail(key("vary"),
+             fmt::format("asks for {:.0f} runs, allowed: at most {:.0f}", runs, most_runs));
+}
+
+/// Places of a Latin hypercube's samples along one parameter: each of 0 .. samples - 1 once.
+std::vector<std::size_t> shuffled(std::size_t samples, std::size_t parameter) {
+    std::vector<std::size_t> order(samples);
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, {}, [&](std::size_t k) {
+        return dem::random_bits(0, dem::Purpose::sweep_order, parameter, k);
+    });
+    return order;
+}
+
+} // namespace
+
+SweepPlan load_sweep_plan(const std::filesystem::path& file) {
+    const toml::table document = shelf.read(file);
+    const Entry top{document, ""};
+    PlanText text;
+    read_values(top, plan_parameters(), &text, {"measures", "vary"});
+    SweepPlan& plan = text.plan;
+    plan.name = file.stem().string();
+    plan.set = words(text.set);
+    plan.without = words(text.without);
+    need(top, "scene", !plan.scene.empty());
+    if (is_path(plan.scene))
+        plan.scene = (file.parent_path() / plan.scene).string();
+    const toml::node* const measures = document.get("measures");
+    need(top, "measures", measures);
+    for (const Entry& element : elements({*measures, "measures"}, "an array of names of measures"))
+        plan.measures.push_back(read_measure(element));
+    scene_at(plan, {}, plan.first_seed);
+    const std::vector<Entry> varied = tables(top, "vary");
+    need(top, "[[vary]]", !varied.empty());
+    for (const Entry& entry : varied) {
+        const SweepParameter parameter = read_parameter(entry, plan);
+        if (std::ranges::find(plan.parameters, parameter.name, &SweepParameter::name) !=
+            plan.parameters.end())
+            fail(entry, fmt::format("{} is varied already", parameter.name));
+        plan.parameters.push_back(parameter);
+    }
+    check_design(top, plan);
+    return plan;
+}
+
+std::vector<SweepPoint> sweep_points(const SweepPlan& plan) {
+    std::vector<SweepPoint> points;
+    if (plan.design == SweepDesign::grid) {
+        points.emplace_back();
+        for (const SweepParameter& parameter : plan.parameters) {
+            std::vector<SweepPoint> longer;
+            for (const SweepPoint& point : points)
+                for (const SweepValue& value : parameter.values) {
+                    longer.push_back(point);
+                    longer.back().push_back(value);
+                }
+            points = std::move(longer);
+        }
+        return points;
+    }
+    if (plan.design == SweepDesign::list) {
+        points.resize(plan.parameters[0].values.size());
+        for (std::size_t k = 0; k < points.size(); ++k)
+            for (const SweepParameter& parameter : plan.parameters)
+                points[k].push_back(parameter.values[k]);
+        return points;
+    }
+    // Centred in their parts of the range (McKay, Beckman & Conover 1979 draw them within).
+    points.resize(static_cast<std::size_t>(plan.samples));
+    for (std::size_t p = 0; p < plan.parameters.size(); ++p) {
+        const SweepParameter& parameter = plan.parameters[p];
+        const std::vector<std::size_t> place = shuffled(points.size(), p);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const double share =
+                (static_cast<double>(place[k]) + 0.5) / static_cast<double>(points.size());
+            points[k].push_back(parameter.range
+                                    ? number_value(std::lerp(parameter.range->first,
+                                                             parameter.range->second, share))
+                                    : parameter.values[static_cast<std::size_t>(
+                                          share * static_cast<double>(parameter.values.size()))]);
+        }
+    }
+    return points;
+}
+
+Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed) {
+    SceneRequest request;
+    request.scene = plan.scene;
+    request.set = plan.set;
+    request.without = plan.without;
+    request.seed = seed;
+    if (!plan.accuracy.empty())
+        request.accuracy = plan.accuracy;
+    for (std::size_t k = 0; k < point.size(); ++k)
+        request.set.push_back(plan.parameters[k].name + "=" + point[k].toml);
+    return load_scene(request);
+}
+
+} // namespace listric

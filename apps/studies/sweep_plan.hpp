@@ -1,0 +1,64 @@
+#pragma once
+
+#include "apps/scene/scene.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace listric {
+
+/// How the values of several parameters are combined.
+enum class SweepDesign {
+    grid,           ///< every value with every other
+    list,           ///< the first values of all, the second of all, ...
+    latin_hypercube ///< samples in which every parameter takes each part of its range once
+};
+
+/// A value of a parameter.
+struct SweepValue {
+    std::string text;             ///< in tables
+    std::string toml;             ///< in a scene
+    std::optional<double> number; ///< if it is one
+};
+
+/// What is varied.
+struct SweepParameter {
+    std::string name;                               ///< table.key
+    std::vector<SweepValue> values = {};            ///< or else
+    std::optional<std::pair<double, double>> range; ///< least and greatest
+};
+
+/// What every run is measured by.
+struct SweepMeasure {
+    std::string text;         ///< as the plan has it: NAME or NAME@METRES
+    std::string name;         ///< of docs/measures.md
+    std::optional<double> at; ///< extension, m; none: the run's end
+};
+
+struct SweepPlan {
+    std::string name; ///< of its file
+    std::string scene, accuracy;
+    std::vector<std::string> set, without; ///< for every run
+    int first_seed = 1, seeds = 1;
+    SweepDesign design = SweepDesign::grid;
+    int samples = 0; ///< of a Latin hypercube
+    std::vector<SweepParameter> parameters;
+    std::vector<SweepMeasure> measures;
+};
+
+/// Reads a plan and tries every value in the scene. Throws SceneError.
+SweepPlan load_sweep_plan(const std::filesystem::path& file);
+
+/// The values of every run, seeds apart, in the order of the parameters.
+using SweepPoint = std::vector<SweepValue>;
+std::vector<SweepPoint> sweep_points(const SweepPlan& plan);
+
+/// The scene of a point. Throws SceneError.
+Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed);
+
+} // namespace listric

@@ -1,0 +1,178 @@
+// `listric sweep` on scenes of a few hundred discs: killed and gone on, cut into tasks, with runs
+// that fail.
+
+#include "tests/program.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+namespace listric {
+namespace {
+
+namespace fs = std::filesystem;
+using support::contents;
+using support::Ended;
+using support::Program;
+using testing::HasSubstr;
+using testing::StartsWith;
+using namespace std::chrono_literals;
+
+const std::string scene = support::small_halfgraben() + R"([extension]
+distance_m = 200.0
+speed_m_per_s = 4.0
+ramp_s = 2.0
+[output]
+interval_m = 50.0
+figures_at_m = []
+series = "none"
+[gravity]
+[bonds]
+)";
+
+const std::string plan = R"(scene = "small.toml"
+seeds = 2
+measures = ["unbalanced_ratio_mean", "inertial_number", "basement_unbonded_fraction@100"]
+[[vary]]
+parameter = "bonds.tensile_strength_pa"
+values = [1e7, 1e8]
+[[vary]]
+parameter = "material.friction"
+values = [0.3, 0.6]
+)";
+
+class SweepTest : public testing::Test {
+protected:
+    fs::path folder = fs::path(testing::TempDir()) /
+                      fmt::format("listric-sweep-{}-{}", getpid(),
+                                  testing::UnitTest::GetInstance()->current_test_info()->name());
+    SweepTest() {
+        fs::create_directories(folder);
+        std::ofstream(folder / "small.toml") << scene;
+        std::ofstream(folder / "plan.toml") << plan;
+        setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+    }
+    ~SweepTest() override {
+        unsetenv("XDG_CACHE_HOME");
+        fs::remove_all(folder);
+    }
+
+    std::vector<std::string> words(const std::string& output,
+                                   const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> all{
+            "sweep", (folder / "plan.toml").string(), "--jobs", "2", "--output", path(output)};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    std::string path(const std::string& output) const { return (folder / output).string(); }
+    Ended sweep(const std::string& output, const std::vector<std::string>& more = {}) const {
+        return Program(folder, words(output, more)).wait();
+    }
+    std::string table(const std::string& output) const {
+        return contents(folder / output / "sweep.csv");
+    }
+};
+
+TEST_F(SweepTest, KilledInTheMiddleItGoesOnToTheSameTable) {
+    const Ended whole = sweep("whole");
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    EXPECT_THAT(
+        table("whole"),
+        StartsWith(
+            "run,seed,bonds.tensile_strength_pa,material.friction,outcome,exit_code,"
+            "state_hash,unbalanced_ratio_mean,inertial_number,basement_unbonded_fraction@100\n"
+            "1,1,10000000,0.3,finished,0,"));
+    const std::string rows = table("whole");
+    EXPECT_EQ(std::ranges::count(rows, '\n'), 9);
+    EXPECT_THAT(rows, testing::Not(HasSubstr(",,"))) << "a measure is missing";
+    EXPECT_THAT(contents(folder / "whole/effects.csv"),
+                HasSubstr("bonds.tensile_strength_pa:material.friction"));
+    EXPECT_TRUE(fs::exists(folder / "whole/sheet.png")) << whole.err;
+    EXPECT_TRUE(fs::exists(folder / "whole/effects.png")) << whole.err;
+
+    const Program killed(folder, words("killed"));
+    const auto start = std::chrono::steady_clock::now();
+    while (killed.runs() && !fs::exists(folder / "killed/runs/0002-seed=2/summary.json") &&
+           std::chrono::steady_clock::now() - start < 120s)
+        std::this_thread::sleep_for(2ms);
+    killed.send(SIGKILL);
+    EXPECT_EQ(killed.wait().code, -SIGKILL);
+    EXPECT_FALSE(fs::exists(folder / "killed/sweep.csv"));
+    // Runs under way save and stop by themselves.
+    const auto again = [&] { return sweep("killed"); };
+    Ended resumed = again();
+    for (int tries = 0; tries < 20 && contents(folder / "killed/sweep.csv") != rows; ++tries) {
+        std::this_thread::sleep_for(200ms);
+        resumed = again();
+    }
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_EQ(table("killed"), rows);
+    EXPECT_EQ(contents(folder / "killed/effects.csv"), contents(folder / "whole/effects.csv"));
+}
+
+TEST_F(SweepTest, TasksMergedAreOneTask) {
+    ASSERT_EQ(sweep("whole").code, 0);
+    std::vector<std::string> merge{"--merge"};
+    for (int task = 1; task <= 4; ++task) {
+        const std::string output = fmt::format("task-{}", task);
+        const Ended ended = sweep(output, {"--task", fmt::format("{}/4", task)});
+        ASSERT_EQ(ended.code, 0) << ended.err;
+        EXPECT_FALSE(fs::exists(folder / output / "effects.csv"));
+        merge.push_back(path(output));
+    }
+    const Ended merged = sweep("merged", merge);
+    EXPECT_EQ(merged.code, 0) << merged.err;
+    for (const char* file : {"sweep.csv", "effects.csv"})
+        EXPECT_EQ(contents(folder / "merged" / file), contents(folder / "whole" / file)) << file;
+    EXPECT_TRUE(fs::exists(folder / "merged/sheet.png"));
+
+    merge.pop_back();
+    const Ended incomplete = sweep("merged", merge);
+    EXPECT_EQ(incomplete.code, 2);
+    EXPECT_THAT(incomplete.err, HasSubstr("run 2, seed 2 is in none of the folders"));
+    EXPECT_EQ(sweep("x", {"--task", "5/4"}).code, 2);
+}
+
+TEST_F(SweepTest, EqualHangingWallsAreMadeOnce) {
+    const Ended ended = sweep("out");
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    // Friction and bonds come after the packing: two seeds, two packings.
+    int packings = 0;
+    for (const auto& file : fs::directory_iterator(folder / "cache/listric"))
+        packings += file.path().extension() == ".h5";
+    int made = 0;
+    for (const auto& run : fs::directory_iterator(folder / "out/runs"))
+        made +=
+            contents(run.path() / "log.txt").find("kept from an earlier run") == std::string::npos;
+    EXPECT_EQ(made, packings);
+}
+
+TEST_F(SweepTest, AFailedRunIsARow) {
+    const auto vary = [&](const std::string& values) {
+        std::ofstream(folder / "plan.toml")
+            << fmt::format("scene = \"small.toml\"\nmeasures = [\"inertial_number\"]\n[[vary]]\n"
+                           "parameter = \"cycle.time_step_safety\"\nvalues = {}\n",
+                           values);
+    };
+    vary("[0.8, 8.0]");
+    const Ended some = sweep("some");
+    EXPECT_EQ(some.code, 0) << some.err;
+    EXPECT_THAT(some.err, HasSubstr("1 of them failed"));
+    EXPECT_THAT(table("some"), HasSubstr("\n1,1,0.8,finished,0,"));
+    EXPECT_THAT(table("some"), HasSubstr("\n2,1,8,"));
+    EXPECT_THAT(table("some"), HasSubstr(",3,,\n"));
+    const std::string before = table("some");
+    EXPECT_EQ(sweep("some").code, 0);
+    EXPECT_EQ(table("some"), before);
+    vary("[8.0, 9.0]");
+    EXPECT_EQ(sweep("all").code, 3);
+}
+
+} // namespace
+} // namespace listric

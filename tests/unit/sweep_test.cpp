@@ -1,0 +1,246 @@
+// Plans of many runs, their table, and the effects of their parameters.
+
+#include "apps/studies/sweep_effects.hpp"
+#include "apps/studies/sweep_plan.hpp"
+#include "apps/studies/sweep_table.hpp"
+#include "apps/support/error.hpp"
+#include "dem/random.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace listric {
+
+namespace {
+
+using testing::HasSubstr;
+
+const std::string plan_text = R"(scene = "lis1"
+accuracy = "draft"
+seeds = 2
+first_seed = 6
+design = "grid"
+set = "extension.distance_m=100"
+measures = ["strain_top10", "strain_top10@50"]
+[[vary]]
+parameter = "fault_weakening.friction"
+values = [0, 0.2]
+[[vary]]
+parameter = "materials.basement"
+values = ["mat18-b", "mat18-b-calibrated"]
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+class SweepPlanFile : public testing::Test {
+protected:
+    std::filesystem::path file =
+        std::filesystem::temp_directory_path() /
+        ("sweep-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+         ".toml");
+    ~SweepPlanFile() override { std::filesystem::remove(file); }
+
+    SweepPlan load(const std::string& text) {
+        std::ofstream(file) << text;
+        return load_sweep_plan(file);
+    }
+    std::string complaint(const std::string& from, const std::string& to) {
+        try {
+            load(replaced(plan_text, from, to));
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "accepted";
+    }
+    static std::vector<std::string> texts(const SweepPoint& point) {
+        std::vector<std::string> all;
+        for (const SweepValue& value : point)
+            all.push_back(value.text);
+        return all;
+    }
+};
+
+TEST_F(SweepPlanFile, AGridHasEveryValueWithEveryOther) {
+    const SweepPlan plan = load(plan_text);
+    EXPECT_EQ(plan.first_seed, 6);
+    EXPECT_EQ(plan.measures[1].name, "strain_top10");
+    EXPECT_EQ(plan.measures[1].at, 50.0);
+    const auto points = sweep_points(plan);
+    ASSERT_EQ(points.size(), 4u);
+    EXPECT_EQ(texts(points[0]), (std::vector<std::string>{"0", "mat18-b"}));
+    EXPECT_EQ(texts(points[1]), (std::vector<std::string>{"0", "mat18-b-calibrated"}));
+    EXPECT_EQ(texts(points[3]), (std::vector<std::string>{"0.2", "mat18-b-calibrated"}));
+    const Scene scene = scene_at(plan, points[3], 7);
+    EXPECT_EQ(scene.seed, 7u);
+    EXPECT_EQ(scene.extension.distance, 100.0);
+}
+
+TEST_F(SweepPlanFile, AListTakesValuesTogether) {
+    const auto points = sweep_points(load(replaced(plan_text, "\"grid\"", "\"list\"")));
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_EQ(texts(points[1]), (std::vector<std::string>{"0.2", "mat18-b-calibrated"}));
+    EXPECT_THAT(complaint("\"grid\"", "\"list\"\nsamples = 3"), HasSubstr("latin-hypercube"));
+}
+
+TEST_F(SweepPlanFile, ALatinHypercubeTakesEveryPartOnce) {
+    std::string text = replaced(plan_text, "\"grid\"", "\"latin-hypercube\"\nsamples = 8");
+    text = replaced(text, "values = [0, 0.2]", "range = [0.0, 0.8]");
+    const auto points = sweep_points(load(text));
+    ASSERT_EQ(points.size(), 8u);
+    std::set<int> parts;
+    int calibrated = 0;
+    bool sorted = true;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        parts.insert(static_cast<int>(*points[k][0].number / 0.1));
+        calibrated += points[k][1].text == "mat18-b-calibrated";
+        sorted &= k == 0 || *points[k][0].number > *points[k - 1][0].number;
+    }
+    EXPECT_EQ(parts, (std::set<int>{0, 1, 2, 3, 4, 5, 6, 7}));
+    EXPECT_EQ(calibrated, 4);
+    EXPECT_FALSE(sorted);
+}
+
+TEST_F(SweepPlanFile, BadOnesAreRefusedWithLineAndCure) {
+    EXPECT_THAT(complaint("seeds = 2", "seed = 2"),
+                HasSubstr(":3: seed: unknown key, did you mean"));
+    EXPECT_THAT(complaint("\"grid\"", "\"gird\""), HasSubstr("grid"));
+    EXPECT_THAT(complaint("seeds = 2", "seeds = 0"), HasSubstr(":3: seeds"));
+    EXPECT_THAT(complaint("fault_weakening.friction", "fault_weakening.fricton"),
+                HasSubstr("friction"));
+    EXPECT_THAT(complaint("values = [0, 0.2]", "values = [0, -0.2]"),
+                HasSubstr(":10: vary[0].values[1]"));
+    EXPECT_THAT(complaint("values = [0, 0.2]", "values = []"), HasSubstr("at least one"));
+    EXPECT_THAT(complaint("values = [0, 0.2]", "range = [0, 0.2]"), HasSubstr("latin-hypercube"));
+    EXPECT_THAT(complaint("values = [0, 0.2]", "value = [0, 0.2]"),
+                HasSubstr("did you mean values"));
+    EXPECT_THAT(complaint("\"mat18-b-calibrated\"", "\"mat18-c\""), HasSubstr("mat18-b"));
+    EXPECT_THAT(complaint("top10@50\"", "top10@\""), HasSubstr("extension in metres"));
+    EXPECT_THAT(complaint("materials.basement", "fault_weakening.friction"),
+                HasSubstr("varied already"));
+    EXPECT_THAT(complaint("scene = \"lis1\"", "scene = \"lis9\""), HasSubstr("did you mean"));
+}
+
+TEST_F(SweepPlanFile, ATableIsReadAsItWasWritten) {
+    const SweepPlan plan = load(plan_text);
+    const auto points = sweep_points(plan);
+    std::vector<SweepRow> rows{{1, 6, "finished", 0, "abc", {0.1, std::nullopt}, ""},
+                               {4, 7, "a, \"b\"", 3, "", {std::nullopt, std::nullopt}, ""}};
+    const std::string text = to_csv(plan, points, rows);
+    EXPECT_EQ(text, "run,seed,fault_weakening.friction,materials.basement,outcome,exit_code,"
+                    "state_hash,strain_top10,strain_top10@50\n"
+                    "1,6,0,mat18-b,finished,0,abc,0.1,\n"
+                    "4,7,0.2,mat18-b-calibrated,a; 'b',3,,,\n");
+    std::ofstream(file) << text;
+    EXPECT_EQ(to_csv(plan, points, read_sweep(plan, points, file)), text);
+    std::ofstream(file) << replaced(text, "0.2", "0.3");
+    EXPECT_THROW(read_sweep(plan, points, file), UsageError);
+}
+
+/// Four factors of two values, each point by `seeds` seeds.
+struct MadeTable {
+    std::vector<SweepFactor> factors;
+    std::vector<std::size_t> point;
+    std::vector<int> seed;
+    std::vector<std::optional<double>> value;
+};
+
+/// With known effects, differences of seeds and normal noise.
+MadeTable made_table(int seeds, double noise, std::uint64_t draw) {
+    MadeTable t;
+    for (const char* name : {"a", "b", "c", "d"})
+        t.factors.push_back({name, {}});
+    for (std::size_t p = 0; p < 16; ++p)
+        for (int s = 1; s <= seeds; ++s) {
+            double x[4];
+            for (std::size_t f = 0; f < 4; ++f)
+                t.factors[f].place.push_back(x[f] = (p >> f & 1) ? 1.0 : -1.0);
+            t.point.push_back(p);
+            t.seed.push_back(s);
+            t.value.emplace_back(7.0 + 1.5 * x[0] - 0.5 * x[1] + 1.0 * x[0] * x[2] + 4.0 * s +
+                                 noise * dem::normal(draw, dem::Purpose::sweep_order, p,
+                                                     static_cast<std::uint64_t>(s)));
+        }
+    return t;
+}
+
+std::vector<SweepEffect> effects(const MadeTable& t) {
+    return effects_on("y", t.factors, t.point, t.seed, t.value);
+}
+
+double expected(const std::string& term) {
+    return term == "a" ? 3.0 : term == "b" ? -1.0 : term == "a:c" ? 2.0 : 0.0;
+}
+
+TEST(SweepEffects, KnownOnesAreFound) {
+    const auto found = effects(made_table(2, 0.0, 1));
+    ASSERT_EQ(found.size(), 10u); // four and six
+    for (const SweepEffect& e : found) {
+        EXPECT_NEAR(e.effect, expected(e.term), 1e-12) << e.term;
+        EXPECT_NEAR(e.standard_error.value(), 0.0, 1e-12);
+    }
+}
+
+// The difference to the truth is a standard error on average, and two of them in one of twenty.
+TEST(SweepEffects, ErrorsAreThoseOfTheNoise) {
+    double square = 0.0, errors = 0.0, beyond = 0.0, count = 0.0;
+    for (std::uint64_t draw = 1; draw <= 200; ++draw)
+        for (const SweepEffect& e : effects(made_table(2, 0.8, draw))) {
+            const double off = e.effect - expected(e.term);
+            square += off * off;
+            errors += *e.standard_error * *e.standard_error;
+            beyond += std::abs(off) > 2.0 * *e.standard_error;
+            count += 1.0;
+        }
+    // 2 sigma / sqrt(32) = 0.283
+    EXPECT_NEAR(std::sqrt(square / count), 0.283, 0.01);
+    EXPECT_NEAR(std::sqrt(errors / count), 0.283, 0.01);
+    EXPECT_NEAR(beyond / count, 0.063, 0.02); // of Student's t with 15 degrees of freedom
+}
+
+TEST(SweepEffects, AFailedRunDoesNotBiasThem) {
+    MadeTable t = made_table(2, 0.0, 1);
+    t.value[3] = t.value[10] = std::nullopt;
+    for (const SweepEffect& e : effects(t))
+        EXPECT_NEAR(e.effect, expected(e.term), 1e-12) << e.term;
+}
+
+TEST(SweepEffects, OneSeedHasNoError) {
+    const auto found = effects(made_table(1, 0.8, 1));
+    ASSERT_FALSE(found.empty());
+    EXPECT_FALSE(found[0].standard_error);
+}
+
+TEST(SweepEffects, WhatCannotBeToldApartIsLeftOut) {
+    MadeTable t = made_table(2, 0.0, 1);
+    t.factors[3].place = t.factors[1].place; // b and d always together
+    std::set<std::string> terms;
+    for (const SweepEffect& e : effects(t))
+        terms.insert(e.term);
+    EXPECT_EQ(terms, (std::set<std::string>{"a", "c", "a:c"}));
+}
+
+TEST(SweepEffects, WordsWithoutOrderDoNotBiasOthers) {
+    MadeTable t = made_table(2, 0.0, 1);
+    t.factors[1].word.resize(t.point.size());
+    for (std::size_t k = 0; k < t.point.size(); ++k) {
+        const std::size_t word = t.point[k] % 3;
+        t.factors[1].word[k] = word;
+        *t.value[k] += 0.5 * t.factors[1].place[k]; // undoes b's own effect
+        *t.value[k] += word == 0 ? 5.0 : word == 1 ? -2.0 : 1.0;
+    }
+    for (const SweepEffect& e : effects(t)) {
+        EXPECT_NEAR(e.effect, expected(e.term), 1e-10) << e.term;
+        EXPECT_NE(e.term[0], 'b');
+    }
+}
+
+} // namespace
+
+} // namespace listric
