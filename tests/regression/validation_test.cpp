@@ -137,7 +137,7 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
 
     // Runs of another accuracy are no runs of this one.
     EXPECT_EQ(validate("--seeds 1 --accuracy draft"), 2);
-    EXPECT_THAT(said, AllOf(HasSubstr("tiny-1"), HasSubstr("standard"), HasSubstr("draft")));
+    EXPECT_THAT(said, AllOf(HasSubstr("plain-1"), HasSubstr("standard"), HasSubstr("draft")));
 }
 
 TEST_F(ValidationTest, OneExperimentAlone) {

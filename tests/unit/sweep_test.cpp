@@ -122,7 +122,8 @@ TEST_F(SweepPlanFile, BadOnesAreRefusedWithLineAndCure) {
                 HasSubstr("did you mean values"));
     EXPECT_THAT(complaint("\"mat18-b-calibrated\"", "\"mat18-c\""), HasSubstr("mat18-b"));
     EXPECT_THAT(complaint("top10@50\"", "top10@\""), HasSubstr("extension in metres"));
-    EXPECT_THAT(complaint("materials.basement", "fault_weakening.friction"),
+    EXPECT_THAT(complaint("materials.basement\"\nvalues = [\"mat18-b\", \"mat18-b-calibrated\"]",
+                          "fault_weakening.friction\"\nvalues = [0.1]"),
                 HasSubstr("varied already"));
     EXPECT_THAT(complaint("scene = \"lis1\"", "scene = \"lis9\""), HasSubstr("did you mean"));
 }
@@ -190,7 +191,7 @@ TEST(SweepEffects, KnownOnesAreFound) {
 // The difference to the truth is a standard error on average, and two of them in one of twenty.
 TEST(SweepEffects, ErrorsAreThoseOfTheNoise) {
     double square = 0.0, errors = 0.0, beyond = 0.0, count = 0.0;
-    for (std::uint64_t draw = 1; draw <= 200; ++draw)
+    for (std::uint64_t draw = 1; draw <= 2000; ++draw)
         for (const SweepEffect& e : effects(made_table(2, 0.8, draw))) {
             const double off = e.effect - expected(e.term);
             square += off * off;

@@ -44,8 +44,10 @@ def draw_panel(ax, measure: str, effects: list[tuple[str, float, float | None]])
                   fontsize=7)
     ax.set_ylim(len(shown) - 0.4, -0.6)
     left_out = len(effects) - len(shown)
-    ax.set_title(measure + (f" ({left_out} smaller ones left out)" if left_out else ""),
-                 fontsize=10, weight="semibold")
+    # From the panel's left edge: a measure's name may be longer than the bars' axis.
+    ax.annotate(measure + (f" ({left_out} smaller ones left out)" if left_out else ""), (0.0, 1.0),
+                (-72.0 * (LABELS - 0.1), 6.0), "axes fraction", "offset points", fontsize=10,
+                weight="semibold")
     without_frame(ax)
 
 
