@@ -1,5 +1,6 @@
 #include "apps/measures/evolution.hpp"
 
+#include "apps/measures/dilation.hpp"
 #include "apps/measures/grabens.hpp"
 #include "apps/measures/hinge.hpp"
 #include "apps/measures/lower_block.hpp"
@@ -14,7 +15,9 @@ using namespace dem;
 Past remember(const Setting& setting, const RigidBase& base, const State& now,
               std::span<const Past> past) {
     Past moment{DiscPlaces(now), find_basins(measure_profile(setting, now, base)), {}};
-    if (!past.empty())
+    if (past.empty())
+        moment.rock_cells = rock_cells(now, base);
+    else
         moment.throw_correlations = throw_age_correlations(setting, base, now, past.back().places);
     return moment;
 }
@@ -27,6 +30,7 @@ NamedNumbers measure_evolution(const Setting& setting, const RigidBase& base, co
     append(numbers, measure_rock(setting, now));
     append(numbers, measure_grabens(run));
     append(numbers, measure_hinge(run));
+    append(numbers, measure_dilation(run));
     if (const auto parts = find_ramp_flat_ramp(run.detachment); parts && !past.empty()) {
         append(numbers, measure_kink(run, *parts, faults.faults, segments));
         append(numbers, measure_syncline(run, *parts));

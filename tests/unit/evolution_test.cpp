@@ -1,6 +1,7 @@
 // Structural measures of states whose structure is known.
 
 #include "apps/archive/setting.hpp"
+#include "apps/measures/dilation.hpp"
 #include "apps/measures/evolution.hpp"
 #include "apps/measures/fault_throw.hpp"
 #include "apps/measures/main_faults.hpp"
@@ -169,6 +170,43 @@ TEST(InnerFault, StepsTowardTheBreakaway) {
     Fault reverse = fault_at(26e3, 9e3);
     reverse.normal = false;
     EXPECT_EQ(inner_fault_step({outer, reverse}), 0.0);
+}
+
+/// A packing is turned, or pulled apart by a share of its width: everywhere, or on one plane.
+TEST(Dilation, OfThePackingAlone) {
+    RigidBase base;
+    base.surfaces = {{"detachment", {line({-1e6, -1e6}, {1e6, -1e6})}, 0.0}};
+    Setting setting;
+    setting.thickness = 15e3;
+    const std::vector<Disc> discs = cloud(60, 60, r, 3);
+    const auto measured = [&](auto&& move) {
+        State state = make_state(discs);
+        const std::vector<Past> past{remember(setting, base, state, {})};
+        const DiscColumns c = disc_columns(state);
+        for (std::size_t i = 0; i < c.x.size(); ++i) {
+            const Point p = move({c.x[i], c.y[i]});
+            c.x[i] = p.x;
+            c.y[i] = p.y;
+        }
+        state.clock.extension = 1e3;
+        const auto found = measure_dilation(RunSoFar(setting, base, state, past));
+        EXPECT_NEAR(found.at(1).second, found.at(0).second / (1e3 * 15e3), 1e-12);
+        double all = 0.0;
+        for (double area : past[0].rock_cells)
+            all += area;
+        return found.at(0).second / all;
+    };
+    const double middle = 60.0 * r, share = 0.01, gap = 2.0 * share * middle;
+    EXPECT_NEAR(measured([&](Point p) {
+                    return Point{0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y};
+                }),
+                0.0, 1e-9);
+    EXPECT_NEAR(measured([&](Point p) { return Point{(1.0 + share) * p.x, p.y}; }), share, 2e-4);
+    // The cells that are measured lie within about a disc of the outline.
+    EXPECT_NEAR(measured([&](Point p) {
+                    return Point{p.x + (p.x > middle ? gap : 0.0), p.y};
+                }),
+                share, 0.04 * share);
 }
 
 /// Collapse grabens beyond a basin at 5 km: one of them is there alone, then both. They have moved

@@ -1,0 +1,46 @@
+#include "apps/measures/dilation.hpp"
+
+#include "dem/power_cell.hpp"
+
+namespace listric::measures {
+
+using namespace dem;
+
+std::vector<double> rock_cells(const State& state, const RigidBase& base) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::int32_t> rock;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] == 0)
+            rock.push_back(static_cast<std::int32_t>(i));
+    const std::vector<PowerCell> cells = power_cells(state, base, rock);
+    std::vector<double> areas(static_cast<std::size_t>(state.next_id), 0.0);
+    for (std::size_t k = 0; k < rock.size(); ++k)
+        if (cells[k].closed)
+            areas[static_cast<std::size_t>(d.id[static_cast<std::size_t>(rock[k])])] =
+                cells[k].area;
+    return areas;
+}
+
+NamedNumbers measure_dilation(const RunSoFar& run) {
+    if (run.past.empty() || !(run.extension > run.past.front().places.extension))
+        return {};
+    const std::vector<double>& before = run.past.front().rock_cells;
+    const std::vector<double> now = rock_cells(run.now, run.base);
+    // A cell that is open, at a surface or beside a gap, says nothing; it is taken to have grown as
+    // the others on average.
+    double closed = 0.0, growth = 0.0, all = 0.0;
+    for (std::size_t id = 0; id < before.size(); ++id) {
+        all += before[id];
+        if (before[id] > 0.0 && now[id] > 0.0) {
+            closed += before[id];
+            growth += now[id] - before[id];
+        }
+    }
+    NamedNumbers numbers; // not finite without closed cells
+    const double grown = growth * all / closed;
+    add(numbers, "rock_dilation_m2", grown);
+    add(numbers, "rock_dilation_fraction", grown / (run.extension * run.setting.thickness));
+    return numbers;
+}
+
+} // namespace listric::measures
