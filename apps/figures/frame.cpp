@@ -216,6 +216,12 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     if (m.depocentres)
         write_depocentres(writer, *m.depocentres);
     write_faults(writer, faults.faults);
+    if (const auto& picked = now.scene.picked_fault) {
+        std::vector<Point> points;
+        for (std::size_t k = 0; k < picked->x.size(); ++k)
+            points.push_back({picked->x[k], -picked->depth[k]});
+        writer.points("picked_fault", points);
+    }
     for (const EffectPart& part : now.scene.effects)
         if (part.effect->draw)
             for (const FigureLayer& layer : part.effect->draw(now))

@@ -130,6 +130,10 @@ void Session::begin() {
     record_.predicted_seconds =
         speed.busy * predict(scene_, speed.disc_steps_per_second, options_.threads).seconds;
 
+    if (const auto& picked = scene_.picked_fault)
+        log_.say(fmt::format("detachment: {} arcs and lines through {} points, at most {:.1f} m off",
+                             scene_.detachment->segments.size(), picked->x.size(),
+                             picked->misfit));
     make_footwall();
     State state;
     {
@@ -326,6 +330,8 @@ NamedNumbers Session::summary_numbers(const NamedNumbers& of_effects) const {
         if (part.effect->summarise)
             append(numbers, part.effect->summarise(record_.history, simulation_.state()));
     append(numbers, base_check_);
+    if (scene_.picked_fault)
+        add(numbers, "detachment_misfit_m", scene_.picked_fault->misfit);
     return numbers;
 }
 

@@ -4,6 +4,7 @@
 #include "dem/target_line.hpp"
 #include "fem/footwall.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -46,10 +47,11 @@ struct Choice {
 };
 
 /// The value behind a parameter.
-using Value = std::variant<Place<double>, Place<std::optional<double>>, Place<int>,
-                           Place<std::uint64_t>, Place<bool>, Place<std::string>, Choice,
-                           Place<std::vector<double>>, Place<std::vector<dem::DetachmentSegment>>,
-                           Place<std::vector<dem::TargetStage>>, Place<std::vector<fem::Layer>>>;
+using Value =
+    std::variant<Place<double>, Place<std::optional<double>>, Place<int>, Place<std::uint64_t>,
+                 Place<bool>, Place<std::string>, Choice, Place<std::vector<double>>,
+                 Place<std::vector<dem::DetachmentSegment>>, Place<std::vector<dem::TargetStage>>,
+                 Place<std::vector<fem::Layer>>, Place<std::vector<std::array<double, 4>>>>;
 
 /// The one declaration of a parameter. A default outside the range means that the parameter must be
 /// given.

@@ -15,7 +15,7 @@ const std::vector<Parameter>& segment_parameters(dem::DetachmentSegment::Kind ki
         {"length_m", at<&Segment::length>, "m", ranges::length, "", "length of the line"},
         start_dip};
     static const std::vector<Parameter> arc{
-        {"radius_m", at<&Segment::radius>, "m", ranges::length, "", "radius of the arc"},
+        {"radius_m", at<&Segment::radius>, "m", {.from = 1e-3, .to = 1e9}, "", "radius of the arc"},
         {"end_dip_deg", at<&Segment::end_dip>, "deg", ranges::dip, "",
          "dip at the far end; 0 is flat, 90 straight down"},
         start_dip};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/picked_fault.hpp"
 #include "dem/detachment.hpp"
 #include "dem/genesis.hpp"
 #include "dem/material.hpp"
@@ -67,6 +68,7 @@ struct Scene {
 
     std::optional<dem::HangingWallParameters> hanging_wall;
     std::optional<dem::DetachmentParameters> detachment;
+    std::optional<PickedFault> picked_fault;
     std::optional<dem::StretchingParameters> stretching;
     ExtensionParameters extension;
     dem::Material basement; ///< table [material]

@@ -50,8 +50,20 @@ void check_detachment(const Scene& scene, const toml::table& document) {
         fail(entry, fmt::format("ends with a dip of {} degrees, allowed: 0; let the last arc have "
                                 "end_dip_deg = 0.0",
                                 text(dip)));
+    if (scene.picked_fault)
+        if (const std::string why = too_sharp(detachment, scene.hanging_wall->mean_radius);
+            !why.empty()) {
+            const bool drawn = document.at_path("detachment.svg").node() != nullptr;
+            const Entry file = entry_at(document, drawn ? "detachment.svg" : "detachment.csv");
+            fail(file, fmt::format("{}: {}", file.node.value_or(""), why));
+        }
     const double depth =
         -make_rigid_base(scene).surfaces.front().chain.back().end.y; // it never rises
+    if (scene.picked_fault && std::abs(depth - thickness) > tolerance)
+        fail(entry_at(document, "hanging_wall.thickness_m"),
+             fmt::format("the picked fault is flat at a depth of {:.1f} m; leave out "
+                         "hanging_wall.thickness_m, which follows from it",
+                         depth));
     if (std::abs(depth - thickness) > tolerance)
         fail(entry, fmt::format("reaches a depth of {:.1f} m, allowed: hanging_wall.thickness_m = "
                                 "{} within {} m; change the thickness, or radii and lengths; an "

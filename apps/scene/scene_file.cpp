@@ -178,6 +178,7 @@ std::vector<std::string_view> file_keys(const SceneTable& table) {
     std::vector<std::string_view> keys;
     if (table.effect)
         std::ranges::transform(table.effect->files, std::back_inserter(keys), &FileParameter::key);
+    std::ranges::transform(table.source, std::back_inserter(keys), &Parameter::key);
     return keys;
 }
 
@@ -217,6 +218,38 @@ void read_files(Scene& scene, const SceneTable& table, const toml::table& docume
             fail(entry_at(document, at), message);
         });
     }
+}
+
+/// Fits the detachment to a picked fault, if the document names one; hanging_wall.thickness_m is
+/// then its depth.
+void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table& document,
+                       const fs::path& folder) {
+    const toml::node* const node = document.get(table.name);
+    if (!node || !node->is_table())
+        return;
+    FaultSource source;
+    for (const auto& [key, value] : *node->as_table())
+        if (const auto p = std::ranges::find(table.source, key.str(), &Parameter::key);
+            p != table.source.end())
+            read({value, fmt::format("{}.{}", table.name, key.str())}, *p, &source);
+    if (source.csv.empty() && source.svg.empty())
+        return;
+    const Entry entry =
+        entry_at(document, source.csv.empty() ? "detachment.svg" : "detachment.csv");
+    if (!source.csv.empty() && !source.svg.empty())
+        fail(entry_at(document, "detachment.svg"), "stands in place of csv; leave out one");
+    for (const char* other : {"detachment.segments", "detachment.start_dip_deg"})
+        if (document.at_path(other).node())
+            fail(entry_at(document, other), "follows from the picked fault; leave it out");
+    const std::string file =
+        located(source.csv + source.svg, &entry.node, folder); // one of them is empty
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+        fail(entry, fmt::format("{}: no such file", file));
+    scene.picked_fault =
+        fit_detachment(*scene.detachment, read_fault(source, file), source.tolerance);
+    if (scene.hanging_wall)
+        scene.hanging_wall->thickness = -detachment_chain(*scene.detachment, 0.0).back().end.y;
 }
 
 /// The document that a call asks for.
@@ -284,6 +317,9 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     set_accuracy(scene);
     Rocks rocks(document, effects, path.parent_path());
     take_rocks(scene, rocks, effects);
+    const SceneTable& detachment =
+        *std::ranges::find(all, std::string_view("detachment"), &SceneTable::name);
+    take_picked_fault(scene, detachment, document, path.parent_path());
     for (const SceneTable& table : all)
         if (const toml::node* node = document.get(table.name))
             read_table({*node, std::string(table.name)}, table.parameters, table.add(table, scene),
@@ -333,6 +369,9 @@ std::string parameter_reference(EffectList effects) {
         const void* part = table.add(table, scene);
         for (const Parameter& parameter : table.parameters)
             lines += explain(parameter, part);
+        const FaultSource source;
+        for (const Parameter& parameter : table.source)
+            lines += explain(parameter, &source);
         const FileName none;
         for (const Parameter& parameter : file_names(table))
             lines += explain(parameter, &none);

@@ -61,6 +61,51 @@ std::vector<Parameter> detachment_parameters() {
     };
 }
 
+std::vector<Parameter> fault_source_parameters() {
+    using S = FaultSource;
+    constexpr Range far{.from = -1e7, .to = 1e7};
+    return {
+        {"csv",
+         at<&S::csv>,
+         "",
+         {},
+         "",
+         "in place of start_dip_deg and segments: a picked fault, columns x_m and depth_m"},
+        {"csv_delimiter",
+         one_of<&S::csv_delimiter>({",", ";", "tab"}),
+         "",
+         {},
+         "",
+         "between the columns"},
+        {"svg", at<&S::svg>, "", {}, "", "in place of csv: a drawing with the fault as a path"},
+        {"svg_path", at<&S::svg_path>, "", {}, "", "id of the path"},
+        {"svg_points", at<&S::svg_points>, "", far, "",
+         "two points or more of the drawing and where they are in the section"},
+        {"shift_x_m", at<&S::shift_x>, "m", far, "",
+         "added to every x, so that the breakaway is at 0"},
+        {"tolerance_m",
+         at<&S::tolerance>,
+         "m",
+         {.from = 0.1, .to = 1e4},
+         "",
+         "how far points may be from the arcs and lines fitted to them"},
+    };
+}
+
+std::vector<Parameter> picked_fault_parameters() {
+    using P = PickedFault;
+    return {
+        {"misfit_m",
+         at<&P::misfit>,
+         "m",
+         {.from = 0, .to = 1e6},
+         "",
+         "largest distance of a point from the detachment"},
+        {"x_m", at<&P::x>, "m", {.from = -1e7, .to = 1e7}, "", "of the points"},
+        {"depth_m", at<&P::depth>, "m", {.from = -1e6, .to = 1e6}, "", "of the points"},
+    };
+}
+
 std::vector<Parameter> stretching_parameters() {
     return {
         {"friction", at<&StretchingParameters::friction>, "", ranges::friction, "",
@@ -270,6 +315,9 @@ std::vector<SceneTable> scene_tables(EffectList effects) {
                                        hanging_wall_parameters()),
         optional<&Scene::detachment>("detachment", "the surface on which it slides",
                                      detachment_parameters()),
+        optional<&Scene::picked_fault>(
+            "picked_fault", "written by the program: the points that the detachment was fitted to",
+            picked_fault_parameters()),
         optional<&Scene::stretching>(
             "stretching", "in place of a detachment: a flat base that stretches uniformly",
             stretching_parameters()),
@@ -281,6 +329,7 @@ std::vector<SceneTable> scene_tables(EffectList effects) {
                               cycle_parameters()),
         always<&Scene::output>("output", "what is written when", output_parameters()),
     };
+    std::ranges::find(tables, "detachment", &SceneTable::name)->source = fault_source_parameters();
     std::ranges::transform(effects, std::back_inserter(tables),
                            [](const Effect* effect) { return table_of(*effect); });
     tables.push_back(optional<&Scene::flexure>(

@@ -16,6 +16,7 @@ struct SceneTable {
     void* (*add)(const SceneTable& table, Scene& scene); ///< with defaults, if it is not there
     void (*drop)(const SceneTable& table, Scene& scene); ///< null if it cannot be missing
     const Effect* effect = nullptr;                      ///< whose table it is
+    std::vector<Parameter> source = {}; ///< besides, of a FaultSource: a scene keeps what it says
 
     bool in(const Scene& scene) const { return find(*this, scene) != nullptr; }
 };

@@ -168,6 +168,21 @@ struct Reader {
         }
     }
 
+    void operator()(const Place<std::vector<std::array<double, 4>>>& place) const {
+        auto& x = place.reach(object);
+        x.clear();
+        for (const toml::node& node : array(entry, parameter)) {
+            const Entry item{node, item_path(x.size())};
+            const toml::array* four = node.as_array();
+            if (!four || four->size() != 4)
+                fail(item, "needs four numbers, [px, py, x_m, depth_m]");
+            x.emplace_back();
+            for (std::size_t k = 0; k < 4; ++k)
+                x.back()[k] =
+                    number({*four->get(k), fmt::format("{}[{}]", item.path, k)}, parameter);
+        }
+    }
+
 private:
     template <class Integer> void read_integer(Integer& x) const {
         if (!entry.node.is_integer())
@@ -370,6 +385,12 @@ struct Writer {
     std::string operator()(const Place<std::vector<dem::DetachmentSegment>>& x) const;
     std::string operator()(const Place<std::vector<fem::Layer>>& x) const;
     std::string operator()(const Place<std::vector<dem::TargetStage>>& x) const;
+    std::string operator()(const Place<std::vector<std::array<double, 4>>>& x) const {
+        std::vector<std::string> items;
+        for (const auto& four : x.get(object))
+            items.push_back(fmt::format("[{}]", fmt::join(four, ", ")));
+        return fmt::format("[{}]", fmt::join(items, ", "));
+    }
 
 private:
     std::string one(double x) const { return toml_float(in_key_units(x, per_si)); }

@@ -18,10 +18,10 @@ namespace listric {
 
 namespace {
 
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> cells_of(const std::string& line, char delimiter) {
     std::vector<std::string> cells(1);
     for (char letter : line) {
-        if (letter == ',')
+        if (letter == delimiter)
             cells.emplace_back();
         else if (letter != ' ' && letter != '\t' && letter != '\r' && letter != '"')
             cells.back() += letter;
@@ -46,7 +46,8 @@ std::optional<double> number(const std::string& cell) {
 /// The lines of a file that say something.
 class Lines {
 public:
-    explicit Lines(const std::filesystem::path& path) : path_(path), file_(path, std::ios::binary) {
+    Lines(const std::filesystem::path& path, char delimiter)
+        : path_(path), file_(path, std::ios::binary), delimiter_(delimiter) {
         if (!file_.is_open())
             fail();
     }
@@ -56,7 +57,7 @@ public:
             if (++number_ == 1 && line.starts_with("\xef\xbb\xbf")) // as spreadsheets write it
                 line.erase(0, 3);
             if (!is_blank(line))
-                return cells_of(line);
+                return cells_of(line, delimiter_);
         }
         if (file_.bad())
             fail();
@@ -77,13 +78,31 @@ private:
 
     std::filesystem::path path_;
     std::ifstream file_;
+    char delimiter_;
     std::size_t number_ = 0;
 };
 
 } // namespace
 
-CsvRows read_csv(const std::filesystem::path& path, std::span<const std::string_view> columns) {
-    Lines lines(path);
+namespace {
+
+/// What may be wrong with a header that lacks a column.
+std::string hint(const std::vector<std::string>& header, std::string_view name, char delimiter) {
+    for (const char other : {',', ';'})
+        if (other != delimiter && header.size() == 1 && header[0].find(other) != std::string::npos)
+            return fmt::format("; its columns seem to be parted by {}", other);
+    const std::string_view stem = name.substr(0, name.rfind('_') + 1); // "depth_" of "depth_m"
+    for (const std::string& cell : header)
+        if (stem.size() > 1 && cell.starts_with(stem) && cell.size() > stem.size())
+            return fmt::format("; {} is in another unit (1 km = 1000 m, 1 ft = 0.3048 m)", cell);
+    return "";
+}
+
+} // namespace
+
+CsvRows read_csv(const std::filesystem::path& path, std::span<const std::string_view> columns,
+                 char delimiter) {
+    Lines lines(path, delimiter);
     const auto header = lines.next();
     std::vector<std::size_t> place;
     for (const std::string_view name : columns) {
@@ -92,8 +111,9 @@ CsvRows read_csv(const std::filesystem::path& path, std::span<const std::string_
         place.push_back(
             static_cast<std::size_t>(std::ranges::find(*header, name) - header->begin()));
         if (place.back() == header->size())
-            lines.refuse(fmt::format("has no column {}, needs a header with {}; it has {}", name,
-                                     fmt::join(columns, ", "), fmt::join(*header, ", ")));
+            lines.refuse(fmt::format("has no column {}, needs a header with {}; it has {}{}", name,
+                                     fmt::join(columns, ", "), fmt::join(*header, ", "),
+                                     hint(*header, name, delimiter)));
     }
     CsvRows rows{std::vector<std::vector<double>>(columns.size()), {}};
     while (const auto row = lines.next()) {
@@ -113,7 +133,7 @@ CsvRows read_csv(const std::filesystem::path& path, std::span<const std::string_
 }
 
 bool csv_has_column(const std::filesystem::path& path, std::string_view name) {
-    const auto header = Lines(path).next();
+    const auto header = Lines(path, ',').next();
     return header && std::ranges::find(*header, name) != header->end();
 }
 

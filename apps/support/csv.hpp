@@ -17,7 +17,8 @@ struct CsvRows {
 
 /// Reads numbers from a CSV file with a header; other columns, blank lines and those that begin
 /// with # are ignored. Throws SceneError: file, line, column, what is there and what is allowed.
-CsvRows read_csv(const std::filesystem::path& file, std::span<const std::string_view> columns);
+CsvRows read_csv(const std::filesystem::path& file, std::span<const std::string_view> columns,
+                 char delimiter = ',');
 
 /// Whether the header has a column. Throws SceneError if the file cannot be read.
 bool csv_has_column(const std::filesystem::path& file, std::string_view name);

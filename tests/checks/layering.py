@@ -24,7 +24,8 @@ FOREIGN = {
     "fem": SYSTEM,
     "coupling": ("Eigen/",),
     "apps/measures": (),
-    "apps": SYSTEM + ("fmt/", "nlohmann/", "toml++/", "CLI/", "hdf5.h", "Eigen/"),
+    "apps": SYSTEM + ("fmt/", "nlohmann/", "toml++/", "CLI/", "hdf5.h", "Eigen/", "unsupported/Eigen/",
+             "pugixml.hpp"),
 }
 
 

@@ -133,6 +133,13 @@ struct Bits {
         }
         return items;
     }
+    std::string operator()(const Place<std::vector<std::array<double, 4>>>& x) const {
+        std::string items;
+        for (const auto& four : x.get(object))
+            for (const double value : four)
+                items += of(value) + " ";
+        return items;
+    }
     std::string operator()(const Place<std::vector<fem::Layer>>& x) const {
         std::string items;
         for (const fem::Layer& layer : x.get(object))
@@ -492,7 +499,7 @@ TEST_F(SceneTest, SegmentsAreArcsOrLines) {
         return error("[hanging_wall]\n[detachment]\nsegments = [\n" + list + "\n]\n");
     };
     EXPECT_EQ(segments("{arc = {}}"), "scene.toml:4: detachment.segments[0].arc: needs radius_m "
-                                      "(radius of the arc; at least 0.001, at most 1e6)");
+                                      "(radius of the arc; at least 0.001, at most 1e9)");
     EXPECT_EQ(segments("{arc = {radius_m = 1e4}},\n{line = {start_dip_deg = 3}}"),
               "scene.toml:5: detachment.segments[1].line: needs length_m "
               "(length of the line; at least 0.001, at most 1e6)");

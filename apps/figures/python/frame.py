@@ -15,6 +15,7 @@ origin), n discs:
     depocentres                      x, thickness, prominence
     faults                           number of the fault, x, y, slip rate in m/a
     water                            x, floor, level; only where the basin holds water
+    picked_fault                     x, y of the points that the detachment was fitted to
     predicted_shear, predicted_normals  x, y of the pre-rift top by kinematic constructions
 
 An array that is not there says that the run knows no such thing.
@@ -54,6 +55,7 @@ class Frame:
     depocentres: np.ndarray | None = None
     faults: np.ndarray | None = None
     water: np.ndarray | None = None
+    picked_fault: np.ndarray | None = None
     predicted_shear: np.ndarray | None = None
     predicted_normals: np.ndarray | None = None
     level: float | None = None                 # that sediment is filled up to
@@ -187,6 +189,7 @@ def load_frame(folder: str) -> Frame:
         profile=profile if profile is not None and len(profile) > 1 else None,
         depocentres=km(table("depocentres", 3)),
         faults=scaled(table("faults", 4), [1.0, 1e-3, 1e-3, 1.0]), water=km(table("water", 3)),
+        picked_fault=km(table("picked_fault", 2)),
         predicted_shear=km(table("predicted_shear", 2)),
         predicted_normals=km(table("predicted_normals", 2)),
         level=None if level is None else level / 1000.0)

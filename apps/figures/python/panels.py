@@ -52,6 +52,12 @@ def strata_panel(ax, cax, frame: Frame) -> None:
         x, floor, level = frame.water.T
         ax.fill_between(x, floor, level, color=WATER, linewidth=0, zorder=1.5)
         handles.append((swatch(WATER), "water"))
+    if frame.picked_fault is not None:
+        x, y = frame.picked_fault.T
+        ax.plot(x, y, linestyle="none", marker="o", markersize=2.5, markerfacecolor="none",
+                markeredgecolor=INK, markeredgewidth=0.5, zorder=7)
+        handles.append((Line2D([], [], linestyle="none", marker="o", markersize=3,
+                               markerfacecolor="none", markeredgecolor=INK), "picked"))
     handles += draw_faults(ax, frame.faults)
     describe(ax, frame, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
 

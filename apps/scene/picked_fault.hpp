@@ -1,0 +1,30 @@
+#pragma once
+
+#include "apps/scene/fault_source.hpp"
+#include "dem/detachment.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// The points that a detachment was fitted to.
+struct PickedFault {
+    std::vector<double> x, depth; ///< m
+    double misfit = 0.0;          ///< largest distance from the detachment, m
+};
+
+/// Reads the points of a file, shifted. Throws SceneError.
+FaultPoints read_fault(const FaultSource& source, const std::filesystem::path& file);
+
+/// Fits the pieces of a detachment. Throws SceneError where points do not lead from the breakaway
+/// at (0, 0) down to a flat, or are further from the fit than the tolerance, m.
+PickedFault fit_detachment(dem::DetachmentParameters& detachment, const FaultPoints& fault,
+                           double tolerance);
+
+/// What is wrong with a detachment that turns more sharply than discs of a mean radius, m, can
+/// follow; empty if it does not.
+std::string too_sharp(const dem::DetachmentParameters& detachment, double mean_radius);
+
+} // namespace listric
