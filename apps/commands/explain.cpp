@@ -51,12 +51,15 @@ std::string explain_effects(const Scene& scene, EffectList effects) {
 
 std::string explain_size(const Scene& scene, const Prediction& p) {
     const ExtensionParameters& extension = scene.extension;
-    return fmt::format("size\n"
+    const std::string fitted =
+        scene.picked_fault ? fmt::format("  {}\n", describe(*scene.picked_fault, *scene.detachment))
+                           : "";
+    return fmt::format("size\n{}"
                        "  {} discs at the start, about {} at the end, mean radius {} m\n"
                        "  {:g} km of extension at {} m/a: {:g} Ma\n"
                        "  time step {:.3g} s, {:.3g} million cycles at {} m/s\n"
                        "  {:.2g} disc-steps, about {:.0f} MB of memory\n\n",
-                       p.discs_at_start, p.discs_at_end, scene.hanging_wall->mean_radius,
+                       fitted, p.discs_at_start, p.discs_at_end, scene.hanging_wall->mean_radius,
                        extension.distance / 1e3, extension.rate,
                        extension.distance / extension.rate / 1e6, p.time_step, p.cycles / 1e6,
                        extension.speed, p.disc_steps, p.memory / 1e6);

@@ -130,10 +130,8 @@ void Session::begin() {
     record_.predicted_seconds =
         speed.busy * predict(scene_, speed.disc_steps_per_second, options_.threads).seconds;
 
-    if (const auto& picked = scene_.picked_fault)
-        log_.say(fmt::format("detachment: {} arcs and lines through {} points, at most {:.1f} m off",
-                             scene_.detachment->segments.size(), picked->x.size(),
-                             picked->misfit));
+    if (scene_.picked_fault)
+        log_.say(describe(*scene_.picked_fault, *scene_.detachment));
     make_footwall();
     State state;
     {

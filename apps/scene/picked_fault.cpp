@@ -166,6 +166,11 @@ PickedFault fit_detachment(DetachmentParameters& detachment, const FaultPoints& 
     return picked;
 }
 
+std::string describe(const PickedFault& picked, const DetachmentParameters& detachment) {
+    return fmt::format("detachment: {} arcs and lines through {} points, at most {:.1f} m off",
+                       detachment.segments.size(), picked.x.size(), picked.misfit);
+}
+
 std::string too_sharp(const DetachmentParameters& detachment, double mean_radius) {
     double dip = detachment.start_dip;
     for (const DetachmentSegment& segment : detachment.segments) {

@@ -23,6 +23,9 @@ FaultPoints read_fault(const FaultSource& source, const std::filesystem::path& f
 PickedFault fit_detachment(dem::DetachmentParameters& detachment, const FaultPoints& fault,
                            double tolerance);
 
+/// "detachment: 2 arcs and lines through 47 points, at most 3.2 m off"
+std::string describe(const PickedFault& picked, const dem::DetachmentParameters& detachment);
+
 /// What is wrong with a detachment that turns more sharply than discs of a mean radius, m, can
 /// follow; empty if it does not.
 std::string too_sharp(const dem::DetachmentParameters& detachment, double mean_radius);
