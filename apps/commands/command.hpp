@@ -30,6 +30,8 @@ Command add_calibrate(CLI::App& program);
 Command add_study(CLI::App& program);
 Command add_sweep(CLI::App& program);
 Command add_schema(CLI::App& program);
+Command add_completion(CLI::App& program);
+Command add_manual(CLI::App& program);
 Command add_trace(CLI::App& program);
 Command add_validate(CLI::App& program);
 
