@@ -277,6 +277,44 @@ class SceneSchema(unittest.TestCase):
         self.assertGreater(counts[True, True], 40, counts)
         self.assertGreater(counts[False, False], 120, counts)
 
+    def test_has_every_parameter(self):
+        table = None
+        for line in program("explain", "--parameters").stdout.splitlines():
+            if head := re.match(r"\[(\w+)\]", line):
+                table = head[1]
+            elif line.startswith("Segment"):
+                break
+            elif key := re.match(r"    (\w+) = ", line):
+                place = self.schema["properties"][table] if table else self.schema
+                self.assertIn(key[1], place["properties"], table)
+                self.assertTrue(place["properties"][key[1]]["description"])
+        self.assertEqual(table, "flexure")
+
+    def test_has_the_program_s_ranges(self):
+        # A scene that has the table, or may.
+        bases = {"flexure": "flexure", "stretching": "pure-shear", "base_motion": "lis1"}
+        named = {path.stem: scene for path, scene in self.scenes.items()}
+        cases = []
+        for table, entry in self.schema["properties"].items():
+            for key, of in entry.get("properties", {}).items():
+                if of.get("type") not in ("number", "integer"):
+                    continue
+                least, most, whole = of["minimum"], of["maximum"], of["type"] == "integer"
+                beyond = [least - 1, most + 1] if whole else [math.nextafter(least, -math.inf),
+                                                              math.nextafter(most, math.inf)]
+                for value in [least, most, *beyond]:
+                    scene = copy.deepcopy(named[bases.get(table, "lis1-elastic")])
+                    scene.setdefault(table, {})[key] = int(value) if whole else value
+                    cases.append(scene)
+        self.assertGreater(len(cases), 300)
+        with tempfile.TemporaryDirectory() as folder:
+            files = [Path(folder) / f"{number}.toml" for number in range(len(cases))]
+            for file, scene in zip(files, cases):
+                file.write_text("".join(f"{key} = {toml(scene[key])}\n" for key in scene))
+            lines, _ = self.check(*files)
+        for line, scene in zip(lines, cases):
+            self.assertEqual("out of range" in line, not self.validator.is_valid(scene), line)
+
     def test_goes_on_after_a_bad_file_and_writes_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
             bad, plan = Path(folder) / "bad.toml", Path(folder) / "plan.toml"
