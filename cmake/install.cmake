@@ -5,11 +5,13 @@ include(CMakePackageConfigHelpers)
 install(TARGETS listric RUNTIME COMPONENT program)
 set(share ${CMAKE_INSTALL_DATADIR}/listric)
 install(DIRECTORY apps/scenes apps/materials DESTINATION ${share} COMPONENT program)
-install(FILES apps/scene.schema.json apps/material.schema.json DESTINATION ${share} COMPONENT program)
+install(FILES apps/scene.schema.json apps/material.schema.json DESTINATION ${share}
+  COMPONENT program)
 install(DIRECTORY apps/studies/ DESTINATION ${share}/studies COMPONENT program
   FILES_MATCHING PATTERN *.toml)
 # Made by the program from its own options.
-set(own env --unset=LISTRIC_SHARE --unset=LISTRIC_SCENES --unset=LISTRIC_MATERIALS $<TARGET_FILE:listric>)
+set(own_names --unset=LISTRIC_SHARE --unset=LISTRIC_SCENES --unset=LISTRIC_MATERIALS)
+set(own env ${own_names} $<TARGET_FILE:listric>)
 add_custom_command(OUTPUT listric.bash listric.1
   COMMAND ${CMAKE_COMMAND} -E ${own} completion bash > listric.bash
   COMMAND ${CMAKE_COMMAND} -E ${own} manual > listric.1
