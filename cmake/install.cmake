@@ -5,8 +5,22 @@ include(CMakePackageConfigHelpers)
 install(TARGETS listric RUNTIME COMPONENT program)
 set(share ${CMAKE_INSTALL_DATADIR}/listric)
 install(DIRECTORY apps/scenes apps/materials DESTINATION ${share} COMPONENT program)
+install(FILES apps/scene.schema.json apps/material.schema.json DESTINATION ${share}
+  COMPONENT program)
 install(DIRECTORY apps/studies/ DESTINATION ${share}/studies COMPONENT program
   FILES_MATCHING PATTERN *.toml)
+# Made by the program from its own options.
+set(own_names --unset=LISTRIC_SHARE --unset=LISTRIC_SCENES --unset=LISTRIC_MATERIALS)
+set(own env ${own_names} $<TARGET_FILE:listric>)
+add_custom_command(OUTPUT listric.bash listric.1
+  COMMAND ${CMAKE_COMMAND} -E ${own} completion bash > listric.bash
+  COMMAND ${CMAKE_COMMAND} -E ${own} manual > listric.1
+  DEPENDS listric VERBATIM)
+add_custom_target(listric_manual ALL DEPENDS listric.bash listric.1)
+install(FILES ${PROJECT_BINARY_DIR}/listric.bash RENAME listric COMPONENT program
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${PROJECT_BINARY_DIR}/listric.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+  COMPONENT program)
 install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT program
   FILES_MATCHING PATTERN *.py)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Writes docs/parameters.md from the program's own declarations.
+# Writes docs/parameters.md and the schemas of scenes and materials from the program's own
+# declarations.
 cd "$(dirname "$0")/.." || exit
 reference=$(./listric explain --parameters) || exit
 cat >docs/parameters.md <<END
@@ -12,3 +13,6 @@ is an effect where it says so: then the effect is on exactly when the table is t
 $reference
 \`\`\`
 END
+scene=$(./listric schema) && material=$(./listric schema --material) || exit
+echo "$scene" >apps/scene.schema.json
+echo "$material" >apps/material.schema.json

@@ -23,11 +23,15 @@ Command add_run(CLI::App& program);
 Command add_scenes(CLI::App& program);
 Command add_explain(CLI::App& program);
 Command add_figures(CLI::App& program);
+Command add_check(CLI::App& program);
 Command add_bench(CLI::App& program);
 Command add_laboratory(CLI::App& program);
 Command add_calibrate(CLI::App& program);
 Command add_study(CLI::App& program);
 Command add_sweep(CLI::App& program);
+Command add_schema(CLI::App& program);
+Command add_completion(CLI::App& program);
+Command add_manual(CLI::App& program);
 Command add_trace(CLI::App& program);
 Command add_validate(CLI::App& program);
 

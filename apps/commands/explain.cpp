@@ -12,8 +12,6 @@ namespace listric {
 
 using namespace dem;
 
-namespace {
-
 std::string duration(double seconds) {
     if (seconds < 90.0)
         return fmt::format("{:.0f} s", seconds);
@@ -23,6 +21,8 @@ std::string duration(double seconds) {
         return fmt::format("{:.1f} h", seconds / 3600.0);
     return fmt::format("{:.1f} d", seconds / 86400.0);
 }
+
+namespace {
 
 /// A scene without discs is a matter of seconds.
 std::string explain_flexure(const Scene& scene) {

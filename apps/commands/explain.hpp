@@ -7,6 +7,9 @@
 
 namespace listric {
 
+/// "40 s", "3.1 min", "2.0 h"
+std::string duration(double seconds);
+
 /// What would be simulated and what it costs on this machine, as text.
 /// @param speed    with that many threads
 /// @param effects  all that there are

@@ -128,6 +128,8 @@ void carry_out(LaboratoryReport& report, const LaboratoryRequest& request, Test 
 
 } // namespace
 
+std::span<const std::string_view> laboratory_tests() { return tests; }
+
 void run_laboratory(const LaboratoryRequest& request) {
     const auto started = SteadyClock::now();
     const Test test = test_of(request);

@@ -16,15 +16,17 @@ const Parameter description{
     "description", at<&RockMaterial::description>, "", {}, "", "what the material stands for"};
 
 /// Reads a table that must say everything: a microproperty that was forgotten would silently be
-/// another rock's. The reading of strengths alone has a default.
+/// another rock's.
 void read_whole_table(const Entry& entry, const std::vector<Parameter>& parameters, void* object) {
     read_table(entry, parameters, object);
     for (const Parameter& p : parameters)
-        if (p.key != "strength_is" && !entry.node.as_table()->contains(p.key))
+        if (must_be_said(p) && !entry.node.as_table()->contains(p.key))
             fail(entry, fmt::format("needs {} ({}; {})", p.key, p.doc, text(p.range)));
 }
 
 } // namespace
+
+bool must_be_said(const Parameter& parameter) { return parameter.key != "strength_is"; }
 
 RockMaterial read_material(const std::filesystem::path& file,
                            const std::vector<std::string>& changes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/parameter.hpp"
 #include "apps/scene/shelf.hpp"
 #include "dem/material.hpp"
 
@@ -25,6 +26,9 @@ void take_microproperties(dem::Material& material, const RockMaterial& rock);
 /// Where the program's materials are; the environment's LISTRIC_MATERIALS names another folder.
 inline constexpr Shelf materials{"material", "a material has at least [material]",
                                  "LISTRIC_MATERIALS", "materials"};
+
+/// Whether a material's file must give a parameter: all but the reading of strengths.
+bool must_be_said(const Parameter& parameter);
 
 /// Reads and checks a material, with changes such as "material.friction=1". Throws SceneError.
 RockMaterial read_material(const std::filesystem::path& file,

@@ -153,6 +153,8 @@ inline constexpr Range friction{.from = 0, .to = 10};
 inline constexpr Range stiffness{.from = 1e3, .to = 1e15};
 inline constexpr Range strength{.from = 0, .to = 1e12};
 inline constexpr Range density{.from = 100, .to = 20e3};
+inline constexpr Range target_x{.from = -1e7, .to = 1e7};  ///< of a target line's points, m
+inline constexpr Range target_time{.from = 0, .to = 1e10}; ///< of its stages, a
 inline constexpr Range strain_rate{.from = 1e-30, .to = 1e-3};
 } // namespace ranges
 

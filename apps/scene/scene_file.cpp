@@ -1,5 +1,6 @@
 #include "apps/scene/scene_file.hpp"
 
+#include "apps/scene/file_names.hpp"
 #include "apps/scene/pieces.hpp"
 #include "apps/scene/scene_checks.hpp"
 #include "apps/scene/tables.hpp"
@@ -20,11 +21,6 @@ using namespace dem;
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr Shelf scenes{"scene",
-                       "a scene has at least [hanging_wall] and [detachment] or [stretching], "
-                       "or [flexure] and [elastic_base]",
-                       "LISTRIC_SCENES", "scenes"};
 
 [[noreturn]] void fail_unknown(const Entry& entry, const std::vector<Parameter>& top,
                                const std::vector<SceneTable>& all) {
@@ -81,29 +77,6 @@ std::string located(const std::string& path, const toml::node* node, const fs::p
 }
 
 // ------------------------------------------------------------------------------------- materials
-
-/// A parameter that names a file: of a rock in [materials], or of an effect.
-struct FileName {
-    std::string file;
-};
-
-constexpr RockSource basement_source{
-    "basement", "mat18-b", "material file with the defaults of [material] and [bonds]",
-    [](Scene& scene, const RockMaterial& rock) { take_microproperties(scene.basement, rock); }};
-
-/// Those of [materials], each key once.
-std::vector<Parameter> rock_names(EffectList effects) {
-    std::vector<Parameter> names;
-    const auto add = [&](const RockSource& rock) {
-        if (std::ranges::find(names, rock.key, &Parameter::key) == names.end())
-            names.push_back({rock.key, at<&FileName::file>, "", {}, "", rock.doc});
-    };
-    add(basement_source);
-    for (const Effect* effect : effects)
-        if (effect->rock)
-            add(*effect->rock);
-    return names;
-}
 
 /// Rocks by their key in [materials], read when asked for.
 class Rocks {
@@ -182,18 +155,6 @@ std::vector<std::string_view> file_keys(const SceneTable& table) {
     return keys;
 }
 
-/// Parameters of a table that name files and are no part of a scene, of a FileName.
-std::vector<Parameter> file_names(const SceneTable& table) {
-    std::vector<Parameter> names;
-    if (!table.effect)
-        return names;
-    for (const FileParameter& file : table.effect->files)
-        if (std::ranges::find(table.parameters, file.key, &Parameter::key) ==
-            table.parameters.end())
-            names.push_back({file.key, at<&FileName::file>, "", {}, "", file.doc});
-    return names;
-}
-
 /// Reads the files that a table's parameters name into what they stand for.
 void read_files(Scene& scene, const SceneTable& table, const toml::table& document,
                 const fs::path& folder) {
@@ -227,20 +188,28 @@ void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table&
     const toml::node* const node = document.get(table.name);
     if (!node || !node->is_table())
         return;
+    const toml::table& given = *node->as_table();
     FaultSource source;
-    for (const auto& [key, value] : *node->as_table())
+    for (const auto& [key, value] : given)
         if (const auto p = std::ranges::find(table.source, key.str(), &Parameter::key);
             p != table.source.end())
             read({value, fmt::format("{}.{}", table.name, key.str())}, *p, &source);
-    if (source.csv.empty() && source.svg.empty())
+    const auto refuse_beside = [&](const std::vector<const char*>& keys, const char* why) {
+        for (const char* key : keys)
+            if (const toml::node* other = given.get(key))
+                fail({*other, fmt::format("{}.{}", table.name, key)}, why);
+    };
+    if (!given.contains("csv"))
+        refuse_beside({"csv_delimiter"}, "is of csv, which is not there");
+    if (!given.contains("svg"))
+        refuse_beside({"svg_path", "svg_points"}, "is of svg, which is not there");
+    if (!given.contains("csv") && !given.contains("svg"))
         return;
+    if (given.contains("csv"))
+        refuse_beside({"svg"}, "stands in place of csv; leave out one");
+    refuse_beside({"segments", "start_dip_deg"}, "follows from the picked fault; leave it out");
     const Entry entry =
-        entry_at(document, source.csv.empty() ? "detachment.svg" : "detachment.csv");
-    if (!source.csv.empty() && !source.svg.empty())
-        fail(entry_at(document, "detachment.svg"), "stands in place of csv; leave out one");
-    for (const char* other : {"detachment.segments", "detachment.start_dip_deg"})
-        if (document.at_path(other).node())
-            fail(entry_at(document, other), "follows from the picked fault; leave it out");
+        entry_at(document, given.contains("csv") ? "detachment.csv" : "detachment.svg");
     const std::string file =
         located(source.csv + source.svg, &entry.node, folder); // one of them is empty
     std::error_code error;
@@ -356,12 +325,9 @@ std::string parameter_reference(EffectList effects) {
     for (const Parameter& parameter : top_level())
         lines += explain(parameter, &scene);
     lines += "\n[materials]: files of apps/materials by name, others by path\n";
-    for (const Parameter& parameter : rock_names(effects)) {
-        FileName name{std::string(basement_source.file)};
-        for (const Effect* effect : effects)
-            if (effect->rock && effect->rock->key == parameter.key)
-                name.file = effect->rock->file;
-        lines += explain(parameter, &name);
+    for (const RockSource& rock : rock_sources(effects)) {
+        const FileName name{std::string(rock.file)};
+        lines += explain(file_name(rock.key, rock.doc), &name);
     }
     for (const SceneTable& table : scene_tables(effects)) {
         lines +=

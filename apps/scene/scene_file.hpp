@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/scene/effect.hpp"
+#include "apps/scene/shelf.hpp"
 #include "apps/support/error.hpp"
 
 #include <cstdint>
@@ -10,6 +11,12 @@
 #include <vector>
 
 namespace listric {
+
+/// Where the program's scenes are; the environment's LISTRIC_SCENES names another folder.
+inline constexpr Shelf scenes{"scene",
+                              "a scene has at least [hanging_wall] and [detachment] or "
+                              "[stretching], or [flexure] and [elastic_base]",
+                              "LISTRIC_SCENES", "scenes"};
 
 /// How a call modifies a scene.
 struct SceneRequest {

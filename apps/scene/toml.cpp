@@ -100,12 +100,6 @@ const std::string& string(const Entry& entry, const Parameter& parameter) {
     return entry.node.as_string()->get();
 }
 
-/// Whether a parameter still has a default that it cannot keep.
-bool must_be_given(const Parameter& parameter, const void* object) {
-    const auto* value = std::get_if<Place<double>>(&parameter.value);
-    return value && !parameter.range.contains(value->get(object) * parameter.per_si);
-}
-
 dem::DetachmentSegment read_segment(const Entry& entry);
 std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parameter);
 
@@ -198,6 +192,11 @@ private:
 
 } // namespace
 
+bool must_be_given(const Parameter& parameter, const void* object) {
+    const auto* value = std::get_if<Place<double>>(&parameter.value);
+    return value && !parameter.range.contains(value->get(object) * parameter.per_si);
+}
+
 void read(const Entry& entry, const Parameter& parameter, void* object) {
     std::visit(Reader{entry, parameter, object}, parameter.value);
 }
@@ -244,9 +243,8 @@ dem::DetachmentSegment read_segment(const Entry& entry) {
 
 /// Points [x, y] by ascending x; the parameter's range holds for y.
 std::vector<Point> read_points(const Entry& entry, const Parameter& parameter) {
-    constexpr double far = 1e7; // m
     Parameter x_parameter = parameter;
-    x_parameter.range = {.from = -far, .to = far};
+    x_parameter.range = ranges::target_x;
     std::vector<Point> points;
     for (const toml::node& node : array(entry, parameter)) {
         const Entry item{node, fmt::format("{}[{}]", entry.path, points.size())};
@@ -273,7 +271,7 @@ std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parame
     if (items.empty() || !items.front().is_table())
         return {{0.0, read_points(entry, parameter)}};
     Parameter years = parameter;
-    years.range = {.from = 0, .to = 1e10};
+    years.range = ranges::target_time;
     std::vector<TargetStage> stages;
     for (const toml::node& node : items) {
         const Entry item{node, fmt::format("{}[{}]", entry.path, stages.size())};
@@ -344,10 +342,6 @@ void set(toml::table& document, const std::string& assignment, const std::string
 
 // --------------------------------------------------------------------------------------- writing
 
-namespace {
-
-/// The shortest number in units of the key that reads back as the same SI value, if there is any:
-/// of two units, one may have fewer doubles around a value.
 double in_key_units(double si, double per_si) {
     for (int digits = 1; per_si != 1.0 && digits <= 17; ++digits) {
         const std::string rounded = fmt::format("{:.{}g}", si * per_si, digits);
@@ -357,6 +351,8 @@ double in_key_units(double si, double per_si) {
     }
     return si * per_si;
 }
+
+namespace {
 
 /// Writes a value, one function for each type; empty if there is nothing to write.
 struct Writer {
@@ -455,18 +451,22 @@ std::string write(const std::vector<Parameter>& parameters, const void* object) 
     return lines;
 }
 
+std::string facts(const Parameter& parameter) {
+    std::vector<std::string> all{type_of(parameter)};
+    if (!parameter.unit.empty())
+        all.back() += fmt::format(" in {}", parameter.unit);
+    if (const std::string range = text(parameter.range); !range.empty())
+        all.push_back(range);
+    if (!parameter.symbol.empty())
+        all.push_back(fmt::format("symbol {}", parameter.symbol));
+    return fmt::format("{}", fmt::join(all, "; "));
+}
+
 std::string explain(const Parameter& parameter, const void* object) {
     const std::string value =
         must_be_given(parameter, object) ? "(required)" : write(parameter, object);
-    std::vector<std::string> facts{type_of(parameter)};
-    if (!parameter.unit.empty())
-        facts.back() += fmt::format(" in {}", parameter.unit);
-    if (const std::string range = text(parameter.range); !range.empty())
-        facts.push_back(range);
-    if (!parameter.symbol.empty())
-        facts.push_back(fmt::format("symbol {}", parameter.symbol));
     return fmt::format("    {} = {}\n        {}\n        {}\n", parameter.key,
-                       value.empty() ? "(none)" : value, parameter.doc, fmt::join(facts, "; "));
+                       value.empty() ? "(none)" : value, parameter.doc, facts(parameter));
 }
 
 } // namespace listric

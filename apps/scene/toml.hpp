@@ -38,6 +38,9 @@ void read(const Entry& entry, const Parameter& parameter, void* object);
 void read_table(const Entry& entry, const std::vector<Parameter>& parameters, void* object,
                 const std::vector<std::string_view>& read_elsewhere = {});
 
+/// Whether a parameter has no default that it could keep.
+bool must_be_given(const Parameter& parameter, const void* object);
+
 /// `origin` is where messages say that the text comes from.
 toml::table parse(const std::string& text, const std::string& origin);
 
@@ -46,6 +49,13 @@ void set(toml::table& document, const std::string& assignment, const std::string
 
 /// Lines "key = value  # doc".
 std::string write(const std::vector<Parameter>& parameters, const void* object);
+
+/// The shortest number in units of the key that reads back as the same SI value, if there is any:
+/// of two units, one may have fewer doubles around a value.
+double in_key_units(double si, double per_si);
+
+/// "number in m; at least 0.001, at most 1e6; symbol r_d"
+std::string facts(const Parameter& parameter);
 
 /// A parameter of the reference: a line with its default, the value in `object`, two with meaning,
 /// type and range.

@@ -68,6 +68,15 @@ class Installed(unittest.TestCase):
         if any(self.prefix.rglob("liblistric_fem.so")):
             self.program("run", "flexure")
 
+    def test_editors_and_shells_find_their_files(self):
+        share = self.prefix / "share"
+        scene = share / "listric/scenes/lis1.toml"
+        schema = scene.parent / scene.read_text().split()[1]
+        self.assertIn("hanging_wall", json.loads(schema.read_text())["properties"])
+        self.assertIn("lis1: correct: ", self.program("check", "lis1"))
+        self.assertIn("lis1-elastic", (share / "bash-completion/completions/listric").read_text())
+        self.assertIn(".TH LISTRIC 1", (share / "man/man1/listric.1").read_text())
+
     def test_a_project_finds_the_package(self):
         folder = self.project("consumer", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.assertEqual(call(folder / "drive_lis1").strip(), self.state_hash)

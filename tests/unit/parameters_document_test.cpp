@@ -1,6 +1,7 @@
-// docs/parameters.md is what the program says of its parameters.
+// docs/parameters.md and the schemas are what the program says of its parameters.
 
 #include "apps/model/effects.hpp"
+#include "apps/scene/schema.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +12,23 @@
 namespace listric {
 namespace {
 
+std::string contents(const char* file) {
+    std::ifstream in(std::string(LISTRIC_SOURCE_DIR "/") + file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
 TEST(ParametersDocument, IsCurrent) {
-    std::ifstream in(LISTRIC_SOURCE_DIR "/docs/parameters.md");
-    const std::string document(std::istreambuf_iterator<char>(in), {});
+    const std::string document = contents("docs/parameters.md");
     const std::size_t begin = document.find("```\n"), end = document.rfind("```\n");
     ASSERT_LT(begin, end) << "docs/parameters.md has no block of parameters";
     EXPECT_EQ(document.substr(begin + 4, end - begin - 4), parameter_reference(program_effects()))
+        << "make it anew: docs/parameters.sh";
+}
+
+TEST(ParametersDocument, SchemasAreCurrent) {
+    EXPECT_EQ(contents("apps/scene.schema.json"), scene_schema(program_effects()))
+        << "make it anew: docs/parameters.sh";
+    EXPECT_EQ(contents("apps/material.schema.json"), material_schema())
         << "make it anew: docs/parameters.sh";
 }
 

@@ -1,0 +1,150 @@
+#include "apps/commands/command.hpp"
+#include "apps/commands/explain.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
+#include "apps/run/oversize.hpp"
+#include "apps/scene/material_file.hpp"
+#include "apps/studies/sweep_plan.hpp"
+#include "apps/studies/validation_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace listric {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Times of runs on this machine, whose speed is measured once for scenes of about the same size.
+class Times {
+public:
+    double seconds(const Scene& scene) {
+        constexpr int largest = 17; // packings of 130,000 discs are as slow as larger ones
+        const double discs = static_cast<double>(estimated_discs(scene));
+        const int size = std::min(largest, static_cast<int>(std::log2(discs)));
+        const bool accounted = make_parts(scene).accounts_energy;
+        double& rate = rates_[{size, accounted}];
+        if (rate == 0.0)
+            rate = measure_speed(std::size_t{1} << size, threads_, 0.2, accounted)
+                       .disc_steps_per_second;
+        return predict(scene, rate, threads_).seconds;
+    }
+
+private:
+    int threads_ = all_threads();
+    std::map<std::pair<int, bool>, double> rates_; ///< by power of two, and with the account
+};
+
+/// "about 16,700": three digits, thousands apart.
+std::string about(double number) {
+    const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(number)) - 2.0));
+    std::string digits = fmt::format("{:.0f}", unit * std::round(number / unit));
+    for (std::size_t at = digits.size(); at > 3;)
+        digits.insert(at -= 3, ",");
+    return "about " + digits;
+}
+
+std::string check_scene_file(const std::string& file, const toml::table& document, Times& times) {
+    const SceneRequest request{.scene = file};
+    const Scene scene = load_scene(request);
+    const auto tables =
+        std::ranges::count_if(document, [](const auto& entry) { return entry.second.is_table(); });
+    if (!scene.hanging_wall)
+        return fmt::format("{} tables, no discs, a few seconds", tables);
+    if (const auto oversize = oversize_of(scene, program_effects(), machine_memory()))
+        refuse_scene(request, oversize->parameter, oversize->message);
+    return fmt::format("{} tables, {} discs, {}", tables,
+                       about(static_cast<double>(estimated_discs(scene))),
+                       duration(times.seconds(scene)));
+}
+
+std::string check_sweep(const fs::path& file, Times& times) {
+    const SweepPlan plan = load_sweep_plan(file);
+    const Scene scene = scene_at(plan, {}, plan.first_seed);
+    const auto runs = sweep_points(plan).size() * static_cast<std::size_t>(plan.seeds);
+    std::string text = fmt::format("a sweep of {} runs", runs);
+    if (scene.hanging_wall)
+        text += fmt::format(", {} if each takes as long as {}",
+                            duration(static_cast<double>(runs) * times.seconds(scene)), scene.name);
+    return text;
+}
+
+std::string check_validation(const fs::path& file) {
+    const ValidationPlan plan = load_validation_plan(file);
+    for (const ValidationRun& run : plan.runs) {
+        SceneRequest request{.scene = run.scene, .set = run.set, .without = run.without};
+        if (!run.accuracy.empty())
+            request.accuracy = run.accuracy;
+        try {
+            load_scene(request);
+        } catch (const SceneError& error) {
+            fail(fmt::format("run {}: {}", run.name, error.what()));
+        }
+    }
+    return fmt::format("a validation of {} experiments, {} runs a seed", plan.experiments.size(),
+                       plan.runs.size());
+}
+
+/// What is right about a file; it tells by its keys what it is for. Throws SceneError.
+std::string check(const std::string& name, const fs::path& file, Times& times) {
+    const toml::table document = scenes.read(file);
+    const auto has = [&](std::initializer_list<std::string_view> keys) {
+        return std::ranges::any_of(keys, [&](auto key) { return document.contains(key); });
+    };
+    if (has({"scene", "measures", "vary"}))
+        return check_sweep(file, times);
+    if (has({"experiment", "run"}))
+        return check_validation(file);
+    const auto is_of_material = [](const auto& entry) {
+        const std::string_view key = entry.first;
+        return key == "description" || key == "material" || key == "bonds";
+    };
+    if (document.contains("material") && std::ranges::all_of(document, is_of_material))
+        return fmt::format("a material{}", read_material(file).bonds ? " that is bonded" : "");
+    return check_scene_file(name, document, times);
+}
+
+/// Prints a line on the file. What is wrong is told as `run` tells it.
+ExitCode report(const std::string& name, Times& times) {
+    Ending ending{ExitCode::done, {}};
+    fs::path file = name;
+    std::string line;
+    try {
+        file = scenes.find(name);
+        line = fmt::format("{}: correct: {}", name, check(name, file, times));
+    } catch (const std::exception&) {
+        ending = ending_of(std::current_exception());
+        const bool tells_file = ending.message.starts_with(name + ":") ||
+                                ending.message.starts_with(file.string() + ":");
+        line = tells_file ? ending.message : fmt::format("{}: {}", name, ending.message);
+    }
+    std::cout << line << std::endl;
+    return ending.code;
+}
+
+} // namespace
+
+Command add_check(CLI::App& program) {
+    const auto files = std::make_shared<std::vector<std::string>>();
+    CLI::App* command =
+        program.add_subcommand("check", "Say whether scenes, plans and materials are correct");
+    command->add_option("FILE", *files, "Scenes, by name or path, plans or materials")
+        ->required()
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    return {command, [files] {
+                Times times;
+                ExitCode worst = ExitCode::done;
+                for (const std::string& file : *files)
+                    worst = std::max(worst, report(file, times));
+                return worst;
+            }};
+}
+
+} // namespace listric

@@ -1,0 +1,21 @@
+#include "apps/scene/schema.hpp"
+
+#include "apps/commands/command.hpp"
+#include "apps/model/effects.hpp"
+
+#include <iostream>
+#include <memory>
+
+namespace listric {
+
+Command add_schema(CLI::App& program) {
+    const auto material = std::make_shared<bool>(false);
+    CLI::App* command = program.add_subcommand("schema", "JSON schema of scene files, for editors");
+    command->add_flag("--material", *material, "Of material files instead");
+    return {command, [material] {
+                std::cout << (*material ? material_schema() : scene_schema(program_effects()));
+                return ExitCode::done;
+            }};
+}
+
+} // namespace listric

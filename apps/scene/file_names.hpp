@@ -1,0 +1,34 @@
+#pragma once
+
+#include "apps/scene/tables.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Parameters that name files: of rocks, in [materials], and of effects.
+
+namespace listric {
+
+/// The object that such a parameter is of.
+struct FileName {
+    std::string file;
+};
+
+Parameter file_name(std::string_view key, std::string_view doc);
+
+/// Where [material] has its defaults from.
+inline constexpr RockSource basement_source{
+    "basement", "mat18-b", "material file with the defaults of [material] and [bonds]",
+    [](Scene& scene, const RockMaterial& rock) { take_microproperties(scene.basement, rock); }};
+
+/// What [materials] can name, each key once.
+std::vector<RockSource> rock_sources(EffectList effects);
+
+/// Their parameters, of a FileName.
+std::vector<Parameter> rock_names(EffectList effects);
+
+/// Parameters of a table that name files and are no part of a scene, of a FileName.
+std::vector<Parameter> file_names(const SceneTable& table);
+
+} // namespace listric

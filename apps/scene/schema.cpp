@@ -1,0 +1,251 @@
+#include "apps/scene/schema.hpp"
+
+#include "apps/scene/file_names.hpp"
+#include "apps/scene/pieces.hpp"
+#include "apps/scene/tables.hpp"
+#include "apps/scene/toml.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace listric {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const Range& range, const char* type = "number") {
+    Json schema{{"type", type}};
+    if (const double least = std::max(range.from, range.above); std::isfinite(least)) {
+        schema["minimum"] = least;
+        if (range.above == least)
+            schema["exclusiveMinimum"] = true;
+    }
+    if (const double most = std::min(range.to, range.below); std::isfinite(most)) {
+        schema["maximum"] = most;
+        if (range.below == most)
+            schema["exclusiveMaximum"] = true;
+    }
+    return schema;
+}
+
+Json array_of(Json item, int least = 0) {
+    Json schema{{"type", "array"}, {"items", std::move(item)}};
+    if (least > 0)
+        schema["minItems"] = least;
+    return schema;
+}
+
+Json closed_table(std::string_view doc, Json properties, Json required = Json::array()) {
+    Json schema{{"type", "object"}, {"additionalProperties", false}};
+    if (!doc.empty())
+        schema["description"] = doc;
+    if (!required.empty())
+        schema["required"] = std::move(required);
+    schema["properties"] = std::move(properties);
+    return schema;
+}
+
+Json table_of(std::string_view doc, const std::vector<Parameter>& parameters, const void* object);
+
+/// What a value may be, one function for each type.
+struct Allowed {
+    const Parameter& parameter;
+
+    Json operator()(const Place<double>&) const { return number(parameter.range); }
+    Json operator()(const Place<std::optional<double>>&) const { return number(parameter.range); }
+    Json operator()(const Place<int>&) const { return number(parameter.range, "integer"); }
+    Json operator()(const Place<std::uint64_t>&) const {
+        return number(parameter.range, "integer");
+    }
+    Json operator()(const Place<bool>&) const { return {{"type", "boolean"}}; }
+    Json operator()(const Place<std::string>&) const { return {{"type", "string"}}; }
+    Json operator()(const Choice& choice) const {
+        return {{"type", "string"}, {"enum", choice.names}};
+    }
+    Json operator()(const Place<std::vector<double>>&) const {
+        return array_of(number(parameter.range));
+    }
+    Json operator()(const Place<std::vector<dem::DetachmentSegment>>&) const {
+        const dem::DetachmentSegment segment;
+        Json kinds;
+        for (const auto kind :
+             {dem::DetachmentSegment::Kind::arc, dem::DetachmentSegment::Kind::line})
+            kinds[kind == dem::DetachmentSegment::Kind::arc ? "arc" : "line"] =
+                table_of("", segment_parameters(kind), &segment);
+        Json item = closed_table("one of arc and line", kinds);
+        item["minProperties"] = item["maxProperties"] = 1;
+        return array_of(item, 1);
+    }
+    Json operator()(const Place<std::vector<dem::TargetStage>>&) const {
+        Json point = array_of(Json::array({number(ranges::target_x), number(parameter.range)}), 2);
+        point["maxItems"] = 2;
+        const Json points = array_of(point, 1);
+        const Json stage =
+            closed_table("", {{"time_a", number(ranges::target_time)}, {"points", points}},
+                         {"time_a", "points"});
+        return {{"type", "array"}, {"anyOf", Json::array({points, array_of(stage, 1)})}};
+    }
+    Json operator()(const Place<std::vector<std::array<double, 4>>>&) const {
+        Json four = array_of(number(parameter.range), 4);
+        four["maxItems"] = 4;
+        return array_of(four, 2);
+    }
+    Json operator()(const Place<std::vector<fem::Layer>>&) const {
+        const fem::Layer layer;
+        return array_of(table_of("", layer_parameters(), &layer));
+    }
+};
+
+/// The value in an object, one function for each type; null if it is none that can be typed.
+struct Default {
+    const void* object;
+    double per_si;
+
+    Json operator()(const Place<double>& x) const { return in_key_units(x.get(object), per_si); }
+    Json operator()(const Place<std::optional<double>>&) const { return nullptr; }
+    Json operator()(const Place<int>& x) const { return x.get(object); }
+    Json operator()(const Place<std::uint64_t>& x) const { return x.get(object); }
+    Json operator()(const Place<bool>& x) const { return x.get(object); }
+    Json operator()(const Place<std::string>& x) const {
+        return x.get(object).empty() ? Json() : Json(x.get(object));
+    }
+    Json operator()(const Choice& choice) const { return choice.get(object, choice.names); }
+    Json operator()(const Place<std::vector<double>>& x) const { return x.get(object); }
+    template <class T> Json operator()(const Place<std::vector<T>>&) const { return nullptr; }
+};
+
+/// Of a chain of no pieces nothing can slide: its table's check refuses it.
+bool is_required(const Parameter& parameter, const void* object) {
+    const auto* chain = std::get_if<Place<std::vector<dem::DetachmentSegment>>>(&parameter.value);
+    return must_be_given(parameter, object) || (chain && chain->get(object).empty());
+}
+
+Json parameter_schema(const Parameter& parameter, const void* object) {
+    Json schema = std::visit(Allowed{parameter}, parameter.value);
+    schema["description"] = fmt::format("{} ({})", parameter.doc, facts(parameter));
+    if (!is_required(parameter, object))
+        if (Json value = std::visit(Default{object, parameter.per_si}, parameter.value);
+            !value.is_null())
+            schema["default"] = std::move(value);
+    return schema;
+}
+
+Json table_of(std::string_view doc, const std::vector<Parameter>& parameters, const void* object) {
+    Json properties = Json::object(), required = Json::array();
+    for (const Parameter& parameter : parameters) {
+        properties[std::string(parameter.key)] = parameter_schema(parameter, object);
+        if (is_required(parameter, object))
+            required.push_back(parameter.key);
+    }
+    return closed_table(doc, std::move(properties), std::move(required));
+}
+
+Json needs(const std::vector<std::string_view>& tables) { return {{"required", tables}}; }
+
+/// [materials]: names on the shelf, or paths as is_path() tells them.
+Json materials_schema(EffectList effects) {
+    Json properties;
+    for (const RockSource& rock : rock_sources(effects)) {
+        properties[std::string(rock.key)] = {
+            {"type", "string"},
+            {"anyOf", Json::array({{{"enum", materials.names()}}, {{"pattern", "/|\\.toml$"}}})},
+            {"description", fmt::format("{}: a name, or a path beside this file", rock.doc)},
+            {"default", rock.file}};
+    }
+    return closed_table("what the rock is made of", properties);
+}
+
+/// Which tables need or exclude others, as scene_checks.cpp has it.
+Json dependencies(EffectList effects) {
+    Json rules;
+    Json discs = Json::array();
+    for (const char* name : {"hanging_wall", "detachment", "stretching", "materials"})
+        discs.push_back(needs({name}));
+    for (const Effect* effect : effects) {
+        if (!effect->without_discs)
+            discs.push_back(needs({effect->name}));
+        if (effect->needs.empty())
+            continue;
+        // Without discs an effect needs nothing of theirs.
+        rules[std::string(effect->name)] =
+            effect->without_discs
+                ? Json{{"anyOf", Json::array({needs({"flexure"}), needs(effect->needs)})}}
+                : Json(effect->needs);
+    }
+    rules["hanging_wall"] = {
+        {"oneOf", Json::array({needs({"detachment"}), needs({"stretching"})})}};
+    rules["flexure"] = {{"required", Json::array({"elastic_base"})}, {"not", {{"anyOf", discs}}}};
+    return rules;
+}
+
+/// A detachment is its pieces, or what they are fitted to.
+void add_sources(Json& detachment, const SceneTable& table) {
+    const FaultSource source;
+    for (const Parameter& parameter : table.source)
+        detachment["properties"][std::string(parameter.key)] = parameter_schema(parameter, &source);
+    detachment.erase("required");
+    detachment["oneOf"] = Json::array({needs({"segments"}), needs({"csv"}), needs({"svg"})});
+    const Json fitted{{"not", needs({"start_dip_deg"})}};
+    detachment["dependencies"] = {{"csv", fitted}, {"svg", fitted}};
+    detachment["dependencies"]["svg"]["required"] = {"svg_path", "svg_points"};
+    for (const char* key : {"svg_path", "svg_points"})
+        detachment["dependencies"][key] = {"svg"};
+    detachment["dependencies"]["csv_delimiter"] = {"csv"};
+}
+
+std::string finished(const char* title, const Json& schema) {
+    Json document{{"$schema", "http://json-schema.org/draft-04/schema#"}, {"title", title}};
+    document.update(schema);
+    return document.dump(1) + "\n";
+}
+
+} // namespace
+
+std::string scene_schema(EffectList effects) {
+    Scene scene;
+    Json schema = table_of("", top_level(), &scene);
+    Json& properties = schema["properties"];
+    properties["materials"] = materials_schema(effects);
+    for (const SceneTable& table : scene_tables(effects)) {
+        const void* part = table.add(table, scene);
+        Json& entry = properties[std::string(table.name)];
+        entry = table_of(fmt::format("{}{}", table.effect ? "effect: " : "", table.doc),
+                         table.parameters, part);
+        const FileName none;
+        for (const Parameter& parameter : file_names(table))
+            entry["properties"][std::string(parameter.key)] = parameter_schema(parameter, &none);
+        if (!table.source.empty())
+            add_sources(entry, table);
+    }
+    schema["anyOf"] = Json::array({needs({"hanging_wall"}), needs({"flexure"})});
+    schema["dependencies"] = dependencies(effects);
+    return finished("A scene of Listric", schema);
+}
+
+std::string material_schema() {
+    const auto whole = [](const char* doc, const std::vector<Parameter>& parameters,
+                          const void* object) {
+        Json schema = table_of(doc, parameters, object);
+        schema["required"] = Json::array();
+        for (const Parameter& parameter : parameters) {
+            if (!must_be_said(parameter))
+                continue;
+            schema["required"].push_back(parameter.key);
+            schema["properties"][std::string(parameter.key)].erase("default");
+        }
+        return schema;
+    };
+    const dem::Material material;
+    const dem::BondStrength bonds;
+    const Json properties{
+        {"description", {{"type", "string"}, {"description", "what the material stands for"}}},
+        {"material", whole("microproperties of its discs", material_parameters<>(), &material)},
+        {"bonds",
+         whole("strengths of contact bonds, of rock that is bonded", bond_parameters<>(), &bonds)}};
+    return finished("A material of Listric", closed_table("", properties, {"material"}));
+}
+
+} // namespace listric

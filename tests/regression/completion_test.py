@@ -1,0 +1,95 @@
+"""A real bash completes calls with the script of `listric completion bash`, and the manual's page
+has every call and option.
+
+    LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest completion_test
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCES = Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")
+
+
+def output(*words, **options):
+    return subprocess.run(words, stdout=subprocess.PIPE, text=True, check=True, **options).stdout
+
+
+class Completion(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        Path(cls.folder.name, "lists of mine.toml").touch()
+        cls.script = Path(cls.folder.name, "script")
+        cls.script.write_text(output(PROGRAM, "completion", "bash"))
+
+    def completed(self, *words):
+        """What <TAB> at the end of the last word offers."""
+        call = ('. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _listric && '
+                'printf "%s\\n" "${COMPREPLY[@]}"')
+        return output("bash", "-uc", call, self.script, "listric", *words,
+                      cwd=self.folder.name).splitlines()
+
+    def test_is_registered(self):
+        self.assertIn("_listric", output("bash", "-c", '. "$0"; complete -p listric', self.script))
+
+    def test_completes_calls(self):
+        self.assertEqual(self.completed("ru"), ["run"])
+        self.assertEqual(self.completed("che"), ["check"])
+        self.assertEqual(self.completed("--ver"), ["--version"])
+
+    def test_completes_scenes_and_files(self):
+        scenes = sorted(path.stem for path in (SOURCES / "apps/scenes").glob("lis*.toml"))
+        self.assertEqual(self.completed("run", "lis"), scenes + ["lists of mine.toml"])
+        self.assertEqual(self.completed("check", "lis1", "lists"), ["lists of mine.toml"])
+
+    def test_completes_options_and_their_values(self):
+        self.assertEqual(self.completed("run", "lis1", "--acc"), ["--accuracy"])
+        levels = ["draft", "standard", "fine", "sandbox"]
+        self.assertEqual(self.completed("run", "lis1", "--accuracy", ""), levels)
+        self.assertEqual(self.completed("run", "lis1", "--accuracy", "=", "dr"), ["draft"])
+        self.assertEqual(self.completed("run", "lis1", "--accuracy", "="), levels)
+        for option in "--seed", "--until":
+            self.assertEqual(self.completed("run", "lis1", option, ""), [""])
+        self.assertEqual(self.completed("run", "lis1", "--set", "hanging_wall.len"),
+                         ["hanging_wall.length_m="])
+        self.assertEqual(self.completed("run", "lis1", "--without", "sed"), ["sedimentation"])
+        self.assertEqual(self.completed("laboratory", "shear"), ["shear-box"])
+        self.assertEqual(self.completed("laboratory", "biaxial", "mat18-b-"),
+                         ["mat18-b-calibrated"])
+        self.assertEqual(self.completed("laboratory", "biaxial", "mat18-b", "--set", "bonds.shear"),
+                         ["bonds.shear_strength_pa=", "bonds.shear_strength_sd_pa="])
+        self.assertEqual(self.completed("laboratory", "biaxial", "mat18-b", "--strength-is", "f"),
+                         ["force"])
+        self.assertEqual(self.completed("sweep", "--task", "1/2", "--jo"), ["--jobs"])
+
+
+class Manual(unittest.TestCase):
+    def test_has_every_call_and_option(self):
+        page = output(PROGRAM, "manual").replace("\\-", "-")
+        calls = re.findall(r"^  (\w+)  ", output(PROGRAM, "--help"), re.MULTILINE)
+        self.assertIn("validate", calls)
+        sections = page.split(".SS listric ")[1:]
+        self.assertEqual([section.split()[0].rstrip(".") for section in sections], calls)
+        for call, section in zip(calls, sections):
+            options = re.findall(r"^  (?:-\w,)?(--[\w-]+)", output(PROGRAM, call, "--help"),
+                                 re.MULTILINE)
+            for option in set(options) - {"--help"}:
+                self.assertRegex(section, rf"\n\.B [^\n]*{option}\b", call)
+
+    @unittest.skipUnless(shutil.which("groff"), "no groff")
+    def test_is_roff(self):
+        page = output(PROGRAM, "manual")
+        done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z"], input=page, text=True,
+                              capture_output=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
