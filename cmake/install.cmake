@@ -9,14 +9,14 @@ install(FILES apps/scene.schema.json apps/material.schema.json DESTINATION ${sha
   COMPONENT program)
 install(DIRECTORY apps/studies/ DESTINATION ${share}/studies COMPONENT program
   FILES_MATCHING PATTERN *.toml)
-# Made by the program from its own options.
+# Made by the program from its own options: here, since what is built may be for another machine.
 set(own_names --unset=LISTRIC_SHARE --unset=LISTRIC_SCENES --unset=LISTRIC_MATERIALS)
-set(own env ${own_names} $<TARGET_FILE:listric>)
-add_custom_command(OUTPUT listric.bash listric.1
-  COMMAND ${CMAKE_COMMAND} -E ${own} completion bash > listric.bash
-  COMMAND ${CMAKE_COMMAND} -E ${own} manual > listric.1
-  DEPENDS listric VERBATIM)
-add_custom_target(listric_manual ALL DEPENDS listric.bash listric.1)
+set(own "COMMAND \"${CMAKE_COMMAND}\" -E env ${own_names} \"$<TARGET_FILE:listric>\"")
+install(CODE "
+  execute_process(${own} completion bash OUTPUT_FILE \"${PROJECT_BINARY_DIR}/listric.bash\"
+    COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(${own} manual OUTPUT_FILE \"${PROJECT_BINARY_DIR}/listric.1\"
+    COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
 install(FILES ${PROJECT_BINARY_DIR}/listric.bash RENAME listric COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${PROJECT_BINARY_DIR}/listric.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1

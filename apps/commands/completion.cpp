@@ -106,7 +106,7 @@ Answer answer_to(const CLI::App& call, const CLI::Option& option) {
         std::ranges::replace(words, ',', ' ');
         return {words, false};
     }
-    const std::string name = option.get_single_name();
+    const std::string& name = option.get_single_name();
     auto known = texts.find(call.get_name() + " " + name);
     if (known == texts.end())
         known = texts.find(name);
