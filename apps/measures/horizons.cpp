@@ -1,0 +1,278 @@
+#include "apps/measures/horizons.hpp"
+
+#include "apps/measures/contour.hpp"
+#include "apps/measures/owner_map.hpp"
+#include "dem/shared_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace listric::measures {
+
+using namespace dem;
+
+namespace {
+
+// Mean diameters.
+constexpr double fineness = 1.0 / 6.0; ///< of the map
+constexpr double blur = 1.0;           ///< standard deviation of the weights
+constexpr double fault_reach = 1.5;    ///< a fault bends a horizon within this
+constexpr double shortest = 3.0;       ///< piece or gap that is drawn
+/// Share of a stratum around its top, below which it is absent: a twentieth of a disc's thickness.
+constexpr double least_share = 0.02;
+
+/// By disc: its stratum, or of pre-rift rock less the layers above it at the start.
+std::vector<int> strata_of(const State& state, double layer) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<int> strata(d.stratum.begin(), d.stratum.end());
+    for (std::size_t i = 0; i < strata.size(); ++i)
+        if (strata[i] == 0 && layer > 0.0 && d.start_y[i] < 0.0)
+            strata[i] = static_cast<int>(d.start_y[i] / layer);
+    return strata;
+}
+
+/// Means with normal weights along rows, then along columns.
+class Blur {
+public:
+    Blur(const OwnerMap& map, double deviation) : columns_(map.columns), rows_(map.rows) {
+        const double places = deviation / map.spacing;
+        const auto reach = static_cast<std::size_t>(std::ceil(3.0 * places));
+        for (std::size_t k = 0; k <= reach; ++k)
+            weights_.push_back(
+                static_cast<float>(std::exp(-0.5 * std::pow(static_cast<double>(k) / places, 2))));
+    }
+
+    /// Sums, not divided by the sum of the weights.
+    std::vector<float> operator()(const std::vector<float>& values) const {
+        std::vector<float> along(values.size()), result(values.size());
+        in_pieces(rows_, 16, [&](std::size_t row, std::size_t end) {
+            for (; row < end; ++row)
+                for (std::size_t k = 0; k < weights_.size(); ++k)
+                    add_shifted(values.data() + row * columns_, along.data() + row * columns_, k);
+        });
+        in_pieces(rows_, 16, [&](std::size_t row, std::size_t end) {
+            for (; row < end; ++row) {
+                float* to = result.data() + row * columns_;
+                for (std::size_t k = 0; k < weights_.size(); ++k) {
+                    if (row >= k)
+                        add_row(along.data() + (row - k) * columns_, to, weights_[k]);
+                    if (k > 0 && row + k < rows_)
+                        add_row(along.data() + (row + k) * columns_, to, weights_[k]);
+                }
+            }
+        });
+        return result;
+    }
+
+private:
+    void add_row(const float* from, float* to, float weight) const {
+        for (std::size_t c = 0; c < columns_; ++c)
+            to[c] += weight * from[c];
+    }
+    void add_shifted(const float* from, float* to, std::size_t k) const {
+        const float weight = weights_[k];
+        for (std::size_t c = k; c < columns_; ++c)
+            to[c] += weight * from[c - k];
+        if (k > 0)
+            for (std::size_t c = 0; c + k < columns_; ++c)
+                to[c] += weight * from[c + k];
+    }
+
+    std::size_t columns_, rows_;
+    std::vector<float> weights_; ///< by distance
+};
+
+/// How much of the rock around each place is of a stratum and those below it.
+class Shares {
+public:
+    Shares(const OwnerMap& map, double deviation, std::vector<int> strata)
+        : map_(map), blur_(map, deviation), strata_(std::move(strata)) {
+        std::vector<float> inside(map.owner.size());
+        for (std::size_t k = 0; k < inside.size(); ++k)
+            inside[k] = map.owner[k] == OwnerMap::outside ? 0.0f : 1.0f;
+        all_ = blur_(inside);
+    }
+
+    GridValues up_to(int stratum) const {
+        std::vector<float> older(map_.owner.size());
+        for (std::size_t k = 0; k < older.size(); ++k)
+            older[k] =
+                map_.owner[k] >= 0 && strata_[static_cast<std::size_t>(map_.owner[k])] <= stratum
+                    ? 1.0f
+                    : 0.0f;
+        std::vector<float> share = blur_(older);
+        for (std::size_t k = 0; k < share.size(); ++k)
+            share[k] =
+                all_[k] > 0.01f ? share[k] / all_[k] : std::numeric_limits<float>::quiet_NaN();
+        return {map_.corner, map_.spacing, map_.columns, map_.rows, std::move(share)};
+    }
+
+private:
+    const OwnerMap& map_;
+    Blur blur_;
+    std::vector<int> strata_;
+    std::vector<float> all_;
+};
+
+/// The parts of a line inside the room.
+std::vector<Polyline> within(const Room& room, const Polyline& line) {
+    std::vector<Polyline> parts;
+    double last = -1.0;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        const double now = room.inside(line[k]);
+        if (k > 0 && (now > 0.0) != (last > 0.0)) {
+            const Point wall = line[k - 1] + (last / (last - now)) * (line[k] - line[k - 1]);
+            if (now > 0.0)
+                parts.emplace_back();
+            parts.back().push_back(wall);
+        } else if (k == 0 && now > 0.0) {
+            parts.emplace_back();
+        }
+        if (now > 0.0)
+            parts.back().push_back(line[k]);
+        last = now;
+    }
+    return parts;
+}
+
+/// The line where the share is one half, in parts from base to base or wall.
+std::vector<Polyline> tops(const GridValues& share, const Room& room, double diameter) {
+    std::vector<Polyline> found;
+    for (const Polyline& line : contours(share, 0.5))
+        for (Polyline& part : within(room, line))
+            if (part.size() > 1 && length_of(part) > 2.0 * shortest * diameter) {
+                Polyline smooth = even(part, 0.5 * diameter);
+                smooth.push_back(part.back());
+                found.push_back(std::move(smooth));
+            }
+    std::ranges::stable_sort(found, {}, [](const Polyline& line) { return line.front().x; });
+    return found;
+}
+
+/// What becomes of a point of a top.
+enum class Fate : std::uint8_t { drawn, absent, faulted };
+
+/// Calls visit(begin, end, fate) for the runs of equal fate.
+template <class Visit> void for_each_run(const std::vector<Fate>& fates, Visit&& visit) {
+    for (std::size_t begin = 0, end = 0; begin < fates.size(); begin = end) {
+        while (end < fates.size() && fates[end] == fates[begin])
+            ++end;
+        visit(begin, end, fates[begin]);
+    }
+}
+
+/// Where a top passes through a fault, from one side to the other.
+void mark_faulted(std::vector<Fate>& fates, const Polyline& top, const Polyline& trace,
+                  double reach) {
+    std::vector<double> distance(top.size());
+    for (std::size_t k = 0; k < top.size(); ++k) {
+        const PolylinePlace place = place_on(trace, top[k]);
+        distance[k] = place.beyond && std::abs(place.distance) > 0.0 ? 1e300 : place.distance;
+    }
+    const auto near = [&](std::size_t k) { return std::abs(distance[k]) < reach; };
+    for (std::size_t begin = 0, end = 0; begin < top.size(); begin = end) {
+        while (end < top.size() && near(end) == near(begin))
+            ++end;
+        const bool crosses = begin == 0 || end == top.size() ||
+                             (distance[begin - 1] > 0.0) != (distance[end] > 0.0) ||
+                             distance[begin - 1] == 1e300 || distance[end] == 1e300;
+        if (near(begin) && crosses)
+            std::fill(fates.begin() + static_cast<std::ptrdiff_t>(begin),
+                      fates.begin() + static_cast<std::ptrdiff_t>(end), Fate::faulted);
+    }
+}
+
+/// Lengthens the end of a piece straight on to a trace, if it meets it.
+void reach_fault(Polyline& piece, std::span<const Fault> faults, double reach) {
+    const Point end = piece.back();
+    const Point before = piece[piece.size() - std::min<std::size_t>(piece.size(), 6)];
+    if (before == end)
+        return;
+    const Point step = 3.0 * reach * unit(end - before);
+    double first = 1.0;
+    for (const Fault& fault : faults)
+        for (std::size_t k = 0; k + 1 < fault.trace.points.size(); ++k) {
+            const Point a = fault.trace.points[k], edge = fault.trace.points[k + 1] - a;
+            const double slope = cross(step, edge);
+            if (slope == 0.0)
+                continue;
+            const double along = cross(a - end, edge) / slope;
+            const double on = cross(a - end, step) / slope;
+            if (along > 0.0 && on >= 0.0 && on <= 1.0)
+                first = std::min(first, along);
+        }
+    if (first < 1.0)
+        piece.push_back(end + first * step);
+}
+
+/// A top without what is absent, cut at faults.
+std::vector<Polyline> cut(const Polyline& top, std::vector<Fate> fates,
+                          std::span<const Fault> faults, double diameter) {
+    const auto fewest = static_cast<std::size_t>(2.0 * shortest); // points half a diameter apart
+    std::vector<Fate> joined = fates;
+    for_each_run(fates, [&](std::size_t begin, std::size_t end, Fate fate) {
+        if (fate == Fate::absent && end - begin < fewest && begin > 0 && end < fates.size())
+            std::fill(joined.begin() + static_cast<std::ptrdiff_t>(begin),
+                      joined.begin() + static_cast<std::ptrdiff_t>(end), Fate::drawn);
+    });
+    for (const Fault& fault : faults)
+        mark_faulted(joined, top, fault.trace.points, fault_reach * diameter);
+    std::vector<Polyline> pieces;
+    for_each_run(joined, [&](std::size_t begin, std::size_t end, Fate fate) {
+        if (fate != Fate::drawn || end - begin < fewest)
+            return;
+        Polyline piece(top.begin() + static_cast<std::ptrdiff_t>(begin),
+                       top.begin() + static_cast<std::ptrdiff_t>(end));
+        if (end < top.size() && joined[end] == Fate::faulted)
+            reach_fault(piece, faults, fault_reach * diameter);
+        if (begin > 0 && joined[begin - 1] == Fate::faulted) {
+            std::ranges::reverse(piece);
+            reach_fault(piece, faults, fault_reach * diameter);
+            std::ranges::reverse(piece);
+        }
+        pieces.push_back(std::move(piece));
+    });
+    return pieces;
+}
+
+} // namespace
+
+std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& base,
+                                    const State& state, std::span<const Fault> faults,
+                                    const HorizonOptions& options) {
+    const ConstDiscColumns d = disc_columns(state);
+    const double diameter = 2.0 * state.mean_radius;
+    const std::vector<int> strata = strata_of(state, options.pre_rift_layer);
+    std::map<int, double> extension; // of the first disc, m
+    for (std::size_t i = 0; i < strata.size(); ++i)
+        extension.emplace(strata[i], d.start_extension[i]);
+    const Room room(base, state, setting.length);
+    const OwnerMap map(state, room, fineness * diameter);
+    const Shares shares(map, blur * diameter, strata);
+    std::vector<Horizon> horizons;
+    GridValues before;
+    for (const auto& [stratum, at] : extension) {
+        Horizon horizon{stratum, std::nullopt, {}, {}};
+        if (stratum > 0)
+            horizon.deposited_at = at / setting.extension_rate;
+        GridValues share = shares.up_to(stratum);
+        horizon.top = tops(share, room, diameter);
+        for (const Polyline& top : horizon.top) {
+            std::vector<Fate> fates(top.size(), Fate::drawn);
+            for (std::size_t k = 0; k < top.size() && !before.values.empty(); ++k)
+                if (share.at(top[k]) - before.at(top[k]) < least_share)
+                    fates[k] = Fate::absent;
+            std::ranges::move(cut(top, std::move(fates), faults, diameter),
+                              std::back_inserter(horizon.pieces));
+        }
+        before = std::move(share);
+        horizons.push_back(std::move(horizon));
+    }
+    return horizons;
+}
+
+} // namespace listric::measures
