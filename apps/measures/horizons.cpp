@@ -275,4 +275,13 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
     return horizons;
 }
 
+std::vector<Polyline> free_surface(const Setting& setting, const RigidBase& base,
+                                   const State& state) {
+    const double diameter = 2.0 * state.mean_radius;
+    const Room room(base, state, setting.length);
+    const OwnerMap map(state, room, fineness * diameter);
+    const Shares shares(map, blur * diameter, strata_of(state, 0.0));
+    return tops(shares.up_to(std::numeric_limits<int>::max()), room, diameter);
+}
+
 } // namespace listric::measures

@@ -41,4 +41,8 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const dem::RigidBase
                                     const dem::State& state, std::span<const Fault> faults,
                                     const HorizonOptions& options = {});
 
+/// The top of everything, as the horizons are traced: from left to right, m, y up.
+std::vector<Polyline> free_surface(const Setting& setting, const dem::RigidBase& base,
+                                   const dem::State& state);
+
 } // namespace listric::measures
