@@ -87,7 +87,7 @@ std::string to_geojson(const LineTable& table) {
                         "\"LineString\", \"coordinates\": [{}]}}}}",
                         properties(table, line), fmt::join(places, ", ")));
     }
-    return fmt::format("{{\"type\": \"FeatureCollection\", \"name\": \"{}\", \"crs\": null, "
+    return fmt::format("{{\"type\": \"FeatureCollection\", \"name\": \"{}\", "
                        "\"features\": [\n{}\n]}}\n",
                        table.name, fmt::join(features, ",\n"));
 }
@@ -105,7 +105,7 @@ std::string to_gmt(const LineTable& table) {
     for (const Line& line : table.lines) {
         std::vector<std::string> values;
         for (const LineValue& value : line.values)
-            values.push_back(word(value, "\"", ""));
+            values.push_back(word(value, "\"", "NaN")); // OGR reads nothing as 0
         text += '>';
         if (level < table.columns.size())
             text += fmt::format(" -Z{}", word(line.values[level], "", "NaN"));

@@ -29,13 +29,12 @@ struct LineTable {
 };
 
 // Numbers are the shortest that read back the same, and equal in all formats. A number that there
-// is not is an empty field of CSV, null of GeoJSON, and NaN among the columns of GMT.
+// is not is an empty field of CSV, null of GeoJSON and NaN of GMT.
 
 /// A row per point: the line's number, its values, x_m, depth_m and the point's own.
 std::string to_csv(const LineTable& table);
 
-/// A collection of line strings with coordinates [x, -depth], so that maps show them upright, and
-/// no coordinate reference system.
+/// A collection of line strings with coordinates [x, -depth], so that maps show them upright.
 std::string to_geojson(const LineTable& table);
 
 /// A segment per line with -Z and -L, its values as OGR/GMT comments, rows of x, depth and the

@@ -165,53 +165,87 @@ template <class Visit> void for_each_run(const std::vector<Fate>& fates, Visit&&
     }
 }
 
-/// Where a top passes through a fault, from one side to the other.
+/// The part of a trace that can cut layers: without ends that dip by less than 15 degrees, as shear
+/// along the free surface does.
+Polyline steep_part(const Polyline& trace) {
+    constexpr std::size_t stretch = 4; // points
+    const auto is_level = [](Point a, Point b) { return a.y - b.y < 0.26 * norm(b - a); };
+    std::size_t begin = 0, end = trace.size();
+    while (begin + stretch < end && is_level(trace[begin], trace[begin + stretch]))
+        ++begin;
+    while (begin + stretch < end && is_level(trace[end - 1 - stretch], trace[end - 1]))
+        --end;
+    if (end - begin <= stretch)
+        return {};
+    return {trace.begin() + static_cast<std::ptrdiff_t>(begin),
+            trace.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+std::vector<Polyline> cutting_traces(std::span<const Fault> faults) {
+    std::vector<Polyline> traces;
+    for (const Fault& fault : faults)
+        if (Polyline steep = steep_part(fault.trace.points); !steep.empty())
+            traces.push_back(std::move(steep));
+    return traces;
+}
+
+/// Where a line that comes from `from` to `end` meets a trace, straight on, within `reach`; none if
+/// it meets none.
+std::optional<Point> meets(std::span<const Polyline> traces, Point from, Point end, double reach) {
+    if (from == end)
+        return std::nullopt;
+    const Point step = reach * unit(end - from);
+    double first = 2.0;
+    for (const Polyline& trace : traces)
+        for (std::size_t k = 0; k + 1 < trace.size(); ++k) {
+            const Point a = trace[k], edge = trace[k + 1] - a;
+            const double slope = cross(step, edge);
+            const double along = cross(a - end, edge) / slope; // not finite: they are parallel
+            const double on = cross(a - end, step) / slope;
+            if (along > 0.0 && along <= 1.0 && on >= 0.0 && on <= 1.0)
+                first = std::min(first, along);
+        }
+    return first > 1.0 ? std::nullopt : std::optional(end + first * step);
+}
+
+constexpr std::size_t direction = 5; ///< points that say where an end of a piece goes on to
+
+/// Where a top passes through a fault, from one side to the other, and what is on either side meets
+/// it straight on.
 void mark_faulted(std::vector<Fate>& fates, const Polyline& top, const Polyline& trace,
                   double reach) {
-    std::vector<double> distance(top.size());
-    for (std::size_t k = 0; k < top.size(); ++k) {
-        const PolylinePlace place = place_on(trace, top[k]);
-        distance[k] = place.beyond && std::abs(place.distance) > 0.0 ? 1e300 : place.distance;
-    }
-    const auto near = [&](std::size_t k) { return std::abs(distance[k]) < reach; };
+    std::vector<PolylinePlace> places;
+    for (const Point p : top)
+        places.push_back(place_on(trace, p));
+    const auto is_near = [&](std::size_t k) {
+        return !places[k].beyond && std::abs(places[k].distance) < reach;
+    };
     for (std::size_t begin = 0, end = 0; begin < top.size(); begin = end) {
-        while (end < top.size() && near(end) == near(begin))
+        while (end < top.size() && is_near(end) == is_near(begin))
             ++end;
-        const bool crosses = begin == 0 || end == top.size() ||
-                             (distance[begin - 1] > 0.0) != (distance[end] > 0.0) ||
-                             distance[begin - 1] == 1e300 || distance[end] == 1e300;
-        if (near(begin) && crosses)
+        if (!is_near(begin) || begin <= direction || end + direction >= top.size())
+            continue;
+        const bool crosses =
+            (places[begin - 1].distance > 0.0) != (places[end].distance > 0.0) &&
+            meets({&trace, 1}, top[begin - 1 - direction], top[begin - 1], 3.0 * reach) &&
+            meets({&trace, 1}, top[end + direction], top[end], 3.0 * reach);
+        if (crosses)
             std::fill(fates.begin() + static_cast<std::ptrdiff_t>(begin),
                       fates.begin() + static_cast<std::ptrdiff_t>(end), Fate::faulted);
     }
 }
 
-/// Lengthens the end of a piece straight on to a trace, if it meets it.
-void reach_fault(Polyline& piece, std::span<const Fault> faults, double reach) {
-    const Point end = piece.back();
-    const Point before = piece[piece.size() - std::min<std::size_t>(piece.size(), 6)];
-    if (before == end)
-        return;
-    const Point step = 3.0 * reach * unit(end - before);
-    double first = 1.0;
-    for (const Fault& fault : faults)
-        for (std::size_t k = 0; k + 1 < fault.trace.points.size(); ++k) {
-            const Point a = fault.trace.points[k], edge = fault.trace.points[k + 1] - a;
-            const double slope = cross(step, edge);
-            if (slope == 0.0)
-                continue;
-            const double along = cross(a - end, edge) / slope;
-            const double on = cross(a - end, step) / slope;
-            if (along > 0.0 && on >= 0.0 && on <= 1.0)
-                first = std::min(first, along);
-        }
-    if (first < 1.0)
-        piece.push_back(end + first * step);
+/// Lengthens the end of a piece straight on to a trace, if it meets one.
+void reach_fault(Polyline& piece, std::span<const Polyline> traces, double reach) {
+    const std::size_t last = piece.size() - 1;
+    if (const auto place =
+            meets(traces, piece[last - std::min(last, direction)], piece[last], 3.0 * reach))
+        piece.push_back(*place);
 }
 
 /// A top without what is absent, cut at faults.
 std::vector<Polyline> cut(const Polyline& top, std::vector<Fate> fates,
-                          std::span<const Fault> faults, double diameter) {
+                          std::span<const Polyline> traces, double diameter) {
     const auto fewest = static_cast<std::size_t>(2.0 * shortest); // points half a diameter apart
     std::vector<Fate> joined = fates;
     for_each_run(fates, [&](std::size_t begin, std::size_t end, Fate fate) {
@@ -219,8 +253,8 @@ std::vector<Polyline> cut(const Polyline& top, std::vector<Fate> fates,
             std::fill(joined.begin() + static_cast<std::ptrdiff_t>(begin),
                       joined.begin() + static_cast<std::ptrdiff_t>(end), Fate::drawn);
     });
-    for (const Fault& fault : faults)
-        mark_faulted(joined, top, fault.trace.points, fault_reach * diameter);
+    for (const Polyline& trace : traces)
+        mark_faulted(joined, top, trace, fault_reach * diameter);
     std::vector<Polyline> pieces;
     for_each_run(joined, [&](std::size_t begin, std::size_t end, Fate fate) {
         if (fate != Fate::drawn || end - begin < fewest)
@@ -228,10 +262,10 @@ std::vector<Polyline> cut(const Polyline& top, std::vector<Fate> fates,
         Polyline piece(top.begin() + static_cast<std::ptrdiff_t>(begin),
                        top.begin() + static_cast<std::ptrdiff_t>(end));
         if (end < top.size() && joined[end] == Fate::faulted)
-            reach_fault(piece, faults, fault_reach * diameter);
+            reach_fault(piece, traces, fault_reach * diameter);
         if (begin > 0 && joined[begin - 1] == Fate::faulted) {
             std::ranges::reverse(piece);
-            reach_fault(piece, faults, fault_reach * diameter);
+            reach_fault(piece, traces, fault_reach * diameter);
             std::ranges::reverse(piece);
         }
         pieces.push_back(std::move(piece));
@@ -250,9 +284,10 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
     std::map<int, double> extension; // of the first disc, m
     for (std::size_t i = 0; i < strata.size(); ++i)
         extension.emplace(strata[i], d.start_extension[i]);
-    const Room room(base, state, setting.length);
+    const Room room(setting, base, state);
     const OwnerMap map(state, room, fineness * diameter);
     const Shares shares(map, blur * diameter, strata);
+    const std::vector<Polyline> traces = cutting_traces(faults);
     std::vector<Horizon> horizons;
     GridValues before;
     for (const auto& [stratum, at] : extension) {
@@ -266,7 +301,7 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
             for (std::size_t k = 0; k < top.size() && !before.values.empty(); ++k)
                 if (share.at(top[k]) - before.at(top[k]) < least_share)
                     fates[k] = Fate::absent;
-            std::ranges::move(cut(top, std::move(fates), faults, diameter),
+            std::ranges::move(cut(top, std::move(fates), traces, diameter),
                               std::back_inserter(horizon.pieces));
         }
         before = std::move(share);
@@ -278,7 +313,7 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
 std::vector<Polyline> free_surface(const Setting& setting, const RigidBase& base,
                                    const State& state) {
     const double diameter = 2.0 * state.mean_radius;
-    const Room room(base, state, setting.length);
+    const Room room(setting, base, state);
     const OwnerMap map(state, room, fineness * diameter);
     const Shares shares(map, blur * diameter, strata_of(state, 0.0));
     return tops(shares.up_to(std::numeric_limits<int>::max()), room, diameter);

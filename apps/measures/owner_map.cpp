@@ -11,9 +11,11 @@ namespace listric::measures {
 
 using namespace dem;
 
-Room::Room(const RigidBase& base, const State& state, double length)
+Room::Room(const Setting& setting, const RigidBase& base, const State& state)
     : floor(standing_base(base, state).surfaces.front().chain),
-      right(length + state.clock.extension) {}
+      // The backstop follows the breakaway; a box's floor goes on beyond its walls.
+      left(setting.has_detachment ? floor.front().start.x : 0.0),
+      right(setting.length + state.clock.extension) {}
 
 double Room::inside(Point p) const {
     return std::min({p.y - height_at(floor, p.x), p.x - left, right - p.x});

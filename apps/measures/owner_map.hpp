@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/measures/setting.hpp"
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 
@@ -14,8 +15,7 @@ struct Room {
     dem::Chain floor;
     double left = 0.0, right = 0.0; ///< m
 
-    /// @param length  of the hanging wall at the start, m
-    Room(const dem::RigidBase& base, const dem::State& state, double length);
+    Room(const Setting& setting, const dem::RigidBase& base, const dem::State& state);
 
     /// Something that is > 0 inside, 0 on floor and walls, and linear near them, m.
     double inside(dem::Point p) const;
@@ -32,8 +32,8 @@ struct OwnerMap {
     dem::Point corner;    ///< the first place, m
     double spacing = 0.0; ///< m
     std::size_t columns = 0, rows = 0;
-    std::vector<std::int32_t>
-        owner; ///< row of the disc, or one of the above; left to right, upward
+    /// Row of the disc, or one of the above; left to right, upward.
+    std::vector<std::int32_t> owner;
 
     OwnerMap(const dem::State& state, const Room& room, double spacing);
 

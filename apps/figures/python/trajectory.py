@@ -15,6 +15,7 @@ import gsd.hoomd
 import numpy as np
 
 Frame = getattr(gsd.hoomd, "Frame", None) or gsd.hoomd.Snapshot  # its name before gsd 2.8
+WHOLE = {"id", "stratum", "coordination", "bonds"}  # other properties are in single precision
 
 
 def load(folder):
@@ -46,7 +47,8 @@ def make_frame(data, rocks):
     frame.bonds.types = ["bond"]
     frame.bonds.typeid = np.zeros(len(bonds), np.uint32)
     frame.bonds.group = bonds
-    frame.log = {"particles/" + name[3:]: values[order]
+    frame.log = {"particles/" + name[3:]:
+                 values[order].astype(np.int32 if name[3:] in WHOLE else np.float32)
                  for name, values in data.items() if name.startswith("of-")}
     frame.log["extension_m"] = np.array([extension])
     return frame
