@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -22,11 +21,6 @@ std::string word(const LineValue& value, std::string_view quote, std::string_vie
     if (const auto* text = std::get_if<std::string>(&value))
         return fmt::format("{0}{1}{0}", quote, *text);
     return number(std::get<double>(value), none);
-}
-
-bool is_word(const LineTable& table, std::size_t column) {
-    return !table.lines.empty() &&
-           std::holds_alternative<std::string>(table.lines.front().values[column]);
 }
 
 /// Calls visit(point, its own numbers) for each point of a line.
@@ -93,24 +87,19 @@ std::string to_geojson(const LineTable& table) {
 }
 
 std::string to_gmt(const LineTable& table) {
-    std::vector<std::string> types;
-    for (std::size_t k = 0; k < table.columns.size(); ++k)
-        types.push_back(is_word(table, k) ? "string" : "double");
-    std::string text = fmt::format("# @VGMT1.0 @GLINESTRING\n# @N{}\n# @T{}\n# x_m depth_m {}\n"
-                                   "# FEATURE_DATA\n",
-                                   fmt::join(table.columns, "|"), fmt::join(types, "|"),
-                                   fmt::join(table.point_columns, " "));
-    const auto level = static_cast<std::size_t>(std::ranges::find(table.columns, table.level) -
-                                                table.columns.begin());
+    std::string text = "# x_m depth_m";
+    for (const std::string& column : table.point_columns)
+        text += fmt::format(" {}", column);
+    text += '\n';
     for (const Line& line : table.lines) {
-        std::vector<std::string> values;
-        for (const LineValue& value : line.values)
-            values.push_back(word(value, "\"", "NaN")); // OGR reads nothing as 0
-        text += '>';
-        if (level < table.columns.size())
-            text += fmt::format(" -Z{}", word(line.values[level], "", "NaN"));
-        text += fmt::format(" -L{}\n# @D{}\n", word(line.values.front(), "\"", ""),
-                            fmt::join(values, "|"));
+        std::string level, words;
+        for (std::size_t k = 1; k < table.columns.size(); ++k) {
+            const std::string value = word(line.values[k], "", "NaN");
+            if (table.columns[k] == table.level)
+                level = fmt::format(" -Z{}", value);
+            words += fmt::format(" {}={}", table.columns[k], value);
+        }
+        text += fmt::format(">{} -L\"{}\"{}\n", level, word(line.values.front(), "", ""), words);
         for_each_point(table, line, [&](dem::Point p, std::span<const double> own) {
             text += fmt::format("{}\t{}", number(p.x, "NaN"), number(-p.y, "NaN"));
             for (const double value : own)

@@ -20,10 +20,9 @@ struct Line {
 
 /// Lines that are written as one file. Files have depth, positive down.
 struct LineTable {
-    std::string name;                 ///< of the file
-    std::string level;                ///< the column that is the lines' Z in a GMT file
-    std::vector<std::string> columns; ///< of a line; the first is its name. Their types are those
-                                      ///< of the first line's values
+    std::string name;                            ///< of the file
+    std::string level;                           ///< the column that is the lines' Z in a GMT file
+    std::vector<std::string> columns;            ///< of a line; the first is its name
     std::vector<std::string> point_columns = {}; ///< of a point, besides x_m and depth_m
     std::vector<Line> lines = {};
 };
@@ -37,8 +36,8 @@ std::string to_csv(const LineTable& table);
 /// A collection of line strings with coordinates [x, -depth], so that maps show them upright.
 std::string to_geojson(const LineTable& table);
 
-/// A segment per line with -Z and -L, its values as OGR/GMT comments, rows of x, depth and the
-/// point's own.
+/// A segment per line: a header with -Z, -L and its values as NAME=VALUE, then rows of x, depth and
+/// the point's own.
 std::string to_gmt(const LineTable& table);
 
 } // namespace listric::archive

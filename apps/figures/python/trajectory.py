@@ -9,8 +9,10 @@ pairs of rows, moment cycle and extension.  In FILE discs are sorted by id.
 """
 import os
 import sys
+import warnings
 
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
+warnings.simplefilter("ignore", FutureWarning)  # gsd 2.7 compares types with words
 import gsd.hoomd
 import numpy as np
 
