@@ -89,8 +89,9 @@ private:
         const std::size_t a = edge / 2, b = edge % 2 == 0 ? a + 1 : a + grid_.columns;
         const double share =
             (level_ - grid_.values[a]) / (double{grid_.values[b]} - grid_.values[a]);
-        const Point p{grid_.corner.x + grid_.spacing * static_cast<double>(a % grid_.columns),
-                      grid_.corner.y + grid_.spacing * static_cast<double>(a / grid_.columns)};
+        const std::size_t column = a % grid_.columns, row = a / grid_.columns;
+        const Point p{grid_.corner.x + grid_.spacing * static_cast<double>(column),
+                      grid_.corner.y + grid_.spacing * static_cast<double>(row)};
         const double step = share * grid_.spacing;
         return edge % 2 == 0 ? Point{p.x + step, p.y} : Point{p.x, p.y + step};
     }

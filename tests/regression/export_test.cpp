@@ -179,8 +179,9 @@ double area_of_cells(const State& state, const RigidBase& base, int stratum) {
     return closed * (1.0 + open / solid);
 }
 
-// Strata of some sixty discs, a fifth of them at the surface. In runs at standard, with five times
-// as many, each is right within 2 % and all within 0.4 %: the rest is where cells are open.
+// Draft: the last stratum is a disc or two thick, and three quarters of its discs have no closed
+// cell, so that 5 % is what is known of it, and 3 % of all three. In runs at standard each stratum
+// is right within 2 %, and all within 0.4 %.
 void expect_areas_of_cells(const fs::path& output) {
     const RunFolder run(output);
     const State state = run.read(run.snapshots.back()).state;
@@ -200,7 +201,7 @@ void expect_areas_of_cells(const fs::path& output) {
         traced += area_in(around);
         expected += cells;
     }
-    EXPECT_NEAR(traced / expected, 1.0, 0.02);
+    EXPECT_NEAR(traced / expected, 1.0, 0.03);
 }
 
 /// Whether exported faults are those of a summary. @param features  of the GeoJSON file
