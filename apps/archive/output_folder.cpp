@@ -81,6 +81,8 @@ void remove_run(const fs::path& output) {
     remove_files(output / "figures", ends("km.png"));
     remove_files(output / "figures", ends("km.gif"));
     remove_files(output / "figures", ends("km.mp4"));
+    for (const char* ending : {"m.csv", "m.geojson", "m.gmt", "discs.gsd"})
+        remove_files(output / "export", ends(ending));
     std::error_code error;
     for (const char* file :
          {"summary.json", "history.csv", "paraview.pvd", "log.txt", "scene.toml", "deflection.csv",

@@ -22,6 +22,7 @@ struct Command {
 Command add_run(CLI::App& program);
 Command add_scenes(CLI::App& program);
 Command add_explain(CLI::App& program);
+Command add_export(CLI::App& program);
 Command add_figures(CLI::App& program);
 Command add_check(CLI::App& program);
 Command add_bench(CLI::App& program);

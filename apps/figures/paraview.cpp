@@ -1,5 +1,6 @@
 #include "apps/figures/paraview.hpp"
 
+#include "apps/measures/cohesion.hpp"
 #include "apps/support/file.hpp"
 #include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
@@ -96,18 +97,6 @@ template <class T, class Range> std::vector<T> as(const Range& values) {
     return result;
 }
 
-/// Unbroken bonds of every disc.
-std::vector<std::int32_t> bonds_per_disc(const State& state) {
-    const ConstContactColumns c = contact_columns(state);
-    std::vector<std::int32_t> bonds(state.discs.rows(), 0);
-    for (std::size_t k = 0; k < c.bonded.size(); ++k)
-        if (c.bonded[k]) {
-            ++bonds[static_cast<std::size_t>(c.first[k])];
-            ++bonds[static_cast<std::size_t>(c.second[k])];
-        }
-    return bonds;
-}
-
 std::string discs_file(const State& state, const RigidBase& base) {
     const ConstDiscColumns d = disc_columns(state);
     const std::size_t n = d.x.size();
@@ -127,7 +116,7 @@ std::string discs_file(const State& state, const RigidBase& base) {
         start_depth.push_back(static_cast<float>(-y));
     file.array(file.point_data, "start_depth_m", start_depth);
     file.array(file.point_data, "coordination", as<std::int32_t>(coordination(state, base)));
-    file.array(file.point_data, "bonds", bonds_per_disc(state));
+    file.array(file.point_data, "bonds", measures::bonds_per_disc(state));
     std::vector<float> velocity, stress;
     for (std::size_t i = 0; i < n; ++i)
         velocity.insert(velocity.end(),

@@ -83,4 +83,15 @@ std::vector<BondedLayer> bonded_profile_of_old_sediment(const State& state, doub
     return profile;
 }
 
+std::vector<std::int32_t> bonds_per_disc(const State& state) {
+    const ConstContactColumns c = contact_columns(state);
+    std::vector<std::int32_t> bonds(state.discs.rows(), 0);
+    for (std::size_t k = 0; k < c.bonded.size(); ++k)
+        if (c.bonded[k]) {
+            ++bonds[static_cast<std::size_t>(c.first[k])];
+            ++bonds[static_cast<std::size_t>(c.second[k])];
+        }
+    return bonds;
+}
+
 } // namespace listric::measures

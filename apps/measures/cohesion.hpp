@@ -2,6 +2,7 @@
 
 #include "dem/state.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -28,5 +29,8 @@ struct BondedLayer {
 /// level: a pair is where the middle of its centres is. Layers without such pairs are left out.
 std::vector<BondedLayer> bonded_profile_of_old_sediment(const dem::State& state, double level,
                                                         double age);
+
+/// Unbroken bonds of every disc.
+std::vector<std::int32_t> bonds_per_disc(const dem::State& state);
 
 } // namespace listric::measures

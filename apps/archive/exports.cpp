@@ -1,0 +1,248 @@
+#include "apps/archive/exports.hpp"
+
+#include "apps/archive/examine.hpp"
+#include "apps/archive/setting.hpp"
+#include "apps/measures/cohesion.hpp"
+#include "apps/measures/horizons.hpp"
+#include "apps/support/error.hpp"
+#include "dem/base_place.hpp"
+#include "dem/monitor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace listric::archive {
+
+using namespace dem;
+using namespace measures;
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double rounded(double metres) { return std::round(1e3 * metres) / 1e3; }
+
+std::vector<Point> rounded(const Polyline& points) {
+    std::vector<Point> result;
+    for (const Point p : points)
+        result.push_back({rounded(p.x), rounded(p.y)});
+    return result;
+}
+
+Setting setting_of(const ExportedMoment& at) { return make_setting(at.run.scene, at.run.parts); }
+
+FaultReport faults_of(const ExportedMoment& at) {
+    return archive::report_faults(setting_of(at), at.run.parts.base, at.moment.state, at.history);
+}
+
+/// Of the hanging wall's right end, m.
+double right_end(const ExportedMoment& at) {
+    return at.run.scene.hanging_wall->length + at.moment.state.clock.extension;
+}
+
+/// Points of a chain up to x = right: corners, and on what bends points one `spacing` apart.
+Polyline points_of(const Chain& chain, double right, double spacing) {
+    Polyline points{chain.front().start};
+    double before = 0.0;
+    for (const Segment& segment : chain) {
+        const int steps =
+            segment.curvature == 0.0 ? 1 : static_cast<int>(std::ceil(segment.length / spacing));
+        for (int k = 1; k <= steps; ++k) {
+            const Point p =
+                k == steps ? segment.end : point_at(chain, before + segment.length * k / steps);
+            if (p.x > right) {
+                points.push_back({right, height_at(chain, right)});
+                return points;
+            }
+            points.push_back(p);
+        }
+        before += segment.length;
+    }
+    return points;
+}
+
+Line fault_line(const FaultReport& report, std::size_t k, const std::set<int>& strata) {
+    const Fault& f = report.faults[k];
+    const std::string main = k == report.main_antithetic  ? "antithetic"
+                             : k == report.main_synthetic ? "synthetic"
+                                                          : "";
+    Line line{{fmt::format("fault {}", k), static_cast<double>(k), main,
+               f.synthetic ? "synthetic" : "antithetic", f.normal ? "normal" : "reverse",
+               f.trace.length(), f.dip, f.rate, f.born_at, f.dip_at_birth, f.traced_since,
+               f.footwall_turn, f.width, f.curvature, f.foot.x, -f.foot.y,
+               f.pre_rift_throw.value_or(none)},
+              rounded(f.trace.points),
+              {}};
+    for (const int stratum : strata) {
+        const auto found = f.throws.find(stratum);
+        line.values.emplace_back(found == f.throws.end() ? none : found->second);
+    }
+    for (std::size_t p = 0; p < f.trace.points.size(); ++p)
+        line.at_points.insert(line.at_points.end(), {f.trace.slip[p], f.trace.width[p]});
+    return line;
+}
+
+} // namespace
+
+LineTable horizons_table(const ExportedMoment& at) {
+    LineTable table{"horizons", "stratum", {"name", "stratum", "deposited_at_a", "start_depth_m"}};
+    const FaultReport faults = faults_of(at);
+    const HorizonOptions options;
+    for (const Horizon& h : trace_horizons(setting_of(at), at.run.parts.base, at.moment.state,
+                                           faults.faults, options)) {
+        const double start_depth = h.stratum > 0 ? none : -h.stratum * options.pre_rift_layer;
+        const std::string name = h.stratum > 0    ? fmt::format("stratum {}", h.stratum)
+                                 : h.stratum == 0 ? "pre-rift top"
+                                                  : fmt::format("pre-rift {} m", start_depth);
+        for (const Polyline& piece : h.pieces)
+            table.lines.push_back(
+                {{name, static_cast<double>(h.stratum), h.deposited_at.value_or(none), start_depth},
+                 rounded(piece)});
+    }
+    return table;
+}
+
+LineTable faults_table(const ExportedMoment& at) {
+    LineTable table{"faults",
+                    "rate_mm_per_a",
+                    {"name", "fault", "main", "attitude", "sense", "length_m", "dip_deg",
+                     "rate_mm_per_a", "born_at_m", "dip_at_birth_deg", "traced_since_m",
+                     "footwall_turn_deg", "width_diameters", "curvature_per_m", "foot_x_m",
+                     "foot_z_m", "pre_rift_throw_m"},
+                    {"slip_m", "width_m"}};
+    const FaultReport report = faults_of(at);
+    std::set<int> strata;
+    for (const Fault& f : report.faults)
+        for (const auto& [stratum, value] : f.throws)
+            strata.insert(stratum);
+    for (const int stratum : strata)
+        table.columns.push_back(fmt::format("throw_{}_m", stratum));
+    for (std::size_t k = 0; k < report.faults.size(); ++k)
+        table.lines.push_back(fault_line(report, k, strata));
+    return table;
+}
+
+LineTable surfaces_table(const ExportedMoment& at) {
+    const State& state = at.moment.state;
+    const Setting setting = setting_of(at);
+    LineTable table{"surfaces", "", {"name"}};
+    const auto add = [&](const std::string& name, const Polyline& points) {
+        table.lines.push_back({{name}, rounded(points)});
+    };
+    const double right = right_end(at);
+    const Chain floor = standing_base(at.run.parts.base, state).surfaces.front().chain;
+    add(setting.has_detachment ? "detachment" : "floor",
+        points_of(floor, right, 2.0 * state.mean_radius));
+    add("original surface", {{0.0, 0.0}, {right, 0.0}});
+    if (setting.sediment) {
+        const TargetLine target =
+            setting.sediment->target.at(state.clock.extension / setting.extension_rate);
+        Polyline points{{0.0, target.height(0.0)}};
+        for (const Point p : target.points())
+            if (p.x > 0.0 && p.x < right)
+                points.push_back(p);
+        points.push_back({right, target.height(right)});
+        add("target line", points);
+    }
+    for (const Polyline& piece : free_surface(setting, at.run.parts.base, state))
+        add("free surface", piece);
+    return table;
+}
+
+LineTable base_table(const ExportedMoment& at) {
+    const ConstBaseNodeColumns nodes = base_node_columns(at.moment.state);
+    if (nodes.x.empty())
+        throw UsageError(at.run.output.string() + ": the base of this run is rigid; there is no "
+                                                  "deflection to export");
+    LineTable table{"base", "", {"name"}, {"start_x_m", "start_depth_m", "dx_m", "ddepth_m"}};
+    Line line{{"detachment"}};
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        line.points.push_back(
+            {rounded(nodes.x[k] + nodes.ux[k]), rounded(nodes.y[k] + nodes.uy[k])});
+        line.at_points.insert(line.at_points.end(),
+                              {nodes.x[k], -nodes.y[k], nodes.ux[k], -nodes.uy[k]});
+    }
+    table.lines.push_back(std::move(line));
+    return table;
+}
+
+const std::vector<std::string>& rock_names() {
+    static const std::vector<std::string> names{"basement", "weak basement", "sediment",
+                                                "weak sediment"};
+    return names;
+}
+
+std::vector<std::uint32_t> rocks(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::uint32_t> rocks;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (d.material[i] == weak ? 1u : 0u));
+    return rocks;
+}
+
+std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
+    const State& state = at.moment.state;
+    const ConstDiscColumns d = disc_columns(state);
+    const auto numbers = [](const auto& values) {
+        return std::vector<double>(values.begin(), values.end());
+    };
+    const std::vector<Stress> stress = disc_stresses(state, at.run.parts.base);
+    const auto component = [&](double Stress::*part) {
+        std::vector<double> values;
+        for (const Stress& s : stress)
+            values.push_back(s.*part);
+        return values;
+    };
+    std::vector<double> start_depth;
+    for (const double y : d.start_y)
+        start_depth.push_back(-y);
+    std::vector<DiscColumn> columns{
+        {"id", numbers(d.id)},
+        {"radius_m", numbers(d.radius)},
+        {"stratum", numbers(d.stratum)},
+        {"mass_kg_per_m", numbers(d.mass)},
+        {"start_x_m", numbers(d.start_x)},
+        {"start_depth_m", std::move(start_depth)},
+        {"start_extension_m", numbers(d.start_extension)},
+        {"rotation_rad", numbers(d.rotation)},
+        {"coordination", numbers(coordination(state, at.run.parts.base))},
+        {"bonds", numbers(bonds_per_disc(state))},
+        {"stress_xx_pa", component(&Stress::xx)},
+        {"stress_yy_pa", component(&Stress::yy)},
+        {"stress_xy_pa", component(&Stress::xy)},
+    };
+    for (const char* name : {"window_strain", "total_strain", "porosity"})
+        if (state.discs.has(name))
+            columns.push_back({name, numbers(state.discs.get<double>(name))});
+    return columns;
+}
+
+LineTable discs_table(const ExportedMoment& at) {
+    const ConstDiscColumns d = disc_columns(at.moment.state);
+    const std::vector<std::uint32_t> rock = rocks(at.moment.state);
+    const std::vector<DiscColumn> columns = exported_columns(at);
+    LineTable table{"discs", "", {"rock"}};
+    for (const DiscColumn& column : columns)
+        table.point_columns.push_back(column.name);
+    std::vector<std::size_t> order(d.x.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(rock[i], d.id[i]); });
+    for (const std::size_t i : order) {
+        if (table.lines.empty() ||
+            std::get<std::string>(table.lines.back().values.front()) != rock_names()[rock[i]])
+            table.lines.push_back({{rock_names()[rock[i]]}});
+        Line& line = table.lines.back();
+        line.points.push_back({rounded(d.x[i]), rounded(d.y[i])});
+        for (const DiscColumn& column : columns)
+            line.at_points.push_back(column.values[i]);
+    }
+    return table;
+}
+
+} // namespace listric::archive

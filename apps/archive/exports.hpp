@@ -1,0 +1,54 @@
+#pragma once
+
+#include "apps/archive/line_table.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/run_history.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace listric::archive {
+
+/// A moment of a finished run, and what led to it.
+struct ExportedMoment {
+    const RunFolder& run;
+    const Moment& moment;
+    /// Up to the end of the run; for what needs no past it may be empty.
+    const RunHistory& history;
+};
+
+// What docs/export.md lists, a table per kind. Points are rounded to a millimetre.
+
+/// Tops of the strata, cut at faults.
+LineTable horizons_table(const ExportedMoment& at);
+
+/// Traced faults with the numbers of summary.json.
+LineTable faults_table(const ExportedMoment& at);
+
+/// The detachment as it stands, the original surface, the line that sediment is adapted to and the
+/// free surface.
+LineTable surfaces_table(const ExportedMoment& at);
+
+/// The nodes of a base that deforms. Throws UsageError if the base is rigid.
+LineTable base_table(const ExportedMoment& at);
+
+/// Discs, a "line" for each rock, by id.
+LineTable discs_table(const ExportedMoment& at);
+
+/// A column of discs: its name and what it holds by row of the disc table.
+struct DiscColumn {
+    std::string name;
+    std::vector<double> values;
+};
+
+/// What discs_table says of the discs, besides rock and place.
+std::vector<DiscColumn> exported_columns(const ExportedMoment& at);
+
+/// Names of rocks, by what rocks() returns.
+const std::vector<std::string>& rock_names();
+
+/// Which rock each disc is of.
+std::vector<std::uint32_t> rocks(const dem::State& state);
+
+} // namespace listric::archive

@@ -1,0 +1,113 @@
+#include "apps/archive/line_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <span>
+#include <string_view>
+
+namespace listric::archive {
+
+namespace {
+
+/// @param none  in place of a number that is not finite
+std::string number(double value, std::string_view none) {
+    return std::isfinite(value) ? fmt::format("{}", value + 0.0) : std::string(none); // not -0
+}
+
+/// @param quote  around words
+std::string word(const LineValue& value, std::string_view quote, std::string_view none) {
+    if (const auto* text = std::get_if<std::string>(&value))
+        return fmt::format("{0}{1}{0}", quote, *text);
+    return number(std::get<double>(value), none);
+}
+
+/// Calls visit(point, its own numbers) for each point of a line.
+template <class Visit>
+void for_each_point(const LineTable& table, const Line& line, Visit&& visit) {
+    const std::size_t own = table.point_columns.size();
+    for (std::size_t k = 0; k < line.points.size(); ++k)
+        visit(line.points[k], std::span(line.at_points).subspan(k * own, own));
+}
+
+/// {"name": value, ...} with lists of the points' own numbers.
+std::string properties(const LineTable& table, const Line& line) {
+    std::vector<std::string> items;
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+        items.push_back(
+            fmt::format("\"{}\": {}", table.columns[k], word(line.values[k], "\"", "null")));
+    for (std::size_t k = 0; k < table.point_columns.size(); ++k) {
+        std::vector<std::string> numbers;
+        for_each_point(table, line, [&](dem::Point, std::span<const double> own) {
+            numbers.push_back(number(own[k], "null"));
+        });
+        items.push_back(
+            fmt::format("\"{}\": [{}]", table.point_columns[k], fmt::join(numbers, ", ")));
+    }
+    return fmt::format("{{{}}}", fmt::join(items, ", "));
+}
+
+} // namespace
+
+std::string to_csv(const LineTable& table) {
+    std::string text = fmt::format("line,{},x_m,depth_m", fmt::join(table.columns, ","));
+    for (const std::string& column : table.point_columns)
+        text += "," + column;
+    text += '\n';
+    for (std::size_t n = 0; n < table.lines.size(); ++n) {
+        const Line& line = table.lines[n];
+        std::string head = fmt::format("{}", n);
+        for (const LineValue& value : line.values)
+            head += fmt::format(",{}", word(value, "", ""));
+        for_each_point(table, line, [&](dem::Point p, std::span<const double> own) {
+            text += fmt::format("{},{},{}", head, number(p.x, ""), number(-p.y, ""));
+            for (const double value : own)
+                text += fmt::format(",{}", number(value, ""));
+            text += '\n';
+        });
+    }
+    return text;
+}
+
+std::string to_geojson(const LineTable& table) {
+    std::vector<std::string> features;
+    for (const Line& line : table.lines) {
+        std::vector<std::string> places;
+        for (const dem::Point p : line.points)
+            places.push_back(fmt::format("[{}, {}]", number(p.x, "null"), number(p.y, "null")));
+        features.push_back(
+            fmt::format("{{\"type\": \"Feature\", \"properties\": {},\n \"geometry\": {{\"type\": "
+                        "\"LineString\", \"coordinates\": [{}]}}}}",
+                        properties(table, line), fmt::join(places, ", ")));
+    }
+    return fmt::format("{{\"type\": \"FeatureCollection\", \"name\": \"{}\", "
+                       "\"features\": [\n{}\n]}}\n",
+                       table.name, fmt::join(features, ",\n"));
+}
+
+std::string to_gmt(const LineTable& table) {
+    std::string text = "# x_m depth_m";
+    for (const std::string& column : table.point_columns)
+        text += fmt::format(" {}", column);
+    text += '\n';
+    for (const Line& line : table.lines) {
+        std::string level, words;
+        for (std::size_t k = 1; k < table.columns.size(); ++k) {
+            const std::string value = word(line.values[k], "", "NaN");
+            if (table.columns[k] == table.level)
+                level = fmt::format(" -Z{}", value);
+            words += fmt::format(" {}={}", table.columns[k], value);
+        }
+        text += fmt::format(">{} -L\"{}\"{}\n", level, word(line.values.front(), "", ""), words);
+        for_each_point(table, line, [&](dem::Point p, std::span<const double> own) {
+            text += fmt::format("{}\t{}", number(p.x, "NaN"), number(-p.y, "NaN"));
+            for (const double value : own)
+                text += fmt::format("\t{}", number(value, "NaN"));
+            text += '\n';
+        });
+    }
+    return text;
+}
+
+} // namespace listric::archive

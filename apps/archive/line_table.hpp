@@ -1,0 +1,43 @@
+#pragma once
+
+#include "dem/point.hpp"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace listric::archive {
+
+/// A word or a number; not finite: none.
+using LineValue = std::variant<std::string, double>;
+
+/// A line, or points that belong together, of a section.
+struct Line {
+    std::vector<LineValue> values;       ///< by LineTable::columns
+    std::vector<dem::Point> points = {}; ///< m, y up
+    std::vector<double> at_points = {};  ///< point by point the LineTable::point_columns
+};
+
+/// Lines that are written as one file. Files have depth, positive down.
+struct LineTable {
+    std::string name;                            ///< of the file
+    std::string level;                           ///< the column that is the lines' Z in a GMT file
+    std::vector<std::string> columns;            ///< of a line; the first is its name
+    std::vector<std::string> point_columns = {}; ///< of a point, besides x_m and depth_m
+    std::vector<Line> lines = {};
+};
+
+// Numbers are the shortest that read back the same, and equal in all formats. A number that there
+// is not is an empty field of CSV, null of GeoJSON and NaN of GMT.
+
+/// A row per point: the line's number, its values, x_m, depth_m and the point's own.
+std::string to_csv(const LineTable& table);
+
+/// A collection of line strings with coordinates [x, -depth], so that maps show them upright.
+std::string to_geojson(const LineTable& table);
+
+/// A segment per line: a header with -Z, -L and its values as NAME=VALUE, then rows of x, depth and
+/// the point's own.
+std::string to_gmt(const LineTable& table);
+
+} // namespace listric::archive

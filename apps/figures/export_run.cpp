@@ -1,0 +1,132 @@
+#include "apps/figures/export_run.hpp"
+
+#include "apps/archive/exports.hpp"
+#include "apps/figures/trajectory.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+#include "apps/support/spelling.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace listric {
+
+using namespace archive;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Kind {
+    std::string_view name;
+    LineTable (*table)(const ExportedMoment& at);
+    bool needs_history;
+    std::vector<std::string_view> formats;
+};
+
+const std::vector<Kind>& kinds() {
+    static const std::vector<std::string_view> of_lines{"csv", "geojson", "gmt"};
+    static const std::vector<Kind> all{
+        {"horizons", horizons_table, true, of_lines},  {"faults", faults_table, true, of_lines},
+        {"surfaces", surfaces_table, false, of_lines}, {"base", base_table, false, of_lines},
+        {"discs", discs_table, false, {"csv", "gsd"}},
+    };
+    return all;
+}
+
+/// Throws UsageError.
+const Kind& kind_named(const std::string& name) {
+    const auto found = std::ranges::find(kinds(), name, &Kind::name);
+    if (found == kinds().end())
+        throw UsageError(fmt::format("export: no kind {}; {}", name, advice(name, export_kinds())));
+    return *found;
+}
+
+void require_formats(const Kind& kind, const std::vector<std::string>& formats) {
+    for (const std::string& format : formats)
+        if (std::ranges::find(kind.formats, format) == kind.formats.end())
+            throw UsageError(fmt::format("export {}: no format {}; {}", kind.name, format,
+                                         advice(format, kind.formats)));
+}
+
+/// The snapshots nearest to the extensions, oldest first. Throws UsageError if one is further away
+/// than the next snapshot of the run would be.
+std::vector<fs::path> chosen(const RunFolder& run, const std::vector<double>& extensions) {
+    if (extensions.empty())
+        return run.snapshots;
+    std::vector<fs::path> paths;
+    for (const fs::path& path : run.snapshots)
+        for (const double extension : extensions) {
+            const auto distance = [&](const fs::path& p) {
+                return std::abs(snapshot_extension(p) - extension);
+            };
+            const fs::path& nearest = *std::ranges::min_element(run.snapshots, {}, distance);
+            if (!(distance(nearest) <= run.scene.output.interval))
+                throw UsageError(fmt::format(
+                    "export: --at {}: no snapshot there; there are some from {} to {} m", extension,
+                    snapshot_extension(run.snapshots.front()),
+                    snapshot_extension(run.snapshots.back())));
+            if (nearest == path && (paths.empty() || paths.back() != path))
+                paths.push_back(path);
+        }
+    return paths;
+}
+
+std::string written(const LineTable& table, const std::string& format) {
+    return format == "csv"       ? to_csv(table)
+           : format == "geojson" ? to_geojson(table)
+                                 : to_gmt(table);
+}
+
+} // namespace
+
+std::vector<std::string_view> export_kinds() {
+    std::vector<std::string_view> names;
+    for (const Kind& kind : kinds())
+        names.push_back(kind.name);
+    return names;
+}
+
+std::vector<fs::path> export_run(const ExportRequest& request) {
+    const Kind& kind = kind_named(request.kind);
+    require_formats(kind, request.formats);
+    if (list_snapshots(request.output).empty())
+        throw UsageError(request.output.string() +
+                         ": no snapshots to export; is this a run's folder?");
+    const RunFolder run(request.output);
+    const std::vector<fs::path> moments = chosen(run, request.extensions);
+    const RunHistory history = kind.needs_history ? RunHistory(run.snapshots) : RunHistory();
+    const fs::path folder = request.output / "export";
+    make_folder(folder);
+    std::vector<fs::path> files;
+    std::unique_ptr<Trajectory> trajectory;
+    if (std::ranges::find(request.formats, "gsd") != request.formats.end())
+        trajectory = std::make_unique<Trajectory>(folder);
+    for (const fs::path& path : moments) {
+        const Moment moment = run.read(path);
+        const ExportedMoment at{run, moment, history};
+        if (trajectory)
+            trajectory->add(at);
+        if (trajectory && request.formats.size() == 1)
+            continue;
+        LineTable table = kind.table(at);
+        table.name = fmt::format("{}-{}", kind.name, path.stem().string());
+        for (const std::string& format : request.formats)
+            if (format != "gsd") {
+                files.push_back(folder / (table.name + "." + format));
+                write_text(files.back(), written(table, format));
+            }
+    }
+    if (trajectory) {
+        files.push_back(folder / (request.kind + ".gsd"));
+        trajectory->write(files.back());
+    }
+    return files;
+}
+
+} // namespace listric

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace listric {
+
+/// What is to be exported of a finished run.
+struct ExportRequest {
+    std::string kind;                           ///< one of export_kinds()
+    std::filesystem::path output;               ///< the run's folder
+    std::vector<std::string> formats = {"csv"}; ///< that the kind has
+    std::vector<double> extensions = {};        ///< of the nearest snapshots, m; empty: all
+};
+
+std::vector<std::string_view> export_kinds();
+
+/// Writes output/export/KIND-SNAPSHOT.FORMAT, and one KIND.gsd of all moments. Returns the files.
+/// Throws UsageError, SceneError, StorageError.
+std::vector<std::filesystem::path> export_run(const ExportRequest& request);
+
+} // namespace listric
