@@ -289,6 +289,29 @@ DetachmentSegment segment_of(const Pieces& pieces, std::size_t k) {
                : arc_to_dip(pieces.dip[k + 1] / degree, length / std::abs(turn));
 }
 
+Pieces without_slight_dips(Pieces pieces) {
+    constexpr double slight = 0.5 * degree;
+    for (double& dip : pieces.dip)
+        dip = dip < slight ? 0.0 : dip > 0.5 * pi - slight ? 0.5 * pi : dip;
+    return pieces;
+}
+
+FaultFit as_segments(const Pieces& pieces, std::span<const Point> points, double length) {
+    FaultFit fit;
+    fit.start_dip = pieces.dip.front() / degree;
+    for (std::size_t k = 0; k < pieces.length.size(); ++k)
+        fit.segments.push_back(segment_of(pieces, k));
+    fit.segments.push_back(straight(length));
+    const Chain chain =
+        detachment_chain({.start_dip = fit.start_dip, .segments = fit.segments}, 0.0);
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (const double off = std::abs(signed_distance(chain, points[k])); off > fit.misfit) {
+            fit.misfit = off;
+            fit.worst = k;
+        }
+    return fit;
+}
+
 } // namespace
 
 double distance_from(const Chain& detachment, Point point) {
@@ -297,22 +320,15 @@ double distance_from(const Chain& detachment, Point point) {
 
 FaultFit fit_fault(std::span<const Point> points, double tolerance) {
     Fit fit(points, tolerance);
-    const Fitted free = fit.free_end();
-    FaultFit result;
-    result.end_dip = dip_at(free.pieces, fit.length()) / degree;
-    result.flat = ends_flat(free.pieces, fit.length(), tolerance);
-    const Pieces pieces = fit.flat_end(free.pieces).pieces;
-    result.start_dip = pieces.dip.front() / degree;
-    for (std::size_t k = 0; k < pieces.length.size(); ++k)
-        result.segments.push_back(segment_of(pieces, k));
-    result.segments.push_back(straight(fit.length()));
-    const Chain chain =
-        detachment_chain({.start_dip = result.start_dip, .segments = result.segments}, 0.0);
-    for (std::size_t k = 0; k < points.size(); ++k)
-        if (const double off = distance_from(chain, points[k]); off > result.misfit) {
-            result.misfit = off;
-            result.worst = k;
-        }
+    const Pieces free = fit.free_end().pieces;
+    const Pieces pieces = fit.flat_end(free).pieces;
+    FaultFit result = as_segments(pieces, points, fit.length());
+    // What is flat or upright but for noise is so.
+    if (FaultFit plain = as_segments(without_slight_dips(pieces), points, fit.length());
+        plain.misfit <= std::min(tolerance, result.misfit + close_enough * tolerance))
+        result = std::move(plain);
+    result.end_dip = dip_at(free, fit.length()) / degree;
+    result.flat = ends_flat(free, fit.length(), tolerance);
     return result;
 }
 

@@ -1,6 +1,7 @@
 // Detachments from picked faults: fitted to points whose chain is known, read from good files, and
 // refused with file, line and cure.
 
+#include "apps/measures/blocks.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/fault_fit.hpp"
 #include "apps/scene/scene_file.hpp"
@@ -84,6 +85,8 @@ TEST(FaultFit, FindsTheChainsOfTheShippedScenes) {
                       noise > 0.0 ? tolerance : 0.5);
             EXPECT_NEAR(fit.misfit, largest_distance(points, chain), 1e-9);
             EXPECT_LE(fit.misfit, tolerance);
+            // Measures of a ramp-flat-ramp want a flat that is flat.
+            EXPECT_EQ(measures::find_ramp_flat_ramp(chain).has_value(), name == std::string("rfr"));
         }
 }
 
