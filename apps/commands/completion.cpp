@@ -51,8 +51,9 @@ Words all_effect_names() {
 Words assignments() {
     Words words;
     for (const SceneTable& table : scene_tables(program_effects()))
-        for (const Parameter& parameter : table.parameters)
-            words.push_back(fmt::format("{}.{}=", table.name, parameter.key));
+        for (const auto* parameters : {&table.parameters, &table.source})
+            for (const Parameter& parameter : *parameters)
+                words.push_back(fmt::format("{}.{}=", table.name, parameter.key));
     return words;
 }
 

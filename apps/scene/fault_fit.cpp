@@ -63,6 +63,14 @@ double signed_distance(const Chain& chain, Point p) {
     return std::min(norm(p - chain.front().start), norm(p - chain.back().end));
 }
 
+} // namespace
+
+double distance_from(const Chain& detachment, Point point) {
+    return std::abs(signed_distance(detachment, point));
+}
+
+namespace {
+
 /// Residuals of the points by what is free: dips, so that they stay within 0 and 90 degrees, and
 /// logarithms of lengths.
 struct Distances {
@@ -281,12 +289,11 @@ bool ends_flat(const Pieces& pieces, double length, double tolerance) {
     return turn > 0.0 && (1.0 - std::cos(dip)) * pieces.length[last] / turn <= tolerance;
 }
 
-/// Arcs of which a line is nowhere further than a metre are lines.
+/// What turns by less than 0.006 degrees is a line: a scene has no arc of so large a radius.
 DetachmentSegment segment_of(const Pieces& pieces, std::size_t k) {
     const double turn = turn_of(pieces, k), length = pieces.length[k];
-    return length * std::abs(turn) / 8.0 < 0.1 && std::abs(turn) < 1e-4
-               ? straight(length)
-               : arc_to_dip(pieces.dip[k + 1] / degree, length / std::abs(turn));
+    return std::abs(turn) < 1e-4 ? straight(length)
+                                 : arc_to_dip(pieces.dip[k + 1] / degree, length / std::abs(turn));
 }
 
 Pieces without_slight_dips(Pieces pieces) {
@@ -305,7 +312,7 @@ FaultFit as_segments(const Pieces& pieces, std::span<const Point> points, double
     const Chain chain =
         detachment_chain({.start_dip = fit.start_dip, .segments = fit.segments}, 0.0);
     for (std::size_t k = 0; k < points.size(); ++k)
-        if (const double off = std::abs(signed_distance(chain, points[k])); off > fit.misfit) {
+        if (const double off = distance_from(chain, points[k]); off > fit.misfit) {
             fit.misfit = off;
             fit.worst = k;
         }
@@ -313,10 +320,6 @@ FaultFit as_segments(const Pieces& pieces, std::span<const Point> points, double
 }
 
 } // namespace
-
-double distance_from(const Chain& detachment, Point point) {
-    return std::abs(signed_distance(detachment, point));
-}
 
 FaultFit fit_fault(std::span<const Point> points, double tolerance) {
     Fit fit(points, tolerance);

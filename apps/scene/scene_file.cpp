@@ -211,7 +211,7 @@ void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table&
     const Entry entry =
         entry_at(document, given.contains("csv") ? "detachment.csv" : "detachment.svg");
     const std::string file =
-        located(source.csv + source.svg, &entry.node, folder); // one of them is empty
+        located(source.svg.empty() ? source.csv : source.svg, &entry.node, folder);
     std::error_code error;
     if (!fs::is_regular_file(file, error))
         fail(entry, fmt::format("{}: no such file", file));

@@ -82,10 +82,6 @@ private:
     std::size_t number_ = 0;
 };
 
-} // namespace
-
-namespace {
-
 /// What may be wrong with a header that lacks a column.
 std::string hint(const std::vector<std::string>& header, std::string_view name, char delimiter) {
     for (const char other : {',', ';'})
