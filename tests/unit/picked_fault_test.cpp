@@ -79,6 +79,8 @@ TEST(FaultFit, FindsTheChainsOfTheShippedScenes) {
             const FaultFit fit = fit_fault(points, tolerance);
             EXPECT_TRUE(fit.flat);
             EXPECT_LE(fit.segments.size(), 7u);
+            for (const DetachmentSegment& segment : fit.segments)
+                EXPECT_LE(segment.radius, 1e9) << "scene.toml could not be read again";
             const Chain chain =
                 detachment_chain({.start_dip = fit.start_dip, .segments = fit.segments}, 1e5);
             EXPECT_LT(largest_distance(detachment_chain(*scene.detachment, 0.0), chain),
