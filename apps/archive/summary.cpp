@@ -144,6 +144,25 @@ void add_faults(Json& json, const FaultReport& report) {
         faults.push_back(fault_object(f));
 }
 
+/// Picked horizons; those that are compared with nothing say why.
+Json observed_list(const std::vector<ObservedHorizon>& rows) {
+    Json all = Json::array();
+    for (const ObservedHorizon& row : rows) {
+        Json& json = all.emplace_back(Json{{"name", row.name}});
+        if (!row.objection.empty())
+            json["outside"] = row.objection;
+        if (!row.misfit)
+            continue;
+        json.update({{"stratum", *row.stratum},
+                     {"mean_m", row.misfit->mean},
+                     {"largest_m", row.misfit->largest},
+                     {"largest_at_x_m", row.misfit->worst.x},
+                     {"points", row.points},
+                     {"points_compared", row.misfit->compared}});
+    }
+    return all;
+}
+
 } // namespace
 
 NamedNumbers history_row(const State& state, const Measures& m) {
@@ -186,6 +205,8 @@ std::string summary_json(const SummaryContent& content) {
             bonded_list(*content.measures.old_sediment_bonded_profile);
     for (const auto& [name, objects] : content.lists)
         json[name] = list(objects);
+    if (!content.observed.empty())
+        json["observed"] = observed_list(content.observed);
     add_faults(json, content.faults);
     return json.dump(2) + "\n";
 }

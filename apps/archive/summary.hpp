@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/archive/observed_misfit.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/measures/fault.hpp"
 #include "apps/measures/measures.hpp"
@@ -37,6 +38,7 @@ struct SummaryContent {
     /// Numbers that belong together, and lists of such objects, by name.
     std::vector<std::pair<std::string, NamedNumbers>> objects = {};
     std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {};
+    std::vector<ObservedHorizon> observed = {}; ///< beside the model's
     double wall_seconds = 0.0;
     std::uint64_t state_hash = 0;
 };

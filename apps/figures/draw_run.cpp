@@ -53,7 +53,7 @@ void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
 
 } // namespace
 
-void draw_run(const fs::path& output) {
+void draw_run(const fs::path& output, const std::optional<Underlay>& underlay) {
     std::error_code error;
     if (fs::exists(output / "deflection.csv", error)) {
         if (const std::string problem = draw_flexure(output); !problem.empty())
@@ -62,7 +62,7 @@ void draw_run(const fs::path& output) {
     }
     const RunFolder run = open_run(output);
     const std::vector<fs::path> chosen = chosen_snapshots(run);
-    FigureFrames frames(output / "figures");
+    FigureFrames frames(output / "figures", underlay);
     const RunHistory history(run.snapshots);
     bool base_moves = false;
     for (const fs::path& path : chosen) {

@@ -2,9 +2,11 @@
 
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
+#include "apps/figures/frame.hpp"
 #include "apps/scene/scene.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace listric {
 
@@ -13,7 +15,9 @@ bool is_drawn_at(const Scene& scene, double extension);
 
 /// Draws the figures of all snapshots of a run's folder at the scene's figure extensions and of
 /// the newest one. Throws UsageError if there is nothing to draw, SceneError, StorageError.
-void draw_run(const std::filesystem::path& output);
+/// @param underlay  that sections are drawn over, if there is one
+void draw_run(const std::filesystem::path& output,
+              const std::optional<Underlay>& underlay = std::nullopt);
 
 /// Draws the same moments on one sheet, if there are at least two. Throws as draw_run.
 /// @param history  the run's past, up to its end

@@ -16,10 +16,11 @@ using namespace measures;
 
 namespace fs = std::filesystem;
 
-FigureFrames::FigureFrames(const fs::path& folder) : folder_(folder), data_(folder) {}
+FigureFrames::FigureFrames(const fs::path& folder, std::optional<Underlay> underlay)
+    : folder_(folder), underlay_(std::move(underlay)), data_(folder) {}
 
 void FigureFrames::add(const Observation& now, const FaultReport& faults) {
-    write_frame(now, faults, data_.path / fmt::format("{:06d}", frames_++));
+    write_frame(now, faults, data_.path / fmt::format("{:06d}", frames_++), underlay_);
 }
 
 void FigureFrames::draw(const std::string& kind) const {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "apps/figures/frame.hpp"
 #include "apps/measures/fault.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/file.hpp"
 
 #include <filesystem>
 #include <future>
+#include <optional>
 #include <string>
 
 namespace listric {
@@ -21,7 +23,9 @@ std::future<std::string> draw_figures(const Observation& now, const measures::Fa
 class FigureFrames {
 public:
     /// @param folder  where the pictures go
-    explicit FigureFrames(const std::filesystem::path& folder);
+    /// @param underlay  that sections are drawn over, if there is one
+    explicit FigureFrames(const std::filesystem::path& folder,
+                          std::optional<Underlay> underlay = std::nullopt);
 
     /// Throws StorageError.
     void add(const Observation& now, const measures::FaultReport& faults);
@@ -33,6 +37,7 @@ public:
 
 private:
     std::filesystem::path folder_;
+    std::optional<Underlay> underlay_;
     TemporaryFolder data_;
     int frames_ = 0;
 };

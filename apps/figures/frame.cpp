@@ -1,6 +1,8 @@
 #include "apps/figures/frame.hpp"
 
+#include "apps/archive/observed_misfit.hpp"
 #include "apps/archive/setting.hpp"
+#include "apps/measures/horizons.hpp"
 #include "apps/measures/kinematics.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/profile.hpp"
@@ -17,6 +19,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 namespace listric {
 
@@ -163,6 +166,49 @@ void write_faults(const FrameWriter& writer, const std::vector<Fault>& faults) {
     writer.array("faults", rows, 4);
 }
 
+/// The model's tops: number of the piece, x, y.
+template <class Wanted>
+void write_horizons(const FrameWriter& writer, const std::string& name, const Observation& now,
+                    const FaultReport& faults, Wanted&& wanted) {
+    std::vector<double> rows;
+    double number = 0.0;
+    for (const Horizon& h : trace_horizons(archive::make_setting(now.scene, now.parts),
+                                           now.parts.base, now.state, faults.faults))
+        if (wanted(h.stratum))
+            for (const Polyline& piece : h.pieces) {
+                for (const Point p : piece)
+                    rows.insert(rows.end(), {number, p.x, p.y});
+                number += 1.0;
+            }
+    writer.array(name, rows, 3);
+}
+
+/// Picks, and the model's tops that go with them: number of the line, x, y. They are of the section
+/// as it is at the end of extension.
+void write_observed(const FrameWriter& writer, const Observation& now, const FaultReport& faults) {
+    const auto& observed = now.scene.observed;
+    if (!observed || now.state.clock.extension < 0.999 * now.scene.extension.distance)
+        return;
+    const auto picks = [&](const std::vector<PickedLine>& lines) {
+        std::vector<double> rows;
+        for (std::size_t n = 0; n < lines.size(); ++n)
+            for (std::size_t k = 0; k < lines[n].x.size(); ++k)
+                rows.insert(rows.end(),
+                            {static_cast<double>(n), lines[n].x[k], -lines[n].depth[k]});
+        return rows;
+    };
+    writer.array("picked_horizons", picks(observed->horizons), 3);
+    writer.array("picked_faults", picks(observed->faults), 3);
+    const Setting setting = archive::make_setting(now.scene, now.parts);
+    std::set<int> strata;
+    for (const auto& row :
+         archive::compare_horizons(now.scene, setting, now.parts.base, now.state, faults.faults))
+        if (row.stratum)
+            strata.insert(*row.stratum);
+    write_horizons(writer, "compared_horizons", now, faults,
+                   [&](int stratum) { return strata.contains(stratum); });
+}
+
 nlohmann::json frame_json(const Observation& now, const Measures& m) {
     const Scene& scene = now.scene;
     const State& state = now.state;
@@ -199,7 +245,8 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
 
 } // namespace
 
-void write_frame(const Observation& now, const FaultReport& faults, const fs::path& folder) {
+void write_frame(const Observation& now, const FaultReport& faults, const fs::path& folder,
+                 const std::optional<Underlay>& underlay) {
     const FrameWriter writer(folder);
     write_discs(writer, now.state);
     write_strain(writer, now);
@@ -222,11 +269,19 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
             points.push_back({picked->x[k], -picked->depth[k]});
         writer.points("picked_fault", points);
     }
+    write_observed(writer, now, faults);
     for (const EffectPart& part : now.scene.effects)
         if (part.effect->draw)
             for (const FigureLayer& layer : part.effect->draw(now))
                 writer.array(layer.name, layer.rows, layer.columns);
-    writer.json(frame_json(now, m));
+    nlohmann::json frame = frame_json(now, m);
+    if (underlay) {
+        write_horizons(writer, "horizons", now, faults, [](int) { return true; });
+        frame["underlay"] = {
+            {"image", fs::absolute(underlay->image).string()},
+            {"corners_m", {underlay->left, underlay->top, underlay->right, underlay->bottom}}};
+    }
+    writer.json(frame);
 }
 
 } // namespace listric

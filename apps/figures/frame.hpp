@@ -4,12 +4,21 @@
 #include "apps/scene/effect.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace listric {
 
+/// A picture of a section, and where its corners are.
+struct Underlay {
+    std::filesystem::path image;                         ///< PNG
+    double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0; ///< x, depth, m
+};
+
 /// Writes the arrays of one moment, which apps/figures/python/frame.py describes, those of its
 /// effects, and frame.json into a folder of their own. Throws StorageError.
+/// @param underlay  that the section is drawn over, if there is one
 void write_frame(const Observation& now, const measures::FaultReport& faults,
-                 const std::filesystem::path& folder);
+                 const std::filesystem::path& folder,
+                 const std::optional<Underlay>& underlay = std::nullopt);
 
 } // namespace listric

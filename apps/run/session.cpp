@@ -333,6 +333,24 @@ NamedNumbers Session::summary_numbers(const NamedNumbers& of_effects) const {
     return numbers;
 }
 
+/// Picked horizons beside the model's, each said in a line.
+std::vector<ObservedHorizon> Session::compare_with_observed(const FaultReport& faults) {
+    if (!scene_.observed)
+        return {};
+    const Stopwatch watch(record_.seconds_by_part["measures"]);
+    std::vector<ObservedHorizon> rows =
+        compare_horizons(scene_, setting_, parts_.base, simulation_.state(), faults.faults);
+    for (const ObservedHorizon& row : rows)
+        log_.say(row.misfit
+                     ? fmt::format("observed {}: {:.0f} m off in the mean, at most {:.0f} m at x = "
+                                   "{:.2f} km; {} of {} points beside the top of stratum {}",
+                                   row.name, row.misfit->mean, row.misfit->largest,
+                                   row.misfit->worst.x / 1e3, row.misfit->compared, row.points,
+                                   *row.stratum)
+                     : fmt::format("warning: observed {} {}", row.name, row.objection));
+    return rows;
+}
+
 void Session::finish() {
     const fs::path& output = options_.output;
     if (drawn_at_ != extension())
@@ -346,6 +364,7 @@ void Session::finish() {
     const FaultReport faults = faults_now();
     check_base();
     const EffectMeasures of_effects = measure_effects(now());
+    const std::vector<ObservedHorizon> observed = compare_with_observed(faults);
     await_figures();
     write_text(output / "summary.json",
                summary_json({.scene = scene_.name,
@@ -361,6 +380,7 @@ void Session::finish() {
                              .numbers = summary_numbers(of_effects.numbers),
                              .objects = of_effects.groups,
                              .lists = of_effects.lists,
+                             .observed = observed,
                              .wall_seconds = wall_seconds(),
                              .state_hash = simulation_.hash()}));
     log_.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}", extension() / 1e3,

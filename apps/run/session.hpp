@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/archive/observed_misfit.hpp"
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/measures/fault.hpp"
@@ -52,6 +53,8 @@ private:
     measures::Measures measure_now() const;
     measures::FaultReport faults_now();
     NamedNumbers summary_numbers(const NamedNumbers& of_effects) const;
+    std::vector<archive::ObservedHorizon>
+    compare_with_observed(const measures::FaultReport& faults);
     void warn_of_haste(const measures::Measures& measures);
     void append_history();
     void end_window();

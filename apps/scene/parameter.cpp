@@ -46,6 +46,9 @@ std::string type_of(const Parameter& parameter) {
         std::string operator()(const Place<std::vector<std::array<double, 4>>>&) const {
             return "array of [px, py, x_m, depth_m]";
         }
+        std::string operator()(const Place<std::vector<PickedLine>>&) const {
+            return "array of {name = ..., age_a = ..., x_m = [...], depth_m = [...]}";
+        }
         std::string operator()(const Place<std::vector<fem::Layer>>&) const {
             return "array of {top_depth_m = ..., young_modulus_pa = ..., ...}";
         }

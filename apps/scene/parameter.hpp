@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/observed.hpp"
 #include "dem/detachment.hpp"
 #include "dem/target_line.hpp"
 #include "fem/footwall.hpp"
@@ -51,7 +52,8 @@ using Value =
     std::variant<Place<double>, Place<std::optional<double>>, Place<int>, Place<std::uint64_t>,
                  Place<bool>, Place<std::string>, Choice, Place<std::vector<double>>,
                  Place<std::vector<dem::DetachmentSegment>>, Place<std::vector<dem::TargetStage>>,
-                 Place<std::vector<fem::Layer>>, Place<std::vector<std::array<double, 4>>>>;
+                 Place<std::vector<fem::Layer>>, Place<std::vector<std::array<double, 4>>>,
+                 Place<std::vector<PickedLine>>>;
 
 /// The one declaration of a parameter. A default outside the range means that the parameter must be
 /// given.

@@ -22,6 +22,17 @@ const std::vector<Parameter>& segment_parameters(dem::DetachmentSegment::Kind ki
     return kind == Segment::Kind::line ? line : arc;
 }
 
+const std::vector<Parameter>& picked_line_parameters() {
+    using L = PickedLine;
+    static const std::vector<Parameter> parameters{
+        {"name", at<&L::name>, "", {}, "", "what it is called"},
+        {"age_a", at<&L::age>, "a", {.from = 0, .to = 1e10}, "", "before the end of extension"},
+        {"x_m", at<&L::x>, "m", {.from = -1e7, .to = 1e7}, "", "of its points"},
+        {"depth_m", at<&L::depth>, "m", {.from = -1e6, .to = 1e6}, "", "of its points"},
+    };
+    return parameters;
+}
+
 const std::vector<Parameter>& layer_parameters() {
     using fem::Layer;
     static const std::vector<Parameter> parameters{

@@ -13,6 +13,9 @@ const std::vector<Parameter>& segment_parameters(dem::DetachmentSegment::Kind ki
 /// Of one layer of rock below the hanging wall.
 const std::vector<Parameter>& layer_parameters();
 
+/// Of a horizon or fault that was picked.
+const std::vector<Parameter>& picked_line_parameters();
+
 /// Microproperties, [material], of the Material at a path of members; no path: of a Material.
 template <auto... Path> std::vector<Parameter> material_parameters() {
     using dem::Material;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/observed.hpp"
 #include "apps/scene/picked_fault.hpp"
 #include "dem/detachment.hpp"
 #include "dem/genesis.hpp"
@@ -70,6 +71,7 @@ struct Scene {
     std::optional<dem::DetachmentParameters> detachment;
     std::optional<PickedFault> picked_fault;
     std::optional<dem::StretchingParameters> stretching;
+    std::optional<Observed> observed;
     ExtensionParameters extension;
     dem::Material basement; ///< table [material]
     CycleParameters cycle;

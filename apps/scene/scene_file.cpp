@@ -181,6 +181,40 @@ void read_files(Scene& scene, const SceneTable& table, const toml::table& docume
     }
 }
 
+/// Reads those keys of a table that are of its source.
+void read_source(const SceneTable& table, const toml::table& given, void* source) {
+    for (const auto& [key, value] : given)
+        if (const auto p = std::ranges::find(table.source, key.str(), &Parameter::key);
+            p != table.source.end())
+            read({value, fmt::format("{}.{}", table.name, key.str())}, *p, source);
+}
+
+/// A file that exists. Throws SceneError.
+std::string existing(const Entry& entry, const std::string& name, const fs::path& folder) {
+    const std::string file = located(name, &entry.node, folder);
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+        fail(entry, fmt::format("{}: no such file", file));
+    return file;
+}
+
+/// Reads the picked lines that the document names.
+void take_observed(Scene& scene, const SceneTable& table, const toml::table& document,
+                   const fs::path& folder) {
+    const toml::node* const node = document.get(table.name);
+    if (!node || !node->is_table())
+        return;
+    const toml::table& given = *node->as_table();
+    ObservedSource source;
+    read_source(table, given, &source);
+    if (given.contains("horizons"))
+        scene.observed->horizons = read_picked_lines(
+            existing(entry_at(document, "observed.horizons"), source.horizons, folder));
+    if (given.contains("faults"))
+        scene.observed->faults = read_picked_lines(
+            existing(entry_at(document, "observed.faults"), source.faults, folder));
+}
+
 /// Fits the detachment to a picked fault, if the document names one; hanging_wall.thickness_m is
 /// then its depth.
 void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table& document,
@@ -190,10 +224,7 @@ void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table&
         return;
     const toml::table& given = *node->as_table();
     FaultSource source;
-    for (const auto& [key, value] : given)
-        if (const auto p = std::ranges::find(table.source, key.str(), &Parameter::key);
-            p != table.source.end())
-            read({value, fmt::format("{}.{}", table.name, key.str())}, *p, &source);
+    read_source(table, given, &source);
     const auto refuse_beside = [&](const std::vector<const char*>& keys, const char* why) {
         for (const char* key : keys)
             if (const toml::node* other = given.get(key))
@@ -211,10 +242,7 @@ void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table&
     const Entry entry =
         entry_at(document, given.contains("csv") ? "detachment.csv" : "detachment.svg");
     const std::string file =
-        located(source.svg.empty() ? source.csv : source.svg, &entry.node, folder);
-    std::error_code error;
-    if (!fs::is_regular_file(file, error))
-        fail(entry, fmt::format("{}: no such file", file));
+        existing(entry, source.svg.empty() ? source.csv : source.svg, folder);
     scene.picked_fault =
         fit_detachment(*scene.detachment, read_fault(source, file), source.tolerance);
     if (scene.hanging_wall)
@@ -286,9 +314,11 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     set_accuracy(scene);
     Rocks rocks(document, effects, path.parent_path());
     take_rocks(scene, rocks, effects);
-    const SceneTable& detachment =
-        *std::ranges::find(all, std::string_view("detachment"), &SceneTable::name);
-    take_picked_fault(scene, detachment, document, path.parent_path());
+    const auto table_named = [&](std::string_view name) -> const SceneTable& {
+        return *std::ranges::find(all, name, &SceneTable::name);
+    };
+    take_picked_fault(scene, table_named("detachment"), document, path.parent_path());
+    take_observed(scene, table_named("observed"), document, path.parent_path());
     for (const SceneTable& table : all)
         if (const toml::node* node = document.get(table.name))
             read_table({*node, std::string(table.name)}, table.parameters, table.add(table, scene),
@@ -335,9 +365,8 @@ std::string parameter_reference(EffectList effects) {
         const void* part = table.add(table, scene);
         for (const Parameter& parameter : table.parameters)
             lines += explain(parameter, part);
-        const FaultSource source;
         for (const Parameter& parameter : table.source)
-            lines += explain(parameter, &source);
+            lines += explain(parameter, table.source_defaults);
         const FileName none;
         for (const Parameter& parameter : file_names(table))
             lines += explain(parameter, &none);

@@ -93,6 +93,10 @@ struct Allowed {
         four["maxItems"] = 4;
         return array_of(four, 2);
     }
+    Json operator()(const Place<std::vector<PickedLine>>&) const {
+        const PickedLine line;
+        return array_of(table_of("", picked_line_parameters(), &line));
+    }
     Json operator()(const Place<std::vector<fem::Layer>>&) const {
         const fem::Layer layer;
         return array_of(table_of("", layer_parameters(), &layer));
@@ -182,10 +186,7 @@ Json dependencies(EffectList effects) {
 }
 
 /// A detachment is its pieces, or what they are fitted to.
-void add_sources(Json& detachment, const SceneTable& table) {
-    const FaultSource source;
-    for (const Parameter& parameter : table.source)
-        detachment["properties"][std::string(parameter.key)] = parameter_schema(parameter, &source);
+void allow_sources(Json& detachment) {
     detachment.erase("required");
     detachment["oneOf"] = Json::array({needs({"segments"}), needs({"csv"}), needs({"svg"})});
     const Json fitted{{"not", needs({"start_dip_deg"})}};
@@ -217,9 +218,11 @@ std::string scene_schema(EffectList effects) {
         const FileName none;
         for (const Parameter& parameter : file_names(table))
             entry["properties"][std::string(parameter.key)] = parameter_schema(parameter, &none);
-        if (!table.source.empty())
-            add_sources(entry, table);
+        for (const Parameter& parameter : table.source)
+            entry["properties"][std::string(parameter.key)] =
+                parameter_schema(parameter, table.source_defaults);
     }
+    allow_sources(properties["detachment"]);
     schema["anyOf"] = Json::array({needs({"hanging_wall"}), needs({"flexure"})});
     schema["dependencies"] = dependencies(effects);
     return finished("A scene of Listric", schema);

@@ -106,6 +106,31 @@ std::vector<Parameter> picked_fault_parameters() {
     };
 }
 
+std::vector<Parameter> observed_source_parameters() {
+    using S = ObservedSource;
+    return {
+        {"horizons",
+         at<&S::horizons>,
+         "",
+         {},
+         "",
+         "file with picked horizons: columns name, x_m, depth_m and, if known, age_a"},
+        {"faults",
+         at<&S::faults>,
+         "",
+         {},
+         "",
+         "file with picked faults, which are drawn: columns name, x_m, depth_m"},
+    };
+}
+
+std::vector<Parameter> observed_parameters() {
+    return {
+        {"horizon_lines", at<&Observed::horizons>, "", {}, "", "what the files say"},
+        {"fault_lines", at<&Observed::faults>, "", {}, "", "what the files say"},
+    };
+}
+
 std::vector<Parameter> stretching_parameters() {
     return {
         {"friction", at<&StretchingParameters::friction>, "", ranges::friction, "",
@@ -282,6 +307,15 @@ SceneTable table_of(const Effect& effect) {
             &effect};
 }
 
+template <class Source>
+void add_source(std::vector<SceneTable>& tables, std::string_view name,
+                std::vector<Parameter> parameters, Source) {
+    static const Source defaults;
+    const auto table = std::ranges::find(tables, name, &SceneTable::name);
+    table->source = std::move(parameters);
+    table->source_defaults = &defaults;
+}
+
 } // namespace
 
 const std::vector<Parameter>& top_level() {
@@ -318,6 +352,9 @@ std::vector<SceneTable> scene_tables(EffectList effects) {
         optional<&Scene::picked_fault>(
             "picked_fault", "written by the program: the points that the detachment was fitted to",
             picked_fault_parameters()),
+        optional<&Scene::observed>("observed",
+                                   "horizons and faults that the model is compared with",
+                                   observed_parameters()),
         optional<&Scene::stretching>(
             "stretching", "in place of a detachment: a flat base that stretches uniformly",
             stretching_parameters()),
@@ -329,7 +366,8 @@ std::vector<SceneTable> scene_tables(EffectList effects) {
                               cycle_parameters()),
         always<&Scene::output>("output", "what is written when", output_parameters()),
     };
-    std::ranges::find(tables, "detachment", &SceneTable::name)->source = fault_source_parameters();
+    add_source(tables, "detachment", fault_source_parameters(), FaultSource{});
+    add_source(tables, "observed", observed_source_parameters(), ObservedSource{});
     std::ranges::transform(effects, std::back_inserter(tables),
                            [](const Effect* effect) { return table_of(*effect); });
     tables.push_back(optional<&Scene::flexure>(

@@ -16,7 +16,10 @@ struct SceneTable {
     void* (*add)(const SceneTable& table, Scene& scene); ///< with defaults, if it is not there
     void (*drop)(const SceneTable& table, Scene& scene); ///< null if it cannot be missing
     const Effect* effect = nullptr;                      ///< whose table it is
-    std::vector<Parameter> source = {}; ///< besides, of a FaultSource: a scene keeps what it says
+    /// Besides, what a scene does not keep, but what it stands for: names of files and how they are
+    /// read. Of an object of its own, here with defaults.
+    std::vector<Parameter> source = {};
+    const void* source_defaults = nullptr;
 
     bool in(const Scene& scene) const { return find(*this, scene) != nullptr; }
 };

@@ -153,13 +153,10 @@ struct Reader {
     }
 
     void operator()(const Place<std::vector<fem::Layer>>& place) const {
-        auto& x = place.reach(object);
-        x.clear();
-        for (const toml::node& node : array(entry, parameter)) {
-            fem::Layer layer;
-            read_table({node, item_path(x.size())}, layer_parameters(), &layer);
-            x.push_back(layer);
-        }
+        read_items(place.reach(object), layer_parameters());
+    }
+    void operator()(const Place<std::vector<PickedLine>>& place) const {
+        read_items(place.reach(object), picked_line_parameters());
     }
 
     void operator()(const Place<std::vector<std::array<double, 4>>>& place) const {
@@ -183,6 +180,16 @@ private:
             fail_type(entry, type_of(parameter));
         number(entry, parameter); // checks the range
         x = static_cast<Integer>(entry.node.as_integer()->get());
+    }
+
+    template <class Item>
+    void read_items(std::vector<Item>& items, const std::vector<Parameter>& parameters) const {
+        items.clear();
+        for (const toml::node& node : array(entry, parameter)) {
+            Item item;
+            read_table({node, item_path(items.size())}, parameters, &item);
+            items.push_back(item);
+        }
     }
 
     std::string item_path(std::size_t index) const {
@@ -380,6 +387,7 @@ struct Writer {
     }
     std::string operator()(const Place<std::vector<dem::DetachmentSegment>>& x) const;
     std::string operator()(const Place<std::vector<fem::Layer>>& x) const;
+    std::string operator()(const Place<std::vector<PickedLine>>& x) const;
     std::string operator()(const Place<std::vector<dem::TargetStage>>& x) const;
     std::string operator()(const Place<std::vector<std::array<double, 4>>>& x) const {
         std::vector<std::string> items;
@@ -414,11 +422,21 @@ std::string Writer::operator()(const Place<std::vector<dem::DetachmentSegment>>&
     return lines.empty() ? "[]" : fmt::format("[\n{}]", lines);
 }
 
-std::string Writer::operator()(const Place<std::vector<fem::Layer>>& x) const {
+/// Items of an array, a line each.
+template <class Item>
+std::string lines_of(const std::vector<Item>& items, const std::vector<Parameter>& parameters) {
     std::string lines;
-    for (const fem::Layer& layer : x.get(object))
-        lines += fmt::format("    {},\n", inline_table(layer_parameters(), &layer));
+    for (const Item& item : items)
+        lines += fmt::format("    {},\n", inline_table(parameters, &item));
     return lines.empty() ? "" : fmt::format("[\n{}]", lines);
+}
+
+std::string Writer::operator()(const Place<std::vector<fem::Layer>>& x) const {
+    return lines_of(x.get(object), layer_parameters());
+}
+
+std::string Writer::operator()(const Place<std::vector<PickedLine>>& x) const {
+    return lines_of(x.get(object), picked_line_parameters());
 }
 
 std::string Writer::operator()(const Place<std::vector<dem::TargetStage>>& x) const {

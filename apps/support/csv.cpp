@@ -23,8 +23,12 @@ std::vector<std::string> cells_of(const std::string& line, char delimiter) {
     for (char letter : line) {
         if (letter == delimiter)
             cells.emplace_back();
-        else if (letter != ' ' && letter != '\t' && letter != '\r' && letter != '"')
+        else if (letter != '\r' && letter != '"')
             cells.back() += letter;
+    }
+    for (std::string& cell : cells) {
+        cell.erase(0, cell.find_first_not_of(" \t"));
+        cell.erase(cell.find_last_not_of(" \t") + 1);
     }
     return cells;
 }
@@ -131,6 +135,22 @@ CsvRows read_csv(const std::filesystem::path& path, std::span<const std::string_
 bool csv_has_column(const std::filesystem::path& path, std::string_view name) {
     const auto header = Lines(path, ',').next();
     return header && std::ranges::find(*header, name) != header->end();
+}
+
+std::vector<std::string> read_csv_words(const std::filesystem::path& path, std::string_view column,
+                                        char delimiter) {
+    Lines lines(path, delimiter);
+    const auto header = lines.next();
+    const std::size_t place =
+        header ? static_cast<std::size_t>(std::ranges::find(*header, column) - header->begin()) : 0;
+    if (!header || place == header->size())
+        lines.refuse(
+            fmt::format("has no column {}, needs a header with it{}", column,
+                        header ? "; it has " + fmt::format("{}", fmt::join(*header, ", ")) : ""));
+    std::vector<std::string> words;
+    while (const auto row = lines.next())
+        words.push_back(place < row->size() ? (*row)[place] : "");
+    return words;
 }
 
 } // namespace listric

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct CsvRows {
 /// with # are ignored. Throws SceneError: file, line, column, what is there and what is allowed.
 CsvRows read_csv(const std::filesystem::path& file, std::span<const std::string_view> columns,
                  char delimiter = ',');
+
+/// A column of words, a row each as read_csv has them. Throws SceneError.
+std::vector<std::string> read_csv_words(const std::filesystem::path& file, std::string_view column,
+                                        char delimiter = ',');
 
 /// Whether the header has a column. Throws SceneError if the file cannot be read.
 bool csv_has_column(const std::filesystem::path& file, std::string_view name);

@@ -71,6 +71,44 @@ class Folder(unittest.TestCase):
         return frames.load_frame(folder)
 
 
+class Underlay(Folder):
+    def test_its_corners_fall_on_their_pixels(self):
+        picture = np.ones((20, 40, 3))
+        colours = {(0, 0): (1, 0, 0), (0, -1): (0, 1, 0), (-1, 0): (0, 0, 1), (-1, -1): (1, 0, 1)}
+        for (row, column), colour in colours.items():
+            rows, columns = (slice(0, 4) if k == 0 else slice(-4, None) for k in (row, column))
+            picture[rows, columns] = colour
+        plot.matplotlib.image.imsave(self.path("section.png"), picture)
+        # 1 to 3 km of a section from 0 to 4 km, 200 to 800 m deep.
+        corners = [1000.0, 200.0, 3000.0, 800.0]
+        frame = self.frame(meta={"underlay": {"image": self.path("section.png"),
+                                              "corners_m": corners}},
+                           horizons=[[0, 0.0, -900.0], [0, 500.0, -900.0]],
+                           detachment=[[0.0, 0.0], [10.0, -1000.0], [4000.0, -1000.0]])
+        self.assertIn("underlay", sections.figures_of(frame))
+        figure = sections.draw_figure(frame, ["underlay"], dpi=100)
+        figure.canvas.draw()
+        pixels = np.asarray(figure.canvas.buffer_rgba())
+        ax = figure.axes[0]
+        for (row, column), colour in colours.items():
+            x = (1.02, 2.98)[column]
+            y = (-0.21, -0.79)[row]
+            across, up = ax.transData.transform((x, y))
+            found = pixels[pixels.shape[0] - 1 - int(up), int(across), :3] / 255.0
+            np.testing.assert_allclose(found, colour, atol=0.1)
+            # Just outside there is nothing of it.
+            across, up = ax.transData.transform((x + (-0.06, 0.06)[column], y))
+            found = pixels[pixels.shape[0] - 1 - int(up), int(across), :3] / 255.0
+            self.assertGreater(np.abs(found - colour).max(), 0.3)
+
+    def test_what_is_no_picture_is_refused(self):
+        frame = self.frame(meta={"underlay": {"image": self.write("section.png", "no picture"),
+                                              "corners_m": [0.0, 0.0, 1.0, 1.0]}},
+                           horizons=[[0, 0.0, -900.0]])
+        with self.assertRaisesRegex(plot.InputError, "section.png"):
+            sections.draw_figure(frame, ["underlay"])
+
+
 class Reading(Folder):
     def test_a_table_has_an_array_per_column(self):
         table = plot.read_table(self.write("t.csv", "x,y\n1,2\n3,4\n"))

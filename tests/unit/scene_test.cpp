@@ -140,6 +140,15 @@ struct Bits {
                 items += of(value) + " ";
         return items;
     }
+    std::string operator()(const Place<std::vector<PickedLine>>& x) const {
+        std::string items;
+        for (const PickedLine& line : x.get(object)) {
+            items += line.name + " " + of(line.age) + ": ";
+            for (std::size_t k = 0; k < line.x.size(); ++k)
+                items += of(line.x[k]) + " " + of(line.depth[k]) + " ";
+        }
+        return items;
+    }
     std::string operator()(const Place<std::vector<fem::Layer>>& x) const {
         std::string items;
         for (const fem::Layer& layer : x.get(object))

@@ -16,6 +16,9 @@ origin), n discs:
     faults                           number of the fault, x, y, slip rate in m/a
     water                            x, floor, level; only where the basin holds water
     picked_fault                     x, y of the points that the detachment was fitted to
+    picked_horizons, picked_faults   number of the line, x, y; only where there are picks
+    horizons                         all tops of the model, likewise; only with an underlay
+    compared_horizons                the model's tops that they are compared with, likewise
     predicted_shear, predicted_normals  x, y of the pre-rift top by kinematic constructions
 
 An array that is not there says that the run knows no such thing.
@@ -56,6 +59,10 @@ class Frame:
     faults: np.ndarray | None = None
     water: np.ndarray | None = None
     picked_fault: np.ndarray | None = None
+    picked_horizons: np.ndarray | None = None
+    picked_faults: np.ndarray | None = None
+    compared_horizons: np.ndarray | None = None
+    horizons: np.ndarray | None = None
     predicted_shear: np.ndarray | None = None
     predicted_normals: np.ndarray | None = None
     level: float | None = None                 # that sediment is filled up to
@@ -190,6 +197,8 @@ def load_frame(folder: str) -> Frame:
         depocentres=km(table("depocentres", 3)),
         faults=scaled(table("faults", 4), [1.0, 1e-3, 1e-3, 1.0]), water=km(table("water", 3)),
         picked_fault=km(table("picked_fault", 2)),
+        **{name: scaled(table(name, 3), [1.0, 1e-3, 1e-3])
+           for name in ("picked_horizons", "picked_faults", "compared_horizons", "horizons")},
         predicted_shear=km(table("predicted_shear", 2)),
         predicted_normals=km(table("predicted_normals", 2)),
         level=None if level is None else level / 1000.0)

@@ -7,10 +7,11 @@ from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section
 from discs import draw_discs
 from frame import Frame
 from page import PANEL_WIDTH, PROFILE_HEIGHT
-from plot import FAINT, INK
+from plot import FAINT, INK, InputError
 from scales import (strain_colours, strain_limit, strain_ticks, stratum_colours, stratum_ticks)
 
 import numpy as np
+from matplotlib import image as plt_image
 from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize, to_rgb
 from matplotlib.lines import Line2D
@@ -22,6 +23,7 @@ SEDIMENT, SEDIMENT_EDGE, SEDIMENT_PALE = "#fbeab4", "#b07d00", "#fdf6dc"
 WEAK, WEAK_PALE = "#d7301f", "#e9a59a"
 BOND, BOND_SEDIMENT = "#3a3a3a", "#a87a10"
 UNDEFINED = "#e2e8ee"
+PICK, HORIZON = "#7a0177", "#d95f0e"
 NORMALS_BLUE = "#1f5fb4"
 LEVEL_BLUE, TOP_GREEN, WATER = "#1f6fb4", "#2b8a3e", "#c6dcef"
 # Classes of rock behaviour in their order [paper, Fig. 9b]: colour, label.
@@ -58,8 +60,54 @@ def strata_panel(ax, cax, frame: Frame) -> None:
                 markeredgecolor=INK, markeredgewidth=0.5, zorder=7)
         handles.append((Line2D([], [], linestyle="none", marker="o", markersize=3,
                                markerfacecolor="none", markeredgecolor=INK), "picked"))
+    handles += draw_observed(ax, frame)
     handles += draw_faults(ax, frame.faults)
     describe(ax, frame, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
+
+
+def underlay_panel(ax, cax, frame: Frame) -> None:
+    """The model's horizons and faults over a picture of a section."""
+    section_axes(ax, frame)
+    cax.set_axis_off()
+    underlay = frame.meta["underlay"]
+    left, top, right, bottom = (value / 1000.0 for value in underlay["corners_m"])
+    limits = ax.axis()
+    ax.imshow(read_picture(underlay["image"]), extent=(left, right, -bottom, -top),
+              aspect="equal", interpolation="antialiased", zorder=1.2)
+    ax.axis(limits)
+    style = dict(color=HORIZON, linewidth=0.9)
+    for number in np.unique(frame.horizons[:, 0]):
+        x, y = frame.horizons[frame.horizons[:, 0] == number, 1:].T
+        ax.plot(x, y, zorder=7, **style)
+    handles = [(Line2D([], [], **style), "horizons of the model")]
+    handles += draw_observed(ax, frame)
+    handles += draw_faults(ax, frame.faults)
+    describe(ax, frame, "Model over the section", handles)
+
+
+def read_picture(path: str) -> np.ndarray:
+    try:
+        return plt_image.imread(path)
+    except (OSError, ValueError, SyntaxError) as failure:
+        raise InputError(f"{path}: cannot be read as PNG ({failure})") from failure
+
+
+def draw_observed(ax, frame: Frame) -> list:
+    """Picked horizons as crosses, the model's beside them as lines, picked faults dashed."""
+    handles = []
+    for name, style, label in (
+            ("compared_horizons", dict(color=PICK, linewidth=1.2), "horizon of the model"),
+            ("picked_horizons", dict(color=PICK, linestyle="none", marker="+", markersize=4.5,
+                                     markeredgewidth=0.9), "picked horizon"),
+            ("picked_faults", dict(color=PICK, linewidth=1.2, dashes=(4, 2)), "picked fault")):
+        lines = getattr(frame, name)
+        if lines is None or len(lines) == 0:
+            continue
+        for number in np.unique(lines[:, 0]):
+            x, y = lines[lines[:, 0] == number, 1:].T
+            ax.plot(x, y, zorder=8, **style)
+        handles.append((Line2D([], [], **style), label))
+    return handles
 
 
 def layer_colours(start_depth: np.ndarray, layer: float) -> np.ndarray:
@@ -271,4 +319,5 @@ def areas_text(meta: dict) -> list[str]:
 
 
 PANELS = {"strata": strata_panel, "bonds": bonds_panel, "behaviour": behaviour_panel,
-          "strain": strain_panel, "sediment": sediment_panel, "kinematics": kinematics_panel}
+          "strain": strain_panel, "sediment": sediment_panel, "kinematics": kinematics_panel,
+          "underlay": underlay_panel}

@@ -31,8 +31,9 @@ def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI) -> Figure:
 
 def figures_of(frame: Frame) -> dict[str, list[str]]:
     """The figures that a frame gets, by name: their panels."""
-    overview = [name for name in PANELS if name != "kinematics"]
-    known = overview + (["kinematics"] if frame.predicted_shear is not None else [])
+    overview = [name for name in PANELS if name not in ("kinematics", "underlay")]
+    known = (overview + (["kinematics"] if frame.predicted_shear is not None else [])
+             + (["underlay"] if frame.horizons is not None else []))
     return {**{name: [name] for name in known}, "overview": overview}
 
 

@@ -1,0 +1,88 @@
+#include "apps/archive/observed_misfit.hpp"
+
+#include "apps/measures/horizons.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace listric::archive {
+
+using namespace dem;
+using namespace measures;
+
+namespace {
+
+/// The horizon of an age, a before the end: the pre-rift top is as old as the rift.
+const Horizon* horizon_of_age(const std::vector<Horizon>& horizons, double age, double end) {
+    const Horizon* best = nullptr;
+    double least = INFINITY;
+    for (const Horizon& h : horizons) {
+        if (h.stratum < 0)
+            continue;
+        const double off = std::abs(h.deposited_at.value_or(0.0) - (end - age));
+        if (off < least) {
+            least = off;
+            best = &h;
+        }
+    }
+    return best;
+}
+
+/// Age between tops in succession, a; what is further from all of them has none.
+double usual_interval(const std::vector<Horizon>& horizons) {
+    double last = 0.0, longest = 0.0;
+    for (const Horizon& h : horizons)
+        if (h.deposited_at) {
+            longest = std::max(longest, *h.deposited_at - last);
+            last = *h.deposited_at;
+        }
+    return longest;
+}
+
+void compare(ObservedHorizon& row, std::span<const Point> points, const Horizon& horizon,
+             double margin) {
+    const auto found = misfit(points, horizon.pieces, margin);
+    if (!found || (row.misfit && found->mean >= row.misfit->mean))
+        return;
+    row.misfit = found;
+    row.stratum = horizon.stratum;
+}
+
+} // namespace
+
+std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const Setting& setting,
+                                              const RigidBase& base, const State& state,
+                                              std::span<const Fault> faults) {
+    const std::vector<Horizon> horizons = trace_horizons(setting, base, state, faults);
+    const double end = scene.extension.distance / scene.extension.rate;
+    const double now = state.clock.extension / scene.extension.rate;
+    const double diameter = 2.0 * state.mean_radius;
+    std::vector<ObservedHorizon> rows;
+    for (const PickedLine& line : scene.observed->horizons) {
+        ObservedHorizon row{line.name, std::nullopt, std::nullopt, line.x.size(), ""};
+        std::vector<Point> points;
+        for (std::size_t k = 0; k < line.x.size(); ++k)
+            points.push_back({line.x[k], -line.depth[k]});
+        if (!line.age) {
+            for (const Horizon& h : horizons)
+                compare(row, points, h, diameter);
+        } else if (const double at = end - *line.age; at < 0.0 || at > now) {
+            row.objection =
+                fmt::format("is {:g} a old, but the model's tops are {:g} to {:g} a old now",
+                            *line.age, end - now, end);
+        } else if (const Horizon* h = horizon_of_age(horizons, *line.age, end);
+                   std::abs(h->deposited_at.value_or(0.0) - at) <= usual_interval(horizons)) {
+            compare(row, points, *h, diameter);
+        } else {
+            row.objection =
+                fmt::format("is {:g} a old, of which age the model has no top", *line.age);
+        }
+        if (!row.misfit && row.objection.empty())
+            row.objection = "lies outside of what the model has of such a horizon";
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+} // namespace listric::archive
