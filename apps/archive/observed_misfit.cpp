@@ -13,15 +13,13 @@ using namespace measures;
 
 namespace {
 
-/// The horizon of an age, a before the end: the pre-rift top is as old as the rift.
+/// The horizon of an age, a before the end. Rock is as old as the rift; its uppermost layer is last.
 const Horizon* horizon_of_age(const std::vector<Horizon>& horizons, double age, double end) {
     const Horizon* best = nullptr;
     double least = INFINITY;
     for (const Horizon& h : horizons) {
-        if (h.stratum < 0)
-            continue;
         const double off = std::abs(h.deposited_at.value_or(0.0) - (end - age));
-        if (off < least) {
+        if (off <= least) {
             least = off;
             best = &h;
         }

@@ -120,6 +120,7 @@ TEST_F(PicksFile, AgesChooseTheTop) {
     for (std::size_t i = 0; i < discs.size(); ++i) {
         d.stratum[i] = d.y[i] > -500.0 ? 2 : d.y[i] > -1000.0 ? 1 : 0;
         d.start_extension[i] = 5e3 * d.stratum[i];
+        d.start_y[i] = d.y[i] + 1000.0; // the pre-rift top was the surface
     }
     state.clock.extension = 10e3;
     RigidBase base;

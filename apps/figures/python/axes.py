@@ -80,8 +80,9 @@ def describe(ax, frame: Frame, text: str, handles=()) -> None:
                 textcoords="offset points", fontsize=10.5, weight="semibold",
                 va="bottom", annotation_clip=False)
     if handles:
+        crowded = {"fontsize": 7.5, "columnspacing": 0.9} if len(handles) > 5 else {}
         ax.legend([h for h, _ in handles], [t for _, t in handles], ncol=len(handles),
-                  bbox_to_anchor=(1.004, 1.0), **LEGEND)
+                  bbox_to_anchor=(1.004, 1.0), **{**LEGEND, **crowded})
 
 
 def swatch(colour: str) -> Patch:

@@ -96,7 +96,7 @@ def draw_observed(ax, frame: Frame) -> list:
     """Picked horizons as crosses, the model's beside them as lines, picked faults dashed."""
     handles = []
     for name, style, label in (
-            ("compared_horizons", dict(color=PICK, linewidth=1.2), "horizon of the model"),
+            ("compared_horizons", dict(color=PICK, linewidth=1.2), "compared with"),
             ("picked_horizons", dict(color=PICK, linestyle="none", marker="+", markersize=4.5,
                                      markeredgewidth=0.9), "picked horizon"),
             ("picked_faults", dict(color=PICK, linewidth=1.2, dashes=(4, 2)), "picked fault")):
