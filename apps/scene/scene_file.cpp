@@ -241,8 +241,7 @@ void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table&
     refuse_beside({"segments", "start_dip_deg"}, "follows from the picked fault; leave it out");
     const Entry entry =
         entry_at(document, given.contains("csv") ? "detachment.csv" : "detachment.svg");
-    const std::string file =
-        existing(entry, source.svg.empty() ? source.csv : source.svg, folder);
+    const std::string file = existing(entry, source.svg.empty() ? source.csv : source.svg, folder);
     scene.picked_fault =
         fit_detachment(*scene.detachment, read_fault(source, file), source.tolerance);
     if (scene.hanging_wall)
