@@ -13,7 +13,8 @@ using namespace measures;
 
 namespace {
 
-/// The horizon of an age, a before the end. Rock is as old as the rift; its uppermost layer is last.
+/// The horizon of an age, a before the end. Rock is as old as the rift; its uppermost layer is
+/// last.
 const Horizon* horizon_of_age(const std::vector<Horizon>& horizons, double age, double end) {
     const Horizon* best = nullptr;
     double least = INFINITY;

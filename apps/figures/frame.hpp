@@ -10,7 +10,7 @@ namespace listric {
 
 /// A picture of a section, and where its corners are.
 struct Underlay {
-    std::filesystem::path image;                         ///< PNG
+    std::filesystem::path image;                             ///< PNG
     double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0; ///< x, depth, m
 };
 
