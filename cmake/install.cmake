@@ -23,6 +23,8 @@ install(FILES ${PROJECT_BINARY_DIR}/listric.1 DESTINATION ${CMAKE_INSTALL_MANDIR
   COMPONENT program)
 install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT program
   FILES_MATCHING PATTERN *.py)
+install(DIRECTORY apps/figures/report DESTINATION ${share}/figures COMPONENT program)
+install(FILES docs/measures.md DESTINATION ${share} COMPONENT program)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 if(TARGET listric_fem)

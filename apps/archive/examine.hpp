@@ -18,6 +18,10 @@ namespace listric::archive {
 measures::FaultReport report_faults(const measures::Setting& setting, const dem::RigidBase& base,
                                     const dem::State& now, const RunHistory& history);
 
+/// The same without their past, in a tenth of the time: where the lines are and what they do now.
+measures::FaultReport active_faults(const measures::Setting& setting, const dem::RigidBase& base,
+                                    const dem::State& now, const RunHistory& history);
+
 /// All measures of a finished run at the given extensions (m; the snapshots nearest to them),
 /// recomputed from its snapshots. Throws SceneError, StorageError.
 std::vector<std::pair<double, NamedNumbers>> examine_run(const std::filesystem::path& output,

@@ -1,10 +1,8 @@
 #include "apps/archive/exports.hpp"
 
-#include "apps/archive/examine.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/horizons.hpp"
-#include "apps/support/error.hpp"
 #include "dem/base_place.hpp"
 #include "dem/monitor.hpp"
 
@@ -35,15 +33,11 @@ std::vector<Point> rounded(const Polyline& points) {
     return result;
 }
 
-Setting setting_of(const ExportedMoment& at) { return make_setting(at.run.scene, at.run.parts); }
-
-FaultReport faults_of(const ExportedMoment& at) {
-    return archive::report_faults(setting_of(at), at.run.parts.base, at.moment.state, at.history);
-}
+Setting setting_of(const ExportedMoment& at) { return make_setting(at.now.scene, at.now.parts); }
 
 /// Of the hanging wall's right end, m.
-double right_end(const ExportedMoment& at) {
-    return at.run.scene.hanging_wall->length + at.moment.state.clock.extension;
+double right_end(const Observation& now) {
+    return now.scene.hanging_wall->length + now.state.clock.extension;
 }
 
 /// Points of a chain up to x = right: corners, and on what bends points one `spacing` apart.
@@ -92,10 +86,9 @@ Line fault_line(const FaultReport& report, std::size_t k, const std::set<int>& s
 
 LineTable horizons_table(const ExportedMoment& at) {
     LineTable table{"horizons", "stratum", {"name", "stratum", "deposited_at_a", "start_depth_m"}};
-    const FaultReport faults = faults_of(at);
     const HorizonOptions options;
-    for (const Horizon& h : trace_horizons(setting_of(at), at.run.parts.base, at.moment.state,
-                                           faults.faults, options)) {
+    for (const Horizon& h : trace_horizons(setting_of(at), at.now.parts.base, at.now.state,
+                                           at.faults.faults, options)) {
         const double start_depth = h.stratum > 0 ? none : -h.stratum * options.pre_rift_layer;
         const std::string name = h.stratum > 0    ? fmt::format("stratum {}", h.stratum)
                                  : h.stratum == 0 ? "pre-rift top"
@@ -116,7 +109,7 @@ LineTable faults_table(const ExportedMoment& at) {
                      "footwall_turn_deg", "width_diameters", "curvature_per_m", "foot_x_m",
                      "foot_z_m", "pre_rift_throw_m"},
                     {"slip_m", "width_m"}};
-    const FaultReport report = faults_of(at);
+    const FaultReport& report = at.faults;
     std::set<int> strata;
     for (const Fault& f : report.faults)
         for (const auto& [stratum, value] : f.throws)
@@ -129,14 +122,14 @@ LineTable faults_table(const ExportedMoment& at) {
 }
 
 LineTable surfaces_table(const ExportedMoment& at) {
-    const State& state = at.moment.state;
+    const State& state = at.now.state;
     const Setting setting = setting_of(at);
     LineTable table{"surfaces", "", {"name"}};
     const auto add = [&](const std::string& name, const Polyline& points) {
         table.lines.push_back({{name}, rounded(points)});
     };
-    const double right = right_end(at);
-    const Chain floor = standing_base(at.run.parts.base, state).surfaces.front().chain;
+    const double right = right_end(at.now);
+    const Chain floor = standing_base(at.now.parts.base, state).surfaces.front().chain;
     add(setting.has_detachment ? "detachment" : "floor",
         points_of(floor, right, 2.0 * state.mean_radius));
     add("original surface", {{0.0, 0.0}, {right, 0.0}});
@@ -150,17 +143,16 @@ LineTable surfaces_table(const ExportedMoment& at) {
         points.push_back({right, target.height(right)});
         add("target line", points);
     }
-    for (const Polyline& piece : free_surface(setting, at.run.parts.base, state))
+    for (const Polyline& piece : free_surface(setting, at.now.parts.base, state))
         add("free surface", piece);
     return table;
 }
 
 LineTable base_table(const ExportedMoment& at) {
-    const ConstBaseNodeColumns nodes = base_node_columns(at.moment.state);
-    if (nodes.x.empty())
-        throw UsageError(at.run.output.string() + ": the base of this run is rigid; there is no "
-                                                  "deflection to export");
+    const ConstBaseNodeColumns nodes = base_node_columns(at.now.state);
     LineTable table{"base", "", {"name"}, {"start_x_m", "start_depth_m", "dx_m", "ddepth_m"}};
+    if (nodes.x.empty())
+        return table;
     Line line{{"detachment"}};
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
         line.points.push_back(
@@ -187,12 +179,12 @@ std::vector<std::uint32_t> rocks(const State& state) {
 }
 
 std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
-    const State& state = at.moment.state;
+    const State& state = at.now.state;
     const ConstDiscColumns d = disc_columns(state);
     const auto numbers = [](const auto& values) {
         return std::vector<double>(values.begin(), values.end());
     };
-    const std::vector<Stress> stress = disc_stresses(state, at.run.parts.base);
+    const std::vector<Stress> stress = disc_stresses(state, at.now.parts.base);
     const auto component = [&](double Stress::*part) {
         std::vector<double> values;
         for (const Stress& s : stress)
@@ -211,7 +203,7 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
         {"start_depth_m", std::move(start_depth)},
         {"start_extension_m", numbers(d.start_extension)},
         {"rotation_rad", numbers(d.rotation)},
-        {"coordination", numbers(coordination(state, at.run.parts.base))},
+        {"coordination", numbers(coordination(state, at.now.parts.base))},
         {"bonds", numbers(bonds_per_disc(state))},
         {"stress_xx_pa", component(&Stress::xx)},
         {"stress_yy_pa", component(&Stress::yy)},
@@ -224,8 +216,8 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
 }
 
 LineTable discs_table(const ExportedMoment& at) {
-    const ConstDiscColumns d = disc_columns(at.moment.state);
-    const std::vector<std::uint32_t> rock = rocks(at.moment.state);
+    const ConstDiscColumns d = disc_columns(at.now.state);
+    const std::vector<std::uint32_t> rock = rocks(at.now.state);
     const std::vector<DiscColumn> columns = exported_columns(at);
     LineTable table{"discs", "", {"rock"}};
     for (const DiscColumn& column : columns)

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/archive/line_table.hpp"
-#include "apps/archive/run_folder.hpp"
-#include "apps/archive/run_history.hpp"
+#include "apps/measures/fault.hpp"
+#include "apps/scene/effect.hpp"
 
 #include <cstdint>
 #include <string>
@@ -10,12 +10,10 @@
 
 namespace listric::archive {
 
-/// A moment of a finished run, and what led to it.
+/// A moment of a run, and the faults that are active then; those that name none may be without.
 struct ExportedMoment {
-    const RunFolder& run;
-    const Moment& moment;
-    /// Up to the end of the run; for what needs no past it may be empty.
-    const RunHistory& history;
+    Observation now;
+    measures::FaultReport faults = {};
 };
 
 // What docs/export.md lists, a table per kind. Points are rounded to a millimetre.
@@ -30,7 +28,7 @@ LineTable faults_table(const ExportedMoment& at);
 /// free surface.
 LineTable surfaces_table(const ExportedMoment& at);
 
-/// The nodes of a base that deforms. Throws UsageError if the base is rigid.
+/// The nodes of a base that deforms; no line if the base is rigid.
 LineTable base_table(const ExportedMoment& at);
 
 /// Discs, a "line" for each rock, by id.

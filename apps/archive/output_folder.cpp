@@ -85,8 +85,9 @@ void remove_run(const fs::path& output) {
         remove_files(output / "export", ends(ending));
     std::error_code error;
     for (const char* file :
-         {"summary.json", "history.csv", "paraview.pvd", "log.txt", "scene.toml", "deflection.csv",
-          "base.csv", "figures/base.png", "footwall.pvd", "footwall.vtu", "figures/flexure.png"})
+         {"summary.json", "history.csv", "report.html", "status.json", "paraview.pvd", "log.txt",
+          "scene.toml", "deflection.csv", "base.csv", "figures/base.png", "footwall.pvd",
+          "footwall.vtu", "figures/flexure.png"})
         fs::remove(output / file, error);
 }
 
@@ -109,7 +110,8 @@ std::string_view without_comment(std::string_view line) {
     return line.substr(0, line.find_last_not_of(' ') + 1);
 }
 
-/// A resumed run must be the same run; comments may have changed with the program.
+/// A resumed run must be the same run; comments may have changed with the program, and whether
+/// there is a report is nothing of the run.
 void check_same_scene(const Scene& scene, const fs::path& file) {
     std::ifstream in(file);
     const std::string before(std::istreambuf_iterator<char>(in), {});
@@ -123,10 +125,16 @@ void check_same_scene(const Scene& scene, const fs::path& file) {
         text.remove_prefix(std::min(end + 1, text.size()));
         return without_comment(line);
     };
+    const auto next_that_matters = [&](std::string_view& text) {
+        std::string_view line = next_line(text);
+        while (line.starts_with("report = ") && !text.empty())
+            line = next_line(text);
+        return line;
+    };
     std::string_view line_a, line_b;
     while (line_a == line_b && (!a.empty() || !b.empty())) {
-        line_a = next_line(a);
-        line_b = next_line(b);
+        line_a = next_that_matters(a);
+        line_b = next_that_matters(b);
     }
     if (line_a == line_b)
         return;

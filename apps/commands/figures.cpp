@@ -1,15 +1,12 @@
 #include "apps/commands/command.hpp"
+#include "apps/commands/underlay.hpp"
 #include "apps/figures/draw_run.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/error.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace listric {
 
@@ -18,24 +15,8 @@ namespace {
 struct FiguresCall {
     std::string folder;
     bool animation = false;
-    std::string underlay;
-    std::vector<double> corners; ///< x0, depth0, x1, depth1, m
+    UnderlayOptions underlay;
 };
-
-std::optional<Underlay> underlay_of(const FiguresCall& call) {
-    if (call.underlay.empty() && call.corners.empty())
-        return std::nullopt;
-    std::error_code error;
-    if (call.underlay.empty())
-        throw UsageError("--corners: is of --underlay, which is not there");
-    if (!std::filesystem::is_regular_file(call.underlay, error))
-        throw UsageError(fmt::format("--underlay {}: no such file", call.underlay));
-    const std::vector<double>& c = call.corners;
-    if (c.size() != 4 || !(c[0] < c[2]) || !(c[1] < c[3]))
-        throw UsageError("--corners: needs x0,z0,x1,z1 in metres, of the picture's upper left and "
-                         "lower right corner, depth positive down: --corners 0,0,50000,15000");
-    return Underlay{call.underlay, c[0], c[1], c[2], c[3]};
-}
 
 } // namespace
 
@@ -45,14 +26,9 @@ Command add_figures(CLI::App& program) {
     command->add_option("DIR", call->folder, "The run's output folder")->required();
     command->add_flag("--animation", call->animation,
                       "An animation of all snapshots instead of the figures");
-    command->add_option("--underlay", call->underlay,
-                        "PNG of a section, over which the model's lines are drawn");
-    command
-        ->add_option("--corners", call->corners,
-                     "x0,z0,x1,z1: its upper left and lower right corner in the section, m")
-        ->delimiter(',');
+    add_underlay(*command, call->underlay);
     return {command, [call] {
-                const std::optional<Underlay> underlay = underlay_of(*call);
+                const std::optional<Underlay> underlay = underlay_of(call->underlay);
                 if (underlay && call->animation)
                     throw UsageError("--underlay: is not drawn in an animation");
                 call->animation ? animate_run(call->folder) : draw_run(call->folder, underlay);

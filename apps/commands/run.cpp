@@ -17,6 +17,7 @@ struct RunCall {
     std::optional<std::string> until;
     std::string output;
     bool force_size = false;
+    bool no_report = false;
 };
 
 /// "5km", "5000m" or "5000" in metres.
@@ -43,6 +44,7 @@ ExitCode run(RunCall& call) {
     if (call.until)
         call.options.until = parse_length(*call.until);
     call.options.output = call.output.empty() ? "out/" + scene.name : call.output;
+    call.options.report = !call.no_report;
     call.options.stop = stop_on_signals();
     return run_scene(scene, call.options) == RunOutcome::finished ? ExitCode::done
                                                                   : ExitCode::interrupted;
@@ -62,6 +64,9 @@ Command add_run(CLI::App& program) {
     command->add_flag("--resume", call->options.resume, "Go on from the newest snapshot");
     command->add_flag("--force", call->options.force, "Replace a run in the same folder");
     command->add_flag("--force-size", call->force_size, "Begin a run however large it is");
+    command->add_flag("--live", call->options.live,
+                      "Write report.html after every window; an open page follows");
+    command->add_flag("--no-report", call->no_report, "Write no report.html");
     command->add_flag("--quiet", call->options.quiet, "No progress");
     return {command, [call] { return run(*call); }};
 }

@@ -1,6 +1,10 @@
 #include "apps/figures/export_run.hpp"
 
+#include "apps/archive/examine.hpp"
 #include "apps/archive/exports.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/run_history.hpp"
+#include "apps/archive/setting.hpp"
 #include "apps/figures/trajectory.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
@@ -25,7 +29,7 @@ namespace {
 struct Kind {
     std::string_view name;
     LineTable (*table)(const ExportedMoment& at);
-    bool needs_history;
+    bool needs_faults;
     std::vector<std::string_view> formats;
 };
 
@@ -100,7 +104,7 @@ std::vector<fs::path> export_run(const ExportRequest& request) {
                          ": no snapshots to export; is this a run's folder?");
     const RunFolder run(request.output);
     const std::vector<fs::path> moments = chosen(run, request.extensions);
-    const RunHistory history = kind.needs_history ? RunHistory(run.snapshots) : RunHistory();
+    const RunHistory history = kind.needs_faults ? RunHistory(run.snapshots) : RunHistory();
     const fs::path folder = request.output / "export";
     make_folder(folder);
     std::vector<fs::path> files;
@@ -109,12 +113,19 @@ std::vector<fs::path> export_run(const ExportRequest& request) {
         trajectory = std::make_unique<Trajectory>(folder);
     for (const fs::path& path : moments) {
         const Moment moment = run.read(path);
-        const ExportedMoment at{run, moment, history};
+        const Observation now{run.scene, run.parts, moment.state, moment.events};
+        const ExportedMoment at{now, kind.needs_faults
+                                         ? report_faults(make_setting(run.scene, run.parts),
+                                                         run.parts.base, moment.state, history)
+                                         : measures::FaultReport()};
         if (trajectory)
             trajectory->add(at);
         if (trajectory && request.formats.size() == 1)
             continue;
         LineTable table = kind.table(at);
+        if (table.lines.empty() && kind.name == "base")
+            throw UsageError(request.output.string() + ": the base of this run is rigid; there is "
+                                                       "no deflection to export");
         table.name = fmt::format("{}-{}", kind.name, path.stem().string());
         for (const std::string& format : request.formats)
             if (format != "gsd") {

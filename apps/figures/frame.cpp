@@ -2,6 +2,7 @@
 
 #include "apps/archive/observed_misfit.hpp"
 #include "apps/archive/setting.hpp"
+#include "apps/figures/window_strain.hpp"
 #include "apps/measures/horizons.hpp"
 #include "apps/measures/kinematics.hpp"
 #include "apps/measures/measures.hpp"
@@ -79,14 +80,6 @@ void write_discs(const FrameWriter& writer, const State& state) {
     for (const double y : d.start_y)
         depth.push_back(-y);
     writer.array("discs_start_depth", depth);
-}
-
-void write_strain(const FrameWriter& writer, const Observation& now) {
-    const auto* const strain = find<Strain>(now.events);
-    if (strain && strain->applied > 0)
-        writer.array("discs_shear_strain", now.state.discs.get<double>("window_strain"));
-    else // the first window has not ended
-        writer.array("discs_shear_strain", shear_strain(now.state));
 }
 
 /// Bonded contacts as lines: x and y of both discs, and 1 where both are sediment.
@@ -249,7 +242,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
                  const std::optional<Underlay>& underlay) {
     const FrameWriter writer(folder);
     write_discs(writer, now.state);
-    write_strain(writer, now);
+    writer.array("discs_shear_strain", window_strain(now));
     if (now.parts.bonds) {
         write_bonds(writer, now.state);
         write_behaviour(writer, now.state);

@@ -13,7 +13,7 @@ using namespace dem;
 void Trajectory::add(const ExportedMoment& at) {
     const std::filesystem::path folder = data_.path / fmt::format("{:06d}", frames_++);
     make_folder(folder);
-    const State& state = at.moment.state;
+    const State& state = at.now.state;
     const ConstDiscColumns d = disc_columns(state);
     write_npy<double>(folder / "x_m.npy", d.x);
     write_npy<double>(folder / "y_m.npy", d.y);

@@ -17,6 +17,8 @@ struct RunOptions {
     bool force = false;
     bool quiet = false;
     bool figures = true; ///< drawn at the scene's extensions and at the end
+    bool report = true;  ///< report.html is written at the end
+    bool live = false;   ///< and after every window
     StopToken stop;      ///< where it is requested, the run saves and stops as soon as it can
 };
 

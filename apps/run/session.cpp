@@ -55,7 +55,8 @@ void attach(const std::vector<Point>& nodes, State& state) {
 Session::Session(const Scene& scene, const RunOptions& options, Log& log)
     : scene_(scene), options_(options), log_(log), parts_(make_parts(scene)),
       setting_(make_setting(scene, parts_)), simulation_(parts_.base, parts_.physics),
-      driver_(make_base_driver(scene, parts_)) {
+      driver_(make_base_driver(scene, parts_)),
+      report_(scene, options.output, options.report && scene.output.report, options.live, log) {
     for (auto& event : make_events(scene, parts_))
         simulation_.add(std::move(event));
     simulation_.report_times_to([this](const std::string& part, double seconds) {
@@ -112,6 +113,7 @@ bool Session::resume() {
                 seconds_before_ += seconds;
             kept_ = *path;
             history_ = RunHistory(std::span(snapshots.begin(), path.base()));
+            report_.read_moments_until(extension(), history_);
             log_.say(fmt::format("resuming at {:.2f} m of extension from {}", extension(),
                                  path->string()));
             return true;
@@ -132,6 +134,7 @@ void Session::begin() {
 
     if (scene_.picked_fault)
         log_.say(describe(*scene_.picked_fault, *scene_.detachment));
+    write_status("genesis");
     make_footwall();
     State state;
     {
@@ -172,6 +175,7 @@ void Session::extend() {
     while (extension() < target() - tolerance) {
         if (options_.stop.requested()) {
             save();
+            write_status("stopped");
             throw Interrupted{};
         }
         simulation_.extend_to(std::min(next_window, target()), execution(),
@@ -197,6 +201,8 @@ void Session::end_window() {
         save_field();
     }
     save();
+    report_.write_live(to_csv(record_.history));
+    write_status("extension");
 }
 
 void Session::report_progress(const Simulation& simulation) {
@@ -217,9 +223,13 @@ Measures Session::measure_now() const {
     return measure(setting_, simulation_.state(), parts_.base, simulation_.events());
 }
 
-FaultReport Session::faults_now() {
-    const Stopwatch watch(record_.seconds_by_part["measures"]);
-    return report_faults(setting_, parts_.base, simulation_.state(), history_);
+const FaultReport& Session::faults_now() {
+    if (!faults_ || faults_at_ != extension()) {
+        const Stopwatch watch(record_.seconds_by_part["measures"]);
+        faults_ = report_faults(setting_, parts_.base, simulation_.state(), history_);
+        faults_at_ = extension();
+    }
+    return *faults_;
 }
 
 /// Says once what makes the results doubtful, when a whole window of strain is known or at the end.
@@ -264,9 +274,31 @@ void Session::save() {
     const State& state = simulation_.state();
     kept_ = snapshot_path(options_.output, extension());
     write_snapshot(kept_, state, simulation_.events(), record_);
+    report_window();
     history_.add(DiscPlaces(state));
     if (scene_.output.series == SeriesFormat::paraview)
         write_paraview(options_.output, state, simulation_.base(), scene_.extension.rate);
+}
+
+/// What the report shows of this moment; faults are followed back where they are drawn.
+void Session::report_window() {
+    if (!report_.is_wanted())
+        return;
+    const Stopwatch watch(record_.seconds_by_part["report"]);
+    if (faults_ && faults_at_ == extension())
+        report_.add(now(), *faults_);
+    else
+        report_.add(now(), history_);
+}
+
+void Session::write_status(const std::string& phase) const {
+    const double share = std::max(1e-3, extension() / target());
+    const double left =
+        phase == "genesis" ? record_.predicted_seconds : wall_seconds() / share * (1.0 - share);
+    write_text(options_.output / "status.json",
+               fmt::format("{{\n \"phase\": \"{}\",\n \"extension_m\": {},\n \"of_m\": {},\n "
+                           "\"seconds_left\": {:.0f}\n}}\n",
+                           phase, extension(), target(), left));
 }
 
 /// The field below the discs: at the figures' moments, for a file of it is larger than the discs'.
@@ -280,7 +312,7 @@ void Session::save_field() {
 void Session::draw() {
     if (!options_.figures)
         return;
-    const FaultReport faults = faults_now();
+    const FaultReport& faults = faults_now();
     const Stopwatch watch(record_.seconds_by_part["figures"]);
     drawn_at_ = extension();
     figures_.push_back(draw_figures(now(), faults, options_.output / "figures"));
@@ -361,28 +393,31 @@ void Session::finish() {
         figures_.push_back(std::async(std::launch::async, [this] { return draw_sheet(); }));
     const Measures measures = measure_now();
     warn_of_haste(measures);
-    const FaultReport faults = faults_now();
+    const FaultReport& faults = faults_now();
+    report_window();
     check_base();
     const EffectMeasures of_effects = measure_effects(now());
     const std::vector<ObservedHorizon> observed = compare_with_observed(faults);
     await_figures();
-    write_text(output / "summary.json",
-               summary_json({.scene = scene_.name,
-                             .accuracy = scene_.accuracy,
-                             .seed = scene_.seed,
-                             .threads = options_.threads,
-                             .cycle = std::string(name(execution().cycle)),
-                             .state = simulation_.state(),
-                             .record = record_,
-                             .measures = measures,
-                             .faults = faults,
-                             .effects = effect_names(scene_),
-                             .numbers = summary_numbers(of_effects.numbers),
-                             .objects = of_effects.groups,
-                             .lists = of_effects.lists,
-                             .observed = observed,
-                             .wall_seconds = wall_seconds(),
-                             .state_hash = simulation_.hash()}));
+    const std::string summary = summary_json({.scene = scene_.name,
+                                              .accuracy = scene_.accuracy,
+                                              .seed = scene_.seed,
+                                              .threads = options_.threads,
+                                              .cycle = std::string(name(execution().cycle)),
+                                              .state = simulation_.state(),
+                                              .record = record_,
+                                              .measures = measures,
+                                              .faults = faults,
+                                              .effects = effect_names(scene_),
+                                              .numbers = summary_numbers(of_effects.numbers),
+                                              .objects = of_effects.groups,
+                                              .lists = of_effects.lists,
+                                              .observed = observed,
+                                              .wall_seconds = wall_seconds(),
+                                              .state_hash = simulation_.hash()});
+    write_text(output / "summary.json", summary);
+    report_.write(to_csv(record_.history), summary);
+    write_status("finished");
     log_.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}", extension() / 1e3,
                          rough_duration(wall_seconds()), (output / "figures").string()));
 }

@@ -7,6 +7,7 @@
 #include "apps/measures/measures.hpp"
 #include "apps/model/footwall_coupling.hpp"
 #include "apps/run/options.hpp"
+#include "apps/run/run_report.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/log.hpp"
 #include "dem/simulation.hpp"
@@ -14,6 +15,7 @@
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,7 +53,7 @@ private:
     void report_progress(const dem::Simulation& simulation);
     Observation now() const;
     measures::Measures measure_now() const;
-    measures::FaultReport faults_now();
+    const measures::FaultReport& faults_now();
     NamedNumbers summary_numbers(const NamedNumbers& of_effects) const;
     std::vector<archive::ObservedHorizon>
     compare_with_observed(const measures::FaultReport& faults);
@@ -63,6 +65,8 @@ private:
     void draw();
     std::string draw_sheet() const;
     void await_figures();
+    void report_window();
+    void write_status(const std::string& phase) const;
     void check_base();
 
     const Scene& scene_;
@@ -80,8 +84,11 @@ private:
     double seconds_before_ = 0.0; ///< wall time of the sessions that this one resumes
     std::filesystem::path kept_;  ///< snapshot of the present state, if there is one
     std::vector<std::future<std::string>> figures_; ///< being drawn; each says what is wrong
-    double drawn_at_ = -1.0;                        ///< extension of the last figures, m
-    bool has_warned_ = false;                       ///< that the run is too fast
+    RunReport report_;
+    std::optional<measures::FaultReport> faults_; ///< of the moment below
+    double faults_at_ = -1.0;                     ///< extension, m
+    double drawn_at_ = -1.0;                      ///< extension of the last figures, m
+    bool has_warned_ = false;                     ///< that the run is too fast
 };
 
 } // namespace listric

@@ -52,6 +52,7 @@ struct OutputParameters {
     double interval = 500.0;                   ///< extension between snapshots, m
     std::vector<double> figures = {5e3, 10e3}; ///< extensions at which figures are drawn, m
     SeriesFormat series = SeriesFormat::paraview;
+    bool report = true; ///< report.html is written
 };
 
 /// An effect that is on, and its parameters: an object of the type that its description is for.

@@ -221,6 +221,7 @@ std::vector<Parameter> output_parameters() {
          {},
          "",
          "files beside each snapshot that ParaView opens"},
+        {"report", at<&P::report>, "", {}, "", "one file for a browser, report.html, at the end"},
     };
 }
 

@@ -120,7 +120,7 @@ private:
             options.output = row.folder;
             options.threads = request_.threads;
             options.quiet = request_.quiet || request_.jobs > 1;
-            options.figures = false;
+            options.figures = options.report = false;
             options.stop = request_.stop;
             runs.push_back({name_of(row), scene_at(plan_, points_[row.run - 1], row.seed),
                             std::move(options)});

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "apps/figures/frame.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// --underlay and --corners as they were given.
+struct UnderlayOptions {
+    std::string image;
+    std::vector<double> corners; ///< x0, depth0, x1, depth1, m
+};
+
+void add_underlay(CLI::App& command, UnderlayOptions& options);
+
+/// Throws UsageError.
+std::optional<Underlay> underlay_of(const UnderlayOptions& options);
+
+} // namespace listric

@@ -1,0 +1,73 @@
+// Charts, by dygraphs where it was installed when the page was made.
+
+const cursorInk = "#b30059";
+
+function withoutCharts(host) {
+  host.textContent = "Charts need Debian's package libjs-dygraphs where the report is made.";
+}
+
+/** Measures of history.csv against extension, with a cursor at the moment that is shown. */
+class HistoryChart {
+  constructor(host, runs, show) {
+    this.host = host;
+    this.runs = runs;
+    this.show = show;
+    this.at = 0;
+  }
+
+  /** Rows of extension (km), the first measure of each run, the second of each run. */
+  rows(names) {
+    const marks = new Map();
+    this.runs.forEach((run, r) => {
+      (run.history.extension_m || []).forEach((extension, k) => {
+        const key = Math.round(extension / 10) * 10;
+        if (!marks.has(key)) marks.set(key, new Array(names.length * this.runs.length).fill(null));
+        names.forEach((name, n) => {
+          const value = (run.history[name] || [])[k];
+          marks.get(key)[n * this.runs.length + r] = Number.isFinite(value) ? value : null;
+        });
+      });
+    });
+    return [...marks.entries()].sort((a, b) => a[0] - b[0]).map(([key, values]) => [key / 1000, ...values]);
+  }
+
+  draw(names) {
+    if (typeof Dygraph === "undefined") return withoutCharts(this.host);
+    const of = r => this.runs.length > 1 ? `, ${"AB"[r]}` : "";
+    const labels = names.flatMap((name, n) => this.runs.map((_, r) => `${name}${of(r)}${n && name === names[0] ? " " : ""}`));
+    const series = {};
+    labels.slice(this.runs.length).forEach(label => { series[label] = {axis: "y2"}; });
+    this.chart?.destroy();
+    this.chart = new Dygraph(this.host, this.rows(names), {
+      labels: ["extension (km)", ...labels], series, connectSeparatedPoints: true, drawPoints: true, pointSize: 2,
+      strokeWidth: 1.6, colors: ["#0b3d5c", "#b35900", "#5f8fb0", "#d9a066"], xlabel: "extension (km)",
+      labelsUTC: true, digitsAfterDecimal: 3, axes: {y2: {drawGrid: false, independentTicks: true}},
+      underlayCallback: (context, area, chart) => {
+        const column = chart.toDomXCoord(this.at / 1000);
+        context.fillStyle = cursorInk;
+        context.fillRect(column - 1, area.y, 2, area.h);
+      },
+      clickCallback: (_, x) => this.show(1000 * x),
+    });
+  }
+
+  moveTo(extension) {
+    this.at = extension;
+    this.chart?.updateOptions({});
+  }
+}
+
+/** A chart of plain rows, drawn anew. */
+function drawPlain(host, rows, labels, options) {
+  if (typeof Dygraph === "undefined") return withoutCharts(host);
+  host.textContent = "";
+  if (rows.length === 0) return void (host.textContent = "Nothing to draw.");
+  new Dygraph(host, rows, {labels, connectSeparatedPoints: true, drawPoints: true, pointSize: 2.5,
+    strokeWidth: 1.6, colors: ["#0b3d5c", "#b35900", "#5f8fb0"], digitsAfterDecimal: 1, ...options});
+}
+
+function throwsOf(fault) {
+  return Object.keys(fault).map(key => key.match(/^throw_(\d+)_m$/)).filter(Boolean)
+    .map(match => [Number(match[1]), fault[match[0]]]).filter(([, value]) => value !== null)
+    .sort((a, b) => a[0] - b[0]);
+}

@@ -1,0 +1,117 @@
+// The run as apps/figures/report_moments.cpp wrote it.
+
+/** Bytes of base64 text of zlib's format; damage is found by its checksum. */
+async function inflated(text) {
+  const letters = atob(text);
+  const packed = new Uint8Array(letters.length);
+  for (let k = 0; k < letters.length; ++k) packed[k] = letters.charCodeAt(k);
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/** Whole numbers from planes of bytes: 0 1 2 3 4 are 0 -1 1 -2 2. */
+function unfolded(bytes, planes) {
+  const count = bytes.length / planes;
+  if (!Number.isInteger(count)) throw new Error("a stream is cut off");
+  const numbers = new Int32Array(count);
+  for (let k = 0; k < count; ++k) {
+    let folded = 0;
+    for (let plane = 0; plane < planes; ++plane) folded |= bytes[plane * count + k] << (8 * plane);
+    numbers[k] = (folded >>> 1) ^ -(folded & 1);
+  }
+  return numbers;
+}
+
+const bondStreams = ["bonds_left", "bonds_new", "bonds_to"];
+
+/** A run: head, moments, and of each moment numbers by disc's id. */
+class Run {
+  constructor(head) {
+    this.head = head;
+    this.moments = head.moments;
+    this.codes = this.moments.map(() => ({}));
+    this.lines = [];
+    this.numbers = new Map();
+    this.history = tableOf(head.history);
+  }
+
+  has(name) { return this.moments.length > 0 && name in this.moments[0].streams; }
+
+  /** Reads these streams of all moments, which are differences from moment to moment. */
+  async load(names) {
+    const wanted = names.filter(name => this.has(name) && !(name in this.codes[0]));
+    await Promise.all(wanted.map(async name => {
+      const parts = await Promise.all(this.moments.map(async moment => {
+        const [planes, text] = moment.streams[name];
+        return unfolded(await inflated(text), planes);
+      }));
+      let before = new Int32Array(0);
+      parts.forEach((codes, k) => {
+        if (!bondStreams.includes(name)) {
+          if (codes.length < before.length) throw new Error("a stream is too short");
+          for (let i = 0; i < before.length; ++i) codes[i] += before[i];
+          before = codes;
+        }
+        this.codes[k][name] = codes;
+      });
+    }));
+  }
+
+  async loadLines(k) {
+    if (!this.lines[k])
+      this.lines[k] = JSON.parse(new TextDecoder().decode(await inflated(this.moments[k].lines)));
+    return this.lines[k];
+  }
+
+  /** Numbers by id in their unit. */
+  values(k, name) {
+    const key = `${k} ${name}`;
+    if (!this.numbers.has(key)) {
+      if (this.numbers.size > 40) this.numbers.clear();
+      const codes = this.codes[k][name], scale = this.head.scales[name] || {step: 1, root: false};
+      const values = new Float64Array(codes.length);
+      for (let i = 0; i < codes.length; ++i) {
+        const size = codes[i] * scale.step;
+        values[i] = scale.root ? Math.sign(size) * size * size : size;
+      }
+      this.numbers.set(key, values);
+    }
+    return this.numbers.get(key);
+  }
+
+  /** Pairs of ids that are bonded, one after the other. */
+  bonds(k) {
+    let pairs = [];
+    for (let m = 0; m <= k; ++m) {
+      const {bonds_left: left, bonds_new: low, bonds_to: further} = this.codes[m];
+      const kept = [];
+      for (let i = 0; i < left.length; ++i) if (left[i]) kept.push(pairs[2 * i], pairs[2 * i + 1]);
+      let last = 0;
+      for (let i = 0; i < low.length; ++i) {
+        last += low[i];
+        kept.push(last, last + further[i]);
+      }
+      pairs = kept;
+    }
+    return pairs;
+  }
+
+  /** The moment nearest to an extension, m. */
+  nearest(extension) {
+    let best = 0;
+    this.moments.forEach((moment, k) => {
+      if (Math.abs(moment.extension_m - extension) < Math.abs(this.moments[best].extension_m - extension))
+        best = k;
+    });
+    return best;
+  }
+}
+
+/** A CSV table of numbers by its columns; an empty field is NaN. */
+function tableOf(text) {
+  const rows = text.trim().split("\n").map(row => row.split(","));
+  const names = rows[0][0] ? rows.shift() : [];
+  const table = {};
+  names.forEach((name, c) => { table[name] = rows.map(row => row[c] === "" ? NaN : Number(row[c])); });
+  return table;
+}

@@ -1,0 +1,407 @@
+// The page: what is shown, what is clicked, what the address says.
+
+const $ = id => document.getElementById(id);
+
+const page = {
+  data: JSON.parse($("data").textContent),
+  runs: [], sections: [],
+  t: 0, mode: "strata", palette: "batlow", shown: new Set(), picked: null, opacity: 0.5,
+  view: {left: 0, top: 0, scale: 1, height: 1},
+};
+
+const lengths = new Intl.NumberFormat("en", {maximumFractionDigits: 0});
+
+function trouble(error) {
+  $("trouble").hidden = false;
+  $("trouble").textContent = `Snapshot data damaged: ${error.message || error}. Make the report anew ` +
+    "with: listric report DIR";
+  document.documentElement.dataset.ready = "false";
+}
+
+/** The moment of a run beside the one that the slider is at. */
+function momentOf(run) { return run === page.runs[0] ? page.t : run.nearest(page.runs[0].moments[page.t].extension_m); }
+
+// -- drawing
+
+function layOut() {
+  for (const section of page.sections) {
+    const width = section.host.clientWidth, ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const {length_m: length, extension_m: extension, thickness_m: depth} = section.run.head;
+    const height = Math.round(Math.max(Math.min(width * page.view.height * (depth + 3000) / (length + extension + 2000),
+      window.innerHeight * 0.75), 140));
+    section.host.style.height = `${height}px`;
+    section.resize(Math.round(width * ratio), Math.round(height * ratio));
+  }
+}
+
+function showWhole() {
+  const canvas = page.sections[0].discCanvas;
+  const longest = Math.max(...page.runs.map(run => run.head.length_m + run.head.extension_m)) + 2000;
+  const deepest = Math.max(...page.runs.map(run => run.head.thickness_m)) + 3000;
+  const scale = Math.min(canvas.width / longest, canvas.height / deepest / page.view.height);
+  Object.assign(page.view, {left: -1000 - (canvas.width / scale - longest) / 2, top: -2000, scale});
+}
+
+let drawing = 0;
+
+/** Paints the sections; what is around them follows. */
+async function draw() {
+  const turn = ++drawing;
+  const needs = modes[page.mode].needs.filter(name => page.runs[0].has(name));
+  await Promise.all(page.runs.map(run => run.load([...needs, ...(page.shown.has("bonds") ? bondStreams : [])])));
+  if (turn !== drawing) return;
+  const top = modes[page.mode].scale ? upperEnd(page.runs, page.mode) : 1;
+  const strata = Math.max(...page.runs.map(run => run.codes.at(-1).stratum.reduce((a, b) => Math.max(a, b), 0)));
+  const others = page.runs.length > 1 ? await page.runs[1].loadLines(momentOf(page.runs[1])) : null;
+  for (const section of page.sections) {
+    const k = momentOf(section.run);
+    section.painter.paint(page.view, section.discs(k), discColours(section.run, k, page.mode, page.palette, top, strata));
+    await section.draw(k, page.view, page.shown, page.picked, section.run === page.runs[0] ? others : null);
+  }
+  drawLegend(top, strata);
+  tell();
+  writeAddress();
+}
+
+function drawLegend(top, strata) {
+  const host = $("legend");
+  host.textContent = "";
+  if (page.mode === "rock") {
+    for (const {name, colour} of rocks) {
+      const swatch = host.appendChild(document.createElement("span"));
+      swatch.className = "swatch";
+      swatch.style.background = cssColour(colour);
+      host.append(name);
+    }
+    return;
+  }
+  const canvas = document.createElement("canvas"), {root, unit} = modes[page.mode];
+  [canvas.width, canvas.height] = [160, 14];
+  const context = canvas.getContext("2d");
+  for (let column = 0; column < 160; ++column) {
+    context.fillStyle = cssColour(palettes[page.palette][Math.round(255 * column / 159)]);
+    context.fillRect(column, 0, 1, 14);
+  }
+  const end = plain(top / (unit || 1)), middle = plain(top / (unit || 1) * (root ? 0.25 : 0.5));
+  host.append(...(page.mode === "strata" ? ["oldest sediment ", canvas, ` youngest (${strata}); grey: pre-rift, layers of 1 km`]
+    : ["0 ", canvas, ` ${end} (middle: ${middle})`]));
+}
+
+function tell() {
+  const run = page.runs[0], moment = run.moments[page.t], {rate_m_per_a: rate} = run.head;
+  $("slider").value = page.t;
+  $("slider").setAttribute("aria-valuetext", `${(moment.extension_m / 1000).toFixed(2)} km`);
+  $("moment").textContent = `${(moment.extension_m / 1000).toFixed(2)} km, ${(moment.extension_m / rate / 1e6).toFixed(3)} Ma, ` +
+    `${lengths.format(moment.discs)} discs`;
+  page.chart.moveTo(moment.extension_m);
+  drawFaults();
+}
+
+async function drawFaults() {
+  const run = page.picked?.run || page.runs[0], {faults} = await run.loadLines(momentOf(run));
+  const chosen = page.picked?.kind === "fault" ? page.picked.index : -1;
+  drawFaultTable($("faults"), faults, chosen, index => pick({kind: "fault", run, index}));
+  const fault = faults[chosen] || faults[0];
+  $("throws_title").textContent = fault ? `Throw by stratum, fault ${Math.max(chosen, 0)}` : "Throw by stratum";
+  drawPlain($("throws"), fault ? throwsOf(fault) : [], ["stratum", "throw (m)"],
+    {xlabel: "stratum, the oldest first (0: pre-rift top)", ylabel: "throw (m)"});
+  await drawUplift(run);
+  await describe();
+}
+
+async function drawUplift(run) {
+  const [line] = (await run.loadLines(momentOf(run))).base;
+  $("uplift_part").hidden = !line;
+  if (line) drawPlain($("uplift"), line.start_x_m.map((x, i) => [x / 1000, -line.ddepth_m[i]]), ["x (km)", "uplift (m)"],
+    {xlabel: "x before extension (km)", ylabel: "uplift (m)", drawPoints: false});
+}
+
+/** Words for what was clicked. */
+async function describe() {
+  const {picked} = page;
+  if (!picked) return;
+  const {run} = picked, k = momentOf(run), which = page.runs.length > 1 ? `${"AB"[page.runs.indexOf(run)]}: ` : "";
+  if (picked.kind === "disc") {
+    const id = picked.id;
+    if (!run.codes[k].present[id])
+      return void ($("picked").textContent = `${which}disc ${id}: not in the model at this moment`);
+    await run.load(["start_x_m", "start_depth_m", "window_strain", "total_strain", "bonds", "mean_stress_pa", "shear_stress_pa"]);
+    const value = name => run.has(name) ? run.values(k, name)[id] : NaN;
+    const say = (text, name, unit = 1, suffix = "") => run.has(name) ? `; ${text} ${plain(value(name) / unit)}${suffix}` : "";
+    $("picked").textContent = `${which}disc ${id}: stratum ${run.codes[k].stratum[id]}, ` +
+      `began at x ${lengths.format(value("start_x_m"))} m, depth ${lengths.format(value("start_depth_m"))} m; is at x ` +
+      `${lengths.format(value("x_m"))} m, depth ${lengths.format(value("depth_m"))} m; radius ${value("radius_m").toFixed(1)} m` +
+      say("strain of the window", "window_strain") + say("total strain", "total_strain") + say("bonds", "bonds") +
+      say("mean stress", "mean_stress_pa", 1e6, " MPa") + say("shear stress", "shear_stress_pa", 1e6, " MPa");
+  } else if (picked.kind === "fault") {
+    const fault = (await run.loadLines(k)).faults[picked.index];
+    $("picked").textContent = fault ? `${which}fault ${picked.index}: ${fault.attitude}, ${fault.sense}, dip ` +
+      `${fault.dip_deg.toFixed(1)}°, ${plain(fault.rate_mm_per_a)} mm/a, ${lengths.format(fault.length_m)} m long` +
+      (fault.born_at_m === null ? "; its birth is known at the figures' moments and at the end"
+        : `; born at ${lengths.format(fault.born_at_m)} m of extension`) +
+      (fault.pre_rift_throw_m === null ? "" : `; pre-rift throw ${lengths.format(fault.pre_rift_throw_m)} m`) +
+      throwsOf(fault).map(([stratum, metres], n) => `${n ? ", " : "; throw by stratum: "}${stratum}: ${lengths.format(metres)} m`).join("")
+      : `${which}fault ${picked.index}: not active at this moment`;
+  } else {
+    $("picked").textContent = picked.text;
+  }
+}
+
+// -- what the user does
+
+function show(t) {
+  page.t = Math.min(Math.max(t, 0), page.runs[0].moments.length - 1);
+  return draw().catch(trouble);
+}
+
+function pick(picked) {
+  page.picked = picked;
+  return draw().catch(trouble);
+}
+
+function zoom(factor, column, row) {
+  const canvas = page.sections[0].discCanvas, {view} = page;
+  const at = [column ?? canvas.width / 2, row ?? canvas.height / 2];
+  const [x, depth] = page.sections[0].toMetres(view, ...at);
+  view.scale = Math.min(Math.max(view.scale * factor, 1e-3), 5);
+  view.left = x - at[0] / view.scale;
+  view.top = depth - at[1] / view.scale / view.height;
+  draw().catch(trouble);
+}
+
+function whole() {
+  showWhole();
+  draw().catch(trouble);
+}
+
+let player = 0;
+
+function play() {
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  if (player) clearInterval(player);
+  player = player ? 0 : setInterval(() => {
+    if (page.t + 1 >= page.runs[0].moments.length) return play();
+    show(page.t + 1);
+  }, still ? 1000 : 250);
+  if (player && page.t + 1 >= page.runs[0].moments.length) show(0);
+  $("play").textContent = player ? "Stop" : "Play";
+  $("play").setAttribute("aria-pressed", String(Boolean(player)));
+}
+
+const keys = {
+  ArrowLeft: () => show(page.t - 1), ArrowRight: () => show(page.t + 1), Home: () => show(0), End: () => show(Infinity),
+  " ": play, "+": () => zoom(1.5), "-": () => zoom(1 / 1.5), 0: whole,
+};
+
+function onKey(event) {
+  if (event.ctrlKey || event.altKey || event.metaKey) return;
+  const {tagName, type} = event.target, own = tagName === "SELECT" || type === "range" || tagName === "INPUT";
+  if (own && (event.key.startsWith("Arrow") || event.key === "Home" || event.key === "End" || event.key === " ")) return;
+  if (tagName === "BUTTON" && event.key === " ") return;
+  const choice = Object.keys(modes)[Number(event.key) - 1];
+  if (keys[event.key]) keys[event.key]();
+  else if (choice && [...$("colour").options].some(option => option.value === choice)) {
+    page.mode = $("colour").value = choice;
+    draw().catch(trouble);
+  } else return;
+  event.preventDefault();
+}
+
+/** Clicks, drags and wheel on one section. */
+function listenTo(section) {
+  const canvas = section.lineCanvas;
+  let from = null, moved = false;
+  const at = event => {
+    const box = canvas.getBoundingClientRect();
+    return [(event.clientX - box.left) * canvas.width / box.width, (event.clientY - box.top) * canvas.height / box.height];
+  };
+  canvas.addEventListener("pointerdown", event => {
+    from = at(event);
+    moved = false;
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener("pointermove", event => {
+    if (!from) return;
+    const [column, row] = at(event), {view} = page;
+    if (Math.hypot(column - from[0], row - from[1]) < 4 && !moved) return;
+    moved = true;
+    if ($("measure").checked) return measureLine(section, from, [column, row]);
+    view.left -= (column - from[0]) / view.scale;
+    view.top -= (row - from[1]) / view.scale / view.height;
+    from = [column, row];
+    draw().catch(trouble);
+  });
+  canvas.addEventListener("pointerup", async event => {
+    const place = from;
+    from = null;
+    if (moved || !place) return;
+    const run = section.run, k = momentOf(run);
+    const index = page.shown.has("faults") ? await section.faultAt(k, page.view, ...place, 6 * section.ratio) : -1;
+    const id = section.painter.ownerAt(...place);
+    pick(index >= 0 && !event.shiftKey ? {kind: "fault", run, index} : id !== nobody ? {kind: "disc", run, id} : null);
+  });
+  canvas.addEventListener("dblclick", whole);
+  canvas.addEventListener("wheel", event => {
+    event.preventDefault();
+    zoom(event.deltaY < 0 ? 1.25 : 0.8, ...at(event));
+  }, {passive: false});
+}
+
+/** Length and dip of a line that is dragged. */
+async function measureLine(section, from, to) {
+  const [x0, z0] = section.toMetres(page.view, ...from), [x1, z1] = section.toMetres(page.view, ...to);
+  await section.draw(momentOf(section.run), page.view, page.shown, page.picked, null);
+  section.line(page.view, [[x0, z0], [x1, z1]], "#d4006a", 2);
+  const dip = Math.atan2(Math.abs(z1 - z0), Math.abs(x1 - x0)) * 180 / Math.PI;
+  page.picked = {kind: "line", run: section.run, text: `Measured: ${lengths.format(Math.hypot(x1 - x0, z1 - z0))} m, dip ` +
+    `${dip.toFixed(1)}°, ${lengths.format(Math.abs(x1 - x0))} m across, ${lengths.format(Math.abs(z1 - z0))} m down`};
+  describe();
+}
+
+function writeAddress() {
+  const {view} = page, words = new URLSearchParams({t: page.t, colour: page.mode, palette: page.palette,
+    view: [view.left, view.top, view.scale * page.sections[0].host.clientWidth / page.sections[0].discCanvas.width, view.height]
+      .map(value => Number(value.toPrecision(6))).join(","), shown: [...page.shown].join(",")});
+  try { history.replaceState(null, "", `#${words}`); } catch { /* a browser that keeps a file's address */ }
+}
+
+function readAddress() {
+  const words = new URLSearchParams(location.hash.slice(1) || location.search);
+  page.t = words.has("t") ? Math.min(Number(words.get("t")) || 0, page.runs[0].moments.length - 1) : page.runs[0].moments.length - 1;
+  if (words.get("colour") in modes) page.mode = words.get("colour");
+  if (words.get("palette") in palettes) page.palette = words.get("palette");
+  page.shown = new Set(words.has("shown") ? words.get("shown").split(",")
+    : Object.keys(layers).filter(name => layers[name].on));
+  const view = (words.get("view") || "").split(",").map(Number);
+  return view.length === 4 && view.every(Number.isFinite) && view[2] > 0 && view[3] > 0 ? view : null;
+}
+
+// -- at the start
+
+function addOptions(select, entries, chosen) {
+  for (const [value, label] of entries) select.add(new Option(label, value, false, value === chosen));
+}
+
+function addLayers() {
+  for (const [name, layer] of Object.entries(layers)) {
+    if (!page.runs.some(layer.of)) continue;
+    const label = $("layers").appendChild(document.createElement("label"));
+    const box = label.appendChild(document.createElement("input"));
+    box.type = "checkbox";
+    box.checked = page.shown.has(name);
+    box.addEventListener("change", () => {
+      box.checked ? page.shown.add(name) : page.shown.delete(name);
+      draw().catch(trouble);
+    });
+    label.append(` ${layer.label}`);
+  }
+  if (!page.data.underlay) return;
+  const label = $("layers").appendChild(document.createElement("label"));
+  label.append("opacity of the picture ");
+  const range = label.appendChild(document.createElement("input"));
+  Object.assign(range, {type: "range", min: 0, max: 1, step: 0.05, value: page.opacity});
+  range.addEventListener("input", () => { page.opacity = range.value; draw().catch(trouble); });
+}
+
+function addControls() {
+  const [run] = page.runs;
+  addOptions($("colour"), Object.entries(modes).filter(([, mode]) => mode.needs.every(name => run.has(name)))
+    .map(([name, mode]) => [name, mode.label]), page.mode);
+  addOptions($("palette"), Object.keys(palettes).map(name => [name, name]), page.palette);
+  $("height").value = page.view.height;
+  const measures = Object.keys(run.history).filter(name => name !== "extension_m" && run.history[name].some(Number.isFinite));
+  addOptions($("column"), measures.map(name => [name, name]), measures.includes("rollover_tilt_deg") ? "rollover_tilt_deg" : measures[0]);
+  addOptions($("second"), [["", "nothing else"], ...measures.map(name => [name, name])], "");
+  $("slider").max = run.moments.length - 1;
+  const on = (id, event, call) => $(id).addEventListener(event, call);
+  on("slider", "input", () => show(Number($("slider").value)));
+  on("first", "click", () => show(0));
+  on("back", "click", () => show(page.t - 1));
+  on("forth", "click", () => show(page.t + 1));
+  on("last", "click", () => show(Infinity));
+  on("play", "click", play);
+  on("whole", "click", whole);
+  on("closer", "click", () => zoom(1.5));
+  on("wider", "click", () => zoom(1 / 1.5));
+  on("colour", "change", () => { page.mode = $("colour").value; draw().catch(trouble); });
+  on("palette", "change", () => { page.palette = $("palette").value; draw().catch(trouble); });
+  on("height", "change", () => { page.view.height = Number($("height").value); layOut(); whole(); });
+  const charted = () => page.chart.draw([$("column").value, $("second").value].filter(Boolean));
+  on("column", "change", charted);
+  on("second", "change", charted);
+  addSaves(on);
+  document.addEventListener("keydown", onKey);
+  window.addEventListener("resize", () => { layOut(); draw().catch(trouble); });
+  page.chart = new HistoryChart($("history"), page.runs, extension => show(run.nearest(extension)));
+  if (measures.length) charted();
+}
+
+function addSaves(on) {
+  const [run] = page.runs, [section] = page.sections;
+  const name = kind => `${run.head.scene}-${run.moments[page.t].extension_m.toFixed(0)}m-${kind}`;
+  on("save_discs", "click", async () => {
+    await run.load(Object.keys(run.head.scales).concat("bonds", "behaviour"));
+    save(name("discs.csv"), discsCsv(run, page.t), "text/csv");
+  });
+  const lines = kind => async () => save(name(`${kind}.csv`), linesCsv((await run.loadLines(page.t))[kind] || []), "text/csv");
+  on("save_faults", "click", lines("faults"));
+  on("save_horizons", "click", lines("horizons"));
+  on("save_history", "click", () => save(`${run.head.scene}-history.csv`, run.head.history, "text/csv"));
+  on("save_png", "click", () => pictureOf(section).toBlob(blob => save(name("section.png"), blob)));
+  on("save_svg", "click", async () => save(name("section.svg"), svgOf(section, page.view, await run.loadLines(page.t)), "image/svg+xml"));
+  on("copy", "click", async () => {
+    writeAddress();
+    try { await navigator.clipboard.writeText(location.href); $("copy").textContent = "copied"; }
+    catch { $("copy").textContent = "copy it from the address bar"; }
+  });
+}
+
+function addWords() {
+  const titles = page.runs.map(run => run.head.description || run.head.scene);
+  document.title = `${page.runs[0].head.scene}: Listric`;
+  $("title").textContent = [...new Set(titles)].join(" beside ");
+  $("subtitle").textContent = page.runs.map((run, r) => `${page.runs.length > 1 ? `${"AB"[r]}: ` : ""}${run.head.scene}, ` +
+    `${run.head.accuracy}, seed ${run.head.seed}`).join("; ") + (page.data.live ? "; the run goes on" : "") +
+    (page.data.left_out ? `; left out so that the file is smaller: ${page.data.left_out}` : "");
+  const hashes = page.runs.map(run => run.head.summary?.state_hash).filter(Boolean);
+  $("footer").textContent = `${page.data.program}${hashes.length ? `; state_hash ${hashes.join(", ")}` : ""}. To cite: ` +
+    "CITATION.cff of the program. Colours: batlow, Crameri (2021), doi 10.5281/zenodo.5501399.";
+}
+
+async function start() {
+  page.runs = page.data.runs.map(head => new Run(head));
+  if (page.runs[0].moments.length === 0) throw new Error("there is no snapshot yet");
+  const view = readAddress();
+  page.sections = page.runs.map((run, r) => {
+    const host = $("sections").appendChild(document.createElement("div"));
+    host.className = "section";
+    const section = new Section(run, host);
+    if (page.runs.length > 1) {
+      const name = host.appendChild(document.createElement("div"));
+      name.className = "name";
+      name.textContent = `${"AB"[r]}: ${run.head.scene}, seed ${run.head.seed}`;
+    }
+    listenTo(section);
+    return section;
+  });
+  addWords();
+  page.view.height = view ? view[3] : 1;
+  layOut();
+  showWhole();
+  if (view) Object.assign(page.view, {left: view[0], top: view[1],
+    scale: view[2] * page.sections[0].discCanvas.width / page.sections[0].host.clientWidth});
+  if (page.data.underlay) {
+    page.underlay = new Image();
+    page.underlay.src = page.data.underlay.image;
+    await page.underlay.decode();
+  }
+  await Promise.all(page.runs.map(run => run.load(["present", "x_m", "depth_m", "radius_m", "stratum", "rock"])));
+  addLayers();
+  addControls();
+  await draw();
+  drawMeasures($("measures"), page.runs, page.data.definitions);
+  document.documentElement.dataset.ready = "true";
+  if (page.data.live) setTimeout(() => location.reload(), 10000);
+}
+
+start().catch(trouble);

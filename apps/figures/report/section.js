@@ -1,0 +1,219 @@
+// One run's section: discs as an image, everything else as lines over it.
+
+/** What can be shown over the discs: label, whether it is at first, whether a run has it. */
+const layers = {
+  faults: {label: "faults", on: true, of: () => true},
+  horizons: {label: "horizons", on: true, of: () => true},
+  bonds: {label: "bonds", on: false, of: run => run.has("bonds_left")},
+  detachment: {label: "detachment", on: true, of: () => true},
+  unbent: {label: "base before bending", on: false, of: run => run.head.summary?.effects?.includes("elastic_base")},
+  target: {label: "target line", on: false, of: run => run.head.summary?.effects?.includes("sedimentation")},
+  water: {label: "water", on: true, of: run => run.head.summary?.effects?.includes("basin_water")},
+  predictions: {label: "kinematic predictions", on: false, of: run => run.has("start_x_m")},
+  picks: {label: "picks", on: true, of: run => Boolean(run.head.picks)},
+  underlay: {label: "picture", on: true, of: () => Boolean(page.data.underlay)},
+};
+
+const inks = {faults: "#000", horizons: "#0b3d5c", detachment: "#7a1f1f", unbent: "#7a1f1f", target: "#1b5e20",
+  predictions: "#6a1b9a", picks: "#b30059", other: "#b35900"};
+
+class Section {
+  constructor(run, host) {
+    this.run = run;
+    this.host = host;
+    this.discCanvas = host.appendChild(document.createElement("canvas"));
+    this.lineCanvas = host.appendChild(document.createElement("canvas"));
+    this.lineCanvas.tabIndex = 0;
+    this.lineCanvas.setAttribute("role", "img");
+    this.painter = new Painter(this.discCanvas);
+    this.pen = this.lineCanvas.getContext("2d");
+  }
+
+  get ratio() { return this.discCanvas.width / this.host.clientWidth; }
+
+  resize(width, height) {
+    this.painter.resize(width, height);
+    this.lineCanvas.width = width;
+    this.lineCanvas.height = height;
+  }
+
+  discs(k) {
+    const run = this.run;
+    return {present: run.codes[k].present, x: run.values(k, "x_m"), depth: run.values(k, "depth_m"),
+      radius: run.values(k, "radius_m")};
+  }
+
+  toPixel(view, x, depth) {
+    return [(x - view.left) * view.scale, (depth - view.top) * view.scale * view.height];
+  }
+
+  toMetres(view, column, row) {
+    return [view.left + column / view.scale, view.top + row / view.scale / view.height];
+  }
+
+  line(view, points, ink, width, dash = []) {
+    if (points.length < 2) return;
+    const pen = this.pen;
+    pen.beginPath();
+    for (const [x, depth] of points) pen.lineTo(...this.toPixel(view, x, depth));
+    pen.strokeStyle = ink;
+    pen.lineWidth = width * this.ratio;
+    pen.setLineDash(dash.map(length => length * this.ratio));
+    pen.lineJoin = "round";
+    pen.stroke();
+    pen.setLineDash([]);
+  }
+
+  label(view, text, x, depth, ink) {
+    const [column, row] = this.toPixel(view, x, depth), pen = this.pen;
+    pen.font = `${12 * this.ratio}px "DejaVu Sans", sans-serif`;
+    pen.lineWidth = 3 * this.ratio;
+    pen.strokeStyle = "#fff";
+    pen.strokeText(text, column + 4 * this.ratio, row - 4 * this.ratio);
+    pen.fillStyle = ink;
+    pen.fillText(text, column + 4 * this.ratio, row - 4 * this.ratio);
+  }
+
+  /** Lines of moment k in the order in which they cover each other. */
+  async draw(k, view, shown, picked, other) {
+    const lines = await this.run.loadLines(k), pen = this.pen;
+    pen.clearRect(0, 0, this.lineCanvas.width, this.lineCanvas.height);
+    if (shown.has("underlay") && page.underlay) this.drawUnderlay(view);
+    if (shown.has("water") && lines.layers?.water) this.drawWater(view, lines.layers.water);
+    if (shown.has("bonds") && this.run.has("bonds_left")) this.drawBonds(k, view);
+    this.drawAxes(view);
+    const surfaces = name => lines.surfaces.filter(line => line.name === name);
+    if (shown.has("horizons"))
+      for (const line of lines.horizons || [])
+        this.line(view, line.points, inks.horizons, line.stratum === 0 ? 2 : 0.9);
+    if (shown.has("detachment"))
+      for (const name of ["detachment", "floor", "original surface"])
+        for (const line of surfaces(name)) this.line(view, line.points, inks.detachment, 1.6);
+    if (shown.has("unbent"))
+      for (const line of lines.base)
+        this.line(view, line.start_x_m.map((x, i) => [x, line.start_depth_m[i]]), inks.unbent, 1.2, [6, 4]);
+    if (shown.has("target"))
+      for (const line of surfaces("target line")) this.line(view, line.points, inks.target, 1.4, [8, 4]);
+    if (shown.has("predictions"))
+      for (const line of lines.predictions || []) {
+        this.line(view, line.points, inks.predictions, 1.6, [3, 3]);
+        const end = line.points[Math.floor(line.points.length / 2)];
+        this.label(view, line.name, end[0], end[1], inks.predictions);
+      }
+    if (shown.has("picks") && this.run.head.picks)
+      for (const line of [...this.run.head.picks.horizons, ...this.run.head.picks.faults])
+        this.line(view, line.points, inks.picks, 2, [2, 3]);
+    if (shown.has("faults")) this.drawFaults(view, lines.faults, picked);
+    if (shown.has("faults") && other)
+      for (const fault of other.faults) this.line(view, fault.points, inks.other, 1.6, [7, 4]);
+    if (picked?.kind === "disc" && picked.run === this.run) this.drawPath(k, view, picked.id);
+    this.lineCanvas.setAttribute("aria-label", `Section of ${this.run.head.scene} at ` +
+      `${(this.run.moments[k].extension_m / 1000).toFixed(2)} km of extension, ${lines.faults.length} faults`);
+  }
+
+  drawFaults(view, faults, picked) {
+    const fastest = Math.max(...faults.map(fault => fault.rate_mm_per_a), 1e-9);
+    faults.forEach((fault, index) => {
+      const chosen = picked?.kind === "fault" && picked.run === this.run && picked.index === index;
+      this.line(view, fault.points, "#fff", 2.5 + 3 * fault.rate_mm_per_a / fastest);
+      this.line(view, fault.points, chosen ? "#d4006a" : inks.faults,
+        (chosen ? 2 : 1) + 2 * fault.rate_mm_per_a / fastest);
+      const [x, depth] = fault.points[0];
+      this.label(view, String(index), x, depth, chosen ? "#d4006a" : inks.faults);
+    });
+  }
+
+  drawPath(k, view, id) {
+    const path = [];
+    this.run.moments.forEach((_, m) => {
+      if (id < this.run.codes[m].present.length && this.run.codes[m].present[id])
+        path.push([this.run.values(m, "x_m")[id], this.run.values(m, "depth_m")[id]]);
+    });
+    this.line(view, path, "#fff", 4);
+    this.line(view, path, "#d4006a", 2);
+    if (!this.run.codes[k].present[id]) return;
+    const [column, row] = this.toPixel(view, this.run.values(k, "x_m")[id], this.run.values(k, "depth_m")[id]);
+    this.pen.beginPath();
+    this.pen.arc(column, row, Math.max(this.run.values(k, "radius_m")[id] * view.scale, 5 * this.ratio), 0, 7);
+    this.pen.strokeStyle = "#d4006a";
+    this.pen.lineWidth = 2.5 * this.ratio;
+    this.pen.stroke();
+  }
+
+  drawBonds(k, view) {
+    const pairs = this.run.bonds(k), x = this.run.values(k, "x_m"), depth = this.run.values(k, "depth_m");
+    const pen = this.pen;
+    pen.beginPath();
+    for (let i = 0; i < pairs.length; i += 2) {
+      pen.moveTo(...this.toPixel(view, x[pairs[i]], depth[pairs[i]]));
+      pen.lineTo(...this.toPixel(view, x[pairs[i + 1]], depth[pairs[i + 1]]));
+    }
+    pen.strokeStyle = "#0008";
+    pen.lineWidth = 0.6 * this.ratio;
+    pen.stroke();
+  }
+
+  /** Rows x, floor, level; heights, not depths. */
+  drawWater(view, {columns, rows}) {
+    const pen = this.pen, floor = [], level = [];
+    for (let i = 0; i < rows.length; i += columns) {
+      floor.push(this.toPixel(view, rows[i], -rows[i + 1]));
+      level.unshift(this.toPixel(view, rows[i], -rows[i + 2]));
+    }
+    pen.beginPath();
+    for (const point of [...floor, ...level]) pen.lineTo(...point);
+    pen.fillStyle = "#5aa9e666";
+    pen.fill();
+  }
+
+  drawUnderlay(view) {
+    const [left, top, right, bottom] = page.data.underlay.corners_m;
+    const [x0, y0] = this.toPixel(view, left, top), [x1, y1] = this.toPixel(view, right, bottom);
+    this.pen.globalAlpha = Number(page.opacity);
+    this.pen.drawImage(page.underlay, x0, y0, x1 - x0, y1 - y0);
+    this.pen.globalAlpha = 1;
+  }
+
+  /** Marks along the upper and left edge at plain numbers of kilometres. */
+  drawAxes(view) {
+    const pen = this.pen, {width, height} = this.lineCanvas, ratio = this.ratio;
+    const step = pixelsPerKilometre => [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].find(s => s * pixelsPerKilometre > 55 * ratio) || 100;
+    const across = step(1000 * view.scale), down = step(1000 * view.scale * view.height);
+    pen.fillStyle = pen.strokeStyle = "#595959";
+    pen.font = `${11 * ratio}px "DejaVu Sans", sans-serif`;
+    pen.lineWidth = ratio;
+    pen.beginPath();
+    const number = (value, by) => value.toFixed(by < 1 ? 1 : 0);
+    for (let x = Math.ceil(view.left / 1000 / across) * across; ; x += across) {
+      const [column] = this.toPixel(view, 1000 * x, 0);
+      if (column > width) break;
+      pen.moveTo(column, 0);
+      pen.lineTo(column, 5 * ratio);
+      if (column > 30 * ratio) pen.fillText(`${number(x, across)} km`, column + 3 * ratio, 11 * ratio);
+    }
+    for (let z = Math.ceil(view.top / 1000 / down) * down; ; z += down) {
+      const [, row] = this.toPixel(view, 0, 1000 * z);
+      if (row > height) break;
+      pen.moveTo(0, row);
+      pen.lineTo(5 * ratio, row);
+      if (row > 20 * ratio) pen.fillText(number(z, down), 7 * ratio, row + 4 * ratio);
+    }
+    pen.stroke();
+  }
+
+  /** Index of the fault within `reach` pixels, or -1. */
+  async faultAt(k, view, column, row, reach) {
+    const {faults} = await this.run.loadLines(k);
+    let best = -1, least = reach;
+    faults.forEach((fault, index) => {
+      for (let i = 0; i + 1 < fault.points.length; ++i) {
+        const [ax, ay] = this.toPixel(view, ...fault.points[i]), [bx, by] = this.toPixel(view, ...fault.points[i + 1]);
+        const length2 = (bx - ax) ** 2 + (by - ay) ** 2 || 1;
+        const t = Math.min(Math.max(((column - ax) * (bx - ax) + (row - ay) * (by - ay)) / length2, 0), 1);
+        const distance = Math.hypot(column - ax - t * (bx - ax), row - ay - t * (by - ay));
+        if (distance < least) [best, least] = [index, distance];
+      }
+    });
+    return best;
+  }
+}

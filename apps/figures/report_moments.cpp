@@ -1,0 +1,289 @@
+#include "apps/figures/report_moments.hpp"
+
+#include "apps/archive/exports.hpp"
+#include "apps/archive/setting.hpp"
+#include "apps/figures/window_strain.hpp"
+#include "apps/measures/cohesion.hpp"
+#include "apps/measures/kinematics.hpp"
+#include "apps/measures/measures.hpp"
+#include "apps/measures/rock_behaviour.hpp"
+#include "apps/support/base64.hpp"
+#include "apps/support/deflate.hpp"
+#include "dem/contacts.hpp"
+#include "dem/monitor.hpp"
+#include "dem/power_cell.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+#include <utility>
+
+namespace listric {
+
+using namespace archive;
+using namespace dem;
+using namespace measures;
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int compression = 6; ///< of zlib: 9 takes four times as long for 2 %
+
+/// How a number becomes a whole one.
+struct Scale {
+    double step = 1.0; ///< in its unit, or the unit's root
+    bool root = false; ///< the whole number is of the square root, with the number's sign
+
+    std::int32_t code(double value) const {
+        const double size = root ? std::sqrt(std::abs(value)) : std::abs(value);
+        const double whole = std::min(std::round(size / step), 1e9);
+        return static_cast<std::int32_t>(std::copysign(whole, value));
+    }
+};
+
+/// Lengths are followed by a sixty-fourth of the mean radius: 1 m at standard.
+std::map<std::string, Scale> scales(double mean_radius) {
+    const Scale length{mean_radius / 64.0}, strain{1.0 / 128.0, true}, stress{25.0, true};
+    return {{"x_m", length},
+            {"depth_m", length},
+            {"radius_m", {mean_radius / 1024.0}},
+            {"start_x_m", length},
+            {"start_depth_m", length},
+            {"start_extension_m", {1.0}},
+            {"window_strain", strain},
+            {"total_strain", strain},
+            {"mean_stress_pa", stress},
+            {"shear_stress_pa", stress}};
+}
+
+/// zlib's format of the planes of bytes of differences, 0 -1 1 -2 2 as 0 1 2 3 4, and how many
+/// planes there are: [planes, "base64"].
+std::string packed(std::span<const std::int32_t> differences) {
+    std::uint32_t all = 0;
+    std::vector<std::uint32_t> folded;
+    folded.reserve(differences.size());
+    for (const std::int32_t d : differences) {
+        const auto bits = static_cast<std::uint32_t>(d);
+        folded.push_back(bits << 1 ^ (d < 0 ? ~0u : 0u));
+        all |= folded.back();
+    }
+    int planes = 1;
+    while (planes < 4 && all >> 8 * planes != 0)
+        ++planes;
+    std::vector<unsigned char> bytes;
+    bytes.reserve(folded.size() * static_cast<std::size_t>(planes));
+    for (int plane = 0; plane < planes; ++plane)
+        for (const std::uint32_t value : folded)
+            bytes.push_back(static_cast<unsigned char>(value >> 8 * plane & 255u));
+    return fmt::format("[{},\"{}\"]", planes, base64(deflated(bytes, compression)));
+}
+
+json finite(double value) { return std::isfinite(value) ? json(value) : json(); }
+
+/// To a decimetre.
+json short_length(double metres) { return std::round(10.0 * metres) / 10.0; }
+
+json points_of(std::span<const Point> points) {
+    json list = json::array();
+    for (const Point p : points)
+        list.push_back({short_length(p.x), short_length(-p.y)});
+    return list;
+}
+
+/// Rows of a table as objects by its columns, each with its "points".
+json lines_of(const LineTable& table) {
+    json lines = json::array();
+    for (const Line& line : table.lines) {
+        json row;
+        for (std::size_t c = 0; c < table.columns.size(); ++c)
+            row[table.columns[c]] = std::holds_alternative<double>(line.values[c])
+                                        ? finite(std::get<double>(line.values[c]))
+                                        : json(std::get<std::string>(line.values[c]));
+        row["points"] = points_of(line.points);
+        for (std::size_t c = 0; c < table.point_columns.size(); ++c) {
+            json& list = row[table.point_columns[c]] = json::array();
+            for (std::size_t k = c; k < line.at_points.size(); k += table.point_columns.size())
+                list.push_back(short_length(line.at_points[k]));
+        }
+        lines.push_back(std::move(row));
+    }
+    return lines;
+}
+
+/// Faults that have not been followed back are without what is known of their past.
+json faults_of(const ExportedMoment& at, bool followed) {
+    json faults = lines_of(faults_table(at));
+    if (!followed)
+        for (json& fault : faults)
+            for (const char* past :
+                 {"born_at_m", "dip_at_birth_deg", "traced_since_m", "footwall_turn_deg"})
+                fault[past] = nullptr;
+    return faults;
+}
+
+json predictions_of(const Observation& now) {
+    const Setting setting = make_setting(now.scene, now.parts);
+    const auto angle = measure(setting, now.state, now.parts.base, now.events).inclined_shear_angle;
+    if (!angle)
+        return json::array();
+    const Chain& detachment = now.parts.base.surfaces.front().chain;
+    const double extension = now.state.clock.extension;
+    const double wall = now.scene.hanging_wall->length + extension;
+    return {{{"name", fmt::format("inclined shear, {:.0f} degrees", *angle)},
+             {"points", points_of(inclined_shear_top(detachment, extension, *angle, wall))}},
+            {{"name", "normals stay normal"},
+             {"points", points_of(normals_top(detachment, extension, wall))}}};
+}
+
+/// The lines of a section, as they are seen over it.
+std::string lines_json(const Observation& now, const FaultReport& faults, bool followed) {
+    const ExportedMoment at{now, faults};
+    json lines{{"followed", followed},
+               {"faults", faults_of(at, followed)},
+               {"surfaces", lines_of(surfaces_table(at))},
+               {"base", lines_of(base_table(at))}};
+    if (followed) {
+        lines["horizons"] = lines_of(horizons_table(at));
+        lines["predictions"] = predictions_of(now);
+    }
+    for (const EffectPart& part : now.scene.effects)
+        if (part.effect->draw)
+            for (const FigureLayer& layer : part.effect->draw(now))
+                lines["layers"][layer.name] = {{"columns", layer.columns}, {"rows", layer.rows}};
+    const std::string text = lines.dump();
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(text.data());
+    return base64(deflated({bytes, text.size()}, compression));
+}
+
+} // namespace
+
+std::string report_scales(double mean_radius) {
+    json list;
+    for (const auto& [name, scale] : scales(mean_radius))
+        list[name] = {{"step", scale.step}, {"root", scale.root}};
+    return list.dump();
+}
+
+/// A number of every disc that has ever been, less what it was in the moment before.
+std::string ReportMoments::stream(const std::string& name, std::vector<std::int32_t> codes) {
+    std::vector<std::int32_t>& before = before_[name];
+    before.resize(codes.size());
+    std::vector<std::int32_t> differences(codes.size());
+    for (std::size_t k = 0; k < codes.size(); ++k)
+        differences[k] = codes[k] - before[k];
+    before = std::move(codes);
+    return fmt::format("\"{}\":{}", name, packed(differences));
+}
+
+/// Which of the bonds of the moment before are left, in their order, and the new ones: the lower
+/// id, less that of the bond before, and how much higher the other one is.
+std::string ReportMoments::bonds(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const auto pair_of = [](std::int64_t low, std::int64_t high) { return low << 32 | high; };
+    std::unordered_set<std::int64_t> now;
+    for (std::size_t k = 0; k < c.first.size(); ++k)
+        if (c.bonded[k]) {
+            const std::int64_t a = d.id[static_cast<std::size_t>(c.first[k])];
+            const std::int64_t b = d.id[static_cast<std::size_t>(c.second[k])];
+            now.insert(pair_of(std::min(a, b), std::max(a, b)));
+        }
+    std::vector<std::int32_t> left;
+    std::vector<std::int64_t> bonded;
+    for (const std::int64_t pair : bonded_) {
+        left.push_back(now.erase(pair) > 0);
+        if (left.back())
+            bonded.push_back(pair);
+    }
+    std::vector<std::int64_t> fresh(now.begin(), now.end());
+    std::ranges::sort(fresh);
+    std::vector<std::int32_t> low, further;
+    std::int64_t last = 0;
+    for (const std::int64_t pair : fresh) {
+        const std::int64_t a = pair >> 32, b = pair & 0xffffffff;
+        low.push_back(static_cast<std::int32_t>(a - last));
+        further.push_back(static_cast<std::int32_t>(b - a));
+        last = a;
+    }
+    bonded.insert(bonded.end(), fresh.begin(), fresh.end());
+    bonded_ = std::move(bonded);
+    return fmt::format("\"bonds_left\":{},\"bonds_new\":{},\"bonds_to\":{}", packed(left),
+                       packed(low), packed(further));
+}
+
+std::string ReportMoments::encode(const Observation& now) {
+    const State& state = now.state;
+    const ConstDiscColumns d = disc_columns(state);
+    const std::map<std::string, Scale> all_scales = scales(state.mean_radius);
+    std::string text;
+    const auto add = [&](const std::string& name, auto&& value) {
+        const auto found = all_scales.find(name);
+        const Scale scale = found == all_scales.end() ? Scale() : found->second;
+        std::vector<std::int32_t> codes = before_[name]; // those of discs that are gone stay
+        codes.resize(static_cast<std::size_t>(state.next_id));
+        for (std::size_t i = 0; i < d.id.size(); ++i)
+            codes[static_cast<std::size_t>(d.id[i])] = scale.code(static_cast<double>(value(i)));
+        text += stream(name, std::move(codes)) + ",";
+    };
+    std::vector<std::int32_t> present(static_cast<std::size_t>(state.next_id));
+    for (const std::int64_t id : d.id)
+        present[static_cast<std::size_t>(id)] = 1;
+    text += stream("present", std::move(present)) + ",";
+    const std::vector<double> radius = rock_radii(state), strain = window_strain(now);
+    const std::vector<std::uint32_t> rock = rocks(state);
+    add("x_m", [&](std::size_t i) { return d.x[i]; });
+    add("depth_m", [&](std::size_t i) { return -d.y[i]; });
+    add("radius_m", [&](std::size_t i) { return radius[i]; });
+    add("stratum", [&](std::size_t i) { return d.stratum[i]; });
+    add("start_x_m", [&](std::size_t i) { return d.start_x[i]; });
+    add("start_depth_m", [&](std::size_t i) { return -d.start_y[i]; });
+    add("start_extension_m", [&](std::size_t i) { return d.start_extension[i]; });
+    add("rock", [&](std::size_t i) { return rock[i]; });
+    add("window_strain", [&](std::size_t i) { return strain[i]; });
+    if (state.discs.has("total_strain")) {
+        const auto total = state.discs.get<double>("total_strain");
+        add("total_strain", [&](std::size_t i) { return total[i]; });
+    }
+    if (now.parts.bonds) {
+        const auto classes =
+            rock_behaviour(measures::unbonded_shares(state), d.stratum, d.material);
+        const std::vector<std::int32_t> count = bonds_per_disc(state);
+        add("behaviour", [&](std::size_t i) { return static_cast<int>(classes[i]); });
+        add("bonds", [&](std::size_t i) { return count[i]; });
+        if (detail_.bonds)
+            text += bonds(state) + ",";
+    }
+    if (detail_.stress) {
+        const std::vector<Stress> stress = disc_stresses(state, now.parts.base);
+        add("mean_stress_pa", [&](std::size_t i) { return -0.5 * (stress[i].xx + stress[i].yy); });
+        add("shear_stress_pa", [&](std::size_t i) {
+            return std::hypot(0.5 * (stress[i].xx - stress[i].yy), stress[i].xy);
+        });
+    }
+    text.pop_back();
+    return fmt::format("\"extension_m\":{},\"time_a\":{},\"discs\":{},\"streams\":{{{}}}",
+                       state.clock.extension, state.clock.extension / now.scene.extension.rate,
+                       d.id.size(), text);
+}
+
+void ReportMoments::add(const Observation& now, const FaultReport& faults, bool followed) {
+    if (extension_ != now.state.clock.extension) {
+        moments_.push_back({encode(now), ""});
+        extension_ = now.state.clock.extension;
+    }
+    moments_.back().lines = lines_json(now, faults, followed);
+}
+
+std::string ReportMoments::json() const {
+    std::string text = "[";
+    for (const Text& moment : moments_)
+        text += fmt::format("{}{{{},\"lines\":\"{}\"}}", text.size() > 1 ? ",\n" : "", moment.discs,
+                            moment.lines);
+    return text + "]";
+}
+
+} // namespace listric

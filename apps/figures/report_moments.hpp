@@ -1,0 +1,60 @@
+#pragma once
+
+#include "apps/measures/fault.hpp"
+#include "apps/scene/effect.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// What a report leaves out to be smaller.
+struct ReportDetail {
+    bool bonds = true;
+    bool stress = true;
+    int every = 1; ///< n: every n-th snapshot, and the last
+};
+
+/// The moments of a run as the page of a report reads them: whole numbers by the discs' ids, as
+/// differences from the moment before; docs/report.md, "What is in the file".
+class ReportMoments {
+public:
+    explicit ReportMoments(const ReportDetail& detail = {}) : detail_(detail) {}
+
+    /// Adds the discs of a moment, the lines of its section and its faults. The extension that was
+    /// added last may come again, with other lines.
+    /// @param followed  whether the faults are followed back to their birth; then horizons, which
+    ///                  take as long, are traced, too
+    void add(const Observation& now, const measures::FaultReport& faults, bool followed);
+
+    /// Of the last moment, m; none: there is no moment.
+    std::optional<double> extension() const { return extension_; }
+
+    /// A JSON array of all moments.
+    std::string json() const;
+
+private:
+    struct Text {
+        std::string discs, lines;
+    };
+
+    std::string encode(const Observation& now);
+    std::string stream(const std::string& name, std::vector<std::int32_t> codes);
+    std::string bonds(const dem::State& state);
+
+    ReportDetail detail_;
+    std::optional<double> extension_;
+    std::vector<Text> moments_;
+    std::map<std::string, std::vector<std::int32_t>> before_; ///< codes of the last moment
+    std::vector<std::int64_t> bonded_; ///< pairs of ids that were bonded then, as one number each
+};
+
+/// What the page needs to read the numbers of ReportMoments, as JSON: by name the value of one
+/// step (unit), and whether the number is its square root.
+std::string report_scales(double mean_radius);
+
+} // namespace listric

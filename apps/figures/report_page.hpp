@@ -1,0 +1,36 @@
+#pragma once
+
+#include "apps/figures/frame.hpp"
+#include "apps/figures/report_moments.hpp"
+#include "apps/scene/scene.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// A run, or two side by side, as a page.
+struct ReportPage {
+    struct Run {
+        const Scene& scene;
+        const ReportMoments& moments;
+        double mean_radius = 0.0; ///< m
+        std::string history;      ///< as history.csv
+        std::string summary = {}; ///< as summary.json; empty: the run has not ended
+    };
+    std::vector<Run> runs;
+    std::string left_out = {}; ///< what is not there so that the file is smaller
+    bool live = false;         ///< the page reloads itself
+    std::optional<Underlay> underlay = std::nullopt;
+};
+
+/// The page: one file that asks for no other, with its scripts and data. Throws StorageError if a
+/// file of the program's is missing.
+std::string report_html(const ReportPage& page);
+
+/// What a table of docs/measures.md says of its names, as a JSON object.
+std::string definitions_of(const std::string& document);
+
+} // namespace listric

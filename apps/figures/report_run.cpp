@@ -1,0 +1,121 @@
+#include "apps/figures/report_run.hpp"
+
+#include "apps/archive/examine.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/run_history.hpp"
+#include "apps/archive/setting.hpp"
+#include "apps/archive/summary.hpp"
+#include "apps/figures/draw_run.hpp"
+#include "apps/figures/report_page.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace listric {
+
+using namespace archive;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What is left out, the more the further on.
+struct Reduction {
+    ReportDetail detail;
+    const char* left_out;
+};
+
+constexpr Reduction reductions[] = {
+    {{}, ""},
+    {{false, true, 1}, "bonds"},
+    {{false, false, 1}, "bonds and stress"},
+    {{false, false, 2}, "bonds, stress and every second snapshot"},
+    {{false, false, 4}, "bonds, stress and three of four snapshots"},
+    {{false, false, 8}, "bonds, stress and seven of eight snapshots"},
+};
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A run that has been read.
+struct ReadRun {
+    RunFolder folder;
+    RunHistory history;
+    ReportMoments moments = ReportMoments();
+    double mean_radius = 0.0;
+};
+
+/// Throws UsageError if it is no folder of a section's run.
+ReadRun open_run(const fs::path& output) {
+    if (list_snapshots(output).empty())
+        throw UsageError(output.string() + ": no snapshots to report on; is this a run's folder?");
+    RunFolder folder(output);
+    RunHistory history(folder.snapshots);
+    return {std::move(folder), std::move(history)};
+}
+
+std::string page_of(const std::vector<ReadRun>& runs, const Reduction& reduction,
+                    const std::optional<Underlay>& underlay) {
+    ReportPage page{.runs = {}, .left_out = reduction.left_out, .underlay = underlay};
+    for (const ReadRun& run : runs)
+        page.runs.push_back({run.folder.scene, run.moments, run.mean_radius,
+                             text_of(run.folder.output / "history.csv"),
+                             text_of(run.folder.output / "summary.json")});
+    return report_html(page);
+}
+
+} // namespace
+
+double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHistory& history,
+                   int every, bool every_line) {
+    const measures::Setting setting = make_setting(folder.scene, folder.parts);
+    const dem::RigidBase& base = folder.parts.base;
+    double mean_radius = 0.0;
+    for (std::size_t k = 0; k < folder.snapshots.size(); ++k) {
+        const bool last = k + 1 == folder.snapshots.size();
+        if (!last && k % static_cast<std::size_t>(every) != 0)
+            continue;
+        const Moment moment = folder.read(folder.snapshots[k]);
+        const bool followed = every_line || last ||
+                              is_drawn_at(folder.scene, snapshot_extension(folder.snapshots[k]));
+        const auto faults = followed ? report_faults(setting, base, moment.state, history)
+                                     : active_faults(setting, base, moment.state, history);
+        moments.add({folder.scene, folder.parts, moment.state, moment.events}, faults, followed);
+        mean_radius = moment.state.mean_radius;
+    }
+    return mean_radius;
+}
+
+fs::path report_run(const ReportRequest& request) {
+    std::vector<ReadRun> runs;
+    for (const fs::path& output : request.outputs)
+        runs.push_back(open_run(output));
+    std::string html;
+    for (const Reduction& reduction : reductions) {
+        for (ReadRun& run : runs) {
+            run.moments = ReportMoments(reduction.detail);
+            run.mean_radius = add_moments(run.moments, run.folder, run.history,
+                                          reduction.detail.every, request.every_line);
+        }
+        html = page_of(runs, reduction, request.underlay);
+        if (static_cast<double>(html.size()) <= 1e6 * request.most_mb)
+            break;
+    }
+    const auto size = static_cast<double>(html.size()) / 1e6;
+    if (size > request.most_mb)
+        throw UsageError(fmt::format("report: without {} the file still has {:.1f} MB; allow more "
+                                     "than --most-mb {:g}",
+                                     std::end(reductions)[-1].left_out, size, request.most_mb));
+    const fs::path file =
+        request.file.empty() ? request.outputs.front() / "report.html" : request.file;
+    write_text(file, html);
+    return file;
+}
+
+} // namespace listric

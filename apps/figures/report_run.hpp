@@ -1,0 +1,34 @@
+#pragma once
+
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/run_history.hpp"
+#include "apps/figures/frame.hpp"
+#include "apps/figures/report_moments.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// What `listric report` is asked for.
+struct ReportRequest {
+    std::vector<std::filesystem::path> outputs; ///< folders of one or two runs
+    std::filesystem::path file = {};            ///< empty: report.html in the first folder
+    double most_mb = 15.0;                      ///< 1e6 bytes, that the file has at most
+    bool every_line = false;                    ///< horizons and the past of faults at all moments
+    std::optional<Underlay> underlay = std::nullopt;
+};
+
+/// Adds the snapshots of a folder, of which `every` n-th and the last. Faults are followed back at
+/// the moments of the figures and at the last. Returns the mean radius, m. Throws StorageError.
+double add_moments(ReportMoments& moments, const archive::RunFolder& folder,
+                   const archive::RunHistory& history, int every = 1, bool every_line = false);
+
+/// Writes the report of finished or unfinished runs from their folders. What makes the file too
+/// large is left out in this order: bonds, stress, every second snapshot and so on. Returns the
+/// file. Throws UsageError, SceneError, StorageError.
+std::filesystem::path report_run(const ReportRequest& request);
+
+} // namespace listric

@@ -1,0 +1,73 @@
+#include "apps/run/run_report.hpp"
+
+#include "apps/archive/examine.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/setting.hpp"
+#include "apps/figures/report_page.hpp"
+#include "apps/figures/report_run.hpp"
+#include "apps/support/file.hpp"
+
+#include <exception>
+
+namespace listric {
+
+using namespace archive;
+
+void RunReport::attempt(const std::function<void()>& work) {
+    if (!wanted_)
+        return;
+    try {
+        work();
+    } catch (const std::exception& error) {
+        log_.say(std::string("warning: no report: ") + error.what());
+        wanted_ = false;
+    }
+}
+
+void RunReport::read_moments_until(double extension, const RunHistory& history) {
+    attempt([&] {
+        RunFolder folder(output_, scene_);
+        std::erase_if(folder.snapshots, [&](const std::filesystem::path& path) {
+            return snapshot_extension(path) > extension + 0.01; // names have two digits
+        });
+        mean_radius_ = add_moments(moments_, folder, history);
+    });
+}
+
+void RunReport::add(const Observation& now, const RunHistory& history) {
+    attempt([&] {
+        mean_radius_ = now.state.mean_radius;
+        moments_.add(
+            now,
+            active_faults(make_setting(now.scene, now.parts), now.parts.base, now.state, history),
+            false);
+    });
+}
+
+void RunReport::add(const Observation& now, const measures::FaultReport& faults) {
+    attempt([&] {
+        mean_radius_ = now.state.mean_radius;
+        moments_.add(now, faults, true);
+    });
+}
+
+void RunReport::write_page(const std::string& history, const std::string& summary, bool live) {
+    const ReportPage page{.runs = {{scene_, moments_, mean_radius_, history, summary}},
+                          .live = live};
+    std::string html = report_html(page);
+    if (!live && static_cast<double>(html.size()) > 1e6 * ReportRequest{}.most_mb)
+        report_run({.outputs = {output_}}); // with less in it
+    else
+        write_text(output_ / "report.html", html);
+}
+
+void RunReport::write_live(const std::string& history) {
+    if (live_)
+        attempt([&] { write_page(history, "", true); });
+}
+
+void RunReport::write(const std::string& history, const std::string& summary) {
+    attempt([&] { write_page(history, summary, false); });
+}
+
+} // namespace listric
