@@ -6,7 +6,6 @@ has every call and option.
 
 import os
 import re
-import shutil
 import subprocess
 import tempfile
 import unittest
@@ -83,7 +82,6 @@ class Manual(unittest.TestCase):
             for option in set(options) - {"--help"}:
                 self.assertRegex(section, rf"\n\.B [^\n]*{option}\b", call)
 
-    @unittest.skipUnless(shutil.which("groff"), "no groff")
     def test_is_roff(self):
         page = output(PROGRAM, "manual")
         done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z"], input=page, text=True,

@@ -399,6 +399,7 @@ async function start() {
   addLayers();
   addControls();
   await draw();
+  page.firstFrame = performance.now();
   drawMeasures($("measures"), page.runs, page.data.definitions);
   document.documentElement.dataset.ready = "true";
   if (page.data.live) setTimeout(() => location.reload(), 10000);
