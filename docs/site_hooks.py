@@ -50,7 +50,7 @@ def on_pre_build(config):
 def on_post_build(config):
     """KaTeX's style, with its fonts in the one format that all browsers take."""
     to = Path(config["site_dir"], "katex")
-    Path(to, "fonts").mkdir(parents=True)
+    Path(to, "fonts").mkdir(parents=True, exist_ok=True)
     style = re.sub(r",url\([^)]*\) format\('(woff|truetype)'\)", "", KATEX_STYLE.read_text())
     Path(to, "katex.css").write_text(style)
     for font in set(re.findall(r"url\(([^)]*)\)", style)):
