@@ -5,23 +5,11 @@
 
 import csv
 import json
-import os
-import re
-import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-SOURCES = Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")
-
-
-def commands(document, heading):
-    """The lines of the first block of code below a heading."""
-    text = Path(SOURCES, document).read_text()
-    return re.search(rf"^## {re.escape(heading)}\n.*?^```\n(.*?)^```", text,
-                     re.DOTALL | re.MULTILINE).group(1).splitlines()
+from document_commands import commands, run
 
 
 class Tutorial(unittest.TestCase):
@@ -31,12 +19,7 @@ class Tutorial(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.out = Path(folder.name, "out/tutorial")
         cls.calls = commands("docs/your-own-section.md", "All of it in ten commands")
-        cls.ended = []
-        for call in cls.calls:
-            words = call.replace("out/tutorial", str(cls.out)).split()
-            words[0] = {"./listric": PROGRAM, "python3": sys.executable}[words[0]]
-            cls.ended.append(subprocess.run(words, cwd=SOURCES, stdout=subprocess.PIPE,
-                                            stderr=subprocess.STDOUT, text=True))
+        cls.ended = [run(call, "out/tutorial", cls.out) for call in cls.calls]
 
     def summary(self, run):
         return json.loads(Path(self.out, run, "summary.json").read_text())

@@ -1,0 +1,129 @@
+"""What mkdocs does besides for the site: formulas are set, and links out of docs/ end well.
+
+The pages are written for GitHub, where `$...$` and `$$...$$` are formulas and links lead to any file.
+Formulas are set here, by KaTeX, so that a page needs no script; style and fonts are copied into the
+site. (Browsers set MathML alone badly where no font for it is installed; it is there for readers
+who hear the page.)
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File
+
+ROOT = Path(__file__).resolve().parents[1]
+KATEX_STYLE = Path("/usr/share/javascript/katex/katex.min.css")
+PAGES_OUTSIDE = ("CONTRIBUTING.md", "CHANGELOG.md")
+NOT_SERVED = {".py", ".sh"}
+
+CODE = r"^(?P<fence>```|~~~).*?^(?P=fence)|(?P<ticks>`+)(?!`).+?(?<!`)(?P=ticks)(?!`)"
+FORMULA = re.compile(CODE + r"|\$\$(?P<block>.+?)\$\$|\$(?P<line>[^\s$](?:[^$\n]*[^\s$])?)\$(?!\d)",
+                     re.DOTALL | re.MULTILINE)
+LINK = re.compile(CODE + r"|(?<!!)\[(?P<text>[^\]]*)\]\((?P<to>[^)#:\s]+)(?P<anchor>#[^)]*)?\)",
+                  re.DOTALL | re.MULTILINE)
+MARK = "\ue000{}\ue001"  # private characters, which mean nothing to Markdown
+
+KATEX = """
+const formulas = JSON.parse(require("fs").readFileSync(0));
+let katex;
+try { katex = require("katex"); } catch { process.exit(3); }
+console.log(JSON.stringify(formulas.map(([tex, displayMode]) =>
+    katex.renderToString(tex, {displayMode, strict: "error"}))));
+"""
+
+formulas = []  # (TeX, whether it stands on a line of its own) of all pages
+
+
+def on_config(config):
+    config["extra_css"].append("katex/katex.css")
+
+
+def on_pre_build(config):
+    formulas.clear()
+
+
+def on_post_build(config):
+    """KaTeX's style, with its fonts in the one format that all browsers take."""
+    to = Path(config["site_dir"], "katex")
+    Path(to, "fonts").mkdir(parents=True, exist_ok=True)
+    style = re.sub(r",url\([^)]*\) format\('(woff|truetype)'\)", "", KATEX_STYLE.read_text())
+    Path(to, "katex.css").write_text(style)
+    for font in set(re.findall(r"url\(([^)]*)\)", style)):
+        shutil.copy(KATEX_STYLE.parent / font, to / font)
+
+
+def on_files(files, config):
+    for file in list(files):
+        if Path(file.src_path).suffix in NOT_SERVED:
+            files.remove(file)
+    for name in PAGES_OUTSIDE:
+        files.append(File(name, str(ROOT), config.site_dir, config.use_directory_urls))
+    return files
+
+
+def on_page_markdown(markdown, page, config, files):
+    return FORMULA.sub(mark_formula, relink(markdown, page.file))
+
+
+def mark_formula(match):
+    tex = match["block"] or match["line"]
+    if not tex:
+        return match[0]  # code
+    formulas.append((tex.strip(), match["block"] is not None))
+    return MARK.format(len(formulas) - 1)
+
+
+def relink(markdown, file):
+    """Links to files that are no pages of the site keep their text alone; dead ones stay, for mkdocs
+    to refuse."""
+    source = Path(file.abs_src_path).parent
+    docs = ROOT / "docs"
+
+    def link(match):
+        if not match["to"]:
+            return match[0]
+        target = Path(os.path.normpath(source / match["to"]))
+        if not target.exists():
+            return match[0]
+        if target.parent == ROOT and target.name in PAGES_OUTSIDE:
+            place = target.name
+        elif docs in target.parents and target.is_file() and target.suffix not in NOT_SERVED:
+            place = target.relative_to(docs).as_posix()
+        else:
+            return match["text"]
+        to = os.path.relpath(place, os.path.dirname(file.src_path) or ".")
+        return f"[{match['text']}]({to}{match['anchor'] or ''})"
+
+    return LINK.sub(link, markdown)
+
+
+def on_env(env, config, files):
+    """All formulas of the site in one call, since it takes as long as some hundred formulas."""
+    if not formulas:
+        return
+    rendered = [re.sub(r"<annotation.*?</annotation>", "", html, flags=re.DOTALL)
+                for html in rendered_formulas()]
+    for file in files.documentation_pages():
+        file.page.content = re.sub(MARK.format(r"(\d+)"), lambda m: rendered[int(m[1])],
+                                   file.page.content)
+
+
+def rendered_formulas():
+    missing = PluginError("formulas need node and katex: apt-get install nodejs katex")
+    where = {**os.environ, "NODE_PATH": "/usr/share/nodejs:" + os.environ.get("NODE_PATH", "")}
+    try:
+        ended = subprocess.run(["node", "-e", KATEX], input=json.dumps(formulas), env=where,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    except FileNotFoundError:
+        raise missing from None
+    if ended.returncode == 3:
+        raise missing
+    if ended.returncode:
+        why = re.search(r"ParseError: .*", ended.stderr)
+        raise PluginError(why[0] if why else ended.stderr)
+    return json.loads(ended.stdout)

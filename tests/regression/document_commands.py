@@ -1,0 +1,25 @@
+"""The commands that a document gives, and running them as they stand."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+SOURCES = Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")
+
+
+def commands(document, heading):
+    """The lines of the first block of code below a heading."""
+    text = Path(SOURCES, document).read_text()
+    return re.search(rf"^## {re.escape(heading)}\n.*?^```\n(.*?)^```", text,
+                     re.DOTALL | re.MULTILINE).group(1).splitlines()
+
+
+def run(call, folder_in_text, folder):
+    """What a command comes to if it writes to another folder than the text has it."""
+    words = call.replace(folder_in_text, str(folder)).split()
+    words[0] = {"./listric": PROGRAM, "python3": sys.executable}[words[0]]
+    return subprocess.run(words, cwd=SOURCES, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True)

@@ -1,0 +1,106 @@
+"""The site that mkdocs makes of docs/: whole, and at rest when it is opened.
+
+    python3 -m unittest site_test
+"""
+
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from document_commands import SOURCES
+
+# What a browser fetches by itself, in a page, a style or a script.
+FETCHED = re.compile(r"<(?:script|img|iframe|source|object|embed)\b[^>]*?\b(?:src|data)=[\"']([^\"']+)"
+                     r"|<link\b[^>]*?\bhref=[\"']([^\"']+)|url\([\"']?([^\"')]+)|@import [\"']([^\"']+)")
+LINKED = re.compile(r"<a\b[^>]*?\bhref=[\"']([^\"'#]*)(?:#([^\"']*))?[\"']")
+
+
+def fetched(text):
+    return [next(filter(None, groups)) for groups in FETCHED.findall(text)]
+
+
+def build(sources, site):
+    return subprocess.run(["mkdocs", "build", "--strict", "--site-dir", site], cwd=sources,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+class Site(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.site = Path(folder.name, "site")
+        cls.built = build(SOURCES, cls.site)
+        cls.pages = {page.relative_to(cls.site): re.sub(r"<!--.*?-->", "", page.read_text(), flags=re.DOTALL)
+                     for page in sorted(cls.site.rglob("*.html"))}
+
+    def test_is_built_without_a_warning(self):
+        self.assertEqual(self.built.returncode, 0, self.built.stdout)
+        self.assertNotIn("not included in the \"nav\"", self.built.stdout, "name it in mkdocs.yml")
+        self.assertGreater(len(self.pages), 20)
+
+    def test_asks_no_other_host(self):
+        files = [file for file in self.site.rglob("*") if file.suffix in (".html", ".css")]
+        self.assertTrue([file for file in files if file.suffix == ".css"])
+        for file in files:
+            for target in fetched(file.read_text()):
+                with self.subTest(f"{file.relative_to(self.site)}: {target}"):
+                    self.assertNotRegex(target, r"^(?:\w+:)?//")
+
+    def test_has_what_its_pages_fetch_and_link(self):
+        for page, text in self.pages.items():
+            if page.name == "404.html":
+                continue  # its links are from the host's root
+            for target in fetched(text) + [to for to, _ in LINKED.findall(text)]:
+                if re.match(r"[a-z]+:", target):
+                    continue
+                file = Path(self.site, page).parent / target.partition("?")[0]
+                with self.subTest(f"{page}: {target}"):
+                    self.assertTrue(file.is_file() or Path(file, "index.html").is_file())
+
+    def test_has_what_its_styles_fetch(self):
+        for style in self.site.rglob("*.css"):
+            for target in fetched(style.read_text()):
+                with self.subTest(f"{style.relative_to(self.site)}: {target}"):
+                    file = re.sub(r"[?#].*", "", target)
+                    self.assertTrue(target.startswith("data:") or Path(style.parent, file).is_file())
+
+    def test_formulas_are_set(self):
+        cycle = self.pages[Path("theory/cycle/index.html")]
+        self.assertGreater(cycle.count("<math "), 20)
+        for page, text in self.pages.items():
+            shown = re.sub(r"<(pre|code|script)\b.*?</\1>", "", text, flags=re.DOTALL)
+            self.assertNotRegex(shown, r"\$\$|\\frac|\\mathbf|[\ue000\ue001]", page)
+
+    def test_formulas_are_such_as_github_sets_too(self):
+        # There a backslash before a sign is Markdown's and is gone before TeX.
+        for page in SOURCES.glob("docs/theory/*.md"):
+            self.assertNotRegex(page.read_text(), r"\\[^A-Za-z\s]", page.name)
+
+
+class BrokenSite(unittest.TestCase):
+    def broken(self, page, text):
+        """What mkdocs says of a copy of the sources with something added to a page."""
+        with tempfile.TemporaryDirectory() as folder:
+            copy = Path(folder, "sources")
+            shutil.copytree(SOURCES / "docs", copy / "docs")
+            for name in ("mkdocs.yml", "CONTRIBUTING.md", "CHANGELOG.md"):
+                shutil.copy(SOURCES / name, copy / name)
+            with open(copy / "docs" / page, "a") as file:
+                file.write(text)
+            built = build(copy, Path(folder, "site"))
+        self.assertNotEqual(built.returncode, 0, built.stdout)
+        return built.stdout
+
+    def test_a_dead_link(self):
+        self.assertIn("no-such-page.md", self.broken("index.md", "\n[x](no-such-page.md)\n"))
+
+    def test_a_formula_that_is_none(self):
+        self.assertIn("ParseError", self.broken("theory/index.md", "\n$\\frac{1$\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()
