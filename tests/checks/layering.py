@@ -25,7 +25,7 @@ FOREIGN = {
     "coupling": ("Eigen/",),
     "apps/measures": (),
     "apps": SYSTEM + ("fmt/", "nlohmann/", "toml++/", "CLI/", "hdf5.h", "Eigen/", "unsupported/Eigen/",
-             "pugixml.hpp"),
+             "pugixml.hpp", "zlib.h"),
 }
 
 
