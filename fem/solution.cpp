@@ -252,6 +252,10 @@ void ElasticFootwall::write(const std::string& folder, const std::string& name) 
     out.add_data_vector(displacement_, stress);
     out.build_patches(mapping_, static_cast<unsigned>(request_.degree),
                       dealii::DataOut<2>::curved_inner_cells);
+    // Equal fields are equal files.
+    dealii::DataOutBase::VtkFlags flags;
+    flags.print_date_and_time = false;
+    out.set_flags(flags);
     const std::string file = folder + "/" + name + ".vtu";
     out.write_vtu_in_parallel(file, processes);
 }

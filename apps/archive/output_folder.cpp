@@ -85,9 +85,9 @@ void remove_run(const fs::path& output) {
         remove_files(output / "export", ends(ending));
     std::error_code error;
     for (const char* file :
-         {"summary.json", "history.csv", "report.html", "status.json", "paraview.pvd", "log.txt",
-          "scene.toml", "deflection.csv", "base.csv", "figures/base.png", "footwall.pvd",
-          "footwall.vtu", "figures/flexure.png"})
+         {"summary.json", "history.csv", "report.html", "status.json", "paraview.pvd",
+          "paraview.py", "log.txt", "scene.toml", "deflection.csv", "base.csv", "figures/base.png",
+          "footwall.pvd", "footwall.vtu", "figures/flexure.png"})
         fs::remove(output / file, error);
 }
 

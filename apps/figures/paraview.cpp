@@ -1,7 +1,9 @@
 #include "apps/figures/paraview.hpp"
 
+#include "apps/figures/vtk_array.hpp"
 #include "apps/measures/cohesion.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/resources.hpp"
 #include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
 #include "dem/law.hpp"
@@ -14,6 +16,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,7 +34,7 @@ namespace fs = std::filesystem;
 /// In the order in which ParaView lists them.
 constexpr std::array<std::string_view, 3> parts = {"discs", "contacts", "base"};
 
-/// VTK XML PolyData with raw appended data: small, and read by every version.
+/// VTK XML PolyData, arrays compressed within the text.
 class PolyData {
 public:
     PolyData(std::size_t point_count, std::size_t vertex_count, std::size_t line_count)
@@ -47,10 +51,9 @@ public:
                                type, name, components);
         for (std::size_t k = 0; k < component_names.size(); ++k)
             section += fmt::format("ComponentName{}=\"{}\" ", k, component_names[k]);
-        section += fmt::format("format=\"appended\" offset=\"{}\"/>\n", data_.size());
-        const std::uint64_t bytes = values.size() * sizeof(T);
-        data_.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
-        data_.append(reinterpret_cast<const char*>(values.data()), bytes);
+        section += fmt::format("format=\"binary\">\n{}\n</DataArray>\n",
+                               vtk_array({reinterpret_cast<const unsigned char*>(values.data()),
+                                          values.size() * sizeof(T)}));
     }
 
     std::string point_data, cell_data, points, vertices, lines;
@@ -58,19 +61,18 @@ public:
     std::string text() const {
         return fmt::format(
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-            "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
+            "byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+            "compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n"
             "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" "
             "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"
             "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n"
             "<Verts>\n{}</Verts>\n<Lines>\n{}</Lines>\n"
-            "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_{}\n</AppendedData>\n"
-            "</VTKFile>\n",
-            points_, vertices_, lines_, point_data, cell_data, points, vertices, lines, data_);
+            "</Piece>\n</PolyData>\n</VTKFile>\n",
+            points_, vertices_, lines_, point_data, cell_data, points, vertices, lines);
     }
 
 private:
     std::size_t points_, vertices_, lines_;
-    std::string data_;
 };
 
 /// Cells of `size` consecutive points each.
@@ -253,6 +255,13 @@ void write_paraview(const fs::path& output, const State& state, const RigidBase&
     write_text(folder / ("contacts-" + moment), contacts_file(state));
     write_text(folder / ("base-" + moment), base_file(state, base));
     write_series(output, extension_rate);
+    copy_view(output);
+}
+
+void copy_view(const fs::path& output) {
+    std::ifstream in(resource_folder() / "figures/python/paraview.py");
+    if (const std::string script(std::istreambuf_iterator<char>(in), {}); !script.empty())
+        write_text(output / "paraview.py", script);
 }
 
 } // namespace listric

@@ -10,9 +10,12 @@ namespace listric {
 /// Writes one moment as VTK PolyData into output/paraview: discs (points: radius, material,
 /// stratum, start depth, rotation, velocity, stress, coordination, bonds), contacts (lines: bonded,
 /// normal and shear force, compression positive) and base (lines). The series output/paraview.pvd
-/// holds all moments there, with time in Ma; docs/paraview.md tells how to look at it. Throws
-/// StorageError.
+/// holds all moments there, with time in Ma; docs/paraview.md tells how to look at it.
+/// @param extension_rate  m/a. Throws StorageError.
 void write_paraview(const std::filesystem::path& output, const dem::State& state,
                     const dem::RigidBase& base, double extension_rate);
+
+/// Writes output/paraview.py, which opens the series there in ParaView. Throws StorageError.
+void copy_view(const std::filesystem::path& output);
 
 } // namespace listric

@@ -1,6 +1,7 @@
 #include "apps/run/flexure.hpp"
 
 #include "apps/figures/flexure_figure.hpp"
+#include "apps/figures/paraview.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
@@ -218,6 +219,7 @@ Bent bend(const FlexureParameters& flexure, const Case& c, const fs::path& outpu
     base->write(output.string(), "footwall");
     const std::pair<double, std::string> moment{0.0, "footwall.vtu"};
     fem::write_series((output / "footwall.pvd").string(), {&moment, 1});
+    copy_view(output);
     return {d, base->reaction(), base->total_load()};
 }
 

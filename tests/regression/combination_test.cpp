@@ -5,6 +5,7 @@
 #include "apps/model/model.hpp"
 #include "tests/regression/speed_gauge.hpp"
 #include "tests/scene_runs.hpp"
+#include "tests/xml_files.hpp"
 
 #include <gmock/gmock.h>
 
@@ -194,6 +195,8 @@ TEST_F(Combination, EveryPairRuns) {
         EXPECT_EQ(summary.contains("energy_residual"), has(choice, "energy"));
         EXPECT_EQ(summary.contains("greatest_speed_m_per_s"), has(choice, "speed_gauge"));
         EXPECT_EQ(std::filesystem::exists(o.output / "paraview.pvd"), has(choice, series));
+        EXPECT_EQ(xml_files(o.output).starts_with("1 of .pvd\n"), has(choice, series))
+            << xml_files(o.output);
         const Snapshot last = read_snapshot(list_snapshots(o.output).back());
         for (const Table* table :
              {&last.state.discs, &last.state.contacts, &last.state.base_contacts})

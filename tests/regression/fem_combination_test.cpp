@@ -3,6 +3,7 @@
 // finish, stay finite, and keep mass and the balance of the interface.
 
 #include "tests/scene_runs.hpp"
+#include "tests/xml_files.hpp"
 
 #include <gmock/gmock.h>
 
@@ -44,9 +45,9 @@ TEST_F(ElasticCombination, WithEverything) {
     RunOptions how = options("all");
     how.threads = 3;
     const nlohmann::json summary = run_on_elastic_base(
-        {.set = {"energy={}", "output.series=paraview", "lower_crust_thinning.thickness_m=20e3",
-                 "lower_crust_thinning.width_m=15e3", "footwall_erosion.interval_a=1000.0",
-                 "basin_water={}"},
+        {.set = {"energy={}", "output.series=paraview", "output.figures_at_m=[100]",
+                 "lower_crust_thinning.thickness_m=20e3", "lower_crust_thinning.width_m=15e3",
+                 "footwall_erosion.interval_a=1000.0", "basin_water={}"},
          .seed = 2},
         how);
     EXPECT_THAT(summary["effects"],
@@ -54,6 +55,7 @@ TEST_F(ElasticCombination, WithEverything) {
                                        "sedimentation", "compaction", "energy", "elastic_base",
                                        "lower_crust_thinning", "basin_water", "footwall_erosion"}));
     EXPECT_TRUE(summary.contains("energy_residual"));
+    EXPECT_THAT(xml_files(how.output), testing::StartsWith("2 of .pvd\n"));
 }
 
 TEST_F(ElasticCombination, WithNothingElse) {

@@ -4,6 +4,7 @@
 #include "apps/run/run.hpp"
 #include "apps/support/file.hpp"
 #include "fem/elastic_layer.hpp"
+#include "tests/xml_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -95,8 +96,9 @@ TEST_F(FlexureScene, LeavesFilesAndAFigure) {
     unsetenv("PYTHONPATH");
     run({});
     for (const char* file : {"scene.toml", "log.txt", "deflection.csv", "footwall.pvd",
-                             "footwall.vtu", "figures/flexure.png"})
+                             "footwall.vtu", "paraview.py", "figures/flexure.png"})
         EXPECT_TRUE(fs::exists(output_ / file)) << file;
+    EXPECT_EQ(support::xml_files(output_), "1 of .pvd\n1 of .vtu\n");
 }
 
 TEST_F(FlexureScene, BrokenPlate) {
