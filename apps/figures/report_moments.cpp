@@ -139,8 +139,27 @@ json predictions_of(const Observation& now) {
              {"points", points_of(normals_top(detachment, extension, wall))}}};
 }
 
+/// Corners (m) and change of largest shear stress (MPa) of the patches near the section, as they
+/// stand.
+json footwall_of(std::span<const fem::StressPatch> patches, double right) {
+    constexpr double beside = 60e3, deepest = 60e3; // m
+    json corners = json::array(), shear = json::array();
+    for (const fem::StressPatch& patch : patches) {
+        const fem::Vector at = patch.corner[0];
+        if (at.x < -beside || at.x > right + beside || at.y < -deepest)
+            continue;
+        for (std::size_t k = 0; k < 4; ++k) {
+            corners.push_back(std::round(patch.corner[k].x + patch.displacement[k].x));
+            corners.push_back(-std::round(patch.corner[k].y + patch.displacement[k].y));
+        }
+        shear.push_back(short_length(1e-6 * std::hypot(0.5 * (patch.xx - patch.yy), patch.xy)));
+    }
+    return {{"corners", std::move(corners)}, {"shear_mpa", std::move(shear)}};
+}
+
 /// The lines of a section, as they are seen over it.
-std::string lines_json(const Observation& now, const FaultReport& faults, bool followed) {
+std::string lines_json(const Observation& now, const FaultReport& faults, bool followed,
+                       std::span<const fem::StressPatch> footwall) {
     const ExportedMoment at{now, faults};
     json lines{{"followed", followed},
                {"faults", faults_of(at, followed)},
@@ -150,6 +169,9 @@ std::string lines_json(const Observation& now, const FaultReport& faults, bool f
         lines["horizons"] = lines_of(horizons_table(at));
         lines["predictions"] = predictions_of(now);
     }
+    if (!footwall.empty())
+        lines["footwall"] =
+            footwall_of(footwall, now.scene.hanging_wall->length + now.state.clock.extension);
     for (const EffectPart& part : now.scene.effects)
         if (part.effect->draw)
             for (const FigureLayer& layer : part.effect->draw(now))
@@ -270,12 +292,13 @@ std::string ReportMoments::encode(const Observation& now) {
                        d.id.size(), text);
 }
 
-void ReportMoments::add(const Observation& now, const FaultReport& faults, bool followed) {
+void ReportMoments::add(const Observation& now, const FaultReport& faults, bool followed,
+                        std::span<const fem::StressPatch> footwall) {
     if (extension_ != now.state.clock.extension) {
         moments_.push_back({encode(now), ""});
         extension_ = now.state.clock.extension;
     }
-    moments_.back().lines = lines_json(now, faults, followed);
+    moments_.back().lines = lines_json(now, faults, followed, footwall);
 }
 
 std::string ReportMoments::json() const {

@@ -2,6 +2,7 @@
 
 #include "apps/measures/fault.hpp"
 #include "apps/scene/effect.hpp"
+#include "fem/footwall.hpp"
 
 #include <cstdint>
 #include <map>
@@ -29,7 +30,9 @@ public:
     /// added last may come again, with other lines.
     /// @param followed  whether the faults are followed back to their birth; then horizons, which
     ///                  take as long, are traced, too
-    void add(const Observation& now, const measures::FaultReport& faults, bool followed);
+    /// @param footwall  stress below the base; none: it is rigid, or has not been recovered
+    void add(const Observation& now, const measures::FaultReport& faults, bool followed,
+             std::span<const fem::StressPatch> footwall = {});
 
     /// Of the last moment, m; none: there is no moment.
     std::optional<double> extension() const { return extension_; }

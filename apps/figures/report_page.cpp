@@ -1,5 +1,6 @@
 #include "apps/figures/report_page.hpp"
 
+#include "apps/scene/effect.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/resources.hpp"
@@ -71,6 +72,7 @@ json head_of(const ReportPage::Run& run) {
               {"description", scene.description},
               {"accuracy", scene.accuracy},
               {"seed", scene.seed},
+              {"effects", effect_names(scene)},
               {"length_m", scene.hanging_wall->length},
               {"thickness_m", scene.hanging_wall->thickness},
               {"extension_m", scene.extension.distance},

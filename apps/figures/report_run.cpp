@@ -7,6 +7,7 @@
 #include "apps/archive/summary.hpp"
 #include "apps/figures/draw_run.hpp"
 #include "apps/figures/report_page.hpp"
+#include "apps/model/footwall_coupling.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 
@@ -70,12 +71,38 @@ std::string page_of(const std::vector<ReadRun>& runs, const Reduction& reduction
     return report_html(page);
 }
 
+/// The stress below the base of a run's snapshots; none where the base is rigid.
+class FootwallReader {
+public:
+    explicit FootwallReader(const RunFolder& folder) {
+        if (!has_effect(folder.scene, "elastic_base"))
+            return;
+        try {
+            coupling_.emplace(folder.scene, folder.parts, events_);
+        } catch (const UsageError&) { // without its plug-in the report has the discs alone
+        }
+    }
+
+    std::vector<fem::StressPatch> read(const fs::path& path) {
+        if (!coupling_)
+            return {};
+        Snapshot snapshot = read_snapshot(path);
+        hand_over(snapshot, events_);
+        return coupling_->recover(snapshot.state).stress();
+    }
+
+private:
+    std::vector<std::unique_ptr<dem::Event>> events_;
+    std::optional<FootwallCoupling> coupling_;
+};
+
 } // namespace
 
 double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHistory& history,
                    int every, bool every_line) {
     const measures::Setting setting = make_setting(folder.scene, folder.parts);
     const dem::RigidBase& base = folder.parts.base;
+    FootwallReader footwall(folder);
     double mean_radius = 0.0;
     for (std::size_t k = 0; k < folder.snapshots.size(); ++k) {
         const bool last = k + 1 == folder.snapshots.size();
@@ -86,7 +113,9 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
                               is_drawn_at(folder.scene, snapshot_extension(folder.snapshots[k]));
         const auto faults = followed ? report_faults(setting, base, moment.state, history)
                                      : active_faults(setting, base, moment.state, history);
-        moments.add({folder.scene, folder.parts, moment.state, moment.events}, faults, followed);
+        moments.add({folder.scene, folder.parts, moment.state, moment.events}, faults, followed,
+                    followed ? footwall.read(folder.snapshots[k])
+                             : std::vector<fem::StressPatch>());
         mean_radius = moment.state.mean_radius;
     }
     return mean_radius;

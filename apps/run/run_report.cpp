@@ -44,10 +44,11 @@ void RunReport::add(const Observation& now, const RunHistory& history) {
     });
 }
 
-void RunReport::add(const Observation& now, const measures::FaultReport& faults) {
+void RunReport::add(const Observation& now, const measures::FaultReport& faults,
+                    const std::vector<fem::StressPatch>& footwall) {
     attempt([&] {
         mean_radius_ = now.state.mean_radius;
-        moments_.add(now, faults, true);
+        moments_.add(now, faults, true, footwall);
     });
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace listric {
 
@@ -30,8 +31,9 @@ public:
     /// @param history  up to that moment
     void add(const Observation& now, const archive::RunHistory& history);
 
-    /// The same with faults that have been followed back.
-    void add(const Observation& now, const measures::FaultReport& faults);
+    /// The same with faults that have been followed back, and the stress below an elastic base.
+    void add(const Observation& now, const measures::FaultReport& faults,
+             const std::vector<fem::StressPatch>& footwall);
 
     /// Writes the file if the run goes on and the report is live.
     /// @param history  as history.csv

@@ -286,7 +286,9 @@ void Session::report_window() {
         return;
     const Stopwatch watch(record_.seconds_by_part["report"]);
     if (faults_ && faults_at_ == extension())
-        report_.add(now(), *faults_);
+        report_.add(now(), *faults_,
+                    footwall_ ? footwall_->recover(simulation_.state()).stress()
+                              : std::vector<fem::StressPatch>());
     else
         report_.add(now(), history_);
 }

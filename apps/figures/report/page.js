@@ -27,19 +27,23 @@ function layOut() {
   for (const section of page.sections) {
     const width = section.host.clientWidth, ratio = Math.min(window.devicePixelRatio || 1, 2);
     const {length_m: length, extension_m: extension, thickness_m: depth} = section.run.head;
-    const height = Math.round(Math.max(Math.min(width * page.view.height * (depth + 3000) / (length + extension + 2000),
+    const [below, beside] = hasFootwall() ? [11000, 21000] : [3000, 2000];
+    const height = Math.round(Math.max(Math.min(width * page.view.height * (depth + below) / (length + extension + beside),
       window.innerHeight * 0.75), 140));
     section.host.style.height = `${height}px`;
     section.resize(Math.round(width * ratio), Math.round(height * ratio));
   }
 }
 
+function hasFootwall() { return page.shown.has("footwall") && page.runs.some(layers.footwall.of); }
+
 function showWhole() {
   const canvas = page.sections[0].discCanvas;
-  const longest = Math.max(...page.runs.map(run => run.head.length_m + run.head.extension_m)) + 2000;
-  const deepest = Math.max(...page.runs.map(run => run.head.thickness_m)) + 3000;
+  const flank = hasFootwall() ? 20000 : 1000;
+  const longest = Math.max(...page.runs.map(run => run.head.length_m + run.head.extension_m)) + flank + 1000;
+  const deepest = Math.max(...page.runs.map(run => run.head.thickness_m)) + (hasFootwall() ? 11000 : 3000);
   const scale = Math.min(canvas.width / longest, canvas.height / deepest / page.view.height);
-  Object.assign(page.view, {left: -1000 - (canvas.width / scale - longest) / 2, top: -2000, scale});
+  Object.assign(page.view, {left: -flank - (canvas.width / scale - longest) / 2, top: -2000, scale});
 }
 
 let drawing = 0;
@@ -59,6 +63,7 @@ async function draw() {
     await section.draw(k, page.view, page.shown, page.picked, section.run === page.runs[0] ? others : null);
   }
   drawLegend(top, strata);
+  await addFootwallLegend();
   tell();
   writeAddress();
 }
@@ -85,6 +90,14 @@ function drawLegend(top, strata) {
   const end = plain(top / (unit || 1)), middle = plain(top / (unit || 1) * (root ? 0.25 : 0.5));
   host.append(...(page.mode === "strata" ? ["oldest sediment ", canvas, ` youngest (${strata}); grey: pre-rift, layers of 1 km`]
     : ["0 ", canvas, ` ${end} (middle: ${middle})`]));
+}
+
+async function addFootwallLegend() {
+  const run = page.runs.find(layers.footwall.of);
+  const lines = run && page.shown.has("footwall") && await run.loadLines(momentOf(run));
+  if (lines?.footwall)
+    $("legend").append(`; footwall: change of shear stress, white 0, dark ${plain(footwallLimit(lines.footwall.shear_mpa))} MPa or more`);
+  else if (lines) $("legend").append("; the footwall's stress is there at the figures' moments and at the end");
 }
 
 function tell() {
@@ -291,6 +304,10 @@ function addLayers() {
     box.checked = page.shown.has(name);
     box.addEventListener("change", () => {
       box.checked ? page.shown.add(name) : page.shown.delete(name);
+      if (name === "footwall") {
+        layOut();
+        showWhole();
+      }
       draw().catch(trouble);
     });
     label.append(` ${layer.label}`);

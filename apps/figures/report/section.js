@@ -6,9 +6,10 @@ const layers = {
   horizons: {label: "horizons", on: true, of: () => true},
   bonds: {label: "bonds", on: false, of: run => run.has("bonds_left")},
   detachment: {label: "detachment", on: true, of: () => true},
-  unbent: {label: "base before bending", on: false, of: run => run.head.summary?.effects?.includes("elastic_base")},
-  target: {label: "target line", on: false, of: run => run.head.summary?.effects?.includes("sedimentation")},
-  water: {label: "water", on: true, of: run => run.head.summary?.effects?.includes("basin_water")},
+  unbent: {label: "base before bending", on: false, of: run => run.head.effects.includes("elastic_base")},
+  footwall: {label: "footwall's stress", on: true, of: run => run.head.effects.includes("elastic_base")},
+  target: {label: "target line", on: false, of: run => run.head.effects.includes("sedimentation")},
+  water: {label: "water", on: true, of: run => run.head.effects.includes("basin_water")},
   predictions: {label: "kinematic predictions", on: false, of: run => run.has("start_x_m")},
   picks: {label: "picks", on: true, of: run => Boolean(run.head.picks)},
   underlay: {label: "picture", on: true, of: () => Boolean(page.data.underlay)},
@@ -16,6 +17,11 @@ const layers = {
 
 const inks = {faults: "#000", horizons: "#0b3d5c", detachment: "#7a1f1f", unbent: "#7a1f1f", target: "#1b5e20",
   predictions: "#6a1b9a", picks: "#b30059", other: "#b35900"};
+
+/** 95 of 100 patches are below it, MPa. */
+function footwallLimit(shear) {
+  return [...shear].sort((a, b) => a - b)[Math.floor(0.95 * (shear.length - 1))] || 1;
+}
 
 class Section {
   constructor(run, host) {
@@ -78,6 +84,7 @@ class Section {
   async draw(k, view, shown, picked, other) {
     const lines = await this.run.loadLines(k), pen = this.pen;
     pen.clearRect(0, 0, this.lineCanvas.width, this.lineCanvas.height);
+    if (shown.has("footwall") && lines.footwall) this.drawFootwall(view, lines.footwall);
     if (shown.has("underlay") && page.underlay) this.drawUnderlay(view);
     if (shown.has("water") && lines.layers?.water) this.drawWater(view, lines.layers.water);
     if (shown.has("bonds") && this.run.has("bonds_left")) this.drawBonds(k, view);
@@ -164,6 +171,21 @@ class Section {
     for (const point of [...floor, ...level]) pen.lineTo(...point);
     pen.fillStyle = "#5aa9e666";
     pen.fill();
+  }
+
+  /** Patches below the base, the darker the more their shear stress has changed; behind the discs. */
+  drawFootwall(view, {corners, shear_mpa: shear}) {
+    const pen = this.pen, most = footwallLimit(shear);
+    shear.forEach((value, n) => {
+      pen.beginPath();
+      for (let i = 8 * n; i < 8 * n + 8; i += 2) pen.lineTo(...this.toPixel(view, corners[i], corners[i + 1]));
+      pen.closePath();
+      const ink = cssColour(palettes.greys[Math.round(180 * Math.min(value / most, 1))]);
+      pen.fillStyle = pen.strokeStyle = ink;
+      pen.lineWidth = 1;
+      pen.fill();
+      pen.stroke();
+    });
   }
 
   drawUnderlay(view) {
