@@ -79,8 +79,8 @@ def mark_formula(match):
 
 
 def relink(markdown, file):
-    """Links to files that are no pages of the site keep their text alone; dead ones stay, for mkdocs
-    to refuse."""
+    """Links to files that the site does not have become their names; dead ones stay, for mkdocs to
+    refuse."""
     source = Path(file.abs_src_path).parent
     docs = ROOT / "docs"
 
@@ -95,7 +95,7 @@ def relink(markdown, file):
         elif docs in target.parents and target.is_file() and target.suffix not in NOT_SERVED:
             place = target.relative_to(docs).as_posix()
         else:
-            return match["text"]
+            return f"`{match['text'].strip('`')}`"
         to = os.path.relpath(place, os.path.dirname(file.src_path) or ".")
         return f"[{match['text']}]({to}{match['anchor'] or ''})"
 
