@@ -23,6 +23,9 @@ install(FILES ${PROJECT_BINARY_DIR}/listric.1 DESTINATION ${CMAKE_INSTALL_MANDIR
   COMPONENT program)
 install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT program
   FILES_MATCHING PATTERN *.py)
+# Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/python.md).
+install(DIRECTORY apps/python/listric DESTINATION lib/python3/dist-packages COMPONENT program
+  FILES_MATCHING PATTERN *.py PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 if(TARGET listric_fem)
