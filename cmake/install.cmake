@@ -25,6 +25,9 @@ install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT pro
   FILES_MATCHING PATTERN *.py)
 install(DIRECTORY apps/figures/report DESTINATION ${share}/figures COMPONENT program)
 install(FILES docs/measures.md DESTINATION ${share} COMPONENT program)
+# Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/python.md).
+install(DIRECTORY apps/python/listric DESTINATION lib/python3/dist-packages COMPONENT program
+  FILES_MATCHING PATTERN *.py PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 if(TARGET listric_fem)

@@ -15,7 +15,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME listric)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "A hanging wall of bonded discs on a listric or ramp-flat detachment, with faults and sediment.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libjs-dygraphs, python3-matplotlib, python3-numpy")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-gsd")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-h5py")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-gsd, python3-pandas")
 set(CPACK_DEBIAN_ELASTIC_BASE_PACKAGE_NAME listric-elastic-base)
 set(CPACK_DEBIAN_ELASTIC_BASE_PACKAGE_DEPENDS "listric (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_ELASTIC_BASE_DESCRIPTION

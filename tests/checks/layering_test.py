@@ -37,9 +37,12 @@ class PlantedViolations(unittest.TestCase):
 
     def test_a_file_in_no_room(self):
         self.assertEqual(self.found({"apps/main.cpp": "", "apps/helper.cpp": "",
-                                     "apps/tools/helper.py": ""}),
+                                     "apps/tools/helper.py": "",
+                                     "apps/python/listric/run.py": "",
+                                     "apps/python/listric/helper.cpp": ""}),
                          ["apps/helper.cpp: lies in no room",
-                          "apps/tools/helper.py: lies in no room"])
+                          "apps/tools/helper.py: lies in no room",
+                          "apps/python/listric/helper.cpp: lies in no room"])
 
     def test_a_cycle_of_units(self):
         self.assertEqual(

@@ -9,6 +9,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -76,6 +77,14 @@ class Installed(unittest.TestCase):
         self.assertIn("lis1: correct: ", self.program("check", "lis1"))
         self.assertIn("lis1-elastic", (share / "bash-completion/completions/listric").read_text())
         self.assertIn(".TH LISTRIC 1", (share / "man/man1/listric.1").read_text())
+
+    def test_python_finds_the_package_and_the_package_the_program(self):
+        script = ("import listric, sys; print(listric.find_program());"
+                  "print(listric.Run(sys.argv[1]).summary['state_hash'])")
+        environment = {name: value for name, value in os.environ.items() if name != "LISTRIC_PROGRAM"}
+        environment["PYTHONPATH"] = str(self.prefix / "lib/python3/dist-packages")
+        said = call(sys.executable, "-B", "-c", script, self.elsewhere / "out/lis1", env=environment)
+        self.assertEqual(said.split(), [str(self.prefix / "bin/listric"), self.state_hash])
 
     def test_a_project_finds_the_package(self):
         folder = self.project("consumer", f"-DCMAKE_PREFIX_PATH={self.prefix}")

@@ -1,0 +1,21 @@
+"""Runs of Listric, the numerical sandbox for halfgrabens, in Python.
+
+    import listric
+    run = listric.Run("out/lis1")                    # reads nothing yet
+    x = run.snapshots[-1].discs["x"]                 # an array; x.units is "m"
+    run = listric.simulate("lis1", set={"extension.distance_m": 5000.0}, accuracy="draft")
+
+SI units, but years (a) where a name says so. x is measured from the breakaway into the hanging
+wall. Columns of snapshots are those of the file, bit for bit: there y points up, from the original
+surface. All else that has a depth has it positive down. docs/python.md says more.
+"""
+
+from .errors import ListricError, ProgramError, RunError, UnknownName
+from .program import call, find_program, simulate
+from .raster import Raster
+from .run import Run
+from .snapshot import Snapshot
+from .table import Column, Table
+
+__all__ = ["Column", "ListricError", "ProgramError", "Raster", "Run", "RunError", "Snapshot",
+           "Table", "UnknownName", "call", "find_program", "simulate"]

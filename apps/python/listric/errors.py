@@ -1,0 +1,51 @@
+"""What can go wrong. Every message is one line that names the file, or the call, and the cure."""
+
+import difflib
+
+
+class ListricError(Exception):
+    """Any error of this package."""
+
+
+class RunError(ListricError):
+    """A folder that holds no run, a file of it that is not there or damaged."""
+
+
+class UnknownName(ListricError, KeyError):
+    """No column, table or number of that name."""
+
+    __str__ = Exception.__str__  # KeyError's puts the message in quotes
+
+    def __init__(self, name, among, where):
+        """`among` are the names that there are; `where` says of what."""
+        among = [str(one) for one in among]
+        close = difflib.get_close_matches(str(name), among, n=3)
+        cure = (f"did you mean {' or '.join(close)}?" if close
+                else f"there are {', '.join(among)}" if among else "there are none")
+        super().__init__(f"{where}: no {name}; {cure}")
+
+
+class ProgramError(ListricError):
+    """The program is not found, or a call of it has failed.
+
+    `code` is its exit code: 2 the call or the scene is wrong, 3 the numbers went wrong, 4 no room,
+    130 interrupted; negative: the signal that ended it; None if it did not start.
+    """
+
+    def __init__(self, message, code=None):
+        super().__init__(message)
+        self.code = code
+
+
+class Named(dict):
+    """A dict that says what was meant by a name it does not have."""
+
+    def __init__(self, values, where):
+        super().__init__(values)
+        self._where = where
+        for name, value in values.items():
+            if isinstance(value, dict):
+                self[name] = Named(value, f"{where} [{name}]")
+
+    def __missing__(self, name):
+        raise UnknownName(name, self, self._where)

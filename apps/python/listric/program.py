@@ -1,0 +1,113 @@
+"""The program, found and called."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from .errors import ProgramError
+
+_HERE = Path(__file__).resolve().parent
+
+
+def find_program() -> Path:
+    """Path of the program: the environment's LISTRIC_PROGRAM, else the one installed with this
+    package, else `listric` on the PATH, else, in the source tree, the launcher, which builds what is
+    missing.
+
+    Throws ProgramError.
+    """
+    if wanted := os.environ.get("LISTRIC_PROGRAM"):
+        if not os.access(wanted, os.X_OK) or os.path.isdir(wanted):
+            raise ProgramError(f"LISTRIC_PROGRAM: {wanted}: is no program; name bin/listric of an "
+                               "installation, or build/native/listric of the source tree")
+        return Path(wanted).absolute()
+    # PREFIX/lib/python3/dist-packages/listric, and apps/python/listric of the source tree.
+    installed, launcher = _HERE.parents[3] / "bin/listric", _HERE.parents[2] / "listric"
+    on_path = shutil.which("listric")
+    for found in (installed, on_path and Path(on_path), launcher):
+        if found and found.is_file() and os.access(found, os.X_OK):
+            return found.absolute()
+    raise ProgramError("the program listric is not found: put it on the PATH, or name it in "
+                       "LISTRIC_PROGRAM")
+
+
+def call(*words, quiet: bool = True) -> str:
+    """Calls the program, as `call("sweep", "plan.toml")`, and returns what it prints.
+
+    What it tells of its progress appears on stderr unless `quiet`. Throws ProgramError with its last
+    line and exit code. Interrupted (Ctrl-C, the stop button), the program saves what it has reached.
+    """
+    command = [str(find_program()), *map(str, words)]
+    last = ""
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as printed:
+        try:
+            process = subprocess.Popen(command, stdout=printed, stderr=subprocess.PIPE, text=True,
+                                       encoding="utf-8", errors="replace")
+        except OSError as error:
+            raise ProgramError(f"{command[0]}: cannot be started: {error.strerror}") from error
+        with process:
+            try:
+                for line in process.stderr:
+                    last = line.strip() or last
+                    if not quiet:
+                        sys.stderr.write(line)
+            except KeyboardInterrupt:
+                process.wait()  # it saves
+                raise
+        if process.returncode:
+            said = last or "listric says nothing"
+            raise ProgramError(f"{said} (exit code {process.returncode} of "
+                               f"`listric {' '.join(map(str, words))}`)", process.returncode)
+        printed.seek(0)
+        return printed.read()
+
+
+def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=None, until_m=None,
+             output=None, resume=False, force=False, quiet=True):
+    """Runs a scene to its end and returns the Run.
+
+    scene      name (`listric scenes`), or a path to a file
+    set        {"table.key": value} of parameters; units are in their names (docs/parameters.md)
+    without    names of effects to switch off
+    accuracy   "draft", "standard", "fine" or "sandbox"
+    seed       of the packing and of everything random
+    threads    processor cores to use
+    until_m    ends at this extension, m
+    output     folder of results; without it out/SCENE, as the program has it
+    resume     goes on from the newest snapshot of that folder
+    force      replaces a run that is in that folder; else this is refused
+    quiet      False: progress on stderr
+
+    Throws ProgramError.
+    """
+    from .run import Run  # which finds lines by the program
+    output = Path(output or Path("out", Path(scene).name.removesuffix(".toml")))
+    words = ["run", scene, "--output", output]
+    for name, value in (set or {}).items():
+        words += ["--set", f"{name}={_toml(value)}"]
+    for effect in [without] if isinstance(without, str) else without:
+        words += ["--without", effect]
+    options = {"--accuracy": accuracy, "--seed": seed, "--threads": threads,
+               "--until": None if until_m is None else f"{float(until_m)}m"}
+    for option, value in options.items():
+        if value is not None:
+            words += [option, value]
+    flags = {"--resume": resume, "--force": force, "--quiet": quiet}
+    call(*words, *(flag for flag, on in flags.items() if on), quiet=quiet)
+    return Run(output)
+
+
+def _toml(value, nested: bool = False) -> str:
+    """As `--set` reads it: a word stands without quotes, but for those in a list."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()  # of NumPy
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {_toml(one, True)}" for key, one in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(one, True) for one in value) + "]"
+    return f'"{value}"' if nested and isinstance(value, (str, Path)) else str(value)

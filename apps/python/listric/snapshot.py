@@ -1,0 +1,167 @@
+"""One moment of a run: the program's whole state in an HDF5 file."""
+
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+from .errors import Named, RunError, UnknownName
+from .lines import exported_lines
+from .raster import Raster, draw_raster
+from .table import Table, unit_of
+
+try:
+    import h5py
+except ImportError as error:
+    raise ImportError("listric reads snapshots with h5py: install the package python3-h5py, or "
+                      "`pip install h5py`") from error
+
+FORMAT = 5  # of the snapshots that this package reads
+_KIND = "listric snapshot "
+_END = b"listric checksum"  # in front of the last eight bytes of a whole file
+
+
+class Snapshot:
+    """A file of a run's folder `snapshots`. It is opened when something of it is asked for, and closed
+    at once: a run may have any number of them.
+
+    Tables are those of the file, SI units, bit for bit; y points up from the original surface.
+
+        discs          a row per disc: id, x, y, radius, stratum, start_x, window_strain, ...
+        contacts       a row per pair of neighbours; `first` and `second` are rows of discs
+        base_contacts  a row per disc at the detachment or a wall
+        base_nodes     a row per node of a base that deforms; ux, uy is its displacement
+    """
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self._tables, self._lines = {}, {}
+
+    def __repr__(self) -> str:
+        return f"<snapshot {self.path}>"
+
+    @property
+    def discs(self) -> Table:
+        return self.table("discs")
+
+    @property
+    def contacts(self) -> Table:
+        return self.table("contacts")
+
+    @property
+    def base_contacts(self) -> Table:
+        return self.table("base_contacts")
+
+    @property
+    def base_nodes(self) -> Table:
+        return self.table("base_nodes")
+
+    @property
+    def extension_m(self) -> float:
+        """Displacement of base and right wall, m."""
+        return self.numbers["extension"]
+
+    @property
+    def named_extension_m(self) -> float:
+        """The same by the file's name, rounded to a centimetre; the file is not opened."""
+        return float(self.path.stem.removeprefix("extension-").removesuffix("m"))
+
+    @property
+    def numbers(self) -> Named:
+        """Numbers of the state by name: seed, cycle, extension (m), mean_radius (m), ..."""
+        with self._open() as file:
+            return Named({name: value.item() for name, value in file.attrs.items()
+                          if isinstance(value, np.generic) and not isinstance(value, np.bytes_)},
+                         str(self.path))
+
+    def table(self, name: str) -> Table:
+        """Any table of the file by its path: "discs" or, what an effect remembers, "events/NAME".
+
+        Throws UnknownName, RunError.
+        """
+        if name not in self._tables:
+            with self._open() as file:
+                group = file.get(name)
+                if not isinstance(group, h5py.Group) or "rows" not in group.attrs:
+                    raise UnknownName(name, _tables(file), str(self.path))
+                columns = sorted(group.items(), key=lambda item: item[1].attrs["position"])
+                units = {key: _text(values.attrs["unit"]) or unit_of(key)
+                         for key, values in columns}
+                rows = int(group.attrs["rows"])
+            self._tables[name] = Table(f"{self.path} {name}", rows, units,
+                                       lambda key: self._column(f"{name}/{key}"))
+        return self._tables[name]
+
+    def lines(self, kind: str) -> list[dict]:
+        """What `listric export KIND` has of this moment: "horizons", "faults", "surfaces", "base".
+
+        A dict per line with the columns of docs/export.md: one value for those of a line, an array of
+        shape (points,) for those of a point, among them x_m and depth_m (positive down). Read from the
+        run's folder `export` if they are there and not older than the snapshot; else the program is
+        called, which takes seconds and leaves nothing behind. Throws ProgramError, RunError.
+        """
+        if kind not in self._lines:
+            self._lines[kind] = exported_lines(self.path, kind)
+        return self._lines[kind]
+
+    def raster(self, column: str, spacing: float = 100.0, extent=None) -> Raster:
+        """A column of discs on a grid: `x, depth, values = snapshot.raster("window_strain")`.
+
+        spacing  of the grid, m
+        extent   (least x, greatest x, least depth, greatest depth), m; without it, around all discs
+
+        draw_raster says which disc a cell is of. Throws UnknownName, RunError.
+        """
+        discs, mean_radius = self.discs, self.numbers["mean_radius"]
+        return draw_raster(discs, discs[column], spacing, extent, reach=0.5 * mean_radius)
+
+    def _column(self, path: str) -> np.ndarray:
+        with self._open() as file:
+            return file[path][()]
+
+    @contextmanager
+    def _open(self):
+        """The file; what HDF5 says of it becomes a RunError."""
+        try:
+            _check_end(self.path)
+            with h5py.File(self.path, "r") as file:
+                _check_format(file, self.path)
+                yield file
+        except FileNotFoundError:
+            raise RunError(f"{self.path}: is not there any more; open the run anew") from None
+        except (OSError, RuntimeError, KeyError, ValueError) as error:
+            if isinstance(error, UnknownName):
+                raise
+            why = " ".join(str(error.args[0] if error.args else error).split())
+            raise RunError(f"{self.path}: is damaged ({why}); take a copy of it, or run the scene "
+                           "again") from error
+
+
+def _check_end(path: Path) -> None:
+    """A file that was cut short is told from its end: HDF5 might read beyond it."""
+    with open(path, "rb") as file:
+        size = file.seek(0, 2)
+        file.seek(max(0, size - len(_END) - 8))
+        if not file.read().startswith(_END):
+            raise RunError(f"{path}: is no snapshot, or cut short; take a copy of it, or run the scene "
+                           "again")
+
+
+def _check_format(file, path: Path) -> None:
+    found = _text(file.attrs.get("format", b""))
+    if found != f"{_KIND}{FORMAT}":
+        version = _text(file.attrs.get("version", b"unknown"))
+        raise RunError(f"{path}: is of format {found.removeprefix(_KIND) or 'unknown'}, written by "
+                       f"version {version}, and this package reads format {FORMAT}; take the package "
+                       "of that version")
+
+
+def _tables(file) -> list[str]:
+    """Paths of all groups that are tables."""
+    found = []
+    file.visititems(lambda path, item: found.append(path) if "rows" in item.attrs else None)
+    return found
+
+
+def _text(value) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)
