@@ -22,8 +22,8 @@ TEST(ReportPage, NothingOfASceneIsATag) {
     scene.description = "</script><img src=x onerror=alert(1)>";
     scene.hanging_wall.emplace();
     const ReportMoments moments;
-    const std::string html =
-        report_html({.runs = {{scene, moments, 75.0, "extension_m\n0\n", R"({"a": "<tag-of-mine>"})"}}});
+    const std::string html = report_html(
+        {.runs = {{scene, moments, 75.0, "extension_m\n0\n", R"({"a": "<tag-of-mine>"})"}}});
     EXPECT_THAT(html, Not(HasSubstr("<img src=x")));
     EXPECT_THAT(html, Not(HasSubstr("<tag-of-mine>")));
     EXPECT_THAT(html, HasSubstr(R"("description":"\u003c/script>\u003cimg src=x)"));
