@@ -13,6 +13,7 @@ import sys
 import tempfile
 import time
 import unittest
+from contextlib import contextmanager
 from pathlib import Path
 
 import h5py
@@ -94,23 +95,14 @@ class Reader(unittest.TestCase):
         shutil.copytree(self.folder / "run", place / "run")
         return place / "run"
 
+    @contextmanager
     def fails(self, error, *words):
         """A context in which this error is thrown, with these words in its one line."""
-        test = self
-
-        class Fails:
-            def __enter__(self):
-                self.context = test.assertRaises(error)
-                return self.context.__enter__()
-
-            def __exit__(self, *args):
-                caught = self.context.__exit__(*args)
-                for word in words:
-                    test.assertIn(str(word), str(self.context.exception))
-                test.assertNotIn("\n", str(self.context.exception))
-                return caught
-
-        return Fails()
+        with self.assertRaises(error) as caught:
+            yield caught
+        for word in words:
+            self.assertIn(str(word), str(caught.exception))
+        self.assertNotIn("\n", str(caught.exception))
 
     def test_columns_are_those_of_hdf5(self):
         self.assertEqual(len(self.run_.snapshots), 3)
