@@ -119,6 +119,7 @@ std::vector<SlabFault> trace_births(const std::vector<DiscPlaces>& states, const
 StretchedSlab stretch_slab(const Scene& scene, RunOptions options) {
     options.resume = true; // a sweep that was stopped goes on; finished runs are not made again
     options.quiet = true;
+    options.report = false;
     if (run_scene(scene, options) != RunOutcome::finished)
         throw Interrupted{};
     const auto summary = read_json(options.output / "summary.json");

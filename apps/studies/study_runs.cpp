@@ -131,6 +131,7 @@ std::vector<std::optional<Json>> summaries_of_runs(const StudyRequest& request,
         options.output = folder_of_run(request, run, seed);
         options.threads = request.threads;
         options.quiet = request.quiet;
+        options.report = false;
         runs.push_back({fmt::format("{}, seed {}", run.parameter, seed), load_scene(scene),
                         std::move(options)});
     }

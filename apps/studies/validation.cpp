@@ -154,6 +154,7 @@ private:
                 options.output = folder_of(run, seed);
                 options.threads = request_.threads;
                 options.quiet = request_.jobs > 1;
+                options.report = false;
                 options.stop = request_.stop;
                 runs.push_back({run_name(run.name, seed), load_scene(scene), std::move(options)});
             }
