@@ -1,5 +1,6 @@
 #include "apps/archive/output_folder.hpp"
 
+#include "apps/archive/comment.hpp"
 #include "apps/archive/summary.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
@@ -78,36 +79,18 @@ void remove_run(const fs::path& output) {
     remove_files(output / "snapshots", ends(".h5"));
     remove_files(output / "paraview", ends(".vtp"));
     remove_files(output / "paraview", ends(".vtu"));
-    remove_files(output / "figures", ends("km.png"));
-    remove_files(output / "figures", ends("km.gif"));
-    remove_files(output / "figures", ends("km.mp4"));
+    for (const char* ending : {"km.png", "km.pdf", "km.svg", "km.gif", "km.mp4"})
+        remove_files(output / "figures", ends(ending));
     for (const char* ending : {"m.csv", "m.geojson", "m.gmt", "discs.gsd"})
         remove_files(output / "export", ends(ending));
     std::error_code error;
     for (const char* file :
          {"summary.json", "history.csv", "paraview.pvd", "paraview.py", "log.txt", "scene.toml",
-          "deflection.csv", "base.csv", "figures/base.png", "footwall.pvd", "footwall.vtu",
-          "figures/flexure.png"})
+          "deflection.csv", "base.csv", "footwall.csv", "footwall.pvd", "footwall.vtu"})
         fs::remove(output / file, error);
-}
-
-/// A line of a scene without its comment.
-std::string_view without_comment(std::string_view line) {
-    char quote = 0;
-    for (std::size_t k = 0; k < line.size(); ++k) {
-        const char c = line[k];
-        if (quote == '"' && c == '\\')
-            ++k;
-        else if (quote)
-            quote = c == quote ? 0 : quote;
-        else if (c == '"' || c == '\'')
-            quote = c;
-        else if (c == '#') {
-            line = line.substr(0, k);
-            break;
-        }
-    }
-    return line.substr(0, line.find_last_not_of(' ') + 1);
+    for (const std::string name : {"base", "footwall", "flexure"})
+        for (const char* ending : {".png", ".pdf", ".svg"})
+            fs::remove(output / "figures" / (name + ending), error);
 }
 
 /// A resumed run must be the same run; comments may have changed with the program.
