@@ -1,5 +1,6 @@
 #include "apps/archive/output_folder.hpp"
 
+#include "apps/archive/scene_lines.hpp"
 #include "apps/archive/summary.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
@@ -78,36 +79,19 @@ void remove_run(const fs::path& output) {
     remove_files(output / "snapshots", ends(".h5"));
     remove_files(output / "paraview", ends(".vtp"));
     remove_files(output / "paraview", ends(".vtu"));
-    remove_files(output / "figures", ends("km.png"));
-    remove_files(output / "figures", ends("km.gif"));
-    remove_files(output / "figures", ends("km.mp4"));
+    for (const char* ending : {"km.png", "km.pdf", "km.svg", "km.gif", "km.mp4"})
+        remove_files(output / "figures", ends(ending));
     for (const char* ending : {"m.csv", "m.geojson", "m.gmt", "discs.gsd"})
         remove_files(output / "export", ends(ending));
     std::error_code error;
     for (const char* file :
          {"summary.json", "history.csv", "report.html", "status.json", "paraview.pvd",
-          "paraview.py", "log.txt", "scene.toml", "deflection.csv", "base.csv", "figures/base.png",
-          "footwall.pvd", "footwall.vtu", "figures/flexure.png"})
+          "paraview.py", "log.txt", "scene.toml", "deflection.csv", "base.csv", "footwall.csv",
+          "footwall.pvd", "footwall.vtu"})
         fs::remove(output / file, error);
-}
-
-/// A line of a scene without its comment.
-std::string_view without_comment(std::string_view line) {
-    char quote = 0;
-    for (std::size_t k = 0; k < line.size(); ++k) {
-        const char c = line[k];
-        if (quote == '"' && c == '\\')
-            ++k;
-        else if (quote)
-            quote = c == quote ? 0 : quote;
-        else if (c == '"' || c == '\'')
-            quote = c;
-        else if (c == '#') {
-            line = line.substr(0, k);
-            break;
-        }
-    }
-    return line.substr(0, line.find_last_not_of(' ') + 1);
+    for (const std::string name : {"base", "footwall", "flexure"})
+        for (const char* ending : {".png", ".pdf", ".svg"})
+            fs::remove(output / "figures" / (name + ending), error);
 }
 
 /// A resumed run must be the same run; comments may have changed with the program, and whether
@@ -115,33 +99,17 @@ std::string_view without_comment(std::string_view line) {
 void check_same_scene(const Scene& scene, const fs::path& file) {
     std::ifstream in(file);
     const std::string before(std::istreambuf_iterator<char>(in), {});
-    const std::string now = to_toml(scene);
     if (before.empty())
         return;
-    std::string_view a = before, b = now;
-    const auto next_line = [](std::string_view& text) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const std::string_view line = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        return without_comment(line);
-    };
-    const auto next_that_matters = [&](std::string_view& text) {
-        std::string_view line = next_line(text);
-        while (line.starts_with("report = ") && !text.empty())
-            line = next_line(text);
-        return line;
-    };
-    std::string_view line_a, line_b;
-    while (line_a == line_b && (!a.empty() || !b.empty())) {
-        line_a = next_that_matters(a);
-        line_b = next_that_matters(b);
-    }
-    if (line_a == line_b)
+    const std::vector<std::string> then = scene_lines(before), now = scene_lines(to_toml(scene));
+    const auto [a, b] = std::ranges::mismatch(then, now);
+    if (a == then.end() && b == now.end())
         return;
     throw UsageError(fmt::format("{}: the run to resume has other parameters: it has \"{}\", this "
                                  "call \"{}\"; resume it with "
                                  "the parameters that it began with, or start anew with --force",
-                                 file.string(), line_a, line_b));
+                                 file.string(), a == then.end() ? "" : *a,
+                                 b == now.end() ? "" : *b));
 }
 
 } // namespace

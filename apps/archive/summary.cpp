@@ -3,7 +3,6 @@
 #include "apps/archive/traced_faults.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -196,6 +195,7 @@ std::string to_csv(const Table& table) {
 std::string summary_json(const SummaryContent& content) {
     Json json = summary_head(content);
     add_numbers(json, content);
+    json["provenance"] = content.provenance;
     json["effects"] = content.effects;
     json["time_by_part_s"] = seconds_by_part(content.record.seconds_by_part, content.wall_seconds);
     if (content.measures.depocentres)

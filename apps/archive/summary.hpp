@@ -8,6 +8,8 @@
 #include "dem/column.hpp"
 #include "dem/state.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -41,6 +43,7 @@ struct SummaryContent {
     std::vector<ObservedHorizon> observed = {}; ///< beside the model's
     double wall_seconds = 0.0;
     std::uint64_t state_hash = 0;
+    nlohmann::ordered_json provenance = {}; ///< provenance.hpp
 };
 
 /// summary.json: names and units are part of the program's contract (docs/measures.md). Numbers

@@ -1,12 +1,20 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/underlay.hpp"
 #include "apps/figures/draw_run.hpp"
+#include "apps/figures/picture_order.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/spelling.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace listric {
 
@@ -16,7 +24,19 @@ struct FiguresCall {
     std::string folder;
     bool animation = false;
     UnderlayOptions underlay;
+    std::vector<std::string> formats{"png"};
 };
+
+void require_formats(const FiguresCall& call) {
+    const std::vector<std::string_view> known(std::begin(picture_formats),
+                                              std::end(picture_formats));
+    for (const std::string& format : call.formats)
+        if (std::ranges::find(known, format) == known.end())
+            throw UsageError(
+                fmt::format("--format: no format {}; {}", format, advice(format, known)));
+    if (call.animation && call.formats != std::vector<std::string>{"png"})
+        throw UsageError("--format: is not of an animation, which is a film");
+}
 
 } // namespace
 
@@ -27,11 +47,18 @@ Command add_figures(CLI::App& program) {
     command->add_flag("--animation", call->animation,
                       "An animation of all snapshots instead of the figures");
     add_underlay(*command, call->underlay);
+    command
+        ->add_option("--format", call->formats,
+                     "png, pdf, svg, or several: png,pdf; discs are an image in all of them")
+        ->delimiter(',')
+        ->capture_default_str();
     return {command, [call] {
                 const std::optional<Underlay> underlay = underlay_of(call->underlay);
                 if (underlay && call->animation)
                     throw UsageError("--underlay: is not drawn in an animation");
-                call->animation ? animate_run(call->folder) : draw_run(call->folder, underlay);
+                require_formats(*call);
+                call->animation ? animate_run(call->folder)
+                                : draw_run(call->folder, underlay, call->formats);
                 return ExitCode::done;
             }};
 }

@@ -94,7 +94,7 @@ void export_footwall(const RunFolder& run, const fs::path& folder) {
 
 } // namespace
 
-void draw_base(const RunFolder& run) {
+void draw_base(const RunFolder& run, const PictureOrder& order) {
     std::string table = "extension_m,x_m,y_m,ux_m,uy_m\n";
     for (const fs::path& path : run.snapshots) {
         const State state = read_snapshot(path).state;
@@ -105,12 +105,13 @@ void draw_base(const RunFolder& run) {
     }
     write_text(run.output / "base.csv", table);
     const fs::path figures = run.output / "figures";
-    std::string problem = run_drawing_script("base.py", {run.output.string(), figures.string()});
+    std::string problem =
+        run_drawing_script("base.py", {run.output.string(), figures.string(), order.text()});
     if (problem.empty() && has_effect(run.scene, "elastic_base")) {
         const TemporaryFolder data(figures);
         export_footwall(run, data.path);
-        problem = run_drawing_script("footwall.py",
-                                     {run.output.string(), data.path.string(), figures.string()});
+        problem = run_drawing_script("footwall.py", {run.output.string(), data.path.string(),
+                                                     figures.string(), order.text()});
     }
     if (!problem.empty())
         throw StorageError(problem);

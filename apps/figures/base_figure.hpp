@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/archive/run_folder.hpp"
+#include "apps/figures/picture_order.hpp"
 
 namespace listric {
 
@@ -8,6 +9,6 @@ namespace listric {
 /// and draws it; of an elastic base also footwall.csv, the uplift of its surface and of the
 /// detachment at a fifth, half and the whole of the extension, and the stress at the end. Throws
 /// StorageError if it cannot.
-void draw_base(const archive::RunFolder& run);
+void draw_base(const archive::RunFolder& run, const PictureOrder& order);
 
 } // namespace listric

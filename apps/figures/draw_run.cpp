@@ -1,12 +1,14 @@
 #include "apps/figures/draw_run.hpp"
 
 #include "apps/archive/examine.hpp"
+#include "apps/archive/provenance.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/flexure_figure.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 
 #include <algorithm>
@@ -53,16 +55,20 @@ void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
 
 } // namespace
 
-void draw_run(const fs::path& output, const std::optional<Underlay>& underlay) {
+void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
+              const std::vector<std::string>& formats) {
     std::error_code error;
     if (fs::exists(output / "deflection.csv", error)) {
-        if (const std::string problem = draw_flexure(output); !problem.empty())
+        const Scene scene = load_scene({.scene = (output / "scene.toml").string()});
+        const PictureOrder order{formats, provenance_of_run(output, scene)};
+        if (const std::string problem = draw_flexure(output, order); !problem.empty())
             throw StorageError(problem);
         return;
     }
     const RunFolder run = open_run(output);
+    const PictureOrder order{formats, provenance_of_run(output, run.scene)};
     const std::vector<fs::path> chosen = chosen_snapshots(run);
-    FigureFrames frames(output / "figures", underlay);
+    FigureFrames frames(output / "figures", underlay, order);
     const RunHistory history(run.snapshots);
     bool base_moves = false;
     for (const fs::path& path : chosen) {
@@ -74,14 +80,15 @@ void draw_run(const fs::path& output, const std::optional<Underlay>& underlay) {
     if (chosen.size() > 1)
         frames.draw("experiment");
     if (base_moves)
-        draw_base(run);
+        draw_base(run, order);
 }
 
 void draw_experiment(const RunFolder& run, const RunHistory& history) {
     const std::vector<fs::path> chosen = chosen_snapshots(run);
     if (chosen.size() < 2)
         return;
-    FigureFrames frames(run.output / "figures");
+    FigureFrames frames(run.output / "figures", std::nullopt,
+                        {.provenance = provenance(run.scene)});
     for (const fs::path& path : chosen)
         add_frame(frames, run, run.read(path), history);
     frames.draw("experiment");

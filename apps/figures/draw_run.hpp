@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace listric {
 
@@ -16,8 +18,9 @@ bool is_drawn_at(const Scene& scene, double extension);
 /// Draws the figures of all snapshots of a run's folder at the scene's figure extensions and of
 /// the newest one. Throws UsageError if there is nothing to draw, SceneError, StorageError.
 /// @param underlay  that sections are drawn over, if there is one
-void draw_run(const std::filesystem::path& output,
-              const std::optional<Underlay>& underlay = std::nullopt);
+/// @param formats  of picture_formats
+void draw_run(const std::filesystem::path& output, const std::optional<Underlay>& underlay,
+              const std::vector<std::string>& formats);
 
 /// Draws the same moments on one sheet, if there are at least two. Throws as draw_run.
 /// @param history  the run's past, up to its end

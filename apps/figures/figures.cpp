@@ -1,5 +1,6 @@
 #include "apps/figures/figures.hpp"
 
+#include "apps/archive/provenance.hpp"
 #include "apps/figures/frame.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/python.hpp"
@@ -16,16 +17,17 @@ using namespace measures;
 
 namespace fs = std::filesystem;
 
-FigureFrames::FigureFrames(const fs::path& folder, std::optional<Underlay> underlay)
-    : folder_(folder), underlay_(std::move(underlay)), data_(folder) {}
+FigureFrames::FigureFrames(const fs::path& folder, std::optional<Underlay> underlay,
+                           PictureOrder order)
+    : folder_(folder), underlay_(std::move(underlay)), order_(std::move(order)), data_(folder) {}
 
 void FigureFrames::add(const Observation& now, const FaultReport& faults) {
     write_frame(now, faults, data_.path / fmt::format("{:06d}", frames_++), underlay_);
 }
 
 void FigureFrames::draw(const std::string& kind) const {
-    const std::string problem =
-        run_drawing_script("figures.py", {kind, data_.path.string(), folder_.string()});
+    const std::string problem = run_drawing_script(
+        "figures.py", {kind, data_.path.string(), folder_.string(), order_.text()});
     if (!problem.empty())
         throw StorageError(problem);
 }
@@ -35,7 +37,8 @@ std::future<std::string> draw_figures(const Observation& now, const FaultReport&
     std::unique_ptr<FigureFrames> frames;
     std::string problem;
     try {
-        frames = std::make_unique<FigureFrames>(folder);
+        frames = std::make_unique<FigureFrames>(
+            folder, std::nullopt, PictureOrder{.provenance = archive::provenance(now.scene)});
         frames->add(now, faults);
     } catch (const std::exception& error) {
         problem = error.what();

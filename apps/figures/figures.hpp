@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/figures/frame.hpp"
+#include "apps/figures/picture_order.hpp"
 #include "apps/measures/fault.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/file.hpp"
@@ -25,19 +26,21 @@ public:
     /// @param folder  where the pictures go
     /// @param underlay  that sections are drawn over, if there is one
     explicit FigureFrames(const std::filesystem::path& folder,
-                          std::optional<Underlay> underlay = std::nullopt);
+                          std::optional<Underlay> underlay = std::nullopt, PictureOrder order = {});
 
     /// Throws StorageError.
     void add(const Observation& now, const measures::FaultReport& faults);
 
     /// @param kind  "sections" of every frame, one "experiment" sheet, an "animation" or
-    ///              a "gallery", gallery.png, or "multiples", multiples.png
+    ///              a "gallery", gallery.png, or "multiples", multiples.png; the latter three
+    ///              in their own format
     /// Throws StorageError if it cannot be drawn.
     void draw(const std::string& kind) const;
 
 private:
     std::filesystem::path folder_;
     std::optional<Underlay> underlay_;
+    PictureOrder order_;
     TemporaryFolder data_;
     int frames_ = 0;
 };

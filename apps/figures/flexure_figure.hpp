@@ -1,12 +1,14 @@
 #pragma once
 
+#include "apps/figures/picture_order.hpp"
+
 #include <filesystem>
 #include <string>
 
 namespace listric {
 
-/// Draws figures/flexure.png from deflection.csv and summary.json. Returns an empty string, or why
+/// Draws figures/flexure from deflection.csv and summary.json. Returns an empty string, or why
 /// it could not.
-std::string draw_flexure(const std::filesystem::path& output);
+std::string draw_flexure(const std::filesystem::path& output, const PictureOrder& order);
 
 } // namespace listric

@@ -1,5 +1,6 @@
 #include "apps/run/flexure.hpp"
 
+#include "apps/archive/provenance.hpp"
 #include "apps/figures/flexure_figure.hpp"
 #include "apps/figures/paraview.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
@@ -303,6 +304,7 @@ nlohmann::ordered_json summary(const Scene& scene, int threads, const Case& c, c
         {"relative_error", std::abs(w0 / analytic - 1.0)},
     };
     add_comparison(flexure, bent, theory, json);
+    json["provenance"] = archive::provenance(scene);
     json["effects"] = effect_names(scene);
     return json;
 }
@@ -336,7 +338,9 @@ void bend_base(const Scene& scene, int threads, const fs::path& output,
     };
     write_summary(0.0); // the picture's legend reads it
     const auto drawing = SteadyClock::now();
-    if (const std::string problem = draw_flexure(output); !problem.empty())
+    if (const std::string problem =
+            draw_flexure(output, {.provenance = archive::provenance(scene)});
+        !problem.empty())
         say("warning: no figure: " + problem);
     write_summary(seconds_since(drawing));
     say(fmt::format("deflection {:.2f} m, thin plate {:.2f} m{}; figure in {}",

@@ -1,6 +1,7 @@
 #include "apps/run/session.hpp"
 
 #include "apps/archive/examine.hpp"
+#include "apps/archive/provenance.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/archive/summary.hpp"
@@ -325,7 +326,7 @@ std::string Session::draw_sheet() const {
     try {
         const RunFolder run(options_.output, scene_);
         if (parts_.base_moves)
-            draw_base(run);
+            draw_base(run, {.provenance = provenance(scene_)});
         draw_experiment(run, history_);
     } catch (const std::exception& error) {
         return error.what();
@@ -416,7 +417,8 @@ void Session::finish() {
                                               .lists = of_effects.lists,
                                               .observed = observed,
                                               .wall_seconds = wall_seconds(),
-                                              .state_hash = simulation_.hash()});
+                                              .state_hash = simulation_.hash(),
+                                              .provenance = provenance(scene_)});
     write_text(output / "summary.json", summary);
     report_.write(to_csv(record_.history), summary);
     write_status("finished");

@@ -1020,6 +1020,30 @@ TEST_F(RunTest, FiguresAreDrawnAndRedrawn) {
         EXPECT_THAT(file.first, AllOf(StartsWith("\x89PNG"), HasSubstr("IEND"))) << path;
 }
 
+TEST_F(RunTest, FiguresInEveryFormatTellTheirRunAndAreTheSameAgain) {
+    unsetenv("PYTHONPATH");
+    const fs::path output = run(scene(), "run", {.until = 130.0});
+    const std::string png = contents(output / "figures/strata-0.13km.png");
+    std::map<std::string, std::string> before;
+    for (int time = 0; time < 2; ++time) {
+        const Ended ended = call({"figures", output.string(), "--format", "png,pdf,svg"});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        for (const auto& [format, begin] :
+             {std::pair{"png", "\x89PNG"}, {"pdf", "%PDF"}, {"svg", "<?xml"}}) {
+            const std::string text =
+                contents(output / fmt::format("figures/strata-0.13km.{}", format));
+            EXPECT_THAT(text, StartsWith(begin));
+            EXPECT_THAT(text, HasSubstr(summary(output)["provenance"]["scene_hash"]));
+            EXPECT_TRUE(time == 0 || text == before[format]) << format;
+            before[format] = text;
+        }
+    }
+    EXPECT_EQ(before["png"], png);
+    const Ended ended = call({"figures", output.string(), "--format", "png,pfd"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("no format pfd; did you mean pdf?"));
+}
+
 TEST_F(RunTest, AnimationAndSheetOfSeveralMoments) {
     unsetenv("PYTHONPATH");
     const fs::path output = run(scene({"output.figures_at_m=[20, 40]"}), "run", {.until = 60.0});

@@ -10,6 +10,7 @@ import os
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 from pathlib import Path
 from unittest import mock
 
@@ -165,11 +166,25 @@ class Scripts(Folder):
         path = plot.save(plot.new_figure(1, 1, 20), self.path("new"), "picture")
         self.assertEqual(os.listdir(self.path("new")), ["picture.png"])
         self.assertEqual(path, self.path("new/picture.png"))
-        figure = mock.Mock()
+        figure = mock.Mock(**{"findobj.return_value": []})
         figure.savefig.side_effect = lambda name, **_: Path(name).write_text("half") and 1 / 0
         with self.assertRaises(ZeroDivisionError):
             plot.save(figure, self.path("new"), "other")
         self.assertEqual(os.listdir(self.path("new")), ["picture.png"])
+
+    def test_words_in_brackets_may_be_left_out(self):
+        for arguments in (["a"], ["a", "b"]):
+            with mock.patch.object(sys, "argv", ["script.py", *arguments]):
+                main = mock.Mock()
+                plot.run(main, "script.py DIR [ORDER]")
+                main.assert_called_once_with(*arguments)
+        self.assertEqual(self.fails_with(mock.Mock(), ["a", "b", "c"], "script.py DIR [ORDER]")[0],
+                         1)
+
+    def test_an_order_is_refused_if_it_is_none(self):
+        for text in ("png", "[]", '{"formats": ["png"]}'):
+            with self.assertRaisesRegex(plot.InputError, "not an order"):
+                plot.read_order(text)
 
     def test_figures_refuses_what_it_cannot_draw(self):
         with self.assertRaisesRegex(plot.InputError, "sections|experiment|animation|gallery"):
@@ -178,6 +193,47 @@ class Scripts(Folder):
             figures.main("sections", self.path("none"), self.folder)
         with self.assertRaisesRegex(plot.InputError, "holds no frames"):
             figures.main("sections", self.folder, self.folder)
+
+
+class Formats(Folder):
+    ORDER = plot.read_order('{"formats": ["png", "pdf", "svg"], "software": "Listric 0.2.0+abc",'
+                            ' "provenance": {"scene_hash": "0123456789abcdef", "seed": 3}}')
+
+    def saved(self, name):
+        """The files of a figure of discs, by format."""
+        figure = sections.draw_figure(self.frame(), ["strata"])
+        plot.save(figure, self.path(name), "strata", self.ORDER)
+        return {path.suffix[1:]: path.read_bytes() for path in Path(self.path(name)).iterdir()}
+
+    def test_equal_figures_are_equal_files_and_tell_their_origin(self):
+        one = self.saved("one")
+        with mock.patch.dict(os.environ, {"SOURCE_DATE_EPOCH": "1000000000"}):
+            self.assertEqual(self.saved("two"), one)
+        self.assertEqual(set(one), {"png", "pdf", "svg"})
+        for name, content in one.items():
+            for said in (b"Listric 0.2.0+abc", b"0123456789abcdef"):
+                self.assertIn(said, content, name)
+
+    def test_discs_are_an_image_and_text_is_text(self):
+        tree = xml.etree.ElementTree.fromstring(self.saved("one")["svg"])
+        space = "{http://www.w3.org/2000/svg}"
+        self.assertEqual(len(tree.findall(f".//{space}image")), 1)
+        self.assertIn("Distance from the breakaway (km)",
+                      [text.text for text in tree.iter(f"{space}text")])
+
+    def test_an_image_in_a_pdf_has_hard_edges_and_the_figure_keeps_its_own(self):
+        def colours(file_format):
+            with plot.plain_images(figure, file_format):
+                figure.canvas.draw()
+                return len(np.unique(np.asarray(figure.canvas.buffer_rgba()).reshape(-1, 4), axis=0))
+
+        figure = plot.new_figure(1, 1, 20)
+        figure.add_artist(plot.LineCollection([[(0, 0), (1, 0.7)]], colors="black",
+                                              rasterized=True))
+        soft = colours("png")
+        self.assertGreater(soft, 5)
+        self.assertEqual(colours("pdf"), 2)
+        self.assertEqual(colours("png"), soft)
 
 
 class Frames(Folder):

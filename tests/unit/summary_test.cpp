@@ -78,7 +78,9 @@ TEST(Summary, WhatEffectsAdd) {
         .objects = {{"tide_by_moon_m", {{"io", 1.0}, {"europa", 1.5}}}},
         .lists = {{"shores", {{{"x_m", 3.0}}, {{"x_m", 4.0}}}}},
         .wall_seconds = 1.0,
+        .provenance = {{"version", "0.2.0"}},
     }));
+    EXPECT_EQ(all["provenance"]["version"], "0.2.0");
     EXPECT_EQ(all["effects"], json({"tides"}));
     EXPECT_EQ(all["tide_m"], 2.5);
     EXPECT_FALSE(all.contains("never_measured_m"));

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from frame import Frame
 from page import extension_text
-from plot import InputError
+from plot import InputError, Order
 from scales import share_scales
 from sections import draw_figure
 
@@ -16,7 +16,7 @@ ANIMATION_DPI = 80
 FRAME_MS, LAST_FRAME_MS = 250, 2000
 
 
-def save_animation(frames: Sequence[Frame], folder: str) -> None:
+def save_animation(frames: Sequence[Frame], folder: str, _: Order) -> None:
     """animation-<extension>km.mp4 with ffmpeg, else .gif"""
     with tempfile.TemporaryDirectory(dir=folder, prefix=".data-") as temporary:
         pictures = draw_pictures(frames, temporary)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Figure of an elastic base: how the detachment has moved, by extension.
 
-Usage: base.py RUN_DIR FIGURES_DIR
+Usage: base.py RUN_DIR FIGURES_DIR ORDER
 
 Reads RUN_DIR/base.csv: extension_m, and of every node x_m, y_m at the start and its displacement
 ux_m, uy_m.  Writes base.png under a temporary name and renames it: vertical displacement along the
@@ -12,7 +12,8 @@ import os
 import sys
 
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
-from plot import FAINT, InputError, colormaps, new_figure, read_table, run, save, without_frame
+from plot import (FAINT, InputError, colormaps, new_figure, read_order, read_table, run, save,
+                  without_frame)
 
 import numpy as np
 
@@ -85,9 +86,9 @@ def draw_history(axes, moments: dict[float, np.ndarray]) -> None:
     axes.legend(frameon=False, fontsize=8.5, loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
-def main(folder: str, figures: str) -> None:
-    save(draw(load(folder)), figures, "base")
+def main(folder: str, figures: str, order: str) -> None:
+    save(draw(load(folder)), figures, "base", read_order(order))
 
 
 if __name__ == "__main__":
-    run(main, "base.py RUN_DIR FIGURES_DIR")
+    run(main, "base.py RUN_DIR FIGURES_DIR ORDER")

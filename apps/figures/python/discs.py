@@ -14,7 +14,8 @@ RASTER_OVERSAMPLING = 3   # image cells per output pixel, each way
 
 def draw_discs(ax, frame: Frame, rgb: np.ndarray, segments=(), segment_width: float = 0.5,
                alpha: np.ndarray | None = None) -> None:
-    """Discs in colours rgb (n x 3), then segments: (n x 4 km, colour) pairs."""
+    """Discs in colours rgb (n x 3), then segments: (n x 4 km, colour) pairs. They are an image in
+    files of lines, too, which would be too large."""
     if len(frame.x) > RASTER_ABOVE:
         draw_raster(ax, frame, rgb, segments, alpha)
         return
@@ -23,12 +24,12 @@ def draw_discs(ax, frame: Frame, rgb: np.ndarray, segments=(), segment_width: fl
         2 * frame.radius[shown], 2 * frame.radius[shown], np.zeros(len(frame.x))[shown],
         units="xy", offsets=np.column_stack((frame.x, frame.y))[shown],
         offset_transform=ax.transData, facecolors=rgb[shown], edgecolors="none", linewidths=0,
-        zorder=2), autolim=False)
+        zorder=2, rasterized=True), autolim=False)
     for lines, colour in segments:
         if len(lines):
             ax.add_collection(LineCollection(
                 lines.reshape(-1, 2, 2), colors=colour, linewidths=segment_width,
-                capstyle="butt", zorder=3), autolim=False)
+                capstyle="butt", zorder=3, rasterized=True), autolim=False)
 
 
 def owner_map(frame: Frame) -> np.ndarray:

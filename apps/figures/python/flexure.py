@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Figure of a flexure scene: the elastic base's deflection against theory.
 
-Usage: flexure.py RUN_DIR FIGURES_DIR
+Usage: flexure.py RUN_DIR FIGURES_DIR ORDER
 
 Reads RUN_DIR/summary.json and deflection.csv (x_m; deflection_m, plate_m, perhaps layer_m, down).
 Writes flexure.png under a temporary name and renames it.  On bad input: one line on stderr, exit
@@ -11,7 +11,8 @@ import os
 import sys
 
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
-from plot import FAINT, new_figure, read_json, read_table, run, save, without_frame
+from plot import (FAINT, new_figure, read_json, read_order, read_table, run, save,
+                  without_frame)
 
 import numpy as np
 
@@ -88,9 +89,9 @@ def draw_difference(axes, summary: dict, columns: dict[str, np.ndarray]) -> None
     axes.legend(frameon=False, fontsize=9)
 
 
-def main(folder: str, figures: str) -> None:
-    save(draw(*load(folder)), figures, "flexure")
+def main(folder: str, figures: str, order: str) -> None:
+    save(draw(*load(folder)), figures, "flexure", read_order(order))
 
 
 if __name__ == "__main__":
-    run(main, "flexure.py RUN_DIR FIGURES_DIR")
+    run(main, "flexure.py RUN_DIR FIGURES_DIR ORDER")

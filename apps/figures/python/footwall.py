@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Figure of an elastic footwall: the bent section, its stress, the discs on it, and the uplift.
 
-Usage: footwall.py RUN_DIR DATA_DIR FIGURES_DIR
+Usage: footwall.py RUN_DIR DATA_DIR FIGURES_DIR ORDER
 
 Reads, in SI units,
   RUN_DIR/footwall.csv  extension_m, x_m (negative on the surface, else on the detachment), uplift_m
@@ -15,7 +15,8 @@ import sys
 
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from frame import load_array
-from plot import FAINT, InputError, colormaps, new_figure, read_table, run, save, without_frame
+from plot import (FAINT, InputError, colormaps, new_figure, read_order, read_table, run, save,
+                  without_frame)
 
 import numpy as np
 from matplotlib.collections import EllipseCollection, PolyCollection
@@ -67,7 +68,8 @@ def draw_rock(axes, patches: np.ndarray, factor: int) -> tuple[PolyCollection, f
                       corners[..., 1] + factor * corners[..., 3]), axis=-1) / 1e3
     xx, yy, xy = patches[:, 16:].T
     shear = np.hypot(0.5 * (xx - yy), xy) / 1e6
-    rock = PolyCollection(shape, array=shear, cmap="magma_r", edgecolors="face", linewidths=0.2)
+    rock = PolyCollection(shape, array=shear, cmap="magma_r", edgecolors="face", linewidths=0.2,
+                          rasterized=True)
     rock.set_clim(0.0, np.ceil(np.percentile(shear, 99.0) / 50.0) * 50.0)
     axes.add_collection(rock, autolim=False)
     return rock, shape[..., 1].min()
@@ -83,7 +85,7 @@ def draw_discs(axes, discs: np.ndarray, uplift: np.ndarray, factor: int) -> floa
     axes.add_collection(EllipseCollection(
         2e-3 * radius, 2e-3 * radius, np.zeros(len(x)), units="xy",
         offsets=np.column_stack((x, lifted)) / 1e3, offset_transform=axes.transData,
-        facecolors=colours, edgecolors="none", linewidths=0), autolim=False)
+        facecolors=colours, edgecolors="none", linewidths=0, rasterized=True), autolim=False)
     return lifted.max() / 1e3
 
 
@@ -120,11 +122,11 @@ def draw(moments: dict[float, np.ndarray], patches: np.ndarray, discs: np.ndarra
     return figure
 
 
-def main(folder: str, data: str, figures: str) -> None:
+def main(folder: str, data: str, figures: str, order: str) -> None:
     patches = load_array(data, "patches", columns=19, finite=False)
     discs = load_array(data, "discs", columns=5, finite=False)
-    save(draw(load(folder), patches, discs), figures, "footwall")
+    save(draw(load(folder), patches, discs), figures, "footwall", read_order(order))
 
 
 if __name__ == "__main__":
-    run(main, "footwall.py RUN_DIR DATA_DIR FIGURES_DIR")
+    run(main, "footwall.py RUN_DIR DATA_DIR FIGURES_DIR ORDER")

@@ -2,11 +2,13 @@
 
 Import this module first: it says in one line which library is missing, and draws without a screen.
 """
+import contextlib
 import csv
 import json
 import os
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 
 try:
     import numpy as np
@@ -14,6 +16,7 @@ try:
     matplotlib.use("Agg")
     from matplotlib import colormaps
     from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
     from matplotlib.figure import Figure
 except ImportError as failure:
     sys.stderr.write(f"{os.path.basename(sys.argv[0])}: cannot import {failure.name or failure}\n")
@@ -25,10 +28,39 @@ STYLE = {
     "axes.edgecolor": INK, "axes.labelsize": 10.5, "text.color": INK,
     "xtick.labelsize": 9.5, "ytick.labelsize": 9.5,
 }
+# Text stays text, and equal figures are equal files.
+FILES = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "listric"}
+RASTER_DPI = 300   # of what is an image within PDF and SVG
 
 
 class InputError(Exception):
     """Input that is missing or makes no sense; the message is for the user."""
+
+
+@dataclass(frozen=True)
+class Order:
+    """In which formats figures are written, and what they say of the run that they show."""
+    formats: tuple[str, ...] = ("png",)
+    software: str = "Listric"
+    provenance: str = ""   # JSON; empty: of no single run
+
+    def metadata(self, file_format: str) -> dict:
+        """For savefig: no date, so that equal figures are equal files."""
+        software, provenance, date = {"png": ("Software", "Provenance", None),
+                                      "pdf": ("Creator", "Subject", "CreationDate"),
+                                      "svg": ("Creator", "Description", "Date")}[file_format]
+        return {software: self.software, **({provenance: self.provenance} if self.provenance else {}),
+                **({date: None} if date else {})}
+
+
+def read_order(text: str) -> Order:
+    """From the JSON object that the program gives a script."""
+    try:
+        words = json.loads(text)
+        run = words["provenance"]
+        return Order(tuple(words["formats"]), words["software"], json.dumps(run) if run else "")
+    except (ValueError, TypeError, KeyError) as failure:
+        raise InputError(f"not an order of figures ({failure!r}): {text}") from failure
 
 
 def read_json(path: str) -> dict:
@@ -88,24 +120,44 @@ def without_frame(*all_axes) -> None:
             axes.spines[side].set_visible(False)
 
 
-def save(figure: Figure, folder: str, name: str) -> str:
-    """Writes folder/name.png, whole or not at all; returns its path."""
-    os.makedirs(folder, exist_ok=True)
-    path = os.path.join(folder, f"{name}.png")
-    temporary = os.path.join(folder, f".{name}-{os.getpid()}.tmp")
+@contextlib.contextmanager
+def plain_images(figure: Figure, file_format: str):
+    """Discs and bonds that are an image within PDF and SVG have hard edges: at its resolution
+    nobody sees them, and a few colours take a fraction of the room."""
+    kinds = (EllipseCollection, LineCollection, PolyCollection)
+    shapes = figure.findobj(lambda artist: isinstance(artist, kinds) and artist.get_rasterized())
+    for shape in shapes:
+        shape.set_antialiased(file_format == "png")
     try:
-        figure.savefig(temporary, format="png")
-        os.replace(temporary, path)
+        yield
     finally:
-        if os.path.exists(temporary):
-            os.remove(temporary)
+        for shape in shapes:
+            shape.set_antialiased(True)
+
+
+def save(figure: Figure, folder: str, name: str, order: Order = Order()) -> str:
+    """Writes folder/name in every format, each whole or not at all; returns the last one's path."""
+    os.makedirs(folder, exist_ok=True)
+    temporary = os.path.join(folder, f".{name}-{os.getpid()}.tmp")
+    for file_format in order.formats:
+        path = os.path.join(folder, f"{name}.{file_format}")
+        try:
+            with matplotlib.rc_context(FILES), plain_images(figure, file_format):
+                figure.savefig(temporary, format=file_format, metadata=order.metadata(file_format),
+                               dpi="figure" if file_format == "png" else RASTER_DPI)
+            os.replace(temporary, path)
+        finally:
+            if os.path.exists(temporary):
+                os.remove(temporary)
     return path
 
 
 def run(main: Callable[..., None], usage: str) -> None:
-    """Calls main with the script's arguments, as many as the usage names; errors are one line."""
+    """Calls main with the script's arguments, as many as the usage names, without those in
+    brackets or with them; errors are one line."""
     try:
-        if len(sys.argv) != len(usage.split()):
+        words = usage.split()
+        if not len([w for w in words if w[0] != "["]) <= len(sys.argv) <= len(words):
             raise InputError(f"usage: {usage}")
         main(*sys.argv[1:])
     except KeyboardInterrupt:

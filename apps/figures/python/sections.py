@@ -5,7 +5,7 @@ from frame import Frame
 from page import (DPI, GAP, LEFT, PROFILE_HEIGHT, ROW_ABOVE, TITLE, WIDTH, add_axes, below,
                   extension_text, footer, name_distance, panel_size, set_ticks, write_around)
 from panels import PANELS
-from plot import Figure, new_figure, save
+from plot import Figure, Order, new_figure, save
 
 
 def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI) -> Figure:
@@ -37,8 +37,9 @@ def figures_of(frame: Frame) -> dict[str, list[str]]:
     return {**{name: [name] for name in known}, "overview": overview}
 
 
-def save_sections(frames: Sequence[Frame], folder: str) -> None:
-    """Every panel of every frame, and the overview of all: NAME-<extension>km.png."""
+def save_sections(frames: Sequence[Frame], folder: str, order: Order) -> None:
+    """Every panel of every frame, and the overview of all: NAME-<extension>km."""
     for frame in frames:
         for name, panels in figures_of(frame).items():
-            save(draw_figure(frame, panels), folder, f"{name}-{extension_text(frame)}km")
+            save(draw_figure(frame, panels), folder, f"{name}-{extension_text(frame)}km",
+                 order)

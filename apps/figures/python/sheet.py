@@ -7,7 +7,7 @@ from frame import Frame
 from page import (DPI, GAP, LEFT, RIGHT, ROW_ABOVE, TITLE, XLABEL, add_axes, below, extension_text,
                   footer, name_distance, set_ticks, write_around)
 from panels import PANELS
-from plot import Figure, new_figure, save
+from plot import Figure, Order, new_figure, save
 from scales import share_scales
 
 SHEET_WIDTH, SHEET_GAP = 19.0, 0.30   # inches
@@ -148,17 +148,17 @@ def draw_multiples(frames: Sequence[Frame]) -> Figure:
     return figure
 
 
-def save_sheet(frames: Sequence[Frame], folder: str) -> None:
-    """experiment-<extension>km.png"""
-    save(draw_sheet(frames), folder, f"experiment-{extension_text(frames[-1])}km")
+def save_sheet(frames: Sequence[Frame], folder: str, order: Order) -> None:
+    """experiment-<extension>km"""
+    save(draw_sheet(frames), folder, f"experiment-{extension_text(frames[-1])}km", order)
 
 
-def save_gallery(frames: Sequence[Frame], folder: str) -> None:
+def save_gallery(frames: Sequence[Frame], folder: str, _: Order) -> None:
     """gallery.png"""
     save_small(draw_gallery(frames), folder, "gallery")
 
 
-def save_multiples(frames: Sequence[Frame], folder: str) -> None:
+def save_multiples(frames: Sequence[Frame], folder: str, _: Order) -> None:
     """multiples.png"""
     save_small(draw_multiples(frames), folder, "multiples")
 

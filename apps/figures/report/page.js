@@ -381,7 +381,8 @@ function addWords() {
     `${run.head.accuracy}, seed ${run.head.seed}`).join("; ") + (page.data.live ? "; the run goes on" : "") +
     (page.data.left_out ? `; left out so that the file is smaller: ${page.data.left_out}` : "");
   const hashes = page.runs.map(run => run.head.summary?.state_hash).filter(Boolean);
-  $("footer").textContent = `${page.data.program}${hashes.length ? `; state_hash ${hashes.join(", ")}` : ""}. To cite: ` +
+  const words = Object.entries(page.runs[0].head.summary?.provenance || {}).map(([name, value]) => `${name} ${value}`);
+  $("footer").textContent = `${words.length ? `Run: ${words.join(", ")}. Page: ` : ""}${page.data.program}${hashes.length ? `; state_hash ${hashes.join(", ")}` : ""}. To cite: ` +
     "CITATION.cff of the program. Colours: batlow, Crameri (2021), doi 10.5281/zenodo.5501399.";
 }
 
