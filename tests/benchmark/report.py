@@ -62,7 +62,7 @@ def main(program, folder):
         text = file.read_text()
         data = sum(len(part) for part in re.findall(
             r'<script type="application/json" id="data">.*?</script>', text, re.DOTALL))
-        charts = len(text[text.index("<body>"):].split("<script>")[1])
+        charts = len(text.split("<script>")[1].split("</script>")[0])
         first, frame, pick = (statistics.median(column) for column in zip(*shown))
         print(f"made in {statistics.median(made):.2f} s; {len(text) / 1e6:.2f} MB, own code "
               f"{(len(text) - data - charts) / 1e3:.0f} kB; first frame {first:.0f} ms, a frame "

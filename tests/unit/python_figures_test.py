@@ -214,6 +214,24 @@ class Formats(Folder):
             for said in (b"Listric 0.2.0+abc", b"0123456789abcdef"):
                 self.assertIn(said, content, name)
 
+    def test_no_format_depends_on_those_before_it(self):
+        def saved(*formats):
+            figure = plot.new_figure(3, 2, 50)
+            figure.set_layout_engine("constrained")
+            section, profile = figure.subplots(2, 1, height_ratios=(1.5, 1.0))
+            section.set_aspect("equal")
+            section.set_xlim(0.0, 3.0)
+            figure.colorbar(plot.matplotlib.cm.ScalarMappable(), ax=section, shrink=0.8)
+            profile.plot([0.0, 1000.0], label="1 km")
+            profile.legend()
+            folder = self.path("-".join(formats))
+            plot.save(figure, folder, "plot", plot.Order(formats))
+            return {path.suffix: path.read_bytes() for path in Path(folder).iterdir()}
+
+        every = saved("svg", "pdf", "png")
+        for name in ("png", "pdf", "svg"):
+            self.assertEqual(saved(name)["." + name], every["." + name], name)
+
     def test_discs_are_an_image_and_text_is_text(self):
         tree = xml.etree.ElementTree.fromstring(self.saved("one")["svg"])
         space = "{http://www.w3.org/2000/svg}"

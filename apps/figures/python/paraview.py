@@ -50,6 +50,7 @@ def part(series, name):
 def colour_by_layer(display, layers):
     """A colour for every band of rock (..., -2, -1) and every stratum (1, 2, ...)."""
     low, high = (int(end) for end in layers.PointData["layer"].GetRange())
+    high = max(high, low + 1)   # ParaView needs two colours
     colours = pv.GetColorTransferFunction("layer")
     colours.AutomaticRescaleRangeMode = "Never"
     colours.NumberOfTableValues = high - low + 1

@@ -138,6 +138,9 @@ def plain_images(figure: Figure, file_format: str):
 def save(figure: Figure, folder: str, name: str, order: Order = Order()) -> str:
     """Writes folder/name in every format, each whole or not at all; returns the last one's path."""
     os.makedirs(folder, exist_ok=True)
+    if figure.get_layout_engine():   # once, so that no format depends on those before it
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
     temporary = os.path.join(folder, f".{name}-{os.getpid()}.tmp")
     for file_format in order.formats:
         path = os.path.join(folder, f"{name}.{file_format}")
