@@ -14,7 +14,10 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <future>
 #include <iterator>
+#include <map>
+#include <memory>
 
 namespace listric {
 
@@ -71,6 +74,17 @@ std::string page_of(const std::vector<ReadRun>& runs, const Reduction& reduction
     return report_html(page);
 }
 
+/// A moment whose faults are being followed back.
+struct Followed {
+    std::shared_ptr<const Moment> moment;
+    std::future<measures::FaultReport> faults;
+};
+
+template <class Report> Followed follow(Moment moment, Report report) {
+    const auto kept = std::make_shared<const Moment>(std::move(moment));
+    return {kept, std::async(std::launch::async, [kept, report] { return report(*kept); })};
+}
+
 /// The stress below the base of a run's snapshots; none where the base is rigid.
 class FootwallReader {
 public:
@@ -102,21 +116,33 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
                    int every, bool every_line) {
     const measures::Setting setting = make_setting(folder.scene, folder.parts);
     const dem::RigidBase& base = folder.parts.base;
+    const auto is_last = [&](const fs::path& path) { return path == folder.snapshots.back(); };
+    // What takes longest is begun first, and done beside the rest. Files are read in this thread.
+    std::map<fs::path, Followed> followed;
+    for (const fs::path& path : folder.snapshots)
+        if (is_last(path) || is_drawn_at(folder.scene, snapshot_extension(path)))
+            followed[path] = follow(folder.read(path), [&](const Moment& moment) {
+                return report_faults(setting, base, moment.state, history);
+            });
     FootwallReader footwall(folder);
     double mean_radius = 0.0;
     for (std::size_t k = 0; k < folder.snapshots.size(); ++k) {
-        const bool last = k + 1 == folder.snapshots.size();
-        if (!last && k % static_cast<std::size_t>(every) != 0)
+        const fs::path& path = folder.snapshots[k];
+        const auto found = followed.find(path);
+        if (found == followed.end() && k % static_cast<std::size_t>(every) != 0)
             continue;
-        const Moment moment = folder.read(folder.snapshots[k]);
-        const bool followed = every_line || last ||
-                              is_drawn_at(folder.scene, snapshot_extension(folder.snapshots[k]));
-        const auto faults = followed ? report_faults(setting, base, moment.state, history)
-                                     : active_faults(setting, base, moment.state, history);
-        moments.add({folder.scene, folder.parts, moment.state, moment.events}, faults, followed,
-                    followed ? footwall.read(folder.snapshots[k])
-                             : std::vector<fem::StressPatch>());
-        mean_radius = moment.state.mean_radius;
+        const bool has_past = found != followed.end() || every_line;
+        const auto moment = found != followed.end()
+                                ? found->second.moment
+                                : std::make_shared<const Moment>(folder.read(path));
+        const auto faults = found != followed.end() ? found->second.faults.get()
+                                                    : (every_line ? report_faults : active_faults)(
+                                                          setting, base, moment->state, history);
+        moments.add({folder.scene, folder.parts, moment->state, moment->events}, faults, has_past,
+                    has_past ? footwall.read(path) : std::vector<fem::StressPatch>());
+        mean_radius = moment->state.mean_radius;
+        if (found != followed.end())
+            followed.erase(found);
     }
     return mean_radius;
 }

@@ -21,8 +21,8 @@ struct ReportRequest {
     std::optional<Underlay> underlay = std::nullopt;
 };
 
-/// Adds the snapshots of a folder, of which `every` n-th and the last. Faults are followed back at
-/// the moments of the figures and at the last. Returns the mean radius, m. Throws StorageError.
+/// Adds the snapshots of a folder: every n-th, those of the figures and the last. Faults are
+/// followed back at these two, or everywhere. Returns the mean radius, m. Throws StorageError.
 double add_moments(ReportMoments& moments, const archive::RunFolder& folder,
                    const archive::RunHistory& history, int every = 1, bool every_line = false);
 
