@@ -92,8 +92,7 @@ protected:
     };
 
     void SetUp() override {
-        if (!on_path("xvfb-run") && !std::getenv("DISPLAY"))
-            GTEST_SKIP() << "no display, and no xvfb-run (packages xvfb, xauth) to lend one";
+        ASSERT_TRUE(on_path("xvfb-run") || std::getenv("DISPLAY")) << "packages xvfb, xauth";
         fs::create_directories(folder);
         std::ofstream(folder / "small.toml") << small_scene;
         setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
@@ -107,8 +106,7 @@ protected:
         scene = load_scene({.scene = (folder / "small.toml").string()});
         run_scene(scene, options);
         unsetenv("PYTHONPATH");
-        if (look().code == 77)
-            GTEST_SKIP() << "no ParaView to open the series: " << look().err;
+        ASSERT_NE(look().code, 77) << look().err; // no ParaView
     }
 
     ~ParaviewTest() override {
@@ -264,8 +262,7 @@ TEST_F(ParaviewTest, EveryMomentHoldsWhatTheSnapshotDoes) {
 }
 
 TEST_F(ParaviewTest, OneCallShowsTheLastMoment) {
-    if (!on_path("pvpython"))
-        GTEST_SKIP() << "no pvpython (package python3-paraview)";
+    ASSERT_TRUE(on_path("pvpython")) << "package python3-paraview";
     const fs::path picture = folder / "view.png";
     const std::string line =
         fmt::format("{}pvpython '{}' '{}' 2>'{}'", on_path("xvfb-run") ? "xvfb-run -a " : "",

@@ -160,10 +160,7 @@ class Reader(unittest.TestCase):
             self.assertEqual(table.unit_of(name), unit, name)
 
     def test_pandas(self):
-        try:
-            import pandas
-        except ImportError:
-            self.skipTest("no pandas")
+        import pandas
         frame = self.run_.snapshots[0].discs.to_pandas()
         self.assertIsInstance(frame, pandas.DataFrame)
         self.assertEqual(frame.x.tolist(), self.run_.snapshots[0].discs["x"].tolist())
