@@ -296,8 +296,8 @@ void Session::report_window() {
 
 void Session::write_status(const std::string& phase) const {
     const double share = std::max(1e-3, extension() / target());
-    const double left =
-        phase == "genesis" ? record_.predicted_seconds : wall_seconds() / share * (1.0 - share);
+    const double left = phase == "genesis" ? record_.predicted_seconds
+                                           : std::max(0.0, wall_seconds() / share * (1.0 - share));
     write_text(options_.output / "status.json",
                fmt::format("{{\n \"phase\": \"{}\",\n \"extension_m\": {},\n \"of_m\": {},\n "
                            "\"seconds_left\": {:.0f}\n}}\n",
