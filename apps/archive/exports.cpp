@@ -121,7 +121,7 @@ LineTable faults_table(const ExportedMoment& at) {
     return table;
 }
 
-LineTable surfaces_table(const ExportedMoment& at) {
+LineTable reference_surfaces_table(const ExportedMoment& at) {
     const State& state = at.now.state;
     const Setting setting = setting_of(at);
     LineTable table{"surfaces", "", {"name"}};
@@ -143,8 +143,13 @@ LineTable surfaces_table(const ExportedMoment& at) {
         points.push_back({right, target.height(right)});
         add("target line", points);
     }
-    for (const Polyline& piece : free_surface(setting, at.now.parts.base, state))
-        add("free surface", piece);
+    return table;
+}
+
+LineTable surfaces_table(const ExportedMoment& at) {
+    LineTable table = reference_surfaces_table(at);
+    for (const Polyline& piece : free_surface(setting_of(at), at.now.parts.base, at.now.state))
+        table.lines.push_back({{"free surface"}, rounded(piece)});
     return table;
 }
 

@@ -24,8 +24,10 @@ LineTable horizons_table(const ExportedMoment& at);
 /// Traced faults with the numbers of summary.json.
 LineTable faults_table(const ExportedMoment& at);
 
-/// The detachment as it stands, the original surface, the line that sediment is adapted to and the
-/// free surface.
+/// The detachment as it stands, the original surface and the line that sediment is adapted to.
+LineTable reference_surfaces_table(const ExportedMoment& at);
+
+/// These and the free surface, which takes longest to find.
 LineTable surfaces_table(const ExportedMoment& at);
 
 /// The nodes of a base that deforms; no line if the base is rigid.

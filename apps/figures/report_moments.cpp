@@ -163,7 +163,7 @@ std::string lines_json(const Observation& now, const FaultReport& faults, bool f
     const ExportedMoment at{now, faults};
     json lines{{"followed", followed},
                {"faults", faults_of(at, followed)},
-               {"surfaces", lines_of(surfaces_table(at))},
+               {"surfaces", lines_of(reference_surfaces_table(at))},
                {"base", lines_of(base_table(at))}};
     if (followed) {
         lines["horizons"] = lines_of(horizons_table(at));

@@ -131,19 +131,23 @@ std::vector<Polyline> without_kinks(const Polyline& points) {
 }
 
 PolylinePlace place_on(const Polyline& points, Point p) {
-    PolylinePlace best{1e300, 0.0, true};
-    double along = 0.0;
+    PolylinePlace best{1e300, true};
+    double square = 1e300; // of the best distance
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-        const Point edge = points[k + 1] - points[k];
+        const Point edge = points[k + 1] - points[k], off = p - points[k];
+        const double share = std::clamp(dot(off, edge) / dot(edge, edge), 0.0, 1.0);
+        const Point apart = off - share * edge;
+        // Roots take longest: only of edges that may be nearer.
+        if (dot(apart, apart) > square * (1.0 + 1e-9))
+            continue;
         const double length = norm(edge);
-        const double raw = dot(p - points[k], edge) / length;
-        const double s = std::clamp(raw, 0.0, length);
-        const Point foot = points[k] + (s / length) * edge;
+        const double along = dot(off, edge) / length;
+        const Point foot = points[k] + (std::clamp(along, 0.0, length) / length) * edge;
         if (const double distance = norm(p - foot); distance < std::abs(best.distance)) {
-            const bool end = (k == 0 && raw < 0.0) || (k + 2 == points.size() && raw > length);
-            best = {cross(edge, p - points[k]) < 0.0 ? -distance : distance, along + s, end};
+            best.distance = cross(edge, off) < 0.0 ? -distance : distance;
+            best.beyond = (k == 0 && along < 0.0) || (k + 2 == points.size() && along > length);
+            square = distance * distance;
         }
-        along += length;
     }
     return best;
 }

@@ -40,7 +40,6 @@ std::vector<Polyline> without_kinks(const Polyline& points);
 /// Distance from the polyline, m, and where the closest point is.
 struct PolylinePlace {
     double distance = 0.0; ///< > 0 on the left of the polyline's direction
-    double along = 0.0;    ///< m from the first point
     bool beyond = false;   ///< the closest point is an end
 };
 PolylinePlace place_on(const Polyline& points, dem::Point p);
