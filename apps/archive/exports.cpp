@@ -35,11 +35,6 @@ std::vector<Point> rounded(const Polyline& points) {
 
 Setting setting_of(const ExportedMoment& at) { return make_setting(at.now.scene, at.now.parts); }
 
-/// Of the hanging wall's right end, m.
-double right_end(const Observation& now) {
-    return now.scene.hanging_wall->length + now.state.clock.extension;
-}
-
 /// Points of a chain up to x = right: corners, and on what bends points one `spacing` apart.
 Polyline points_of(const Chain& chain, double right, double spacing) {
     Polyline points{chain.front().start};
@@ -128,7 +123,7 @@ LineTable reference_surfaces_table(const ExportedMoment& at) {
     const auto add = [&](const std::string& name, const Polyline& points) {
         table.lines.push_back({{name}, rounded(points)});
     };
-    const double right = right_end(at.now);
+    const double right = at.now.right_end();
     const Chain floor = standing_base(at.now.parts.base, state).surfaces.front().chain;
     add(setting.has_detachment ? "detachment" : "floor",
         points_of(floor, right, 2.0 * state.mean_radius));

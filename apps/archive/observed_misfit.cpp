@@ -1,7 +1,5 @@
 #include "apps/archive/observed_misfit.hpp"
 
-#include "apps/measures/horizons.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -50,10 +48,8 @@ void compare(ObservedHorizon& row, std::span<const Point> points, const Horizon&
 
 } // namespace
 
-std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const Setting& setting,
-                                              const RigidBase& base, const State& state,
-                                              std::span<const Fault> faults) {
-    const std::vector<Horizon> horizons = trace_horizons(setting, base, state, faults);
+std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const State& state,
+                                              const std::vector<Horizon>& horizons) {
     const double end = scene.extension.distance / scene.extension.rate;
     const double now = state.clock.extension / scene.extension.rate;
     const double diameter = 2.0 * state.mean_radius;

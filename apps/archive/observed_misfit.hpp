@@ -1,10 +1,8 @@
 #pragma once
 
-#include "apps/measures/fault.hpp"
+#include "apps/measures/horizons.hpp"
 #include "apps/measures/line_misfit.hpp"
-#include "apps/measures/setting.hpp"
 #include "apps/scene/scene.hpp"
-#include "dem/base.hpp"
 #include "dem/state.hpp"
 
 #include <optional>
@@ -24,8 +22,8 @@ struct ObservedHorizon {
 
 /// Compares every picked horizon with the top that was deposited at its age, or without an age with
 /// the nearest of all. The age is before the end of the scene's extension: the section as it is.
-std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const measures::Setting& setting,
-                                              const dem::RigidBase& base, const dem::State& state,
-                                              std::span<const measures::Fault> faults);
+/// @param horizons  of that state, the oldest first
+std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const dem::State& state,
+                                              const std::vector<measures::Horizon>& horizons);
 
 } // namespace listric::archive

@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <sys/file.h>
@@ -97,8 +95,7 @@ void remove_run(const fs::path& output) {
 /// A resumed run must be the same run; comments may have changed with the program, and whether
 /// there is a report is nothing of the run.
 void check_same_scene(const Scene& scene, const fs::path& file) {
-    std::ifstream in(file);
-    const std::string before(std::istreambuf_iterator<char>(in), {});
+    const std::string before = read_text_if_there(file);
     if (before.empty())
         return;
     const std::vector<std::string> then = scene_lines(before), now = scene_lines(to_toml(scene));

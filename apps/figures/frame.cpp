@@ -2,9 +2,9 @@
 
 #include "apps/archive/observed_misfit.hpp"
 #include "apps/archive/setting.hpp"
+#include "apps/figures/predicted_tops.hpp"
 #include "apps/figures/window_strain.hpp"
 #include "apps/measures/horizons.hpp"
-#include "apps/measures/kinematics.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/profile.hpp"
 #include "apps/measures/rock_behaviour.hpp"
@@ -66,10 +66,6 @@ private:
     fs::path folder_;
 };
 
-double right_wall(const Observation& now) {
-    return now.scene.hanging_wall->length + now.state.clock.extension;
-}
-
 void write_discs(const FrameWriter& writer, const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     writer.array("discs_x", d.x);
@@ -117,7 +113,7 @@ void write_base(const FrameWriter& writer, const Observation& now) {
     constexpr int steps = 2000;
     for (int k = 0; k <= steps; ++k) {
         const Point p = point_at(standing, length * k / steps);
-        if (p.x <= right_wall(now))
+        if (p.x <= now.right_end())
             line.push_back(p);
     }
     writer.points("detachment", line);
@@ -131,16 +127,6 @@ void write_profile(const FrameWriter& writer, const Observation& now) {
         rows.insert(rows.end(),
                     {profile.x[k], profile.pre_rift_top[k], profile.sediment_thickness[k]});
     writer.array("profile", rows, 3);
-}
-
-/// Tops that the kinematic constructions predict over the detachment as it was at the start.
-void write_predictions(const FrameWriter& writer, const Observation& now,
-                       double inclined_shear_angle) {
-    const Chain& detachment = now.parts.base.surfaces.front().chain;
-    const double extension = now.state.clock.extension, wall = right_wall(now);
-    writer.points("predicted_shear",
-                  inclined_shear_top(detachment, extension, inclined_shear_angle, wall));
-    writer.points("predicted_normals", normals_top(detachment, extension, wall));
 }
 
 void write_depocentres(const FrameWriter& writer, const std::vector<Depocentre>& depocentres) {
@@ -159,14 +145,13 @@ void write_faults(const FrameWriter& writer, const std::vector<Fault>& faults) {
     writer.array("faults", rows, 4);
 }
 
-/// The model's tops: number of the piece, x, y.
+/// Pieces of horizons: number of the piece, x, y.
 template <class Wanted>
-void write_horizons(const FrameWriter& writer, const std::string& name, const Observation& now,
-                    const FaultReport& faults, Wanted&& wanted) {
+void write_horizons(const FrameWriter& writer, const std::string& name,
+                    const std::vector<Horizon>& horizons, Wanted&& wanted) {
     std::vector<double> rows;
     double number = 0.0;
-    for (const Horizon& h : trace_horizons(archive::make_setting(now.scene, now.parts),
-                                           now.parts.base, now.state, faults.faults))
+    for (const Horizon& h : horizons)
         if (wanted(h.stratum))
             for (const Polyline& piece : h.pieces) {
                 for (const Point p : piece)
@@ -176,12 +161,9 @@ void write_horizons(const FrameWriter& writer, const std::string& name, const Ob
     writer.array(name, rows, 3);
 }
 
-/// Picks, and the model's tops that go with them: number of the line, x, y. They are of the section
-/// as it is at the end of extension.
-void write_observed(const FrameWriter& writer, const Observation& now, const FaultReport& faults) {
-    const auto& observed = now.scene.observed;
-    if (!observed || now.state.clock.extension < 0.999 * now.scene.extension.distance)
-        return;
+/// Picks, and the model's tops that go with them: number of the line, x, y.
+void write_observed(const FrameWriter& writer, const Observation& now,
+                    const std::vector<Horizon>& horizons) {
     const auto picks = [&](const std::vector<PickedLine>& lines) {
         std::vector<double> rows;
         for (std::size_t n = 0; n < lines.size(); ++n)
@@ -190,15 +172,13 @@ void write_observed(const FrameWriter& writer, const Observation& now, const Fau
                             {static_cast<double>(n), lines[n].x[k], -lines[n].depth[k]});
         return rows;
     };
-    writer.array("picked_horizons", picks(observed->horizons), 3);
-    writer.array("picked_faults", picks(observed->faults), 3);
-    const Setting setting = archive::make_setting(now.scene, now.parts);
+    writer.array("picked_horizons", picks(now.scene.observed->horizons), 3);
+    writer.array("picked_faults", picks(now.scene.observed->faults), 3);
     std::set<int> strata;
-    for (const auto& row :
-         archive::compare_horizons(now.scene, setting, now.parts.base, now.state, faults.faults))
+    for (const auto& row : archive::compare_horizons(now.scene, now.state, horizons))
         if (row.stratum)
             strata.insert(*row.stratum);
-    write_horizons(writer, "compared_horizons", now, faults,
+    write_horizons(writer, "compared_horizons", horizons,
                    [&](int stratum) { return strata.contains(stratum); });
 }
 
@@ -212,7 +192,7 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         {"extension_m", state.clock.extension},
         {"time_a", state.clock.extension / scene.extension.rate},
         {"mean_radius_m", state.mean_radius},
-        {"right_wall_x_m", right_wall(now)},
+        {"right_wall_x_m", now.right_end()},
         {"strata", d.stratum.empty() ? 0 : *std::ranges::max_element(d.stratum)},
         {"layer_m", 1000.0},
         {"seed", scene.seed},
@@ -251,8 +231,10 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     write_profile(writer, now);
     const Measures m =
         measure(archive::make_setting(now.scene, now.parts), now.state, now.parts.base, now.events);
-    if (m.inclined_shear_angle)
-        write_predictions(writer, now, *m.inclined_shear_angle);
+    if (const auto predicted = predict_tops(now, m)) {
+        writer.points("predicted_shear", predicted->inclined_shear);
+        writer.points("predicted_normals", predicted->normals);
+    }
     if (m.depocentres)
         write_depocentres(writer, *m.depocentres);
     write_faults(writer, faults.faults);
@@ -262,14 +244,22 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
             points.push_back({picked->x[k], -picked->depth[k]});
         writer.points("picked_fault", points);
     }
-    write_observed(writer, now, faults);
     for (const EffectPart& part : now.scene.effects)
         if (part.effect->draw)
             for (const FigureLayer& layer : part.effect->draw(now))
                 writer.array(layer.name, layer.rows, layer.columns);
     nlohmann::json frame = frame_json(now, m);
+    // Picks are of the section as it is at the end of extension.
+    const bool observed =
+        now.scene.observed && now.state.clock.extension >= 0.999 * now.scene.extension.distance;
+    std::vector<Horizon> horizons;
+    if (observed || underlay)
+        horizons = trace_horizons(archive::make_setting(now.scene, now.parts), now.parts.base,
+                                  now.state, faults.faults);
+    if (observed)
+        write_observed(writer, now, horizons);
     if (underlay) {
-        write_horizons(writer, "horizons", now, faults, [](int) { return true; });
+        write_horizons(writer, "horizons", horizons, [](int) { return true; });
         frame["underlay"] = {
             {"image", fs::absolute(underlay->image).string()},
             {"corners_m", {underlay->left, underlay->top, underlay->right, underlay->bottom}}};

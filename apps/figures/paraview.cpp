@@ -16,8 +16,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -259,8 +257,8 @@ void write_paraview(const fs::path& output, const State& state, const RigidBase&
 }
 
 void copy_view(const fs::path& output) {
-    std::ifstream in(resource_folder() / "figures/python/paraview.py");
-    if (const std::string script(std::istreambuf_iterator<char>(in), {}); !script.empty())
+    const std::string script = read_text_if_there(resource_folder() / "figures/python/paraview.py");
+    if (!script.empty())
         write_text(output / "paraview.py", script);
 }
 

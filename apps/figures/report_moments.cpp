@@ -2,9 +2,9 @@
 
 #include "apps/archive/exports.hpp"
 #include "apps/archive/setting.hpp"
+#include "apps/figures/predicted_tops.hpp"
 #include "apps/figures/window_strain.hpp"
 #include "apps/measures/cohesion.hpp"
-#include "apps/measures/kinematics.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/rock_behaviour.hpp"
 #include "apps/support/base64.hpp"
@@ -126,17 +126,13 @@ json faults_of(const ExportedMoment& at, bool followed) {
 }
 
 json predictions_of(const Observation& now) {
-    const Setting setting = make_setting(now.scene, now.parts);
-    const auto angle = measure(setting, now.state, now.parts.base, now.events).inclined_shear_angle;
-    if (!angle)
+    const auto tops = predict_tops(
+        now, measure(make_setting(now.scene, now.parts), now.state, now.parts.base, now.events));
+    if (!tops)
         return json::array();
-    const Chain& detachment = now.parts.base.surfaces.front().chain;
-    const double extension = now.state.clock.extension;
-    const double wall = now.scene.hanging_wall->length + extension;
-    return {{{"name", fmt::format("inclined shear, {:.0f} degrees", *angle)},
-             {"points", points_of(inclined_shear_top(detachment, extension, *angle, wall))}},
-            {{"name", "normals stay normal"},
-             {"points", points_of(normals_top(detachment, extension, wall))}}};
+    return {{{"name", fmt::format("inclined shear, {:.0f} degrees", tops->angle)},
+             {"points", points_of(tops->inclined_shear)}},
+            {{"name", "normals stay normal"}, {"points", points_of(tops->normals)}}};
 }
 
 /// Corners (m) and change of largest shear stress (MPa) of the patches near the section, as they
@@ -170,8 +166,7 @@ std::string lines_json(const Observation& now, const FaultReport& faults, bool f
         lines["predictions"] = predictions_of(now);
     }
     if (!footwall.empty())
-        lines["footwall"] =
-            footwall_of(footwall, now.scene.hanging_wall->length + now.state.clock.extension);
+        lines["footwall"] = footwall_of(footwall, now.right_end());
     for (const EffectPart& part : now.scene.effects)
         if (part.effect->draw)
             for (const FigureLayer& layer : part.effect->draw(now))
@@ -299,6 +294,7 @@ void ReportMoments::add(const Observation& now, const FaultReport& faults, bool 
         extension_ = now.state.clock.extension;
     }
     moments_.back().lines = lines_json(now, faults, followed, footwall);
+    followed_ = followed;
 }
 
 std::string ReportMoments::json() const {

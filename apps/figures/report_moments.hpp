@@ -34,8 +34,10 @@ public:
     void add(const Observation& now, const measures::FaultReport& faults, bool followed,
              std::span<const fem::StressPatch> footwall = {});
 
-    /// Of the last moment, m; none: there is no moment.
-    std::optional<double> extension() const { return extension_; }
+    /// Whether the last moment is at that extension, m, and as much of it is there.
+    bool has(double extension, bool followed) const {
+        return extension_ == extension && followed_ >= followed;
+    }
 
     /// A JSON array of all moments.
     std::string json() const;
@@ -50,7 +52,8 @@ private:
     std::string bonds(const dem::State& state);
 
     ReportDetail detail_;
-    std::optional<double> extension_;
+    std::optional<double> extension_; ///< of the last moment, m
+    bool followed_ = false;           ///< whether its faults are
     std::vector<Text> moments_;
     std::map<std::string, std::vector<std::int32_t>> before_; ///< codes of the last moment
     std::vector<std::int64_t> bonded_; ///< pairs of ids that were bonded then, as one number each

@@ -2,15 +2,13 @@
 
 #include "apps/scene/effect.hpp"
 #include "apps/support/base64.hpp"
-#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -23,19 +21,6 @@ namespace {
 
 /// Where Debian's libjs-dygraphs is.
 constexpr const char* charts_folder = "/usr/share/javascript/dygraphs";
-
-/// Throws StorageError.
-std::string text_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in)
-        throw StorageError(file.string() + ": cannot be read");
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string text_or_nothing(const fs::path& file) {
-    std::error_code error;
-    return fs::is_regular_file(file, error) ? text_of(file) : std::string();
-}
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
@@ -88,7 +73,7 @@ json head_of(const ReportPage::Run& run) {
 }
 
 json underlay_of(const Underlay& underlay) {
-    const std::string image = text_of(underlay.image);
+    const std::string image = read_text(underlay.image);
     const auto* const bytes = reinterpret_cast<const unsigned char*>(image.data());
     return {{"image", "data:image/png;base64," + base64({bytes, image.size()})},
             {"corners_m", {underlay.left, underlay.top, underlay.right, underlay.bottom}}};
@@ -99,9 +84,9 @@ std::string data_of(const ReportPage& page) {
               {"left_out", page.left_out},
               {"live", page.live}};
     const fs::path resources = resource_folder();
-    std::string measures = text_or_nothing(resources / "measures.md");
+    std::string measures = read_text_if_there(resources / "measures.md");
     if (measures.empty())
-        measures = text_or_nothing(resources / "../docs/measures.md"); // the source tree's
+        measures = read_text_if_there(resources / "../docs/measures.md"); // the source tree's
     head["definitions"] = json::parse(definitions_of(measures));
     if (page.underlay)
         head["underlay"] = underlay_of(*page.underlay);
@@ -146,15 +131,15 @@ std::string report_html(const ReportPage& page) {
     std::string scripts;
     for (const char* name : {"data.js", "colours.js", "painter.js", "section.js", "charts.js",
                              "tables.js", "files.js", "page.js"})
-        scripts += text_of(folder / name);
+        scripts += read_text(folder / name);
     const std::map<std::string, std::string> parts{
-        {"style", text_of(folder / "report.css")},
-        {"charts_style", text_or_nothing(fs::path(charts_folder) / "dygraph.min.css")},
-        {"charts", as_script(text_or_nothing(fs::path(charts_folder) / "dygraph.min.js"))},
-        {"palettes", text_of(folder / "palettes.json")},
+        {"style", read_text(folder / "report.css")},
+        {"charts_style", read_text_if_there(fs::path(charts_folder) / "dygraph.min.css")},
+        {"charts", as_script(read_text_if_there(fs::path(charts_folder) / "dygraph.min.js"))},
+        {"palettes", read_text(folder / "palettes.json")},
         {"data", data_of(page)},
         {"scripts", as_script(scripts)}};
-    const std::string frame = text_of(folder / "report.html");
+    const std::string frame = read_text(folder / "report.html");
     std::string html;
     std::size_t at = 0;
     for (std::size_t open = frame.find("{{"); open != frame.npos; open = frame.find("{{", at)) {

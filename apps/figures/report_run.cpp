@@ -13,7 +13,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <future>
 #include <iterator>
 #include <map>
@@ -42,11 +41,6 @@ constexpr Reduction reductions[] = {
     {{false, false, 8}, "bonds, stress and seven of eight snapshots"},
 };
 
-std::string text_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// A run that has been read.
 struct ReadRun {
     RunFolder folder;
@@ -69,8 +63,8 @@ std::string page_of(const std::vector<ReadRun>& runs, const Reduction& reduction
     ReportPage page{.runs = {}, .left_out = reduction.left_out, .underlay = underlay};
     for (const ReadRun& run : runs)
         page.runs.push_back({run.folder.scene, run.moments, run.mean_radius,
-                             text_of(run.folder.output / "history.csv"),
-                             text_of(run.folder.output / "summary.json")});
+                             read_text_if_there(run.folder.output / "history.csv"),
+                             read_text_if_there(run.folder.output / "summary.json")});
     return report_html(page);
 }
 

@@ -24,6 +24,9 @@ public:
     /// Whether there is to be one, and nothing has gone wrong with it.
     bool is_wanted() const { return wanted_; }
 
+    /// Whether it has a moment, with faults that have been followed back if that is asked.
+    bool has(double extension, bool followed) const { return moments_.has(extension, followed); }
+
     /// The moments of a run that goes on, up to an extension, m.
     void read_moments_until(double extension, const archive::RunHistory& history);
 

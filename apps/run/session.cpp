@@ -271,22 +271,23 @@ void Session::append_history() {
 }
 
 void Session::save() {
+    report_window();
     const Stopwatch watch(record_.seconds_by_part["output"]);
     const State& state = simulation_.state();
     kept_ = snapshot_path(options_.output, extension());
     write_snapshot(kept_, state, simulation_.events(), record_);
-    report_window();
     history_.add(DiscPlaces(state));
     if (scene_.output.series == SeriesFormat::paraview)
         write_paraview(options_.output, state, simulation_.base(), scene_.extension.rate);
 }
 
-/// What the report shows of this moment; faults are followed back where they are drawn.
+/// What the report shows of this moment; faults are followed back where they are known.
 void Session::report_window() {
-    if (!report_.is_wanted())
+    const bool followed = faults_ && faults_at_ == extension();
+    if (!report_.is_wanted() || report_.has(extension(), followed))
         return;
     const Stopwatch watch(record_.seconds_by_part["report"]);
-    if (faults_ && faults_at_ == extension())
+    if (followed)
         report_.add(now(), *faults_,
                     footwall_ ? footwall_->recover(simulation_.state()).stress()
                               : std::vector<fem::StressPatch>());
@@ -374,7 +375,8 @@ std::vector<ObservedHorizon> Session::compare_with_observed(const FaultReport& f
         return {};
     const Stopwatch watch(record_.seconds_by_part["measures"]);
     std::vector<ObservedHorizon> rows =
-        compare_horizons(scene_, setting_, parts_.base, simulation_.state(), faults.faults);
+        compare_horizons(scene_, simulation_.state(),
+                         trace_horizons(setting_, parts_.base, simulation_.state(), faults.faults));
     for (const ObservedHorizon& row : rows)
         log_.say(row.misfit
                      ? fmt::format("observed {}: {:.0f} m off in the mean, at most {:.0f} m at x = "
@@ -390,14 +392,14 @@ void Session::finish() {
     const fs::path& output = options_.output;
     if (drawn_at_ != extension())
         draw();
+    const FaultReport& faults = faults_now();
     if (kept_ != snapshot_path(output, extension()))
         save();
+    report_window();
     if (options_.figures)
         figures_.push_back(std::async(std::launch::async, [this] { return draw_sheet(); }));
     const Measures measures = measure_now();
     warn_of_haste(measures);
-    const FaultReport& faults = faults_now();
-    report_window();
     check_base();
     const EffectMeasures of_effects = measure_effects(now());
     const std::vector<ObservedHorizon> observed = compare_with_observed(faults);

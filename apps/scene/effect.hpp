@@ -115,6 +115,9 @@ struct Observation {
     const ModelParts& parts;
     const dem::State& state;
     std::span<const std::unique_ptr<dem::Event>> events;
+
+    /// Of the hanging wall's right end, m. The scene has a hanging wall.
+    double right_end() const { return scene.hanging_wall->length + state.clock.extension; }
 };
 
 /// Measures of an effect, by the names of docs/measures.md.

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <unistd.h>
 
@@ -44,6 +46,18 @@ void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
 
 void write_text(const fs::path& path, std::string_view text) {
     write_bytes(path, std::as_bytes(std::span(text)));
+}
+
+std::string read_text(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+        throw StorageError(path.string() + ": cannot be read");
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string read_text_if_there(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void make_folder(const fs::path& folder) {

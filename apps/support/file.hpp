@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace listric {
@@ -13,6 +14,12 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 
 /// The same with text.
 void write_text(const std::filesystem::path& path, std::string_view text);
+
+/// All of a file. Throws StorageError.
+std::string read_text(const std::filesystem::path& path);
+
+/// The same; nothing of a file that cannot be read.
+std::string read_text_if_there(const std::filesystem::path& path);
 
 /// Makes a folder and those above it, if they are not there. Throws StorageError.
 void make_folder(const std::filesystem::path& folder);

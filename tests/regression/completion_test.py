@@ -4,15 +4,13 @@ has every call and option.
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest completion_test
 """
 
-import os
 import re
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-SOURCES = Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")
+from program import PROGRAM, SOURCES
 
 
 def output(*words, **options):

@@ -14,7 +14,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from document_commands import SOURCES, commands, run
+from document_commands import commands, run
+from program import SOURCES
 
 DOCUMENT = "docs/cookbook.md"
 needs_finite_elements = unittest.skipIf(os.environ.get("LISTRIC_FEM") == "0",

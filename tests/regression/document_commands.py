@@ -1,13 +1,11 @@
 """The commands that a document gives, and running them as they stand."""
 
-import os
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-SOURCES = Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")
+from program import PROGRAM, SOURCES
 
 
 def commands(document, heading):

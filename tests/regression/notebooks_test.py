@@ -14,11 +14,9 @@ from pathlib import Path
 os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # else debugpy tells of a debugger that is none
 import nbformat
 from nbclient import NotebookClient
+from program import PROGRAM, SOURCES
 
-SOURCES = Path(__file__).resolve().parents[2]
 NOTEBOOKS = SOURCES / "docs/notebooks"
-PROGRAM = Path(os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")).resolve()
-
 
 class Notebooks(unittest.TestCase):
     @classmethod

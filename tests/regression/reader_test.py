@@ -18,9 +18,8 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from program import PROGRAM, SOURCES
 
-SOURCES = Path(__file__).resolve().parents[2]
-PROGRAM = Path(os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")).resolve()
 os.environ["LISTRIC_PROGRAM"] = str(PROGRAM)
 
 sys.dont_write_bytecode = True

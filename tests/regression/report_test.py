@@ -5,7 +5,6 @@
 
 import csv
 import json
-import os
 import random
 import re
 import subprocess
@@ -21,9 +20,8 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
+from program import PROGRAM, SOURCES
 
-SOURCES = Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 
 

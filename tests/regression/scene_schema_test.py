@@ -18,9 +18,8 @@ import unittest
 from pathlib import Path
 
 from jsonschema import Draft4Validator
+from program import PROGRAM, SOURCES
 
-SOURCES = Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")
 
 # What the program refuses and the schema cannot: what docs/editors.md says, and in which words the
 # program tells it.

@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from document_commands import SOURCES
+from program import SOURCES
 
 # What a browser fetches by itself, in a page, a style or a script.
 FETCHED = re.compile(r"<(?:script|img|iframe|source|object|embed)\b[^>]*?\b(?:src|data)=[\"']([^\"']+)"

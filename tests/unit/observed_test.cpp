@@ -129,7 +129,8 @@ TEST_F(PicksFile, AgesChooseTheTop) {
     setting.length = 12e3;
     setting.thickness = 1e4;
     setting.extension_rate = scene.extension.rate;
-    const auto rows = archive::compare_horizons(scene, setting, base, state, {});
+    const auto horizons = measures::trace_horizons(setting, base, state, {});
+    const auto rows = archive::compare_horizons(scene, state, horizons);
     ASSERT_EQ(rows.size(), 4u);
     EXPECT_EQ(rows[0].stratum, 0);
     EXPECT_NEAR(rows[0].misfit->mean, 30.0, r);
@@ -140,7 +141,7 @@ TEST_F(PicksFile, AgesChooseTheTop) {
     // Without ages the nearest top is taken.
     for (PickedLine& line : scene.observed->horizons)
         line.age.reset();
-    EXPECT_EQ(archive::compare_horizons(scene, setting, base, state, {})[1].stratum, 1);
+    EXPECT_EQ(archive::compare_horizons(scene, state, horizons)[1].stratum, 1);
 }
 
 } // namespace
