@@ -153,9 +153,10 @@ json footwall_of(std::span<const fem::StressPatch> patches, double right) {
     return {{"corners", std::move(corners)}, {"shear_mpa", std::move(shear)}};
 }
 
-/// The lines of a section, as they are seen over it.
-std::string lines_json(const Observation& now, const FaultReport& faults, bool followed,
-                       std::span<const fem::StressPatch> footwall) {
+} // namespace
+
+SectionLines section_lines(const Observation& now, const FaultReport& faults, bool followed,
+                           std::span<const fem::StressPatch> footwall) {
     const ExportedMoment at{now, faults};
     json lines{{"followed", followed},
                {"faults", faults_of(at, followed)},
@@ -173,10 +174,8 @@ std::string lines_json(const Observation& now, const FaultReport& faults, bool f
                 lines["layers"][layer.name] = {{"columns", layer.columns}, {"rows", layer.rows}};
     const std::string text = lines.dump();
     const auto* const bytes = reinterpret_cast<const unsigned char*>(text.data());
-    return base64(deflated({bytes, text.size()}, compression));
+    return {base64(deflated({bytes, text.size()}, compression)), followed};
 }
-
-} // namespace
 
 std::string report_scales(double mean_radius) {
     json list;
@@ -287,14 +286,13 @@ std::string ReportMoments::encode(const Observation& now) {
                        d.id.size(), text);
 }
 
-void ReportMoments::add(const Observation& now, const FaultReport& faults, bool followed,
-                        std::span<const fem::StressPatch> footwall) {
+void ReportMoments::add(const Observation& now, SectionLines lines) {
     if (extension_ != now.state.clock.extension) {
         moments_.push_back({encode(now), ""});
         extension_ = now.state.clock.extension;
     }
-    moments_.back().lines = lines_json(now, faults, followed, footwall);
-    followed_ = followed;
+    moments_.back().lines = std::move(lines.packed);
+    followed_ = lines.followed;
 }
 
 std::string ReportMoments::json() const {

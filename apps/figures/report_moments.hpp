@@ -20,19 +20,28 @@ struct ReportDetail {
     int every = 1; ///< n: every n-th snapshot, and the last
 };
 
+/// The lines of a section as the page of a report reads them, packed.
+struct SectionLines {
+    std::string packed;
+    bool followed = false; ///< faults back to their birth
+};
+
+/// Faults, horizons, surfaces, the base, predictions and what effects draw.
+/// @param followed  whether the faults are followed back to their birth; then horizons, which
+///                  take as long, are traced, too
+/// @param footwall  stress below the base; none: it is rigid, or has not been recovered
+SectionLines section_lines(const Observation& now, const measures::FaultReport& faults,
+                           bool followed, std::span<const fem::StressPatch> footwall = {});
+
 /// The moments of a run as the page of a report reads them: whole numbers by the discs' ids, as
 /// differences from the moment before; docs/report.md, "What is in the file".
 class ReportMoments {
 public:
     explicit ReportMoments(const ReportDetail& detail = {}) : detail_(detail) {}
 
-    /// Adds the discs of a moment, the lines of its section and its faults. The extension that was
-    /// added last may come again, with other lines.
-    /// @param followed  whether the faults are followed back to their birth; then horizons, which
-    ///                  take as long, are traced, too
-    /// @param footwall  stress below the base; none: it is rigid, or has not been recovered
-    void add(const Observation& now, const measures::FaultReport& faults, bool followed,
-             std::span<const fem::StressPatch> footwall = {});
+    /// Adds the discs of a moment and the lines of its section. The extension that was added last
+    /// may come again, with other lines.
+    void add(const Observation& now, SectionLines lines);
 
     /// Whether the last moment is at that extension, m, and as much of it is there.
     bool has(double extension, bool followed) const {

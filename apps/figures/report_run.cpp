@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <future>
 #include <iterator>
 #include <map>
@@ -68,16 +69,11 @@ std::string page_of(const std::vector<ReadRun>& runs, const Reduction& reduction
     return report_html(page);
 }
 
-/// A moment whose faults are being followed back.
-struct Followed {
+/// A moment whose lines are being made.
+struct Drawn {
     std::shared_ptr<const Moment> moment;
-    std::future<measures::FaultReport> faults;
+    std::future<SectionLines> lines;
 };
-
-template <class Report> Followed follow(Moment moment, Report report) {
-    const auto kept = std::make_shared<const Moment>(std::move(moment));
-    return {kept, std::async(std::launch::async, [kept, report] { return report(*kept); })};
-}
 
 /// The stress below the base of a run's snapshots; none where the base is rigid.
 class FootwallReader {
@@ -109,34 +105,45 @@ private:
 double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHistory& history,
                    int every, bool every_line) {
     const measures::Setting setting = make_setting(folder.scene, folder.parts);
-    const dem::RigidBase& base = folder.parts.base;
-    const auto is_last = [&](const fs::path& path) { return path == folder.snapshots.back(); };
-    // What takes longest is begun first, and done beside the rest. Files are read in this thread.
-    std::map<fs::path, Followed> followed;
-    for (const fs::path& path : folder.snapshots)
-        if (is_last(path) || is_drawn_at(folder.scene, snapshot_extension(path)))
-            followed[path] = follow(folder.read(path), [&](const Moment& moment) {
-                return report_faults(setting, base, moment.state, history);
-            });
+    const auto observe = [&](const Moment& moment) -> Observation {
+        return {folder.scene, folder.parts, moment.state, moment.events};
+    };
+    const auto is_drawn = [&](const fs::path& path) {
+        return path == folder.snapshots.back() ||
+               is_drawn_at(folder.scene, snapshot_extension(path));
+    };
     FootwallReader footwall(folder);
-    double mean_radius = 0.0;
+    // Files are read in this thread; lines, which take longest, are made beside it.
+    std::map<fs::path, Drawn> drawn;
+    const auto draw = [&](const fs::path& path) {
+        if (drawn.contains(path))
+            return;
+        const auto moment = std::make_shared<const Moment>(folder.read(path));
+        const bool followed = every_line || is_drawn(path);
+        auto lines = [&, moment, followed,
+                      stress = followed ? footwall.read(path) : std::vector<fem::StressPatch>()] {
+            const auto faults = (followed ? report_faults : active_faults)(
+                setting, folder.parts.base, moment->state, history);
+            return section_lines(observe(*moment), faults, followed, stress);
+        };
+        drawn[path] = {moment, std::async(std::launch::async, std::move(lines))};
+    };
+    std::vector<fs::path> shown;
     for (std::size_t k = 0; k < folder.snapshots.size(); ++k) {
         const fs::path& path = folder.snapshots[k];
-        const auto found = followed.find(path);
-        if (found == followed.end() && k % static_cast<std::size_t>(every) != 0)
-            continue;
-        const bool has_past = found != followed.end() || every_line;
-        const auto moment = found != followed.end()
-                                ? found->second.moment
-                                : std::make_shared<const Moment>(folder.read(path));
-        const auto faults = found != followed.end() ? found->second.faults.get()
-                                                    : (every_line ? report_faults : active_faults)(
-                                                          setting, base, moment->state, history);
-        moments.add({folder.scene, folder.parts, moment->state, moment->events}, faults, has_past,
-                    has_past ? footwall.read(path) : std::vector<fem::StressPatch>());
-        mean_radius = moment->state.mean_radius;
-        if (found != followed.end())
-            followed.erase(found);
+        if (is_drawn(path))
+            draw(path); // takes longer than the others
+        if (is_drawn(path) || k % static_cast<std::size_t>(every) == 0)
+            shown.push_back(path);
+    }
+    double mean_radius = 0.0;
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+        for (std::size_t ahead = k; ahead < std::min(k + 2, shown.size()); ++ahead)
+            draw(shown[ahead]);
+        Drawn& now = drawn.at(shown[k]);
+        moments.add(observe(*now.moment), now.lines.get());
+        mean_radius = now.moment->state.mean_radius;
+        drawn.erase(shown[k]);
     }
     return mean_radius;
 }

@@ -27,23 +27,52 @@ bool along_detachment(const Polyline& points, const Chain& detachment, double di
     return 2 * close > static_cast<std::ptrdiff_t>(points.size());
 }
 
+/// The upright rectangle around a line.
+class Box {
+public:
+    explicit Box(const Polyline& points) : low_(points.front()), high_(points.front()) {
+        for (const Point p : points) {
+            low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+            high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+        }
+    }
+
+    /// Whether a point may be within a distance of the line, m.
+    bool is_near(Point p, double distance) const {
+        return p.x >= low_.x - distance && p.x <= high_.x + distance && p.y >= low_.y - distance &&
+               p.y <= high_.y + distance;
+    }
+
+private:
+    Point low_, high_;
+};
+
+std::vector<Box> boxes_of(const std::vector<FaultTrace>& traces) {
+    std::vector<Box> boxes;
+    for (const FaultTrace& trace : traces)
+        boxes.emplace_back(trace.points);
+    return boxes;
+}
+
 /// Strain within 2.5 diameters of a trace over that of its surroundings out to 10 diameters, other
 /// traces left out; the mean of both sides. Where a side is missing, as near the surface, there is
 /// nothing that the trace stands out from.
+/// @param boxes  around all
 double contrast(const ShearField& field, const FaultTrace& trace,
-                const std::vector<FaultTrace>& all) {
+                const std::vector<FaultTrace>& all, const std::vector<Box>& boxes) {
     const double band = 2.5 * field.diameter, reach = 10.0 * field.diameter;
-    Point low = trace.points.front(), high = low;
-    for (Point p : trace.points) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
+    const Box box(trace.points);
+    const auto is_on_one = [&](Point p) {
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (boxes[k].is_near(p, band) && std::abs(place_on(all[k].points, p).distance) < band)
+                return true;
+        return false;
+    };
     double sum[3] = {}, count[3] = {}; // on the trace, on its left, on its right
     double seen[3] = {};               // other traces included
     for (std::size_t i = 0; i < field.x.size(); ++i) {
         const Point p{field.x[i], field.y[i]};
-        if (p.x < low.x - reach || p.x > high.x + reach || p.y < low.y - reach ||
-            p.y > high.y + reach)
+        if (!box.is_near(p, reach))
             continue;
         const PolylinePlace place = place_on(trace.points, p);
         if (place.beyond || std::abs(place.distance) > reach)
@@ -51,9 +80,7 @@ double contrast(const ShearField& field, const FaultTrace& trace,
         const bool on = std::abs(place.distance) < band;
         const std::size_t where = on ? 0 : place.distance > 0.0 ? 1 : 2;
         seen[where] += 1.0;
-        if (!on && std::ranges::any_of(all, [&](const FaultTrace& other) {
-                return std::abs(place_on(other.points, p).distance) < band;
-            }))
+        if (!on && is_on_one(p))
             continue;
         sum[where] += field.shear(i);
         count[where] += 1.0;
@@ -148,8 +175,8 @@ std::vector<FaultTrace> trace_faults(const ShearField& field, const Chain& detac
                 std::ranges::reverse(points);
             cut(survey(std::move(points), field, cells, least, options), fewest, traces);
         }
-    std::erase_if(traces, [&, all = traces](const FaultTrace& trace) {
-        return contrast(field, trace, all) < options.least_contrast;
+    std::erase_if(traces, [&, all = traces, boxes = boxes_of(traces)](const FaultTrace& trace) {
+        return contrast(field, trace, all, boxes) < options.least_contrast;
     });
     std::ranges::stable_sort(traces, std::ranges::greater{},
                              [](const FaultTrace& t) { return t.length(); });

@@ -130,23 +130,33 @@ std::vector<Polyline> without_kinks(const Polyline& points) {
     return pieces;
 }
 
+namespace {
+
+/// Square of a point's distance from the straight line between two others, m²; NaN if they are one.
+double square_distance(Point start, Point end, Point p) {
+    const Point edge = end - start, off = p - start;
+    const Point apart = off - std::clamp(dot(off, edge) / dot(edge, edge), 0.0, 1.0) * edge;
+    return dot(apart, apart);
+}
+
+} // namespace
+
 PolylinePlace place_on(const Polyline& points, Point p) {
+    double least = 1e300;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k)
+        least = std::min(least, square_distance(points[k], points[k + 1], p));
+    least *= 1.0 + 1e-9; // Roots take longest: only of edges that may be the nearest.
     PolylinePlace best{1e300, true};
-    double square = 1e300; // of the best distance
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-        const Point edge = points[k + 1] - points[k], off = p - points[k];
-        const double share = std::clamp(dot(off, edge) / dot(edge, edge), 0.0, 1.0);
-        const Point apart = off - share * edge;
-        // Roots take longest: only of edges that may be nearer.
-        if (dot(apart, apart) > square * (1.0 + 1e-9))
+        if (square_distance(points[k], points[k + 1], p) > least)
             continue;
+        const Point edge = points[k + 1] - points[k], off = p - points[k];
         const double length = norm(edge);
         const double along = dot(off, edge) / length;
         const Point foot = points[k] + (std::clamp(along, 0.0, length) / length) * edge;
         if (const double distance = norm(p - foot); distance < std::abs(best.distance)) {
             best.distance = cross(edge, off) < 0.0 ? -distance : distance;
             best.beyond = (k == 0 && along < 0.0) || (k + 2 == points.size() && along > length);
-            square = distance * distance;
         }
     }
     return best;

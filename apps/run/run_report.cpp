@@ -37,10 +37,9 @@ void RunReport::read_moments_until(double extension, const RunHistory& history) 
 void RunReport::add(const Observation& now, const RunHistory& history) {
     attempt([&] {
         mean_radius_ = now.state.mean_radius;
-        moments_.add(
-            now,
-            active_faults(make_setting(now.scene, now.parts), now.parts.base, now.state, history),
-            false);
+        const measures::FaultReport faults =
+            active_faults(make_setting(now.scene, now.parts), now.parts.base, now.state, history);
+        moments_.add(now, section_lines(now, faults, false));
     });
 }
 
@@ -48,7 +47,7 @@ void RunReport::add(const Observation& now, const measures::FaultReport& faults,
                     const std::vector<fem::StressPatch>& footwall) {
     attempt([&] {
         mean_radius_ = now.state.mean_radius;
-        moments_.add(now, faults, true, footwall);
+        moments_.add(now, section_lines(now, faults, true, footwall));
     });
 }
 
