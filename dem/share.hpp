@@ -1,0 +1,45 @@
+#pragma once
+
+#include "dem/state.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace listric::dem {
+
+// A state in shares, one for each process ("rank"), that come to the same bits as the whole: forces
+// on a disc are added in the order of rows, so a share keeps that order; a contact of two shares is
+// computed by both from equal numbers.
+
+/// What one rank needs for cycles: its own discs, and ghosts, copies of those that they have
+/// contacts with, in the order of the whole's rows; and all contacts of its own discs.
+struct Share {
+    State state;
+    std::vector<std::int32_t> rows; ///< in the whole, by row of the share's discs
+    std::vector<std::uint8_t> own;  ///< by row of the share's discs
+    std::vector<std::int32_t> contacts, base_contacts; ///< rows in the whole of the share's
+
+    /// What is renewed after every cycle, by the other rank: own discs that are ghosts there, and
+    /// ghosts that are its own, as rows of the share in the order of the whole.
+    std::vector<std::vector<std::int32_t>> sent, received;
+};
+
+/// The rank of every disc, by row: rows in succession, about equal work for each.
+std::vector<std::int32_t> ranks_by_rows(const State& state, int count);
+
+/// Cuts a state into `count` shares.
+/// @param rank  of every disc, by row; any at all
+std::vector<Share> cut(const State& state, std::span<const std::int32_t> rank, int count);
+
+/// Puts what cycles have changed of a share's own discs and of their contacts back into the whole.
+void put_back(const Share& share, State& whole);
+
+/// Velocity, spin and place of a disc: what a ghost has to be told after every cycle.
+inline constexpr std::size_t ghost_numbers = 5;
+
+/// Of discs in rows `from`, one after the other.
+void read_ghosts(const State& state, std::span<const std::int32_t> from, std::span<double> numbers);
+void write_ghosts(std::span<const double> numbers, std::span<const std::int32_t> to, State& state);
+
+} // namespace listric::dem
