@@ -21,4 +21,13 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics, s
     }
 }
 
+std::int64_t advance_share(State& share, const RigidBase& base, const CyclePhysics& physics,
+                           std::int64_t cycles, const Execution& execution, BaseResponse* response,
+                           Links& links) {
+    const Team team(execution.threads);
+    return execution.cycle == Cycle::plain
+               ? advance_plainly(share, base, physics, cycles, response, nullptr, &links)
+               : advance_fast(share, base, physics, cycles, execution, response, &links);
+}
+
 } // namespace listric::dem

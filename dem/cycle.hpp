@@ -18,4 +18,13 @@ namespace listric::dem {
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
              const Execution& execution = {}, BaseResponse* response = nullptr);
 
+class Links;
+
+/// The same of a share, whose neighbour lists cannot be updated. All ranks call it alike.
+/// @param response  null but on the root
+/// Returns the cycles done, on all ranks the same: fewer where lists must be updated.
+std::int64_t advance_share(State& share, const RigidBase& base, const CyclePhysics& physics,
+                           std::int64_t cycles, const Execution& execution, BaseResponse* response,
+                           Links& links);
+
 } // namespace listric::dem

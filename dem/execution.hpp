@@ -26,11 +26,13 @@ public:
     Packed& operator=(Packed&&) = default;
 
     void forget() { holds_ = false; }
+    bool holds() const { return holds_; }
+    void hold() { holds_ = true; } ///< what has been packed elsewhere
     BestTeam& team() { return team_; }
 
 private:
-    friend void advance_fast(State&, const RigidBase&, const CyclePhysics&, std::int64_t,
-                             const struct Execution&, BaseResponse*);
+    friend std::int64_t advance_fast(State&, const RigidBase&, const CyclePhysics&, std::int64_t,
+                                     const struct Execution&, BaseResponse*, class Links*);
 
     std::shared_ptr<FastCycle> cycle_; ///< shared with nobody: it destroys what is only named here
     BestTeam team_{1};

@@ -3,6 +3,7 @@
 #include "dem/base_contact.hpp"
 #include "dem/contacts.hpp"
 #include "dem/law.hpp"
+#include "dem/links.hpp"
 #include "dem/order_free.hpp"
 #include "dem/team.hpp"
 
@@ -43,12 +44,19 @@ void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseMo
 
 /// As in the plain cycle: loads by row, which is the order of strips and of their contacts.
 double FastCycle::move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
-                            BaseResponse* response) {
+                            BaseResponse* response, Links* links) {
     for (const Strip& strip : strips_)
         for (const NodeContact& c : strip.node_contacts)
             add_load(nodes, c.force, c.contact.surface->degree);
-    if (response && (clock.cycle + 1) % response->interval == 0)
-        response->respond(state, clock);
+    const std::int64_t interval = links      ? links->response_interval
+                                  : response ? response->interval
+                                             : 0;
+    if (interval > 0 && (clock.cycle + 1) % interval == 0) {
+        if (links)
+            links->respond(state, clock, response);
+        else
+            response->respond(state, clock);
+    }
     return move_nodes(nodes, clock.time_step);
 }
 
@@ -62,6 +70,8 @@ DampedAgainst FastCycle::damped_against() const {
 double FastCycle::furthest(const Strip& strip) const {
     double greatest = 0.0;
     for (std::size_t i = strip.first_disc; i < strip.end_disc; ++i) {
+        if (!own_.empty() && own_[i] == 0)
+            continue;
         const double dx = discs_[i].place[0] - searched_places_[i].x;
         const double dy = discs_[i].place[1] - searched_places_[i].y;
         greatest = greater(greatest, dx * dx + dy * dy);
@@ -70,23 +80,47 @@ double FastCycle::furthest(const Strip& strip) const {
 }
 
 /// By what furthest() has found in the strips, m.
-double FastCycle::greatest_displacement(const State& state, double extension) const {
+double FastCycle::greatest_displacement(const State& state, double extension, Links* links) const {
     double square = 0.0;
     for (const Strip& strip : strips_)
         square = greater(square, strip.furthest);
+    if (links)
+        square = links->greatest(square);
     return greater(std::sqrt(square), surface_travel(state, *base_, extension));
 }
 
-/// Lets the team's size follow what it does, in disc-steps.
+void FastCycle::mark_ghosts(const Links* links) {
+    own_.clear();
+    if (!links)
+        return;
+    own_.assign(inertia_.size(), 0);
+    for (std::size_t i = 0; i < disc_count_; ++i)
+        own_[i] = links->own()[i] ? -1 : 0;
+}
+
+void FastCycle::renew_ghosts(Links& links) {
+    links.renew_ghosts(
+        [&](std::size_t i, double* to) {
+            std::copy_n(discs_[i].place, 2, to);
+            std::copy_n(discs_[i].velocity, 3, to + 2);
+        },
+        [&](std::size_t i, const double* from) {
+            std::copy_n(from, 2, discs_[i].place);
+            std::copy_n(from + 2, 3, discs_[i].velocity);
+        });
+}
+
+/// Lets the team's size follow what it does, in disc-steps. Ranks must do alike, so theirs stays.
 std::int64_t FastCycle::run(State& state, std::int64_t cycles, BestTeam& team,
-                            BaseResponse* response) {
+                            BaseResponse* response, Links* links) {
+    mark_ghosts(links);
     std::int64_t done = 0;
     for (bool holds = true; holds && done < cycles;) {
         std::int64_t piece = cycles - done;
-        if (team.most() > 1)
+        if (team.most() > 1 && !links)
             piece = std::min(piece, 1 + static_cast<std::int64_t>(
                                             team.piece() / static_cast<double>(disc_count_ + 1)));
-        const std::int64_t ran = run_piece(state, piece, team, response);
+        const std::int64_t ran = run_piece(state, piece, team, response, links);
         holds = ran == piece;
         done += ran;
     }
@@ -94,12 +128,16 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BestTeam& team,
 }
 
 std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& team,
-                                  BaseResponse* response) {
+                                  BaseResponse* response, Links* links) {
     const auto begin = std::chrono::steady_clock::now();
-    const Kernels kernels = choose_kernels(level_, bonded_, frictional_, damped_against());
-    const Shared shared{
-        discs_,     inertia_,         slots_.data(),
-        time_step_, physics_.damping, averaging_interval * time_step_ / physics_.averaging_time};
+    const Kernels kernels = choose_kernels(level_, bonded_, frictional_, damped_against(), links);
+    const Shared shared{discs_,
+                        inertia_,
+                        slots_.data(),
+                        time_step_,
+                        physics_.damping,
+                        averaging_interval * time_step_ / physics_.averaging_time,
+                        own_.empty() ? nullptr : own_.data()};
     const Clock start = state.clock;
     const Watch watched{state.displacement_bound, state.window_speed, state.look_interval};
     const double surface_translation = greatest_translation(*base_);
@@ -117,12 +155,30 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
         };
         Clock clock = start;
         Watch watch = watched;
+        const auto enter_speed = [&](double fastest) {
+            watch.speed = greater(watch.speed, fastest);
+            watch.bound += std::numbers::sqrt2 * fastest * clock.time_step;
+        };
+        const auto enter_speeds = [&] {
+            if (thread == 0)
+                links->share_speeds();
+            barrier.wait();
+            std::ranges::for_each(links->speeds, enter_speed);
+            barrier.wait();
+            if (thread == 0)
+                links->speeds.clear();
+        };
         for (std::int64_t n = 0; n < cycles; ++n) {
             if (clock.cycle % watch.look_interval == 0) {
+                if (links)
+                    enter_speeds();
                 if (is_check_due(watch.bound, state.skin)) {
                     for_free_strips([&](Strip& strip) { strip.furthest = furthest(strip); });
                     barrier.wait();
-                    watch.bound = greatest_displacement(state, clock.extension);
+                    if (thread == 0)
+                        displacement_ = greatest_displacement(state, clock.extension, links);
+                    barrier.wait();
+                    watch.bound = displacement_;
                     if (is_update_due(watch.bound, state.skin))
                         break;
                 }
@@ -141,7 +197,7 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
             const auto parity = static_cast<std::size_t>(clock.cycle % 2);
             // No disc looks at the nodes between the two barriers.
             if (deforms_ && thread == 0)
-                fastest_node_[parity] = move_base(state, nodes, clock, response);
+                fastest_node_[parity] = move_base(state, nodes, clock, response, links);
             Stretching thins = stretching(*base_, clock.extension);
             thins.rate *= speed;
             const auto sweep =
@@ -154,11 +210,20 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
             double fastest = greater(surface_translation * speed, fastest_node_[parity]);
             for (const Strip& s : strips_)
                 fastest = greater(fastest, s.fastest[parity]);
-            watch.speed = greater(watch.speed, fastest);
-            watch.bound += std::numbers::sqrt2 * fastest * clock.time_step;
+            if (links) {
+                if (thread == 0) {
+                    links->speeds.push_back(fastest);
+                    renew_ghosts(*links);
+                }
+                barrier.wait();
+            } else {
+                enter_speed(fastest);
+            }
             clock.extension += speed * clock.time_step;
             ++clock.cycle;
         }
+        if (links)
+            enter_speeds();
         barrier.wait(); // until all have read the state
         if (thread == 0) {
             state.clock = clock;
@@ -174,8 +239,9 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
     return done;
 }
 
-void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
-                  std::int64_t cycles, const Execution& execution, BaseResponse* response) {
+std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
+                          std::int64_t cycles, const Execution& execution, BaseResponse* response,
+                          Links* links) {
     Packed for_this_call;
     Packed& packed = execution.packed ? *execution.packed : for_this_call;
     if (!packed.cycle_ || !packed.cycle_->is_for(base, execution)) {
@@ -188,9 +254,10 @@ void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physi
     if (!packed.holds_)
         fast.pack(state, base, physics);
     packed.holds_ = false; // until all has gone well
-    while (cycles > 0) {
-        cycles -= fast.run(state, cycles, packed.team_, response);
-        if (cycles == 0)
+    std::int64_t done = 0;
+    while (done < cycles) {
+        done += fast.run(state, cycles - done, packed.team_, response, links);
+        if (done == cycles || links)
             break;
         fast.unpack(state);
         refuse_runaways(state);
@@ -200,6 +267,7 @@ void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physi
     }
     fast.unpack(state);
     packed.holds_ = true;
+    return done;
 }
 
 } // namespace listric::dem

@@ -35,9 +35,12 @@ namespace listric::dem {
 //   large pages for that, see aligned_vector.hpp: another 1.1 times.
 // - Scenes without bonds or friction run cycles compiled without them.
 
+class Links;
+
 /// The same as advance_plainly() without an account of energy.
-void advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
-                  std::int64_t cycles, const Execution& execution, BaseResponse* response);
+std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
+                          std::int64_t cycles, const Execution& execution, BaseResponse* response,
+                          Links* links = nullptr);
 
 class FastCycle {
 public:
@@ -55,7 +58,9 @@ public:
 
     /// Runs until `cycles` cycles are done or the lists must be updated. Updates clock and bound of
     /// the state and the nodes of its base, nothing else. Returns the number of cycles done.
-    std::int64_t run(State& state, std::int64_t cycles, BestTeam& team, BaseResponse* response);
+    /// @param links  of a state that is a share; none: it is whole
+    std::int64_t run(State& state, std::int64_t cycles, BestTeam& team, BaseResponse* response,
+                     Links* links = nullptr);
 
     /// Packs new contact lists, of the same discs.
     void pack_contacts(const State& state);
@@ -77,7 +82,9 @@ private:
     };
 
     std::int64_t run_piece(State& state, std::int64_t cycles, BestTeam& team,
-                           BaseResponse* response);
+                           BaseResponse* response, Links* links);
+    void mark_ghosts(const Links* links);
+    void renew_ghosts(Links& links);
     void divide_work(const State& state);
     /// Calls work(strip) for all strips, which the threads at hand share.
     template <class Work> void for_each_strip(Work&& work);
@@ -92,10 +99,10 @@ private:
     void compute_base(fast::Strip& strip, BaseMoment base);
     void compute_nodes(fast::Strip& strip, const BaseNodeColumns& nodes, BaseMoment base);
     double move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
-                     BaseResponse* response);
+                     BaseResponse* response, Links* links);
     fast::DampedAgainst damped_against() const;
     double furthest(const fast::Strip& strip) const;
-    double greatest_displacement(const State& state, double extension) const;
+    double greatest_displacement(const State& state, double extension, Links* links) const;
 
     int threads_;
     Cycle level_;
@@ -106,11 +113,13 @@ private:
     AlignedVector<fast::Disc> discs_;
     AlignedVector<fast::Inertia> inertia_;
     std::vector<Place> searched_places_;
+    std::vector<std::int64_t> own_; ///< by disc: -1, or 0 for a ghost; empty: there are no ghosts
     AlignedVector<fast::Slot> slots_;
     std::vector<fast::Strip> strips_;
     bool bonded_ = false, frictional_ = false; ///< whether any contact is
     bool deforms_ = false;                     ///< whether the base has nodes
     double fastest_node_[2] = {0.0, 0.0};      ///< as Strip::fastest
+    double displacement_ = 0.0;                ///< the greatest, as it was measured last, m
 
     std::vector<std::uint32_t> slot_of_, base_slot_of_; ///< by row of the contact tables
 };

@@ -4,6 +4,7 @@
 #include "dem/cycle_choice.hpp"
 #include "dem/fast_cycle_records.hpp"
 
+#include <cstdint>
 #include <span>
 
 namespace listric::dem::fast {
@@ -18,7 +19,8 @@ struct Shared {
     Slot* slots;
     double time_step;
     double damping;
-    double mean_share; ///< of a sample in the mean velocity
+    double mean_share;                 ///< of a sample in the mean velocity
+    const std::int64_t* own = nullptr; ///< by disc: -1, or 0 for a ghost; none: there are no ghosts
 };
 
 /// The inner loops, compiled for one level.
@@ -30,7 +32,8 @@ struct Kernels {
 };
 
 /// The cycle is compiled for contacts with and without bonds and friction, and chosen when contacts
-/// are packed: bonds never form within a cycle.
-Kernels choose_kernels(Cycle level, bool bonded, bool frictional, DampedAgainst motion);
+/// are packed: bonds never form within a cycle. Ghosts of other ranks count in no maximum.
+Kernels choose_kernels(Cycle level, bool bonded, bool frictional, DampedAgainst motion,
+                       bool has_ghosts);
 
 } // namespace listric::dem::fast

@@ -132,7 +132,7 @@ template <int sign>
         }
 }
 
-template <bool bonded, bool frictional, DampedAgainst motion>
+template <bool bonded, bool frictional, DampedAgainst motion, bool has_ghosts>
 double sweep(const Shared& shared, Strip& strip, Stretching thins) {
     const Double4 no_force = {};
     const Double4 damping = no_force + shared.damping;
@@ -199,7 +199,9 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
                 }
                 store_four(disc.velocity, velocity);
                 store_four(disc.place, place + velocity * time_step);
-                const auto speed = reinterpret_cast<Mask4>(magnitude(velocity));
+                auto speed = reinterpret_cast<Mask4>(magnitude(velocity));
+                if constexpr (has_ghosts)
+                    speed &= shared.own[group * group_discs + m];
                 fastest = fastest < speed ? speed : fastest;
             }
         }
@@ -208,21 +210,28 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
     return greater(speeds[0], speeds[1]);
 }
 
-template <bool bonded, bool frictional> Kernels kernels_of(DampedAgainst motion) {
+template <bool bonded, bool frictional, bool has_ghosts> Kernels kernels_of(DampedAgainst motion) {
     using enum DampedAgainst;
     const auto boundary = &compute_boundary<bonded, frictional>;
     if (motion == mean_motion)
-        return {boundary, &sweep<bonded, frictional, mean_motion>,
-                &sweep<bonded, frictional, mean_motion_sampled>};
-    const auto any = motion == stretching ? &sweep<bonded, frictional, stretching>
-                                          : &sweep<bonded, frictional, rest>;
+        return {boundary, &sweep<bonded, frictional, mean_motion, has_ghosts>,
+                &sweep<bonded, frictional, mean_motion_sampled, has_ghosts>};
+    const auto any = motion == stretching ? &sweep<bonded, frictional, stretching, has_ghosts>
+                                          : &sweep<bonded, frictional, rest, has_ghosts>;
     return {boundary, any, any};
 }
 
-inline Kernels choose_kernels(bool bonded, bool frictional, DampedAgainst motion) {
+template <bool bonded, bool frictional> Kernels kernels_of(DampedAgainst motion, bool has_ghosts) {
+    return has_ghosts ? kernels_of<bonded, frictional, true>(motion)
+                      : kernels_of<bonded, frictional, false>(motion);
+}
+
+inline Kernels choose_kernels(bool bonded, bool frictional, DampedAgainst motion, bool has_ghosts) {
     if (bonded)
-        return frictional ? kernels_of<true, true>(motion) : kernels_of<true, false>(motion);
-    return frictional ? kernels_of<false, true>(motion) : kernels_of<false, false>(motion);
+        return frictional ? kernels_of<true, true>(motion, has_ghosts)
+                          : kernels_of<true, false>(motion, has_ghosts);
+    return frictional ? kernels_of<false, true>(motion, has_ghosts)
+                      : kernels_of<false, false>(motion, has_ghosts);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "dem/damping.hpp"
 #include "dem/energy.hpp"
 #include "dem/law.hpp"
+#include "dem/links.hpp"
 #include "dem/order_free.hpp"
 #include "dem/radius_rates.hpp"
 
@@ -281,10 +282,11 @@ private:
     double share_ = 0.0; ///< of the sample in the mean
 };
 
-/// Newton's law for every disc. Returns the largest component of a velocity, m/s.
+/// Newton's law for every disc. Returns the largest component of a velocity, m/s, that of ghosts
+/// left out.
 template <bool accounted>
 double move_discs(State& state, const CyclePhysics& physics, UndampedMotion undamped,
-                  std::span<const Force> force, Account* account) {
+                  std::span<const Force> force, Account* account, const Links* links) {
     const DiscColumns d = disc_columns(state);
     const RadiusRates radii(state);
     const double dt = state.clock.time_step;
@@ -313,6 +315,8 @@ double move_discs(State& state, const CyclePhysics& physics, UndampedMotion unda
         d.rotation[i] += d.spin[i] * dt;
         d.radius[i] += radii[i] * dt;
         undamped.learn(d, i);
+        if (links && !links->own()[i])
+            continue;
         fastest = greater(fastest, greater(std::abs(d.vx[i]), std::abs(d.vy[i])));
     }
     return fastest;
@@ -320,17 +324,51 @@ double move_discs(State& state, const CyclePhysics& physics, UndampedMotion unda
 
 /// Lets the nodes of a base that deforms answer and move. Returns the largest component of a
 /// velocity, m/s.
-double move_base(State& state, const Clock& clock, BaseResponse* response) {
-    if (response && (clock.cycle + 1) % response->interval == 0)
-        response->respond(state, clock);
+double move_base(State& state, const Clock& clock, BaseResponse* response, Links* links) {
+    const std::int64_t interval = links      ? links->response_interval
+                                  : response ? response->interval
+                                             : 0;
+    if (interval > 0 && (clock.cycle + 1) % interval == 0) {
+        if (links)
+            links->respond(state, clock, response);
+        else
+            response->respond(state, clock);
+    }
     return move_nodes(base_node_columns(state), clock.time_step);
+}
+
+/// Adds a cycle's greatest speed, m/s, to what is known of the displacements.
+void enter_speed(State& state, double fastest) {
+    state.window_speed = greater(state.window_speed, fastest);
+    state.displacement_bound += std::numbers::sqrt2 * fastest * state.clock.time_step;
+}
+
+/// The same with those of all ranks.
+void enter_speeds(State& state, Links& links) {
+    links.share_speeds();
+    for (const double fastest : links.speeds)
+        enter_speed(state, fastest);
+    links.speeds.clear();
+}
+
+void renew_ghosts(State& state, Links& links) {
+    const DiscColumns d = disc_columns(state);
+    links.renew_ghosts(
+        [&](std::size_t i, double* to) {
+            for (const double number : {d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i]})
+                *to++ = number;
+        },
+        [&](std::size_t i, const double* from) {
+            for (double* const number : {&d.x[i], &d.y[i], &d.vx[i], &d.vy[i], &d.spin[i]})
+                *number = *from++;
+        });
 }
 
 /// One plain cycle. It is written to be read.
 template <bool accounted>
 void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
                    const PairParameters& pairs, std::span<Force> force, BaseResponse* response,
-                   Account* account) {
+                   Account* account, Links* links) {
     Clock& clock = state.clock;
     const double speed = base.motion.speed_at(clock.time());
     if constexpr (accounted)
@@ -340,53 +378,85 @@ void cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& phys
     Stretching thins = stretching(base, clock.extension);
     thins.rate *= speed;
     const double disc_speed =
-        move_discs<accounted>(state, physics, {state, physics, thins}, force, account);
+        move_discs<accounted>(state, physics, {state, physics, thins}, force, account, links);
     if constexpr (accounted)
         account->flows.base_work +=
             half_step_work(base_node_columns(state), account->of_nodes, clock.time_step);
     const double base_speed =
-        greater(greatest_translation(base) * speed, move_base(state, clock, response));
+        greater(greatest_translation(base) * speed, move_base(state, clock, response, links));
     const double fastest = greater(disc_speed, base_speed);
     if constexpr (accounted)
         account->flows.base_work +=
             half_step_work(base_node_columns(state), account->of_nodes, clock.time_step);
-    state.window_speed = greater(state.window_speed, fastest);
-    state.displacement_bound += std::numbers::sqrt2 * fastest * clock.time_step;
+    if (links) {
+        renew_ghosts(state, *links);
+        links->speeds.push_back(fastest);
+    } else {
+        enter_speed(state, fastest);
+    }
     clock.extension += speed * clock.time_step;
     ++clock.cycle;
 }
 
-/// Keeps the lists good for the cycles up to the next look.
-void look_for_neighbours(State& state, const RigidBase& base) {
+/// The greatest displacement of a share's own discs, in all shares, and of surfaces, m.
+double greatest_displacement(const State& state, const RigidBase& base, Links& links) {
+    const ConstDiscColumns d = disc_columns(state);
+    double square = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double dx = d.x[i] - d.searched_x[i], dy = d.y[i] - d.searched_y[i];
+        if (links.own()[i])
+            square = greater(square, dx * dx + dy * dy);
+    }
+    return greater(std::sqrt(links.greatest(square)),
+                   surface_travel(state, base, state.clock.extension));
+}
+
+/// Keeps the lists good for the cycles up to the next look. Those of a share cannot be updated:
+/// then it returns false.
+bool look_for_neighbours(State& state, const RigidBase& base, Links* links) {
+    if (links)
+        enter_speeds(state, *links);
     if (is_check_due(state.displacement_bound, state.skin)) {
-        state.displacement_bound = greatest_displacement(state, base);
-        refuse_runaways(state);
-        if (is_update_due(state.displacement_bound, state.skin))
+        state.displacement_bound =
+            links ? greatest_displacement(state, base, *links) : greatest_displacement(state, base);
+        if (!links)
+            refuse_runaways(state);
+        if (is_update_due(state.displacement_bound, state.skin)) {
+            if (links)
+                return false;
             update_contacts(state, base);
+        }
     }
     state.look_interval = next_look_interval(state.look_interval, state.window_speed,
                                              state.clock.time_step, state.skin);
     state.window_speed = 0.0;
+    return true;
 }
 
 } // namespace
 
-void advance_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
-                     std::int64_t cycles, BaseResponse* response, EnergyFlows* total) {
+std::int64_t advance_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
+                             std::int64_t cycles, BaseResponse* response, EnergyFlows* total,
+                             Links* links) {
     std::vector<Force> force(state.discs.rows());
     const PairParameters pairs(state.materials, state.clock.time_step);
-    for (; cycles > 0; --cycles) {
-        if (state.clock.cycle % state.look_interval == 0)
-            look_for_neighbours(state, base);
+    std::int64_t done = 0;
+    for (; done < cycles; ++done) {
+        if (state.clock.cycle % state.look_interval == 0 &&
+            !look_for_neighbours(state, base, links))
+            return done;
         if (!total) {
-            cycle_plainly<false>(state, base, physics, pairs, force, response, nullptr);
+            cycle_plainly<false>(state, base, physics, pairs, force, response, nullptr, links);
             continue;
         }
         // Sums of their own for every cycle, so that it does not matter how calls are cut.
         Account account;
-        cycle_plainly<true>(state, base, physics, pairs, force, response, &account);
+        cycle_plainly<true>(state, base, physics, pairs, force, response, &account, links);
         *total += account.flows;
     }
+    if (links)
+        enter_speeds(state, *links);
+    return done;
 }
 
 } // namespace listric::dem

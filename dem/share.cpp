@@ -1,8 +1,11 @@
 #include "dem/share.hpp"
 
+#include "dem/bytes.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <utility>
+#include <variant>
 
 namespace listric::dem {
 
@@ -25,25 +28,6 @@ Table selected(const Table& table, std::span<const std::int32_t> rows) {
         result.set(std::move(part));
     }
     return result;
-}
-
-/// Copies the rows for which is_wanted(row of the part) of a part's columns into the whole's.
-template <class Wanted>
-void copy_rows(const Table& part, std::span<const std::int32_t> rows, Table& whole,
-               std::span<const char* const> names, Wanted&& is_wanted) {
-    for (const char* name : names) {
-        if (!part.has(name))
-            continue;
-        const auto found = std::ranges::find(part.columns(), name, &Column::name);
-        std::visit(
-            [&]<class T>(const std::vector<T>& from) {
-                const auto to = whole.get<T>(name);
-                for (std::size_t k = 0; k < rows.size(); ++k)
-                    if (is_wanted(k))
-                        to[static_cast<std::size_t>(rows[k])] = from[k];
-            },
-            found->values);
-    }
 }
 
 /// Of what the cycle writes.
@@ -171,38 +155,177 @@ std::vector<Share> cut(const State& state, std::span<const std::int32_t> rank, i
     return shares;
 }
 
-void put_back(const Share& share, State& whole) {
-    copy_rows(share.state.discs, share.rows, whole.discs, disc_names,
-              [&](std::size_t k) { return share.own[k] != 0; });
-    // Both ranks of a contact have it; that of the first disc is asked.
+OwnRows own_rows(const Share& share) {
+    OwnRows own;
+    for (std::size_t k = 0; k < share.rows.size(); ++k)
+        if (share.own[k])
+            own.discs.push_back(share.rows[k]);
     const auto first = contact_columns(share.state).first;
-    copy_rows(share.state.contacts, share.contacts, whole.contacts, contact_names,
-              [&](std::size_t k) { return share.own[static_cast<std::size_t>(first[k])] != 0; });
-    copy_rows(share.state.base_contacts, share.base_contacts, whole.base_contacts,
-              base_contact_names, [](std::size_t) { return true; });
+    for (std::size_t k = 0; k < share.contacts.size(); ++k)
+        if (share.own[static_cast<std::size_t>(first[k])])
+            own.contacts.push_back(share.contacts[k]);
+    own.base_contacts = share.base_contacts;
+    return own;
 }
 
-void read_ghosts(const State& state, std::span<const std::int32_t> from,
-                 std::span<double> numbers) {
-    assert(numbers.size() == ghost_numbers * from.size());
-    const ConstDiscColumns d = disc_columns(state);
-    double* to = numbers.data();
-    for (const std::int32_t row : from) {
-        const auto i = static_cast<std::size_t>(row);
-        for (const double number : {d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i]})
-            *to++ = number;
+namespace {
+
+/// Values of the columns of these names in the rows for which is_wanted(row) holds.
+template <class Wanted>
+void add_values(const Table& table, std::span<const char* const> names, Wanted&& is_wanted,
+                BytesOut& to) {
+    for (const char* name : names) {
+        const auto column = std::ranges::find(table.columns(), name, &Column::name);
+        if (column == table.columns().end())
+            continue;
+        std::visit(
+            [&]<class T>(const std::vector<T>& values) {
+                std::vector<T> wanted;
+                for (std::size_t k = 0; k < values.size(); ++k)
+                    if (is_wanted(k))
+                        wanted.push_back(values[k]);
+                to.add(wanted);
+            },
+            column->values);
     }
 }
 
-void write_ghosts(std::span<const double> numbers, std::span<const std::int32_t> to, State& state) {
-    assert(numbers.size() == ghost_numbers * to.size());
-    const DiscColumns d = disc_columns(state);
-    const double* from = numbers.data();
-    for (const std::int32_t row : to) {
-        const auto i = static_cast<std::size_t>(row);
-        for (double* const number : {&d.x[i], &d.y[i], &d.vx[i], &d.vy[i], &d.spin[i]})
-            *number = *from++;
+void take_values(BytesIn& from, std::span<const char* const> names,
+                 std::span<const std::int32_t> rows, Table& table) {
+    for (const char* name : names) {
+        const auto column = std::ranges::find(table.columns(), name, &Column::name);
+        if (column == table.columns().end())
+            continue;
+        std::visit(
+            [&]<class T>(const std::vector<T>&) {
+                const std::vector<T> values = from.take_all<T>();
+                const auto to = table.get<T>(name);
+                assert(values.size() == rows.size());
+                for (std::size_t k = 0; k < rows.size(); ++k)
+                    to[static_cast<std::size_t>(rows[k])] = values[k];
+            },
+            column->values);
     }
+}
+
+/// What every rank knows.
+struct Known {
+    Clock clock;
+    double displacement_bound, window_speed;
+    std::int64_t look_interval;
+};
+
+void add_table(const Table& table, BytesOut& to) {
+    to.add(table.columns().size());
+    for (const Column& column : table.columns()) {
+        to.add(std::string_view(column.name));
+        to.add(std::string_view(column.unit));
+        to.add(std::string_view(column.begins_as));
+        to.add(column.values.index());
+        std::visit([&](const auto& values) { to.add(values); }, column.values);
+        std::visit([&](const auto& initial) { to.add(initial); }, column.initial);
+    }
+}
+
+template <std::size_t index = 0> void take_values(BytesIn& from, std::size_t wanted, Column& to) {
+    if constexpr (index < std::variant_size_v<Column::Values>) {
+        if (index != wanted)
+            return take_values<index + 1>(from, wanted, to);
+        using T = typename std::variant_alternative_t<index, Column::Values>::value_type;
+        to.values = from.take_all<T>();
+        to.initial = from.take<T>();
+    }
+}
+
+Table take_table(BytesIn& from) {
+    Table table;
+    for (auto columns = from.take<std::size_t>(); columns > 0; --columns) {
+        Column column;
+        column.name = from.take_text();
+        column.unit = from.take_text();
+        column.begins_as = from.take_text();
+        take_values(from, from.take<std::size_t>(), column);
+        table.set(std::move(column));
+    }
+    return table;
+}
+
+} // namespace
+
+Bytes changes(const Share& share) {
+    const State& state = share.state;
+    BytesOut to;
+    to.add(Known{state.clock, state.displacement_bound, state.window_speed, state.look_interval});
+    add_values(
+        state.discs, disc_names, [&](std::size_t k) { return share.own[k] != 0; }, to);
+    // Both ranks of a contact have it; that of the first disc is asked.
+    const auto first = contact_columns(state).first;
+    add_values(
+        state.contacts, contact_names,
+        [&](std::size_t k) { return share.own[static_cast<std::size_t>(first[k])] != 0; }, to);
+    add_values(
+        state.base_contacts, base_contact_names, [](std::size_t) { return true; }, to);
+    add_table(state.base_nodes, to);
+    return to.take();
+}
+
+void put_back(const Bytes& changes, const OwnRows& rows, State& whole) {
+    BytesIn from(changes);
+    const auto known = from.take<Known>();
+    whole.clock = known.clock;
+    whole.displacement_bound = known.displacement_bound;
+    whole.window_speed = known.window_speed;
+    whole.look_interval = known.look_interval;
+    take_values(from, disc_names, rows.discs, whole.discs);
+    take_values(from, contact_names, rows.contacts, whole.contacts);
+    take_values(from, base_contact_names, rows.base_contacts, whole.base_contacts);
+    whole.base_nodes = take_table(from);
+}
+
+Bytes packed(const Share& share) {
+    const State& state = share.state;
+    BytesOut to;
+    for (const Table* table :
+         {&state.discs, &state.contacts, &state.base_contacts, &state.base_nodes})
+        add_table(*table, to);
+    to.add(state.materials);
+    to.add(Known{state.clock, state.displacement_bound, state.window_speed, state.look_interval});
+    for (const double number :
+         {state.mean_radius, state.inertial_mass_floor, state.skin, state.searched_extension})
+        to.add(number);
+    for (const auto* rows : {&share.rows, &share.contacts, &share.base_contacts})
+        to.add(*rows);
+    to.add(share.own);
+    to.add(share.sent.size());
+    for (const auto* by_rank : {&share.sent, &share.received})
+        for (const auto& rows : *by_rank)
+            to.add(rows);
+    return to.take();
+}
+
+Share unpacked(const Bytes& bytes) {
+    BytesIn from(bytes);
+    Share share;
+    State& state = share.state;
+    for (Table* table : {&state.discs, &state.contacts, &state.base_contacts, &state.base_nodes})
+        *table = take_table(from);
+    state.materials = from.take_all<Material>();
+    const auto known = from.take<Known>();
+    state.clock = known.clock;
+    state.displacement_bound = known.displacement_bound;
+    state.window_speed = known.window_speed;
+    state.look_interval = known.look_interval;
+    for (double* number :
+         {&state.mean_radius, &state.inertial_mass_floor, &state.skin, &state.searched_extension})
+        *number = from.take<double>();
+    for (auto* rows : {&share.rows, &share.contacts, &share.base_contacts})
+        *rows = from.take_all<std::int32_t>();
+    share.own = from.take_all<std::uint8_t>();
+    const auto count = from.take<std::size_t>();
+    for (auto* by_rank : {&share.sent, &share.received})
+        for (std::size_t k = 0; k < count; ++k)
+            by_rank->push_back(from.take_all<std::int32_t>());
+    return share;
 }
 
 } // namespace listric::dem

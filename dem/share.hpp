@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/ranks.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>
@@ -32,14 +33,26 @@ std::vector<std::int32_t> ranks_by_rows(const State& state, int count);
 /// @param rank  of every disc, by row; any at all
 std::vector<Share> cut(const State& state, std::span<const std::int32_t> rank, int count);
 
-/// Puts what cycles have changed of a share's own discs and of their contacts back into the whole.
-void put_back(const Share& share, State& whole);
+/// Where in the whole a rank's own discs are, the contacts whose first disc is its own, and its
+/// base contacts: rows, as they are in its share.
+struct OwnRows {
+    std::vector<std::int32_t> discs, contacts, base_contacts;
+};
+
+OwnRows own_rows(const Share& share);
+
+/// What cycles have changed of these, and what all ranks know alike: clock, bound and nodes of the
+/// base.
+Bytes changes(const Share& share);
+
+/// Puts them into the whole.
+void put_back(const Bytes& changes, const OwnRows& rows, State& whole);
+
+/// A share as bytes, and back.
+Bytes packed(const Share& share);
+Share unpacked(const Bytes& bytes);
 
 /// Velocity, spin and place of a disc: what a ghost has to be told after every cycle.
 inline constexpr std::size_t ghost_numbers = 5;
-
-/// Of discs in rows `from`, one after the other.
-void read_ghosts(const State& state, std::span<const std::int32_t> from, std::span<double> numbers);
-void write_ghosts(std::span<const double> numbers, std::span<const std::int32_t> to, State& state);
 
 } // namespace listric::dem

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "dem/ranks.hpp"
+#include "dem/share.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace listric::dem {
+
+class BaseResponse;
+
+/// What the cycles of a share tell and ask the other ranks. Called by one thread.
+class Links {
+public:
+    /// The share must outlive it. Made by all ranks.
+    Links(Ranks& ranks, const Share& share);
+
+    /// By row of the share's discs: whether the disc is the rank's own.
+    std::span<const std::uint8_t> own() const { return own_; }
+
+    /// Sends numbers of own discs and takes those of ghosts.
+    /// @param read   of a row, writes ghost_numbers numbers
+    /// @param write  to a row, from ghost_numbers numbers
+    template <class Read, class Write> void renew_ghosts(Read&& read, Write&& write) {
+        for (std::size_t k = 0; k < sent_.size(); ++k)
+            read(static_cast<std::size_t>(sent_[k]), to_.data() + ghost_numbers * k);
+        ranks_.exchange(to_, from_);
+        for (std::size_t k = 0; k < received_.size(); ++k)
+            write(static_cast<std::size_t>(received_[k]), from_.data() + ghost_numbers * k);
+    }
+
+    /// The greatest of all ranks' numbers, none of which is negative; NaN is greater than all.
+    double greatest(double number);
+
+    /// Greatest speeds of cycles that the others have not been told of, m/s.
+    std::vector<double> speeds;
+    /// Makes them the greatest of all ranks.
+    void share_speeds();
+
+    int response_interval = 0; ///< cycles between responses of the base; 0: it does not respond
+    /// Sums the loads on the base's nodes over the ranks and lets the root's base respond; all get
+    /// the nodes' velocities.
+    /// @param response  null but on the root
+    void respond(State& state, const Clock& clock, BaseResponse* response);
+
+private:
+    Ranks& ranks_;
+    std::span<const std::uint8_t> own_;
+    std::vector<std::int32_t> sent_, received_; ///< rows, rank after rank
+    std::vector<double> to_, from_;
+};
+
+} // namespace listric::dem

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "dem/cycle.hpp"
+#include "dem/links.hpp"
+#include "dem/share.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace listric::dem {
+
+/// Cycles of a whole state on several ranks, with the bits of one. The root has the state and asks
+/// for cycles; the others serve it until it is destroyed.
+///
+/// Shares are cut anew where neighbour lists are updated and after what is not a cycle.
+class RankedCycles {
+public:
+    /// The rank of every disc, by row.
+    using Ownership = std::vector<std::int32_t> (*)(const State& whole, int count);
+
+    /// What is referred to must outlive it.
+    RankedCycles(Ranks& ranks, const RigidBase& base, const CyclePhysics& physics,
+                 const Execution& execution, Ownership ownership = ranks_by_rows)
+        : ranks_(ranks), base_(base), physics_(physics), execution_(execution),
+          ownership_(ownership) {
+        execution_.packed = &packed_;
+    }
+    ~RankedCycles();
+    RankedCycles(const RankedCycles&) = delete;
+    RankedCycles& operator=(const RankedCycles&) = delete;
+
+    /// As dem::advance(), on the root. Throws NumericalFailure if a disc runs away.
+    void advance(State& whole, std::int64_t cycles, BaseResponse* response = nullptr);
+
+    /// What has been advanced was changed by something else.
+    void forget() { is_current_ = false; }
+
+    /// On the other ranks: until the root ends.
+    void serve();
+
+private:
+    struct Order {
+        std::int64_t cycles = 0; ///< none: the end
+        int response_interval = 0;
+        bool has_share = false;
+    };
+
+    void cut_anew(const State& whole);
+    void take(Share share);
+    std::int64_t carry_out(const Order& order, BaseResponse* response);
+
+    Ranks& ranks_;
+    const RigidBase& base_;
+    CyclePhysics physics_;
+    Execution execution_;
+    Ownership ownership_;
+    Packed packed_; ///< of the share
+    Share share_;
+    std::unique_ptr<Links> links_;
+    std::vector<OwnRows> rows_; ///< on the root, of all ranks
+    std::vector<Bytes> shares_; ///< on the root, to be sent
+    bool is_current_ = false;   ///< the shares are those of the whole
+};
+
+} // namespace listric::dem

@@ -1,0 +1,138 @@
+#pragma once
+
+// Ranks that are threads of one process.
+
+#include "dem/ranks.hpp"
+
+#include <algorithm>
+#include <barrier>
+#include <functional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace listric::support {
+
+class EmulatedRanks {
+public:
+    explicit EmulatedRanks(int count)
+        : count_(count), barrier_(count), bytes_(static_cast<std::size_t>(count)),
+          numbers_(static_cast<std::size_t>(count)), bits_(static_cast<std::size_t>(count)),
+          sums_(static_cast<std::size_t>(count)) {}
+
+    /// Calls root(ranks) in this thread and other(ranks) in one for each of the others.
+    template <class Root, class Other> void run(Root&& root, Other&& other) {
+        std::vector<std::thread> threads;
+        for (int mine = 1; mine < count_; ++mine)
+            threads.emplace_back([this, mine, &other] {
+                One one(*this, mine);
+                other(one);
+            });
+        One one(*this, 0);
+        root(one);
+        for (std::thread& thread : threads)
+            thread.join();
+    }
+
+    std::size_t exchanged = 0; ///< numbers that the root has sent to others, in all
+
+private:
+    class One : public dem::Ranks {
+    public:
+        One(EmulatedRanks& all, int mine) : all_(all), mine_(mine) {}
+
+        int count() const override { return all_.count_; }
+        int mine() const override { return mine_; }
+
+        void connect(std::span<const std::size_t> sent,
+                     std::span<const std::size_t> received) override {
+            sent_.assign(sent.begin(), sent.end());
+            received_.assign(received.begin(), received.end());
+        }
+        void exchange(std::span<const double> sent, std::span<double> received) override {
+            std::vector<std::vector<double>>& letters = of(all_.numbers_);
+            letters.clear();
+            std::size_t at = 0;
+            for (const std::size_t size : sent_) {
+                const auto letter = sent.subspan(at, size);
+                letters.emplace_back(letter.begin(), letter.end());
+                at += size;
+            }
+            if (mine_ == 0)
+                all_.exchanged += sent.size();
+            wait();
+            at = 0;
+            for (std::size_t rank = 0; rank < received_.size(); ++rank) {
+                const auto& letter = all_.numbers_[rank][static_cast<std::size_t>(mine_)];
+                if (letter.size() != received_[rank])
+                    std::abort();
+                std::ranges::copy(letter, received.subspan(at).begin());
+                at += letter.size();
+            }
+            wait();
+        }
+        void greatest(std::span<std::uint64_t> numbers) override {
+            fold(all_.bits_, numbers,
+                 [](std::uint64_t a, std::uint64_t b) { return std::max(a, b); });
+        }
+        void sum(std::span<std::int64_t> numbers) override {
+            fold(all_.sums_, numbers, [](std::int64_t a, std::int64_t b) { return a + b; });
+        }
+        void broadcast(dem::Bytes& bytes) override {
+            if (mine_ == 0)
+                of(all_.bytes_) = bytes;
+            wait();
+            bytes = all_.bytes_[0];
+            wait();
+        }
+        std::vector<dem::Bytes> gather(dem::Bytes bytes) override {
+            of(all_.bytes_) = std::move(bytes);
+            wait();
+            std::vector<dem::Bytes> result;
+            if (mine_ == 0)
+                result = all_.bytes_;
+            wait();
+            return result;
+        }
+        dem::Bytes scatter(std::vector<dem::Bytes> bytes) override {
+            if (mine_ == 0)
+                all_.bytes_ = std::move(bytes);
+            wait();
+            dem::Bytes result = of(all_.bytes_);
+            wait();
+            return result;
+        }
+
+    private:
+        template <class T> T& of(std::vector<T>& by_rank) {
+            return by_rank[static_cast<std::size_t>(mine_)];
+        }
+        void wait() { all_.barrier_.arrive_and_wait(); }
+
+        template <class T, class Add>
+        void fold(std::vector<std::vector<T>>& by_rank, std::span<T> numbers, Add&& add) {
+            of(by_rank).assign(numbers.begin(), numbers.end());
+            wait();
+            for (std::size_t k = 0; k < numbers.size(); ++k) {
+                T all = by_rank[0][k];
+                for (std::size_t rank = 1; rank < by_rank.size(); ++rank)
+                    all = add(all, by_rank[rank][k]);
+                numbers[k] = all;
+            }
+            wait();
+        }
+
+        EmulatedRanks& all_;
+        int mine_;
+        std::vector<std::size_t> sent_, received_;
+    };
+
+    int count_;
+    std::barrier<> barrier_;
+    std::vector<dem::Bytes> bytes_;                         ///< by rank
+    std::vector<std::vector<std::vector<double>>> numbers_; ///< by rank, to rank
+    std::vector<std::vector<std::uint64_t>> bits_;
+    std::vector<std::vector<std::int64_t>> sums_;
+};
+
+} // namespace listric::support

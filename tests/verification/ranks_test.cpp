@@ -1,0 +1,98 @@
+// Cycles on several ranks end in the bits of one: here ranks are threads of one process.
+
+#include "apps/run/genesis_cache.hpp"
+#include "apps/scene/scene_file.hpp"
+#include "dem/ranked_cycles.hpp"
+#include "dem/simulation.hpp"
+#include "tests/emulated_ranks.hpp"
+#include "tests/scene_runs.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace listric {
+
+namespace {
+
+using namespace dem;
+
+std::vector<std::int32_t> scattered(const State& whole, int count) {
+    std::vector<std::int32_t> rank;
+    for (std::size_t i = 0; i < whole.discs.rows(); ++i)
+        rank.push_back(
+            static_cast<std::int32_t>((i * 7919 + i / 3) % static_cast<std::size_t>(count)));
+    return rank;
+}
+
+/// All but the last rank.
+std::vector<std::int32_t> crowded(const State& whole, int count) {
+    std::vector<std::int32_t> rank = ranks_by_rows(whole, std::max(count - 1, 1));
+    return rank;
+}
+
+class RanksTest : public support::SceneRuns {
+protected:
+    const Scene scene = load_scene({.scene = support::test_scene("every-effect.toml")});
+    const ModelParts parts = make_parts(scene);
+
+    /// The simulation of the scene, with its events, at an extension of 100 m.
+    std::uint64_t hash_at_end(const Simulation::Advance& advance) {
+        Simulation sandbox(parts.base, parts.physics);
+        for (auto& event : make_events(scene, parts))
+            sandbox.add(std::move(event));
+        if (advance)
+            sandbox.advance_by(advance);
+        Log log(true);
+        sandbox.begin(make_or_recall_hanging_wall(scene, parts, log, {}, 1));
+        sandbox.extend_to(100.0);
+        cycles = sandbox.state().clock.cycle;
+        return sandbox.hash();
+    }
+
+    std::uint64_t hash_on_ranks(int count, RankedCycles::Ownership ownership,
+                                const Execution& how) {
+        std::uint64_t hash = 0;
+        support::EmulatedRanks ranks(count);
+        ranks.run(
+            [&](Ranks& root) {
+                RankedCycles on_ranks(root, parts.base, parts.physics, how, ownership);
+                hash = hash_at_end([&](State& state, const RigidBase&, const CyclePhysics&,
+                                       std::int64_t n, const Execution& asked) {
+                    if (!asked.packed->holds())
+                        on_ranks.forget();
+                    on_ranks.advance(state, n);
+                    asked.packed->hold();
+                });
+            },
+            [&](Ranks& other) { RankedCycles(other, parts.base, parts.physics, how).serve(); });
+        EXPECT_EQ(ranks.exchanged > 0, count > 1);
+        return hash;
+    }
+
+    std::int64_t cycles = 0;
+};
+
+TEST_F(RanksTest, EndInTheBitsOfOneProcess) {
+    const std::uint64_t whole = hash_at_end({});
+    EXPECT_GT(cycles, 2000);
+    for (const int count : {1, 2, 3, 5, 8})
+        for (const auto& [kind, ownership] :
+             {std::pair("rows", &ranks_by_rows), std::pair("scattered", &scattered)})
+            for (const Cycle cycle : {Cycle::plain, best_cycle()})
+                for (const int threads : {1, 2}) {
+                    SCOPED_TRACE(fmt::format("{} ranks, {}, {} cycle, {} threads", count, kind,
+                                             name(cycle), threads));
+                    EXPECT_EQ(hash_on_ranks(count, ownership, {.threads = threads, .cycle = cycle}),
+                              whole);
+                    if (cycle == Cycle::plain)
+                        break; // it has one thread
+                }
+}
+
+TEST_F(RanksTest, ARankMayBeWithoutDiscs) {
+    EXPECT_EQ(hash_on_ranks(3, crowded, {.threads = 1}), hash_at_end({}));
+}
+
+} // namespace
+
+} // namespace listric
