@@ -2,6 +2,7 @@
 
 #include "apps/run/genesis_cache.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "dem/base_motion.hpp"
 #include "dem/ranked_cycles.hpp"
 #include "dem/simulation.hpp"
 #include "tests/emulated_ranks.hpp"
@@ -30,39 +31,70 @@ std::vector<std::int32_t> crowded(const State& whole, int count) {
     return rank;
 }
 
+/// A base that gives way under its loads.
+class Yielding : public BaseResponse {
+public:
+    Yielding() { interval = 5; }
+    void respond(State& state, const Clock&) override {
+        const BaseNodeColumns nodes = base_node_columns(state);
+        for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+            nodes.vx[k] = 1e-13 * static_cast<double>(nodes.load_x[k]);
+            nodes.vy[k] = 1e-13 * static_cast<double>(nodes.load_y[k]);
+            nodes.load_x[k] = nodes.load_y[k] = 0;
+        }
+        ++answers;
+    }
+
+    int answers = 0;
+};
+
 class RanksTest : public support::SceneRuns {
 protected:
     const Scene scene = load_scene({.scene = support::test_scene("every-effect.toml")});
     const ModelParts parts = make_parts(scene);
 
     /// The simulation of the scene, with its events, at an extension of 100 m.
-    std::uint64_t hash_at_end(const Simulation::Advance& advance) {
+    /// @param nodes  of the base; none: it is rigid
+    std::uint64_t hash_at_end(const Simulation::Advance& advance,
+                              const std::vector<Point>& nodes = {}) {
         Simulation sandbox(parts.base, parts.physics);
         for (auto& event : make_events(scene, parts))
             sandbox.add(std::move(event));
         if (advance)
             sandbox.advance_by(advance);
         Log log(true);
-        sandbox.begin(make_or_recall_hanging_wall(scene, parts, log, {}, 1));
+        State state = make_or_recall_hanging_wall(scene, parts, log, {}, 1);
+        if (!nodes.empty()) {
+            std::vector<double> x, y;
+            for (const Point& node : nodes) {
+                x.push_back(node.x);
+                y.push_back(node.y);
+            }
+            add_base_nodes(state, x, y);
+        }
+        sandbox.begin(std::move(state));
         sandbox.extend_to(100.0);
         cycles = sandbox.state().clock.cycle;
         return sandbox.hash();
     }
 
-    std::uint64_t hash_on_ranks(int count, RankedCycles::Ownership ownership,
-                                const Execution& how) {
+    std::uint64_t hash_on_ranks(int count, RankedCycles::Ownership ownership, const Execution& how,
+                                const std::vector<Point>& nodes = {},
+                                BaseResponse* response = nullptr) {
         std::uint64_t hash = 0;
         support::EmulatedRanks ranks(count);
         ranks.run(
             [&](Ranks& root) {
                 RankedCycles on_ranks(root, parts.base, parts.physics, how, ownership);
-                hash = hash_at_end([&](State& state, const RigidBase&, const CyclePhysics&,
-                                       std::int64_t n, const Execution& asked) {
-                    if (!asked.packed->holds())
-                        on_ranks.forget();
-                    on_ranks.advance(state, n);
-                    asked.packed->hold();
-                });
+                hash = hash_at_end(
+                    [&](State& state, const RigidBase&, const CyclePhysics&, std::int64_t n,
+                        const Execution& asked) {
+                        if (!asked.packed->holds())
+                            on_ranks.forget();
+                        on_ranks.advance(state, n, response);
+                        asked.packed->hold();
+                    },
+                    nodes);
             },
             [&](Ranks& other) { RankedCycles(other, parts.base, parts.physics, how).serve(); });
         EXPECT_EQ(ranks.exchanged > 0, count > 1);
@@ -91,6 +123,26 @@ TEST_F(RanksTest, EndInTheBitsOfOneProcess) {
 
 TEST_F(RanksTest, ARankMayBeWithoutDiscs) {
     EXPECT_EQ(hash_on_ranks(3, crowded, {.threads = 1}), hash_at_end({}));
+}
+
+TEST_F(RanksTest, ABaseAnswersToTheLoadsOfAllRanks) {
+    const std::vector<Point> nodes = detachment_nodes(parts.base.surfaces.front().chain, 300.0);
+    Yielding whole_base;
+    const std::uint64_t whole = hash_at_end(
+        [&](State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t n,
+            const Execution& how) { dem::advance(state, base, physics, n, how, &whole_base); },
+        nodes);
+    EXPECT_GT(whole_base.answers, 100);
+    EXPECT_NE(whole, hash_at_end({}));
+    for (const int count : {1, 2, 3})
+        for (const Cycle cycle : {Cycle::plain, best_cycle()}) {
+            SCOPED_TRACE(fmt::format("{} ranks, {} cycle", count, name(cycle)));
+            Yielding base;
+            EXPECT_EQ(
+                hash_on_ranks(count, ranks_by_rows, {.threads = 1, .cycle = cycle}, nodes, &base),
+                whole);
+            EXPECT_EQ(base.answers, whole_base.answers);
+        }
 }
 
 } // namespace
