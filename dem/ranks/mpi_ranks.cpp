@@ -1,0 +1,151 @@
+#include "dem/ranks/mpi_ranks.hpp"
+
+#include <mpi.h>
+#include <petscsf.h>
+
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace listric::dem {
+
+namespace {
+
+void require(int error, const char* what) {
+    if (error == MPI_SUCCESS)
+        return;
+    char text[MPI_MAX_ERROR_STRING];
+    int length = 0;
+    MPI_Error_string(error, text, &length);
+    throw std::runtime_error(std::string(what) + ": " + std::string(text, text + length));
+}
+
+void require_petsc(PetscErrorCode error, const char* what) {
+    if (error != 0)
+        throw std::runtime_error(std::string(what) + ": PETSc error " + std::to_string(error));
+}
+
+int as_int(std::size_t size) {
+    if (size > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw std::runtime_error("a message of more than 2 GB");
+    return static_cast<int>(size);
+}
+
+class MpiRanks : public Ranks {
+public:
+    MpiRanks() {
+        // PETSc starts MPI. Signals are the program's.
+        require_petsc(PetscInitializeNoArguments(), "PetscInitialize");
+        require_petsc(PetscPopSignalHandler(), "PetscPopSignalHandler");
+        require(MPI_Comm_dup(MPI_COMM_WORLD, &all_), "MPI_Comm_dup");
+        MPI_Comm_size(all_, &count_);
+        MPI_Comm_rank(all_, &mine_);
+    }
+    ~MpiRanks() override {
+        PetscSFDestroy(&ghosts_);
+        MPI_Comm_free(&all_);
+        PetscFinalize();
+    }
+    MpiRanks(const MpiRanks&) = delete;
+    MpiRanks& operator=(const MpiRanks&) = delete;
+
+    int count() const override { return count_; }
+    int mine() const override { return mine_; }
+
+    /// A ghost's numbers are leaves of those that its own rank sends.
+    void connect(std::span<const std::size_t> sent,
+                 std::span<const std::size_t> received) override {
+        const auto ranks = static_cast<std::size_t>(count_);
+        std::vector<PetscInt> begins(ranks), there(ranks); // of each letter, here and at its sender
+        for (std::size_t rank = 1; rank < ranks; ++rank)
+            begins[rank] = begins[rank - 1] + static_cast<PetscInt>(sent[rank - 1]);
+        require(MPI_Alltoall(begins.data(), 1, MPIU_INT, there.data(), 1, MPIU_INT, all_),
+                "MPI_Alltoall");
+        std::vector<PetscSFNode> leaves;
+        for (std::size_t rank = 0; rank < ranks; ++rank)
+            for (std::size_t k = 0; k < received[rank]; ++k)
+                leaves.push_back(
+                    {static_cast<PetscInt>(rank), there[rank] + static_cast<PetscInt>(k)});
+        const auto roots = static_cast<PetscInt>(std::accumulate(sent.begin(), sent.end(), 0ul));
+        PetscSFDestroy(&ghosts_);
+        require_petsc(PetscSFCreate(all_, &ghosts_), "PetscSFCreate");
+        require_petsc(PetscSFSetGraph(ghosts_, roots, static_cast<PetscInt>(leaves.size()), nullptr,
+                                      PETSC_COPY_VALUES, leaves.data(), PETSC_COPY_VALUES),
+                      "PetscSFSetGraph");
+        require_petsc(PetscSFSetUp(ghosts_), "PetscSFSetUp");
+    }
+
+    void exchange(std::span<const double> sent, std::span<double> received) override {
+        require_petsc(
+            PetscSFBcastBegin(ghosts_, MPI_DOUBLE, sent.data(), received.data(), MPI_REPLACE),
+            "PetscSFBcastBegin");
+        require_petsc(
+            PetscSFBcastEnd(ghosts_, MPI_DOUBLE, sent.data(), received.data(), MPI_REPLACE),
+            "PetscSFBcastEnd");
+    }
+
+    void greatest(std::span<std::uint64_t> numbers) override {
+        require(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), as_int(numbers.size()), MPI_UINT64_T,
+                              MPI_MAX, all_),
+                "MPI_Allreduce");
+    }
+    void sum(std::span<std::int64_t> numbers) override {
+        require(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), as_int(numbers.size()), MPI_INT64_T,
+                              MPI_SUM, all_),
+                "MPI_Allreduce");
+    }
+    void broadcast(Bytes& bytes) override {
+        std::uint64_t size = bytes.size();
+        require(MPI_Bcast(&size, 1, MPI_UINT64_T, 0, all_), "MPI_Bcast");
+        bytes.resize(size);
+        require(MPI_Bcast(bytes.data(), as_int(size), MPI_BYTE, 0, all_), "MPI_Bcast");
+    }
+
+    std::vector<Bytes> gather(Bytes bytes) override {
+        std::vector<Bytes> result;
+        if (mine_ != 0) {
+            require(MPI_Send(bytes.data(), as_int(bytes.size()), MPI_BYTE, 0, gathered, all_),
+                    "MPI_Send");
+            return result;
+        }
+        result.push_back(std::move(bytes));
+        for (int rank = 1; rank < count_; ++rank)
+            result.push_back(receive(rank, gathered));
+        return result;
+    }
+    Bytes scatter(std::vector<Bytes> bytes) override {
+        if (mine_ != 0)
+            return receive(0, scattered);
+        for (int rank = 1; rank < count_; ++rank) {
+            const Bytes& letter = bytes[static_cast<std::size_t>(rank)];
+            require(MPI_Send(letter.data(), as_int(letter.size()), MPI_BYTE, rank, scattered, all_),
+                    "MPI_Send");
+        }
+        return std::move(bytes.front());
+    }
+
+private:
+    static constexpr int gathered = 1, scattered = 2;
+
+    Bytes receive(int rank, int tag) const {
+        MPI_Status status;
+        require(MPI_Probe(rank, tag, all_, &status), "MPI_Probe");
+        int size = 0;
+        MPI_Get_count(&status, MPI_BYTE, &size);
+        Bytes bytes(static_cast<std::size_t>(size));
+        require(MPI_Recv(bytes.data(), size, MPI_BYTE, rank, tag, all_, MPI_STATUS_IGNORE),
+                "MPI_Recv");
+        return bytes;
+    }
+
+    MPI_Comm all_ = MPI_COMM_NULL;
+    int count_ = 1, mine_ = 0;
+    PetscSF ghosts_ = nullptr;
+};
+
+} // namespace
+
+std::unique_ptr<Ranks> make_mpi_ranks() { return std::make_unique<MpiRanks>(); }
+
+} // namespace listric::dem
