@@ -33,6 +33,9 @@ install(FILES LICENSE README.md CHANGELOG.md CITATION.cff
 if(TARGET listric_fem)
   install(TARGETS listric_fem LIBRARY DESTINATION ${plugin_folder} COMPONENT elastic_base)
 endif()
+if(TARGET listric_ranks)
+  install(TARGETS listric_ranks LIBRARY DESTINATION ${plugin_folder} COMPONENT ranks)
+endif()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Listric)
 install(DIRECTORY include/listric DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)

@@ -3,6 +3,10 @@
 
 include(GNUInstallDirs)
 set(headers_folder ${CMAKE_INSTALL_INCLUDEDIR}/listric)
+# Where an installed program finds its plug-ins, from its own folder.
+set(plugin_folder ${CMAKE_INSTALL_LIBDIR}/listric)
+cmake_path(RELATIVE_PATH plugin_folder BASE_DIRECTORY ${CMAKE_INSTALL_BINDIR}
+  OUTPUT_VARIABLE plugins_from_program)
 
 # What all of them hand on: the language, and flags without which inline functions of their headers
 # would compute other bits.

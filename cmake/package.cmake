@@ -1,4 +1,5 @@
-# cpack -G DEB: listric (the program), listric-elastic-base (its plug-in) and liblistric-dev.
+# cpack -G DEB: listric (the program), listric-elastic-base and listric-ranks (its plug-ins) and
+# liblistric-dev.
 
 set(CPACK_PACKAGE_NAME listric)
 set(CPACK_PACKAGE_VENDOR "The Listric developers")
@@ -7,7 +8,7 @@ set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Listric developers")
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_COMPONENTS_ALL program elastic_base development)
+set(CPACK_COMPONENTS_ALL program elastic_base ranks development)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -21,6 +22,9 @@ set(CPACK_DEBIAN_ELASTIC_BASE_PACKAGE_NAME listric-elastic-base)
 set(CPACK_DEBIAN_ELASTIC_BASE_PACKAGE_DEPENDS "listric (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_ELASTIC_BASE_DESCRIPTION
   "Finite elements for scenes whose footwall and basement bend and float.")
+set(CPACK_DEBIAN_RANKS_PACKAGE_NAME listric-ranks)
+set(CPACK_DEBIAN_RANKS_PACKAGE_DEPENDS "listric (= ${PROJECT_VERSION}), openmpi-bin")
+set(CPACK_COMPONENT_RANKS_DESCRIPTION "Runs over MPI: a hanging wall in shares, with the same bits.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblistric-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers, for CMake projects.")

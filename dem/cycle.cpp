@@ -24,10 +24,16 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics, s
 std::int64_t advance_share(State& share, const RigidBase& base, const CyclePhysics& physics,
                            std::int64_t cycles, const Execution& execution, BaseResponse* response,
                            Links& links) {
+    assert(execution.packed);
     const Team team(execution.threads);
     return execution.cycle == Cycle::plain
                ? advance_plainly(share, base, physics, cycles, response, nullptr, &links)
                : advance_fast(share, base, physics, cycles, execution, response, &links);
+}
+
+void unpack_share(State& share, const Execution& execution) {
+    const Team team(execution.threads);
+    unpack_share(share, *execution.packed);
 }
 
 } // namespace listric::dem

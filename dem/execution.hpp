@@ -33,6 +33,7 @@ public:
 private:
     friend std::int64_t advance_fast(State&, const RigidBase&, const CyclePhysics&, std::int64_t,
                                      const struct Execution&, BaseResponse*, class Links*);
+    friend void unpack_share(State&, const Packed&);
 
     std::shared_ptr<FastCycle> cycle_; ///< shared with nobody: it destroys what is only named here
     BestTeam team_{1};

@@ -265,9 +265,15 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
             fast.pack_contacts(state);
         fast.pack_searched_places(state);
     }
-    fast.unpack(state);
+    if (!links)
+        fast.unpack(state);
     packed.holds_ = true;
     return done;
+}
+
+void unpack_share(State& share, const Packed& packed) {
+    if (packed.holds_)
+        packed.cycle_->unpack(share);
 }
 
 } // namespace listric::dem

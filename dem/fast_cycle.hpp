@@ -42,6 +42,9 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
                           std::int64_t cycles, const Execution& execution, BaseResponse* response,
                           Links* links = nullptr);
 
+/// See unpack_share() of an execution.
+void unpack_share(State& share, const Packed& packed);
+
 class FastCycle {
 public:
     /// For so many threads at most.

@@ -8,11 +8,14 @@
 namespace listric::dem {
 
 RankedCycles::~RankedCycles() {
-    if (ranks_.mine() != 0)
-        return;
-    BytesOut order;
-    order.add(Order{});
-    Bytes bytes = order.take();
+    if (ranks_.mine() == 0)
+        give({.task = Task::end});
+}
+
+void RankedCycles::give(const Order& order) {
+    BytesOut out;
+    out.add(order);
+    Bytes bytes = out.take();
     ranks_.broadcast(bytes);
 }
 
@@ -23,16 +26,21 @@ void RankedCycles::take(Share share) {
 }
 
 void RankedCycles::cut_anew(const State& whole) {
-    std::vector<Share> shares = cut(whole, ownership_(whole, ranks_.count()), ranks_.count());
-    rows_.clear();
-    shares_.clear();
-    for (const Share& share : shares) {
-        rows_.push_back(own_rows(share));
-        shares_.push_back(&share == &shares.front() ? Bytes() : packed(share));
+    rows_.resize(static_cast<std::size_t>(ranks_.count()));
+    share_ = {};
+    Share mine;
+    {
+        Cut cut(whole, ownership_(whole, ranks_.count()), ranks_.count());
+        ranks_.scatter([&](int rank) {
+            Share share = cut.share(rank);
+            rows_[static_cast<std::size_t>(rank)] = own_rows(share);
+            if (rank != 0)
+                return packed(share);
+            mine = std::move(share);
+            return Bytes();
+        });
     }
-    ranks_.scatter(std::move(shares_));
-    take(std::move(shares.front()));
-    is_current_ = true;
+    take(std::move(mine));
 }
 
 std::int64_t RankedCycles::carry_out(const Order& order, BaseResponse* response) {
@@ -41,30 +49,44 @@ std::int64_t RankedCycles::carry_out(const Order& order, BaseResponse* response)
                          *links_);
 }
 
-void RankedCycles::advance(State& whole, std::int64_t cycles, BaseResponse* response) {
+Bytes RankedCycles::changed() {
+    unpack_share(share_.state, execution_);
+    return changes(share_);
+}
+
+void RankedCycles::advance(State& whole, std::int64_t cycles, Packed& known,
+                           BaseResponse* response) {
+    bool has_shares = known.holds();
+    known.forget(); // until all has gone well
     while (cycles > 0) {
-        const Order order{cycles, response ? response->interval : 0, !is_current_};
-        BytesOut out;
-        out.add(order);
-        Bytes bytes = out.take();
-        ranks_.broadcast(bytes);
+        const Order order{Task::advance, !has_shares, response ? response->interval : 0, cycles};
+        give(order);
         if (order.has_share)
             cut_anew(whole);
+        has_shares = true;
+        is_ahead_ = true;
         std::swap(share_.state.base_memory, whole.base_memory); // what answers is the root's
-        is_current_ = false;                                    // until all has gone well
-        const std::int64_t done = carry_out(order, response);
+        cycles -= carry_out(order, response);
         std::swap(share_.state.base_memory, whole.base_memory);
-        const std::vector<Bytes> all = ranks_.gather(changes(share_));
-        for (std::size_t rank = all.size(); rank-- > 0;) // the root's nodes of the base come last
-            put_back(all[rank], rows_[rank], whole);
-        cycles -= done;
-        if (cycles > 0) {
-            refuse_runaways(whole);
-            update_contacts(whole, base_);
-        } else {
-            is_current_ = true;
-        }
+        whole.clock = share_.state.clock;
+        if (cycles == 0)
+            break;
+        collect(whole);
+        refuse_runaways(whole);
+        update_contacts(whole, base_);
+        has_shares = false;
     }
+    known.hold();
+}
+
+void RankedCycles::collect(State& whole) {
+    if (!is_ahead_)
+        return;
+    give({.task = Task::collect});
+    ranks_.gather(changed(), [&](int rank, const Bytes& letter) {
+        put_back(letter, rank, rows_[static_cast<std::size_t>(rank)], whole);
+    });
+    is_ahead_ = false;
 }
 
 void RankedCycles::serve() {
@@ -72,12 +94,20 @@ void RankedCycles::serve() {
         Bytes bytes;
         ranks_.broadcast(bytes);
         const auto order = BytesIn(bytes).take<Order>();
-        if (order.cycles == 0)
+        switch (order.task) {
+        case Task::end:
             return;
-        if (order.has_share)
-            take(unpacked(ranks_.scatter({})));
-        carry_out(order, nullptr);
-        ranks_.gather(changes(share_));
+        case Task::advance:
+            if (order.has_share) {
+                share_ = {};
+                take(unpacked(ranks_.scatter({})));
+            }
+            carry_out(order, nullptr);
+            break;
+        case Task::collect:
+            ranks_.gather(changed(), {});
+            break;
+        }
     }
 }
 

@@ -12,7 +12,8 @@ namespace listric::dem {
 /// Cycles of a whole state on several ranks, with the bits of one. The root has the state and asks
 /// for cycles; the others serve it until it is destroyed.
 ///
-/// Shares are cut anew where neighbour lists are updated and after what is not a cycle.
+/// Shares are cut anew where neighbour lists are updated and after what is not a cycle. What is
+/// thrown on the root may leave the others waiting: then Ranks::abort() ends them.
 class RankedCycles {
 public:
     /// The rank of every disc, by row.
@@ -29,25 +30,32 @@ public:
     RankedCycles(const RankedCycles&) = delete;
     RankedCycles& operator=(const RankedCycles&) = delete;
 
-    /// As dem::advance(), on the root. Throws NumericalFailure if a disc runs away.
-    void advance(State& whole, std::int64_t cycles, BaseResponse* response = nullptr);
+    /// As dem::advance(), on the root, but that only the clock of the state is up to date until
+    /// collect(). Throws NumericalFailure if a disc runs away.
+    /// @param known  holds if the state is what the last call has left
+    void advance(State& whole, std::int64_t cycles, Packed& known,
+                 BaseResponse* response = nullptr);
 
-    /// What has been advanced was changed by something else.
-    void forget() { is_current_ = false; }
+    /// Puts into the state what cycles have changed since.
+    void collect(State& whole);
 
     /// On the other ranks: until the root ends.
     void serve();
 
 private:
+    enum class Task : std::uint8_t { end, advance, collect };
     struct Order {
-        std::int64_t cycles = 0; ///< none: the end
+        Task task = Task::end;
+        bool has_share = false; ///< comes with a new share
         int response_interval = 0;
-        bool has_share = false;
+        std::int64_t cycles = 0;
     };
 
+    void give(const Order& order);
     void cut_anew(const State& whole);
     void take(Share share);
     std::int64_t carry_out(const Order& order, BaseResponse* response);
+    Bytes changed();
 
     Ranks& ranks_;
     const RigidBase& base_;
@@ -58,8 +66,7 @@ private:
     Share share_;
     std::unique_ptr<Links> links_;
     std::vector<OwnRows> rows_; ///< on the root, of all ranks
-    std::vector<Bytes> shares_; ///< on the root, to be sent
-    bool is_current_ = false;   ///< the shares are those of the whole
+    bool is_ahead_ = false;     ///< the shares are, of the whole
 };
 
 } // namespace listric::dem

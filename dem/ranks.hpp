@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,8 +29,15 @@ public:
     virtual void sum(std::span<std::int64_t> numbers) = 0;       ///< over all ranks, one by one
     virtual void broadcast(Bytes& bytes) = 0;                    ///< from the root, of any length
 
-    virtual std::vector<Bytes> gather(Bytes bytes) = 0;  ///< on the root all ranks', else nothing
-    virtual Bytes scatter(std::vector<Bytes> bytes) = 0; ///< from the root, one for each rank
+    /// To the root from all ranks, in their order, one letter after the other.
+    using Take = std::function<void(int rank, const Bytes& letter)>;
+    virtual void gather(Bytes letter, const Take& take) = 0;
+    /// From the root to all ranks in the same way; returns the one for this rank.
+    using Make = std::function<Bytes(int rank)>;
+    virtual Bytes scatter(const Make& make) = 0;
+
+    /// Ends the processes of all ranks. The only call that one rank makes alone.
+    virtual void abort(int exit_code) = 0;
 };
 
 } // namespace listric::dem

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <utility>
 #include <variant>
 
@@ -11,10 +12,21 @@ namespace listric::dem {
 
 namespace {
 
-/// A table of these rows.
-Table selected(const Table& table, std::span<const std::int32_t> rows) {
+/// Whether cycles need a column of discs: a core column, or one that damping or compaction adds.
+/// What effects remember stays with the whole.
+bool is_for_cycles(const std::string& name) {
+    static const State core = empty_state();
+    return core.discs.has(name) || name == "mean_vx" || name == "mean_vy" ||
+           name == "radius_rate" || name == "inertial_radius";
+}
+
+/// The rows of a table that are asked for, of columns for which is_wanted(name) holds.
+template <class Wanted>
+Table selected(const Table& table, std::span<const std::int32_t> rows, Wanted&& is_wanted) {
     Table result;
     for (const Column& column : table.columns()) {
+        if (!is_wanted(column.name))
+            continue;
         Column part{column.name, column.unit, {}, column.initial, column.begins_as};
         std::visit(
             [&](const auto& values) {
@@ -35,76 +47,6 @@ constexpr const char* disc_names[] = {"x",    "y",      "vx",      "vy",     "ro
                                       "spin", "radius", "mean_vx", "mean_vy"};
 constexpr const char* contact_names[] = {"shear_force", "bonded"};
 constexpr const char* base_contact_names[] = {"shear_force", "place"};
-
-/// By rank, the rows of the whole that a rank holds: its own discs and those they are listed with.
-std::vector<std::vector<std::int32_t>>
-rows_of_ranks(const State& state, std::span<const std::int32_t> rank, int count) {
-    const ConstContactColumns c = contact_columns(state);
-    std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i < rank.size(); ++i)
-        rows[static_cast<std::size_t>(rank[i])].push_back(static_cast<std::int32_t>(i));
-    for (std::size_t k = 0; k < c.first.size(); ++k) {
-        const auto a = static_cast<std::size_t>(rank[static_cast<std::size_t>(c.first[k])]);
-        const auto b = static_cast<std::size_t>(rank[static_cast<std::size_t>(c.second[k])]);
-        if (a == b)
-            continue;
-        rows[a].push_back(c.second[k]);
-        rows[b].push_back(c.first[k]);
-    }
-    for (auto& of_rank : rows) {
-        std::ranges::sort(of_rank);
-        of_rank.erase(std::ranges::unique(of_rank).begin(), of_rank.end());
-    }
-    return rows;
-}
-
-/// The discs and contacts of one rank; its ghosts are not yet known to others.
-Share share_of(const State& state, std::span<const std::int32_t> rank, std::int32_t mine,
-               std::vector<std::int32_t> rows) {
-    const ConstContactColumns c = contact_columns(state);
-    const ConstBaseContactColumns b = base_contact_columns(state);
-    const auto is_own = [&](std::int32_t row) {
-        return rank[static_cast<std::size_t>(row)] == mine;
-    };
-    Share share;
-    share.rows = std::move(rows);
-    std::vector<std::int32_t> local(rank.size(), -1);
-    for (std::size_t k = 0; k < share.rows.size(); ++k) {
-        local[static_cast<std::size_t>(share.rows[k])] = static_cast<std::int32_t>(k);
-        share.own.push_back(is_own(share.rows[k]));
-    }
-    for (std::size_t k = 0; k < c.first.size(); ++k)
-        if (is_own(c.first[k]) || is_own(c.second[k]))
-            share.contacts.push_back(static_cast<std::int32_t>(k));
-    for (std::size_t k = 0; k < b.disc.size(); ++k)
-        if (is_own(b.disc[k]))
-            share.base_contacts.push_back(static_cast<std::int32_t>(k));
-
-    State& part = share.state;
-    part.discs = selected(state.discs, share.rows);
-    part.contacts = selected(state.contacts, share.contacts);
-    part.base_contacts = selected(state.base_contacts, share.base_contacts);
-    part.base_nodes = state.base_nodes;
-    part.materials = state.materials;
-    part.clock = state.clock;
-    part.seed = state.seed;
-    part.next_id = state.next_id;
-    part.mean_radius = state.mean_radius;
-    part.inertial_mass_floor = state.inertial_mass_floor;
-    part.skin = state.skin;
-    part.searched_extension = state.searched_extension;
-    part.displacement_bound = state.displacement_bound;
-    part.window_speed = state.window_speed;
-    part.look_interval = state.look_interval;
-    const auto renumber = [&](std::span<std::int32_t> discs) {
-        for (std::int32_t& disc : discs)
-            disc = local[static_cast<std::size_t>(disc)];
-    };
-    renumber(contact_columns(part).first);
-    renumber(contact_columns(part).second);
-    renumber(base_contact_columns(part).disc);
-    return share;
-}
 
 } // namespace
 
@@ -130,29 +72,87 @@ std::vector<std::int32_t> ranks_by_rows(const State& state, int count) {
     return rank;
 }
 
-std::vector<Share> cut(const State& state, std::span<const std::int32_t> rank, int count) {
-    assert(rank.size() == state.discs.rows());
-    auto rows = rows_of_ranks(state, rank, count);
-    std::vector<Share> shares;
-    for (int r = 0; r < count; ++r) {
-        shares.push_back(share_of(state, rank, r, std::move(rows[static_cast<std::size_t>(r)])));
-        shares.back().sent.resize(static_cast<std::size_t>(count));
-        shares.back().received.resize(static_cast<std::size_t>(count));
+Cut::Cut(const State& whole, std::vector<std::int32_t> rank, int count)
+    : whole_(whole), rank_(std::move(rank)), lists_(static_cast<std::size_t>(count)),
+      local_(rank_.size(), -1) {
+    assert(rank_.size() == whole.discs.rows());
+    const ConstContactColumns c = contact_columns(whole);
+    const ConstBaseContactColumns b = base_contact_columns(whole);
+    for (std::size_t i = 0; i < rank_.size(); ++i)
+        lists_of(i).own.push_back(static_cast<std::int32_t>(i));
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto first = static_cast<std::size_t>(c.first[k]);
+        const auto second = static_cast<std::size_t>(c.second[k]);
+        lists_of(first).contacts.push_back(static_cast<std::int32_t>(k));
+        if (rank_[first] == rank_[second])
+            continue;
+        lists_of(second).contacts.push_back(static_cast<std::int32_t>(k));
+        lists_of(first).ghosts.push_back(c.second[k]);
+        lists_of(second).ghosts.push_back(c.first[k]);
     }
-    for (std::size_t r = 0; r < shares.size(); ++r) {
-        Share& share = shares[r];
-        for (std::size_t k = 0; k < share.rows.size(); ++k) {
-            if (share.own[k])
-                continue;
-            const auto owner =
-                static_cast<std::size_t>(rank[static_cast<std::size_t>(share.rows[k])]);
-            const auto there = std::ranges::lower_bound(shares[owner].rows, share.rows[k]);
-            share.received[owner].push_back(static_cast<std::int32_t>(k));
-            shares[owner].sent[r].push_back(
-                static_cast<std::int32_t>(there - shares[owner].rows.begin()));
-        }
+    for (std::size_t k = 0; k < b.disc.size(); ++k)
+        lists_of(static_cast<std::size_t>(b.disc[k]))
+            .base_contacts.push_back(static_cast<std::int32_t>(k));
+    for (Lists& lists : lists_) {
+        std::ranges::sort(lists.ghosts);
+        lists.ghosts.erase(std::ranges::unique(lists.ghosts).begin(), lists.ghosts.end());
     }
-    return shares;
+}
+
+Cut::Lists& Cut::lists_of(std::size_t disc) {
+    return lists_[static_cast<std::size_t>(rank_[disc])];
+}
+
+Share Cut::share(int of) {
+    const Lists& mine = lists_[static_cast<std::size_t>(of)];
+    Share share;
+    share.rows.resize(mine.own.size() + mine.ghosts.size());
+    std::ranges::merge(mine.own, mine.ghosts, share.rows.begin());
+    share.contacts = mine.contacts;
+    share.base_contacts = mine.base_contacts;
+    share.sent.resize(lists_.size());
+    share.received.resize(lists_.size());
+    for (std::size_t k = 0; k < share.rows.size(); ++k) {
+        const auto row = static_cast<std::size_t>(share.rows[k]);
+        local_[row] = static_cast<std::int32_t>(k);
+        share.own.push_back(rank_[row] == of);
+        if (rank_[row] != of)
+            share.received[static_cast<std::size_t>(rank_[row])].push_back(local_[row]);
+    }
+    for (std::size_t other = 0; other < lists_.size(); ++other)
+        for (const std::int32_t row : lists_[other].ghosts)
+            if (rank_[static_cast<std::size_t>(row)] == of)
+                share.sent[other].push_back(local_[static_cast<std::size_t>(row)]);
+
+    State& part = share.state;
+    const auto any = [](const std::string&) { return true; };
+    part.discs = selected(whole_.discs, share.rows, is_for_cycles);
+    part.contacts = selected(whole_.contacts, share.contacts, any);
+    part.base_contacts = selected(whole_.base_contacts, share.base_contacts, any);
+    part.base_nodes = whole_.base_nodes;
+    if (of != 0) // the root's have the loads of all
+        for (const auto loads : {base_node_columns(part).load_x, base_node_columns(part).load_y})
+            std::ranges::fill(loads, 0);
+    part.materials = whole_.materials;
+    part.clock = whole_.clock;
+    part.ledger = whole_.ledger;
+    part.seed = whole_.seed;
+    part.next_id = whole_.next_id;
+    part.mean_radius = whole_.mean_radius;
+    part.inertial_mass_floor = whole_.inertial_mass_floor;
+    part.skin = whole_.skin;
+    part.searched_extension = whole_.searched_extension;
+    part.displacement_bound = whole_.displacement_bound;
+    part.window_speed = whole_.window_speed;
+    part.look_interval = whole_.look_interval;
+    const auto renumber = [&](std::span<std::int32_t> discs) {
+        for (std::int32_t& disc : discs)
+            disc = local_[static_cast<std::size_t>(disc)];
+    };
+    renumber(contact_columns(part).first);
+    renumber(contact_columns(part).second);
+    renumber(base_contact_columns(part).disc);
+    return share;
 }
 
 OwnRows own_rows(const Share& share) {
@@ -250,6 +250,14 @@ Table take_table(BytesIn& from) {
     return table;
 }
 
+/// Adds the loads on the nodes of a base to others of the same nodes.
+void add_loads(const Table& nodes, Table& to) {
+    for (const char* name : {"load_x", "load_y"})
+        if (to.has(name))
+            std::ranges::transform(nodes.get<std::int64_t>(name), to.get<std::int64_t>(name),
+                                   to.get<std::int64_t>(name).begin(), std::plus());
+}
+
 } // namespace
 
 Bytes changes(const Share& share) {
@@ -269,7 +277,7 @@ Bytes changes(const Share& share) {
     return to.take();
 }
 
-void put_back(const Bytes& changes, const OwnRows& rows, State& whole) {
+void put_back(const Bytes& changes, int rank, const OwnRows& rows, State& whole) {
     BytesIn from(changes);
     const auto known = from.take<Known>();
     whole.clock = known.clock;
@@ -279,7 +287,10 @@ void put_back(const Bytes& changes, const OwnRows& rows, State& whole) {
     take_values(from, disc_names, rows.discs, whole.discs);
     take_values(from, contact_names, rows.contacts, whole.contacts);
     take_values(from, base_contact_names, rows.base_contacts, whole.base_contacts);
-    whole.base_nodes = take_table(from);
+    Table nodes = take_table(from);
+    if (rank != 0)
+        add_loads(whole.base_nodes, nodes);
+    whole.base_nodes = std::move(nodes);
 }
 
 Bytes packed(const Share& share) {

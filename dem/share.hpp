@@ -29,9 +29,28 @@ struct Share {
 /// The rank of every disc, by row: rows in succession, about equal work for each.
 std::vector<std::int32_t> ranks_by_rows(const State& state, int count);
 
-/// Cuts a state into `count` shares.
-/// @param rank  of every disc, by row; any at all
-std::vector<Share> cut(const State& state, std::span<const std::int32_t> rank, int count);
+/// A state that is cut into shares, which are made one after the other: together they take as much
+/// memory as the whole.
+class Cut {
+public:
+    /// The state must outlive it.
+    /// @param rank  of every disc, by row; any at all below `count`
+    Cut(const State& whole, std::vector<std::int32_t> rank, int count);
+
+    Share share(int rank);
+
+private:
+    /// Rows of the whole that go into one share.
+    struct Lists {
+        std::vector<std::int32_t> own, ghosts, contacts, base_contacts;
+    };
+    Lists& lists_of(std::size_t disc);
+
+    const State& whole_;
+    std::vector<std::int32_t> rank_;
+    std::vector<Lists> lists_;        ///< by rank
+    std::vector<std::int32_t> local_; ///< by row of the whole, that in the share made last
+};
 
 /// Where in the whole a rank's own discs are, the contacts whose first disc is its own, and its
 /// base contacts: rows, as they are in its share.
@@ -45,8 +64,8 @@ OwnRows own_rows(const Share& share);
 /// base.
 Bytes changes(const Share& share);
 
-/// Puts them into the whole.
-void put_back(const Bytes& changes, const OwnRows& rows, State& whole);
+/// Puts them into the whole, those of rank 0 first: loads on the nodes of the base add up.
+void put_back(const Bytes& changes, int rank, const OwnRows& rows, State& whole);
 
 /// A share as bytes, and back.
 Bytes packed(const Share& share);

@@ -67,8 +67,10 @@ bool Simulation::extend_to(double goal, const Execution& execution, const Report
     while (extension() < goal - tolerance()) {
         const double stop = std::min(next_due(), goal);
         cycle_toward(stop, execution);
-        const bool goes_on = !report || report(*this);
-        if (extension() >= stop - tolerance())
+        const bool goes_on = !report || report(*this), is_due = extension() >= stop - tolerance();
+        if (is_due || !goes_on)
+            collect();
+        if (is_due)
             apply_due_events();
         if (!goes_on)
             return false;
@@ -121,6 +123,11 @@ void Simulation::apply_due_events() {
     if (search_due)
         search_contacts();
     assert(is_valid(state_));
+}
+
+void Simulation::collect() {
+    if (collect_)
+        timed("cycle", [&] { collect_(state_); });
 }
 
 /// Makes a batch of cycles, at most up to the extension.

@@ -49,9 +49,16 @@ public:
         std::function<void(State& state, const RigidBase& base, const CyclePhysics& physics,
                            std::int64_t cycles, const Execution& execution)>;
 
+    /// Brings a state up to date of which cycles have changed the clock alone.
+    using Collect = std::function<void(State& state)>;
+
     /// How cycles are made: advance() unless something else is asked for, such as a base that
     /// deforms. What it refers to must outlive the simulation.
-    void advance_by(Advance advance) { advance_ = std::move(advance); }
+    /// @param collect  called after cycles, before events and before extend_to() returns
+    void advance_by(Advance advance, Collect collect = {}) {
+        advance_ = std::move(advance);
+        collect_ = std::move(collect);
+    }
     void respond_by(BaseResponse& response);
 
     /// Told how long, s of wall time, a part of the work has taken: "cycle", "rebuild" (of the
@@ -66,8 +73,8 @@ public:
     /// given back their memories (Event::memory, Event::applied).
     void resume(State state);
 
-    /// Told after every batch of cycles, a fraction of a second. If it returns false, the
-    /// simulation stops once due events are applied.
+    /// Told after every batch of cycles, a fraction of a second, when the clock is up to date. If
+    /// it returns false, the simulation stops once due events are applied.
     using Report = std::function<bool(const Simulation&)>;
 
     /// Cycles and events up to an extension, m, to half a cycle. Returns false if the report has
@@ -109,6 +116,7 @@ private:
     void apply_due_events();
     void search_contacts();
     void cycle_toward(double extension, Execution execution);
+    void collect();
 
     RigidBase base_;
     CyclePhysics physics_;
@@ -116,7 +124,8 @@ private:
     std::vector<std::unique_ptr<Event>> events_;
     EnergyAccount* energy_ = nullptr; ///< one of the events, if it is on
     Advance advance_;
-    Packed packed_; ///< of the state
+    Collect collect_; ///< none: cycles leave nothing to collect
+    Packed packed_;   ///< of the state
     TimeReport time_report_;
     double disc_steps_ = 0.0;
     bool has_state_ = false;

@@ -80,8 +80,24 @@ void add_forces(const Values& values, const std::vector<unsigned>& component, Fo
     }
 }
 
+/// What deal.II does at the start, where MPI and PETSc have already been started.
+bool join_those_who_started() {
+    int started = 0;
+    MPI_Initialized(&started);
+    if (!started)
+        return false;
+    processes = MPI_COMM_SELF;
+    sc_init(MPI_COMM_SELF, 0, 0, nullptr, SC_LP_SILENT);
+    p4est_init(nullptr, SC_LP_SILENT);
+    dealii::MultithreadInfo::set_thread_limit(1);
+    return true;
+}
+
 /// Starts MPI and PETSc with the first footwall and ends them with the program.
 void start_once() {
+    static const bool has_joined = join_those_who_started();
+    if (has_joined)
+        return;
     static char name[] = "listric", quiet[] = "-no_signal_handler";
     static char* words[] = {name, quiet, nullptr};
     static int count = 2;

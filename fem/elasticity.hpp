@@ -24,7 +24,9 @@ namespace listric::fem {
 using Index = dealii::types::global_dof_index;
 using GlobalVector = dealii::PETScWrappers::MPI::Vector;
 
-inline const MPI_Comm processes = MPI_COMM_WORLD;
+/// Those that solve together: all that were started, or this one alone where MPI is already there
+/// for something else, as where processes share the discs.
+inline MPI_Comm processes = MPI_COMM_WORLD;
 
 inline void must(PetscErrorCode code, const char* what) {
     if (code)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <barrier>
+#include <cstdlib>
 #include <functional>
 #include <thread>
 #include <utility>
@@ -85,23 +86,24 @@ private:
             bytes = all_.bytes_[0];
             wait();
         }
-        std::vector<dem::Bytes> gather(dem::Bytes bytes) override {
-            of(all_.bytes_) = std::move(bytes);
+        void gather(dem::Bytes letter, const Take& take) override {
+            of(all_.bytes_) = std::move(letter);
             wait();
-            std::vector<dem::Bytes> result;
             if (mine_ == 0)
-                result = all_.bytes_;
+                for (int rank = 0; rank < all_.count_; ++rank)
+                    take(rank, all_.bytes_[static_cast<std::size_t>(rank)]);
             wait();
-            return result;
         }
-        dem::Bytes scatter(std::vector<dem::Bytes> bytes) override {
+        dem::Bytes scatter(const Make& make) override {
             if (mine_ == 0)
-                all_.bytes_ = std::move(bytes);
+                for (int rank = all_.count_; rank-- > 0;) // the root's comes last
+                    all_.bytes_[static_cast<std::size_t>(rank)] = make(rank);
             wait();
             dem::Bytes result = of(all_.bytes_);
             wait();
             return result;
         }
+        void abort(int) override { std::abort(); }
 
     private:
         template <class T> T& of(std::vector<T>& by_rank) {

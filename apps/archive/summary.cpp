@@ -53,6 +53,7 @@ Json summary_head(const SummaryContent& content) {
         {"accuracy", content.accuracy},
         {"seed", content.seed},
         {"threads", content.threads},
+        {"ranks", content.ranks},
         {"cycle_level", content.cycle},
         {"discs", content.state.discs.rows()},
         {"cycles", content.state.clock.cycle},

@@ -29,7 +29,8 @@ std::string to_csv(const dem::Table& table);
 struct SummaryContent {
     std::string scene = {}, accuracy = {}; ///< names
     std::uint64_t seed = 0;
-    int threads = 1;
+    int threads = 1; ///< of each rank
+    int ranks = 1;
     std::string cycle = {};  ///< name
     const dem::State& state; ///< at the end
     const RunRecord& record;

@@ -45,7 +45,7 @@ int all_threads();
 /// Names of the accuracy levels.
 std::vector<std::string> accuracy_names();
 
-void add_threads(CLI::App& command, int& threads);
+CLI::Option* add_threads(CLI::App& command, int& threads);
 
 /// An option that may be given several times, with one word each time.
 void add_words(CLI::App& command, const char* option, std::vector<std::string>& words,

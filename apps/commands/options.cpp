@@ -20,8 +20,9 @@ std::vector<std::string> accuracy_names() {
     return names;
 }
 
-void add_threads(CLI::App& command, int& threads) {
-    command.add_option("--threads", threads, "Processor cores to use")->check(CLI::Range(1, 1024));
+CLI::Option* add_threads(CLI::App& command, int& threads) {
+    return command.add_option("--threads", threads, "Processor cores to use")
+        ->check(CLI::Range(1, 1024));
 }
 
 void add_words(CLI::App& command, const char* option, std::vector<std::string>& words,

@@ -2,7 +2,9 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/run/join_ranks.hpp"
 #include "apps/run/oversize.hpp"
+#include "apps/run/ranked_run.hpp"
 
 #include <memory>
 #include <optional>
@@ -16,6 +18,8 @@ struct RunCall {
     RunOptions options;
     std::optional<std::string> until;
     std::string output;
+    CLI::Option* threads = nullptr;
+    bool ranks = false;
     bool force_size = false;
     bool no_report = false;
 };
@@ -36,18 +40,67 @@ double parse_length(const std::string& text) {
     return unit == "km" ? 1e3 * value : value;
 }
 
-ExitCode run(RunCall& call) {
-    const Scene scene = load_scene(call.scene);
+/// Refuses what nobody waits for, or what several processes cannot make.
+void check_scene(const RunCall& call, const Scene& scene, bool on_ranks) {
     if (!call.force_size)
         if (const auto oversize = oversize_of(scene, program_effects(), machine_memory()))
             refuse_scene(call.scene, oversize->parameter, oversize->message);
+    if (!on_ranks)
+        return;
+    if (const auto objection = objection_to_ranks(scene))
+        refuse_scene(call.scene, objection->parameter, objection->message);
+}
+
+/// What was asked for; on ranks a process has one thread unless it is told otherwise.
+RunOptions options_of(const RunCall& call, const Scene& scene, bool on_ranks) {
+    RunOptions options = call.options;
+    if (on_ranks && call.threads->count() == 0)
+        options.threads = 1;
     if (call.until)
-        call.options.until = parse_length(*call.until);
-    call.options.output = call.output.empty() ? "out/" + scene.name : call.output;
-    call.options.report = !call.no_report;
+        options.until = parse_length(*call.until);
+    options.output = call.output.empty() ? "out/" + scene.name : call.output;
+    options.report = !call.no_report;
+    return options;
+}
+
+ExitCode exit_code_of(RunOutcome outcome) {
+    return outcome == RunOutcome::finished ? ExitCode::done : ExitCode::interrupted;
+}
+
+/// This process's part of a run that several make.
+ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
+    if (ranks.mine() != 0)
+        ignore_signals(); // the root stops for all
+    return exit_code_of(run_on_ranks(ranks, {[&] { return load_scene(call.scene); },
+                                             [&](const Scene& scene, bool is_root) {
+                                                 if (is_root)
+                                                     check_scene(call, scene, true);
+                                                 return options_of(call, scene, true);
+                                             }}));
+}
+
+ExitCode run(RunCall& call) {
     call.options.stop = stop_on_signals();
-    return run_scene(scene, call.options) == RunOutcome::finished ? ExitCode::done
-                                                                  : ExitCode::interrupted;
+    const Launch launch = read_launch();
+    if (launch.count > 1 || call.ranks) {
+        const auto ranks = join_ranks(launch);
+        if (ranks->count() > 1)
+            return run_part(call, *ranks);
+    }
+    const Scene scene = load_scene(call.scene);
+    check_scene(call, scene, false);
+    return exit_code_of(run_scene(scene, options_of(call, scene, false)));
+}
+
+/// All processes of a run would say the same.
+ExitCode run_and_tell_once(RunCall& call) {
+    try {
+        return run(call);
+    } catch (...) {
+        if (read_launch().mine == 0)
+            throw;
+        return ending_of(std::current_exception()).code;
+    }
 }
 
 } // namespace
@@ -57,7 +110,9 @@ Command add_run(CLI::App& program) {
     call->options.threads = all_threads();
     CLI::App* command = program.add_subcommand("run", "Run a scene");
     add_scene(*command, call->scene);
-    add_threads(*command, call->options.threads);
+    call->threads = add_threads(*command, call->options.threads);
+    command->add_flag("--ranks", call->ranks,
+                      "One of several processes, even if the environment does not say so");
     command->add_flag("--plain", call->options.plain, "The scalar cycle: same bits, slower");
     command->add_option("--output", call->output, "Folder of results (default: out/SCENE)");
     command->add_option("--until", call->until, "End at this extension, such as 5km");
@@ -68,7 +123,7 @@ Command add_run(CLI::App& program) {
                       "Write report.html after every window; an open page follows");
     command->add_flag("--no-report", call->no_report, "Write no report.html");
     command->add_flag("--quiet", call->options.quiet, "No progress");
-    return {command, [call] { return run(*call); }};
+    return {command, [call] { return run_and_tell_once(*call); }};
 }
 
 } // namespace listric

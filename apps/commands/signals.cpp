@@ -14,9 +14,10 @@ std::atomic<bool> stop_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
 void answer_with(void (*handler)(int)) {
-    for (int signal : {SIGINT, SIGTERM, SIGHUP})
+    for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
         std::signal(signal, handler);
-    std::signal(SIGPIPE, SIG_IGN);
+    for (int signal : {SIGPIPE, SIGXFSZ})
+        std::signal(signal, SIG_IGN);
 }
 
 } // namespace
@@ -24,6 +25,8 @@ void answer_with(void (*handler)(int)) {
 void exit_on_signals() {
     answer_with([](int) { _exit(static_cast<int>(ExitCode::interrupted)); });
 }
+
+void ignore_signals() { answer_with(SIG_IGN); }
 
 StopToken stop_on_signals() {
     answer_with([](int) { stop_requested = true; });

@@ -4,8 +4,9 @@
 
 namespace listric {
 
-// How a call answers SIGINT (Ctrl-C), SIGTERM and SIGHUP. Whichever it is, SIGPIPE is ignored:
-// whoever read the progress may leave.
+// How a call answers SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGUSR1, which mpirun and SLURM hand on.
+// Whichever it is, SIGPIPE and SIGXFSZ are ignored: whoever read the progress may leave, and a file
+// that may not grow is told as one that cannot be written.
 
 /// They end the program at once, with the exit code of an interrupted call: for what leaves nothing
 /// in disorder, and until another answer is chosen.
@@ -13,5 +14,8 @@ void exit_on_signals();
 
 /// They are requests to stop, for work that leaves things in order first.
 StopToken stop_on_signals();
+
+/// They are for another process to answer, which tells this one.
+void ignore_signals();
 
 } // namespace listric

@@ -34,14 +34,6 @@ Ending internal_error(const std::string& what) {
                         what)};
 }
 
-void tell(const Ending& ending) {
-    if (ending.message.empty())
-        return;
-    const std::string text = fmt::format("listric: {}\n", ending.message);
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    std::fflush(stderr);
-}
-
 } // namespace
 
 Ending ending_of(const std::exception_ptr& exception) {
@@ -77,6 +69,14 @@ Ending ending_of(const std::exception_ptr& exception) {
     } catch (...) {
         return internal_error("an exception without a name");
     }
+}
+
+void tell(const Ending& ending) {
+    if (ending.message.empty())
+        return;
+    const std::string text = fmt::format("listric: {}\n", ending.message);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
 }
 
 int run_guarded(const std::function<ExitCode()>& work) {

@@ -24,6 +24,9 @@ struct Ending {
 /// What an exception means for the call that it ended.
 Ending ending_of(const std::exception_ptr& exception);
 
+/// Writes the message, if there is one, to stderr.
+void tell(const Ending& ending);
+
 /// Does the work; what it throws ends in a message on stderr and in its exit code.
 int run_guarded(const std::function<ExitCode()>& work);
 

@@ -16,6 +16,7 @@
 #include "coupling/strong_scheme.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/strain.hpp"
+#include "dem/ranked_cycles.hpp"
 
 #include <fmt/format.h>
 
@@ -24,6 +25,7 @@
 #include <iterator>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace listric {
@@ -62,9 +64,27 @@ Session::Session(const Scene& scene, const RunOptions& options, Log& log)
         simulation_.add(std::move(event));
     simulation_.report_times_to([this](const std::string& part, double seconds) {
         record_.seconds_by_part[part] += seconds;
+        if (!footwall_ || part != "cycle")
+            return;
+        const double base = std::exchange(footwall_->base().seconds, 0.0);
+        record_.seconds_by_part["base"] += base;
+        record_.seconds_by_part["cycle"] -= base;
     });
-    if (driver_.response)
-        simulation_.respond_by(*driver_.response);
+    make_cycles_by(driver_.response.get());
+}
+
+/// Cycles are made here, or on all ranks.
+/// @param response  of the base; none: nothing answers to its loads
+void Session::make_cycles_by(BaseResponse* response) {
+    if (RankedCycles* const on_ranks = options_.on_ranks)
+        simulation_.advance_by(
+            [on_ranks, response](State& state, const RigidBase&, const CyclePhysics&,
+                                 std::int64_t cycles, const Execution& how) {
+                on_ranks->advance(state, cycles, *how.packed, response);
+            },
+            [on_ranks](State& state) { on_ranks->collect(state); });
+    else if (response)
+        simulation_.respond_by(*response);
 }
 
 double Session::wall_seconds() const { return seconds_before_ + seconds_since(started_); }
@@ -88,17 +108,15 @@ void Session::make_footwall() {
         log_.say(line);
     for (auto& event : loads)
         simulation_.add(std::move(event));
-    simulation_.advance_by([this](State& state, const RigidBase& rigid, const CyclePhysics& physics,
-                                  std::int64_t cycles, const Execution& how) {
-        ElasticBase& base = footwall_->base();
-        const double before = base.seconds;
-        if (base.is_iterated())
+    ElasticBase& base = footwall_->base();
+    if (base.is_iterated())
+        simulation_.advance_by([&base](State& state, const RigidBase& rigid,
+                                       const CyclePhysics& physics, std::int64_t cycles,
+                                       const Execution& how) {
             advance_iterated(base, state, rigid, physics, cycles, how);
-        else
-            advance(state, rigid, physics, cycles, how, &base);
-        record_.seconds_by_part["base"] += base.seconds - before;
-        record_.seconds_by_part["cycle"] -= base.seconds - before;
-    });
+        });
+    else
+        make_cycles_by(&base);
 }
 
 bool Session::resume() {
@@ -131,7 +149,8 @@ void Session::begin() {
     const CycleSpeed speed =
         measure_speed(estimated_discs(scene_), options_.threads, 0.3, parts_.accounts_energy);
     record_.predicted_seconds =
-        speed.busy * predict(scene_, speed.disc_steps_per_second, options_.threads).seconds;
+        speed.busy *
+        predict(scene_, options_.ranks * speed.disc_steps_per_second, options_.threads).seconds;
 
     if (scene_.picked_fault)
         log_.say(describe(*scene_.picked_fault, *scene_.detachment));
@@ -408,6 +427,7 @@ void Session::finish() {
                                               .accuracy = scene_.accuracy,
                                               .seed = scene_.seed,
                                               .threads = options_.threads,
+                                              .ranks = options_.ranks,
                                               .cycle = std::string(name(execution().cycle)),
                                               .state = simulation_.state(),
                                               .record = record_,

@@ -44,6 +44,7 @@ public:
     double extension() const { return simulation_.extension(); } ///< m
 
 private:
+    void make_cycles_by(dem::BaseResponse* response);
     void make_footwall();
     dem::State settled_on_base(dem::State state);
     dem::Execution execution() const;

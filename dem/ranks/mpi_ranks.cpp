@@ -1,4 +1,4 @@
-#include "dem/ranks/mpi_ranks.hpp"
+#include "dem/ranks.hpp"
 
 #include <mpi.h>
 #include <petscsf.h>
@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace listric::dem {
 
@@ -102,32 +103,30 @@ public:
         require(MPI_Bcast(bytes.data(), as_int(size), MPI_BYTE, 0, all_), "MPI_Bcast");
     }
 
-    std::vector<Bytes> gather(Bytes bytes) override {
-        std::vector<Bytes> result;
-        if (mine_ != 0) {
-            require(MPI_Send(bytes.data(), as_int(bytes.size()), MPI_BYTE, 0, gathered, all_),
-                    "MPI_Send");
-            return result;
-        }
-        result.push_back(std::move(bytes));
+    void gather(Bytes letter, const Take& take) override {
+        if (mine_ != 0)
+            return send(letter, 0, gathered);
+        take(0, letter);
         for (int rank = 1; rank < count_; ++rank)
-            result.push_back(receive(rank, gathered));
-        return result;
+            take(rank, receive(rank, gathered));
     }
-    Bytes scatter(std::vector<Bytes> bytes) override {
+    Bytes scatter(const Make& make) override {
         if (mine_ != 0)
             return receive(0, scattered);
-        for (int rank = 1; rank < count_; ++rank) {
-            const Bytes& letter = bytes[static_cast<std::size_t>(rank)];
-            require(MPI_Send(letter.data(), as_int(letter.size()), MPI_BYTE, rank, scattered, all_),
-                    "MPI_Send");
-        }
-        return std::move(bytes.front());
+        for (int rank = 1; rank < count_; ++rank)
+            send(make(rank), rank, scattered);
+        return make(0);
     }
+
+    void abort(int exit_code) override { MPI_Abort(MPI_COMM_WORLD, exit_code); }
 
 private:
     static constexpr int gathered = 1, scattered = 2;
 
+    void send(const Bytes& letter, int rank, int tag) const {
+        require(MPI_Send(letter.data(), as_int(letter.size()), MPI_BYTE, rank, tag, all_),
+                "MPI_Send");
+    }
     Bytes receive(int rank, int tag) const {
         MPI_Status status;
         require(MPI_Probe(rank, tag, all_, &status), "MPI_Probe");
@@ -146,6 +145,10 @@ private:
 
 } // namespace
 
-std::unique_ptr<Ranks> make_mpi_ranks() { return std::make_unique<MpiRanks>(); }
-
 } // namespace listric::dem
+
+/// The processes that mpirun or srun has started. Starts MPI and PETSc, which end with what it
+/// returns; the caller deletes it.
+extern "C" __attribute__((visibility("default"))) listric::dem::Ranks* LISTRIC_RANKS_ENTRY() {
+    return new listric::dem::MpiRanks();
+}

@@ -19,6 +19,10 @@ LIBRARIES = {"dem": {"dem"}, "fem": {"fem"}, "coupling": {"dem", "fem", "couplin
 # PETSc. What else is in fem is the interface, and free of them.
 ELEMENTS = {f"fem/{name}" for name in ("mesh", "elasticity", "condensation", "solution", "material")}
 
+# The other plug-in: discs over MPI. It sees dem, and nothing sees it.
+RANKS = {"dem/ranks/mpi_ranks"}
+RANKS_LIBRARIES = ("mpi.h", "petscsf.h")
+
 # Headers that are neither ours nor of the C++ standard, whose names have no dot and no slash.
 SYSTEM = ("dlfcn.h", "fcntl.h", "sched.h", "sys/", "unistd.h", "immintrin.h")
 ELEMENT_LIBRARIES = ("deal.II/", "petsc")
@@ -47,12 +51,14 @@ def is_allowed(path, name):
     if ".." in name or name.startswith("/"):  # could reach anything
         return False
     if is_ours(name):
-        if unit(name) in ELEMENTS and unit(path) not in ELEMENTS:
+        if unit(name) in ELEMENTS and unit(path) not in ELEMENTS or unit(name) in RANKS:
             return False
         return room(name) in rooms_seen_from(room(path))
     if name.islower() and "." not in name and "/" not in name:
         return True  # standard; a macro's name is in capitals
     if unit(path) in ELEMENTS and name.startswith(ELEMENT_LIBRARIES):
+        return True
+    if unit(path) in RANKS and name in RANKS_LIBRARIES:
         return True
     return name.startswith(FOREIGN.get(room(path), FOREIGN["apps"]))
 

@@ -34,7 +34,7 @@ std::vector<std::int32_t> crowded(const State& whole, int count) {
 /// A base that gives way under its loads.
 class Yielding : public BaseResponse {
 public:
-    Yielding() { interval = 5; }
+    Yielding() { interval = 7; } // so that events come between answers
     void respond(State& state, const Clock&) override {
         const BaseNodeColumns nodes = base_node_columns(state);
         for (std::size_t k = 0; k < nodes.x.size(); ++k) {
@@ -56,12 +56,13 @@ protected:
     /// The simulation of the scene, with its events, at an extension of 100 m.
     /// @param nodes  of the base; none: it is rigid
     std::uint64_t hash_at_end(const Simulation::Advance& advance,
+                              const Simulation::Collect& collect = {},
                               const std::vector<Point>& nodes = {}) {
         Simulation sandbox(parts.base, parts.physics);
         for (auto& event : make_events(scene, parts))
             sandbox.add(std::move(event));
         if (advance)
-            sandbox.advance_by(advance);
+            sandbox.advance_by(advance, collect);
         Log log(true);
         State state = make_or_recall_hanging_wall(scene, parts, log, {}, 1);
         if (!nodes.empty()) {
@@ -89,12 +90,9 @@ protected:
                 hash = hash_at_end(
                     [&](State& state, const RigidBase&, const CyclePhysics&, std::int64_t n,
                         const Execution& asked) {
-                        if (!asked.packed->holds())
-                            on_ranks.forget();
-                        on_ranks.advance(state, n, response);
-                        asked.packed->hold();
+                        on_ranks.advance(state, n, *asked.packed, response);
                     },
-                    nodes);
+                    [&](State& state) { on_ranks.collect(state); }, nodes);
             },
             [&](Ranks& other) { RankedCycles(other, parts.base, parts.physics, how).serve(); });
         EXPECT_EQ(ranks.exchanged > 0, count > 1);
@@ -131,7 +129,7 @@ TEST_F(RanksTest, ABaseAnswersToTheLoadsOfAllRanks) {
     const std::uint64_t whole = hash_at_end(
         [&](State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t n,
             const Execution& how) { dem::advance(state, base, physics, n, how, &whole_base); },
-        nodes);
+        {}, nodes);
     EXPECT_GT(whole_base.answers, 100);
     EXPECT_NE(whole, hash_at_end({}));
     for (const int count : {1, 2, 3})

@@ -1,0 +1,168 @@
+"""Runs over MPI: the bits of one process on any number, whatever ends them, and never a hang.
+
+    LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest ranks_test
+"""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, SOURCES
+
+# What an MPI that has started this process says to its own would confuse another; root may start one.
+ENVIRONMENT = {name: value for name, value in os.environ.items()
+               if not name.startswith(("OMPI_", "PMIX_", "PMI_"))}
+ENVIRONMENT |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+LONGEST = 60.0  # s, until a run that something has ended is gone
+needs_finite_elements = unittest.skipIf(os.environ.get("LISTRIC_FEM") == "0",
+                                        "a build without finite elements")
+
+
+def command(ranks, output, *words):
+    start = ["/usr/bin/mpirun", "-q", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1", "-n", str(ranks)]
+    return [*(start if ranks else []), PROGRAM, "run", *words, "--accuracy", "draft", "--output", output,
+            "--quiet", "--no-report"]
+
+
+def processes_of(output):
+    """Numbers of the processes that run into a folder, the root's first."""
+    listed = subprocess.run(["pgrep", "-f", f"^{PROGRAM} run .*{output}"], stdout=subprocess.PIPE, text=True)
+    return [int(number) for number in listed.stdout.split()]
+
+
+class Ranks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.environment = ENVIRONMENT | {"LISTRIC_CACHE": str(self.folder / "cache")}
+
+    def run_on(self, ranks, output, *words):
+        """Runs to the end; 0 ranks: without mpirun."""
+        return subprocess.run(command(ranks, self.folder / output, *words), env=self.environment,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              timeout=10 * LONGEST)
+
+    def summary(self, ranks, output, *words):
+        ended = self.run_on(ranks, output, *words)
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        return json.loads(Path(self.folder, output, "summary.json").read_text())
+
+    def assertSameBits(self, scene, extension, counts):
+        whole = self.summary(0, "whole", scene, "--until", extension)
+        self.assertEqual(whole["ranks"], 1)
+        for count in counts:
+            with self.subTest(ranks=count):
+                shared = self.summary(count, f"on-{count}", scene, "--until", extension)
+                self.assertEqual(shared["ranks"], count)
+                self.assertEqual(shared["state_hash"], whole["state_hash"])
+
+    def assertEndsWith(self, found, said, code, message):
+        """One message, from one of the processes."""
+        self.assertEqual(found, code, said)
+        self.assertEqual(said.count("listric: "), 1, said)
+        self.assertIn(message, said)
+
+    def assertRefused(self, message, *words):
+        ended = self.run_on(2, "out", *words)
+        self.assertEndsWith(ended.returncode, ended.stdout, 2, message)
+
+    def begin(self, ranks, output, *words):
+        """A run that has begun to extend."""
+        run = subprocess.Popen(command(ranks, self.folder / output, *words), env=self.environment,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.addCleanup(run.stdout.close)
+        self.addCleanup(run.kill)
+        first = self.folder / output / "snapshots"
+        while run.poll() is None and not list(first.glob("*.h5")):
+            time.sleep(0.05)
+        time.sleep(1.0)
+        return run
+
+
+class SameBits(Ranks):
+    def test_a_rigid_scene_on_any_number(self):
+        self.assertSameBits("lis1", "120m", (1, 2, 3, 5))
+
+    def test_a_ramp_and_a_flat(self):
+        self.assertSameBits("rfr", "40m", (3,))
+
+    @needs_finite_elements
+    def test_an_elastic_base(self):
+        self.assertSameBits("lis1-elastic", "40m", (2,))
+
+    def test_more_ranks_than_discs_have_rows(self):
+        few = ("--set", "hanging_wall.mean_radius_m=1000")
+        whole = self.summary(0, "few", "lis1", "--until", "200m", *few)
+        shared = self.summary(8, "few-on-8", "lis1", "--until", "200m", *few)
+        self.assertEqual(shared["state_hash"], whole["state_hash"])
+
+    def test_resumed_on_other_numbers(self):
+        whole = self.summary(0, "whole", "lis1", "--until", "160m")
+        steps = ((3, "40m"), (2, "80m"), (5, "120m"), (0, "160m"))
+        for count, extension in steps:
+            last = self.summary(count, "run", "lis1", "--until", extension, "--resume")
+        self.assertEqual(last["state_hash"], whole["state_hash"])
+
+
+class Ends(Ranks):
+    def test_what_is_refused(self):
+        energies = self.folder / "energies.toml"
+        energies.write_text((SOURCES / "apps/scenes/lis1.toml").read_text() + "\n[energy]\n")
+        for words, message in ((("lis9",), "did you mean lis1?"),
+                               (("lis1", "--set", "compacton.x=1"), "did you mean compaction?"),
+                               (("lis1-elastic", "--set", "elastic_base.scheme='strong'"), "takes cycles back"),
+                               ((energies,), "one process"), (("flexure",), "no discs")):
+            with self.subTest(message):
+                self.assertRefused(message, *words)
+
+    def test_without_the_plug_in(self):
+        self.environment["LISTRIC_RANKS_PLUGIN"] = "/nowhere.so"
+        self.assertRefused("openmpi-bin", "lis1")
+        self.assertEqual(self.summary(1, "one", "lis1", "--until", "0m")["ranks"], 1)
+
+    def test_a_full_disk(self):
+        run = self.begin(2, "run", "lis1", "--until", "1km")
+        root = processes_of(self.folder / "run")[0]
+        resource.prlimit(root, resource.RLIMIT_FSIZE, (100000, 100000))  # write() fails as on a full disk
+        said, _ = run.communicate(timeout=LONGEST)
+        self.assertEndsWith(run.returncode, said, 4, "resume with: ")
+
+    def test_an_event_that_cannot_be_done(self):
+        ended = self.run_on(2, "run", "lis1", "--set", "sedimentation.target=[{time_a=0, points=[[0, 0]]},"
+                            " {time_a=1e4, points=[[0, 0]]}, {time_a=1.2e4, points=[[0, -30000]]}]")
+        self.assertEndsWith(ended.returncode, ended.stdout, 3, "below the whole hanging wall")
+
+    def test_a_request_to_stop(self):
+        whole = self.summary(0, "whole", "lis1", "--until", "1km")
+        run = self.begin(2, "run", "lis1", "--until", "1km")
+        run.send_signal(signal.SIGUSR1)  # which mpirun hands on
+        run.communicate(timeout=LONGEST)
+        self.assertEqual(run.returncode, 130)
+        self.assertEqual(processes_of(self.folder / "run"), [])
+        self.assertEqual(json.loads((self.folder / "run/status.json").read_text())["phase"], "stopped")
+        self.assertEqual(self.summary(0, "run", "lis1", "--until", "1km", "--resume")["state_hash"],
+                         whole["state_hash"])
+
+    def test_a_rank_that_is_killed(self):
+        whole = self.summary(0, "whole", "lis1", "--until", "100m")
+        run = self.begin(3, "run", "lis1", "--until", "1km")
+        os.kill(processes_of(self.folder / "run")[-1], signal.SIGKILL)
+        begun = time.monotonic()
+        run.communicate(timeout=LONGEST)
+        self.assertNotEqual(run.returncode, 0)
+        while processes_of(self.folder / "run") and time.monotonic() < begun + 5.0:
+            time.sleep(0.05)
+        self.assertEqual(processes_of(self.folder / "run"), [])
+        self.assertEqual(self.summary(2, "run", "lis1", "--until", "100m", "--resume")["state_hash"],
+                         whole["state_hash"])
+
+
+if __name__ == "__main__":
+    unittest.main()
