@@ -127,115 +127,167 @@ std::int64_t FastCycle::run(State& state, std::int64_t cycles, BestTeam& team,
     return done;
 }
 
+void FastCycle::Watch::enter(double fastest, double time_step) {
+    speed = greater(speed, fastest);
+    bound += std::numbers::sqrt2 * fastest * time_step;
+}
+
+struct FastCycle::Piece {
+    State& state;
+    BaseResponse* response;
+    Links* links;
+    Kernels kernels;
+    Shared shared;
+    BaseNodeColumns nodes;
+    double surface_translation; ///< see greatest_translation()
+    Clock clock;                ///< at the start
+    Watch watch;                ///< at the start
+    int threads;
+    Barrier barrier;
+    Claims claims;
+};
+
+/// Keeps clock and watch for itself; all come to the same decisions.
+class FastCycle::Worker {
+public:
+    Worker(FastCycle& fast, Piece& piece, int thread)
+        : fast_(fast), piece_(piece), thread_(thread),
+          own_(fast.strips_.size() * static_cast<std::size_t>(thread) /
+               static_cast<std::size_t>(piece.threads)),
+          clock_(piece.clock), watch_(piece.watch) {}
+
+    void run(std::int64_t cycles) {
+        for (std::int64_t n = 0; n < cycles; ++n) {
+            if (clock_.cycle % watch_.look_interval == 0 && !look_for_neighbours())
+                break;
+            cycle();
+        }
+        if (piece_.links)
+            enter_speeds();
+        piece_.barrier.wait(); // until all have read the state
+        if (thread_ != 0)
+            return;
+        State& state = piece_.state;
+        state.clock = clock_;
+        state.displacement_bound = watch_.bound;
+        state.window_speed = watch_.speed;
+        state.look_interval = watch_.look_interval;
+    }
+
+private:
+    template <class Work> void for_free_strips(Work&& work) {
+        piece_.claims.take(own_, ++phase_, [&](std::size_t k) { work(fast_.strips_[k]); });
+    }
+
+    /// Keeps the lists good for the cycles up to the next look; false if they must be updated.
+    bool look_for_neighbours() {
+        const State& state = piece_.state;
+        if (piece_.links)
+            enter_speeds();
+        if (is_check_due(watch_.bound, state.skin)) {
+            for_free_strips([&](Strip& strip) { strip.furthest = fast_.furthest(strip); });
+            piece_.barrier.wait();
+            if (thread_ == 0)
+                fast_.displacement_ =
+                    fast_.greatest_displacement(state, clock_.extension, piece_.links);
+            piece_.barrier.wait();
+            watch_.bound = fast_.displacement_;
+            if (is_update_due(watch_.bound, state.skin))
+                return false;
+        }
+        watch_.look_interval =
+            next_look_interval(watch_.look_interval, watch_.speed, clock_.time_step, state.skin);
+        watch_.speed = 0.0;
+        return true;
+    }
+
+    void cycle() {
+        const double speed = fast_.base_->motion.speed_at(clock_.time());
+        const BaseMoment moment{clock_.extension, speed};
+        for_free_strips([&](Strip& strip) {
+            if (fast_.deforms_)
+                fast_.compute_nodes(strip, piece_.nodes, moment);
+            piece_.kernels.compute_boundary(piece_.shared, strip);
+        });
+        piece_.barrier.wait();
+        const auto parity = static_cast<std::size_t>(clock_.cycle % 2);
+        // No disc looks at the nodes between the two barriers.
+        if (fast_.deforms_ && thread_ == 0)
+            fast_.fastest_node_[parity] =
+                fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.links);
+        Stretching thins = stretching(*fast_.base_, clock_.extension);
+        thins.rate *= speed;
+        const auto sweep = clock_.cycle % averaging_interval == 0 ? piece_.kernels.sampling_sweep
+                                                                  : piece_.kernels.sweep;
+        for_free_strips([&](Strip& strip) {
+            fast_.compute_base(strip, moment);
+            strip.fastest[parity] = sweep(piece_.shared, strip, thins);
+        });
+        piece_.barrier.wait();
+        double fastest = greater(piece_.surface_translation * speed, fast_.fastest_node_[parity]);
+        for (const Strip& s : fast_.strips_)
+            fastest = greater(fastest, s.fastest[parity]);
+        if (piece_.links)
+            tell_others(fastest);
+        else
+            watch_.enter(fastest, clock_.time_step);
+        clock_.extension += speed * clock_.time_step;
+        ++clock_.cycle;
+    }
+
+    void tell_others(double fastest) {
+        if (thread_ == 0) {
+            piece_.links->speeds.push_back(fastest);
+            fast_.renew_ghosts(*piece_.links);
+        }
+        piece_.barrier.wait();
+    }
+
+    /// The speeds of the cycles since, the greatest of all ranks.
+    void enter_speeds() {
+        std::vector<double>& speeds = piece_.links->speeds;
+        if (thread_ == 0)
+            piece_.links->share_speeds();
+        piece_.barrier.wait();
+        for (const double fastest : speeds)
+            watch_.enter(fastest, clock_.time_step);
+        piece_.barrier.wait();
+        if (thread_ == 0)
+            speeds.clear();
+    }
+
+    FastCycle& fast_;
+    Piece& piece_;
+    int thread_;
+    std::size_t own_; ///< strip that it begins with
+    unsigned phase_ = 0;
+    Clock clock_;
+    Watch watch_;
+};
+
 std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& team,
                                   BaseResponse* response, Links* links) {
     const auto begin = std::chrono::steady_clock::now();
-    const Kernels kernels = choose_kernels(level_, bonded_, frictional_, damped_against(), links);
-    const Shared shared{discs_,
-                        inertia_,
-                        slots_.data(),
-                        time_step_,
-                        physics_.damping,
-                        averaging_interval * time_step_ / physics_.averaging_time,
-                        own_.empty() ? nullptr : own_.data()};
-    const Clock start = state.clock;
-    const Watch watched{state.displacement_bound, state.window_speed, state.look_interval};
-    const double surface_translation = greatest_translation(*base_);
-    const BaseNodeColumns nodes = base_node_columns(state);
     const int threads = std::min(team.size(), static_cast<int>(strips_.size()));
-    Barrier barrier(threads);
-    Claims claims(strips_.size());
-    run_team(threads, [&](int thread) {
-        // Each thread keeps clock and watch for itself; all come to the same decisions.
-        const std::size_t own =
-            strips_.size() * static_cast<std::size_t>(thread) / static_cast<std::size_t>(threads);
-        unsigned phase = 0;
-        const auto for_free_strips = [&](auto&& work) {
-            claims.take(own, ++phase, [&](std::size_t k) { work(strips_[k]); });
-        };
-        Clock clock = start;
-        Watch watch = watched;
-        const auto enter_speed = [&](double fastest) {
-            watch.speed = greater(watch.speed, fastest);
-            watch.bound += std::numbers::sqrt2 * fastest * clock.time_step;
-        };
-        const auto enter_speeds = [&] {
-            if (thread == 0)
-                links->share_speeds();
-            barrier.wait();
-            std::ranges::for_each(links->speeds, enter_speed);
-            barrier.wait();
-            if (thread == 0)
-                links->speeds.clear();
-        };
-        for (std::int64_t n = 0; n < cycles; ++n) {
-            if (clock.cycle % watch.look_interval == 0) {
-                if (links)
-                    enter_speeds();
-                if (is_check_due(watch.bound, state.skin)) {
-                    for_free_strips([&](Strip& strip) { strip.furthest = furthest(strip); });
-                    barrier.wait();
-                    if (thread == 0)
-                        displacement_ = greatest_displacement(state, clock.extension, links);
-                    barrier.wait();
-                    watch.bound = displacement_;
-                    if (is_update_due(watch.bound, state.skin))
-                        break;
-                }
-                watch.look_interval = next_look_interval(watch.look_interval, watch.speed,
-                                                         clock.time_step, state.skin);
-                watch.speed = 0.0;
-            }
-            const double speed = base_->motion.speed_at(clock.time());
-            const BaseMoment moment{clock.extension, speed};
-            for_free_strips([&](Strip& strip) {
-                if (deforms_)
-                    compute_nodes(strip, nodes, moment);
-                kernels.compute_boundary(shared, strip);
-            });
-            barrier.wait();
-            const auto parity = static_cast<std::size_t>(clock.cycle % 2);
-            // No disc looks at the nodes between the two barriers.
-            if (deforms_ && thread == 0)
-                fastest_node_[parity] = move_base(state, nodes, clock, response, links);
-            Stretching thins = stretching(*base_, clock.extension);
-            thins.rate *= speed;
-            const auto sweep =
-                clock.cycle % averaging_interval == 0 ? kernels.sampling_sweep : kernels.sweep;
-            for_free_strips([&](Strip& strip) {
-                compute_base(strip, moment);
-                strip.fastest[parity] = sweep(shared, strip, thins);
-            });
-            barrier.wait();
-            double fastest = greater(surface_translation * speed, fastest_node_[parity]);
-            for (const Strip& s : strips_)
-                fastest = greater(fastest, s.fastest[parity]);
-            if (links) {
-                if (thread == 0) {
-                    links->speeds.push_back(fastest);
-                    renew_ghosts(*links);
-                }
-                barrier.wait();
-            } else {
-                enter_speed(fastest);
-            }
-            clock.extension += speed * clock.time_step;
-            ++clock.cycle;
-        }
-        if (links)
-            enter_speeds();
-        barrier.wait(); // until all have read the state
-        if (thread == 0) {
-            state.clock = clock;
-            state.displacement_bound = watch.bound;
-            state.window_speed = watch.speed;
-            state.look_interval = watch.look_interval;
-        }
-    });
-    const std::int64_t done = state.clock.cycle - start.cycle;
+    Piece piece{.state = state,
+                .response = response,
+                .links = links,
+                .kernels = choose_kernels(level_, bonded_, frictional_, damped_against(), links),
+                .shared = {discs_, inertia_, slots_.data(), time_step_, physics_.damping,
+                           averaging_interval * time_step_ / physics_.averaging_time,
+                           own_.empty() ? nullptr : own_.data()},
+                .nodes = base_node_columns(state),
+                .surface_translation = greatest_translation(*base_),
+                .clock = state.clock,
+                .watch = {state.displacement_bound, state.window_speed, state.look_interval},
+                .threads = threads,
+                .barrier = Barrier(threads),
+                .claims = Claims(strips_.size())};
+    run_team(threads, [&](int thread) { Worker(*this, piece, thread).run(cycles); });
+    const std::int64_t done = state.clock.cycle - piece.clock.cycle;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     team.report(static_cast<double>(done) * static_cast<double>(disc_count_), seconds.count(),
-                barrier.asleep());
+                piece.barrier.asleep());
     return done;
 }
 

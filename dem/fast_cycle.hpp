@@ -82,7 +82,11 @@ private:
     struct Watch {
         double bound, speed;
         std::int64_t look_interval;
+
+        void enter(double fastest, double time_step);
     };
+    struct Piece; ///< of work that the threads share
+    class Worker; ///< one of them
 
     std::int64_t run_piece(State& state, std::int64_t cycles, BestTeam& team,
                            BaseResponse* response, Links* links);

@@ -48,7 +48,7 @@ void check_scene(const RunCall& call, const Scene& scene, bool on_ranks) {
     if (!on_ranks)
         return;
     if (const auto objection = objection_to_ranks(scene))
-        refuse_scene(call.scene, objection->parameter, objection->message);
+        refuse_scene(call.scene, objection->path, objection->message);
 }
 
 /// What was asked for; on ranks a process has one thread unless it is told otherwise.

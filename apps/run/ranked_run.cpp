@@ -1,6 +1,5 @@
 #include "apps/run/ranked_run.hpp"
 
-#include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/run/run.hpp"
@@ -55,17 +54,13 @@ Scene agreed_scene(Ranks& ranks, const RankedRun& run) {
 
 } // namespace
 
-std::optional<RanksObjection> objection_to_ranks(const Scene& scene) {
+std::optional<Objection> objection_to_ranks(const Scene& scene) {
     if (!scene.hanging_wall)
-        return RanksObjection{"flexure", "has no discs to be shared; start one process"};
-    if (has_effect(scene, "energy"))
-        return RanksObjection{"energy", "adds up energies contact by contact, which one process "
-                                        "can; leave the table out, or start one process"};
-    const ElasticBaseParameters* base = elastic_base(scene);
-    if (base && base->scheme == coupling::CouplingScheme::strong)
-        return RanksObjection{"elastic_base.scheme",
-                              "strong takes cycles back, which one process can; use modal, or "
-                              "start one process"};
+        return Objection{"flexure", "has no discs to be shared; start one process"};
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->on_ranks)
+            if (auto objection = part.effect->on_ranks(scene))
+                return objection;
     return std::nullopt;
 }
 

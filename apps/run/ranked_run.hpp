@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/run/options.hpp"
-#include "apps/scene/scene.hpp"
+#include "apps/scene/effect.hpp"
 #include "dem/ranks.hpp"
 
 #include <functional>
@@ -10,13 +10,8 @@
 
 namespace listric {
 
-/// What several processes cannot make.
-struct RanksObjection {
-    std::string parameter; ///< that asks for it: "table" or "table.key"
-    std::string message;
-};
-
-std::optional<RanksObjection> objection_to_ranks(const Scene& scene);
+/// Why several processes cannot make a scene, if so.
+std::optional<Objection> objection_to_ranks(const Scene& scene);
 
 /// A run that several processes make together.
 struct RankedRun {

@@ -34,6 +34,11 @@ namespace listric {
 /// Refuses a scene because of the value at a path of keys ("table.key"). Throws SceneError.
 using Refuse = std::function<void(const std::string& path, const std::string& message)>;
 
+/// Why a scene cannot be, as Refuse takes it.
+struct Objection {
+    std::string path, message;
+};
+
 /// A parameter that names a file, which is read into what it stands for when the scene is loaded,
 /// so that what a run writes stands alone.
 struct FileParameter {
@@ -161,6 +166,8 @@ struct Effect {
 
     void (*scale)(Scene& scene, const AccuracyLevel& level) = nullptr; ///< defaults by accuracy
     void (*check)(const Scene& scene, const Refuse& refuse) = nullptr;
+    /// Why several processes cannot make it; none: they can.
+    std::optional<Objection> (*on_ranks)(const Scene& scene) = nullptr;
 
     void (*contribute)(const Scene& scene, ModelParts& parts) = nullptr;
     /// @param others  those of the effects before, in the order in which they are applied

@@ -86,6 +86,18 @@ class PlantedViolations(unittest.TestCase):
              "apps/model/footwall.cpp: must not include petsc.h",
              "apps/model/footwall.cpp: must not include fem/elasticity.hpp"])
 
+    def test_mpi_outside_its_plug_in(self):
+        self.assertEqual(
+            self.found(included("dem/ranks/mpi_ranks.cpp", "<mpi.h>", "<petscsf.h>", "<petscksp.h>",
+                                '"dem/ranks.hpp"', '"apps/run/run.hpp"'),
+                       included("dem/links.cpp", "<mpi.h>", '"dem/ranks.hpp"', '"dem/ranks/mpi_ranks.hpp"'),
+                       included("apps/run/join_ranks.cpp", "<dlfcn.h>", "<mpi.h>")),
+            ["dem/ranks/mpi_ranks.cpp: must not include petscksp.h",
+             "dem/ranks/mpi_ranks.cpp: must not include apps/run/run.hpp",
+             "dem/links.cpp: must not include mpi.h",
+             "dem/links.cpp: must not include dem/ranks/mpi_ranks.hpp",
+             "apps/run/join_ranks.cpp: must not include mpi.h"])
+
     def test_what_is_no_include(self):
         self.assertEqual(self.found({"dem/cycle.cpp": '// #include "apps/run/run.hpp"\n'
                                                       'int include;\n'}), [])

@@ -68,6 +68,8 @@ class Installed(unittest.TestCase):
         self.assertIn("lis1-elastic", self.program("scenes"))
         if any(self.prefix.rglob("liblistric_fem.so")):
             self.program("run", "flexure")
+        if any(self.prefix.rglob("liblistric_ranks.so")):
+            self.program("run", "lis1", "--accuracy", "draft", "--until", "0m", "--ranks", "--output", "alone")
 
     def test_editors_and_shells_find_their_files(self):
         share = self.prefix / "share"

@@ -3,10 +3,12 @@
 
 #include "apps/model/effects.hpp"
 #include "dem/cycle.hpp"
+#include "dem/share.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <functional>
 #include <sys/wait.h>
 
@@ -92,6 +94,42 @@ TEST_F(HardRun, ARunGoneWrongIsNamedAndGoesOnFromItsLastState) {
     change_newest(o.output, [&](State& state) { state.clock.time_step = time_step; });
     EXPECT_EQ(run(scene, o)["state_hash"], whole["state_hash"]);
 }
+
+#ifdef LISTRIC_HAS_RANKS
+TEST_F(HardRun, RanksEndTogetherWhereDiscsRunAwayOrAreNowhere) {
+    const Scene scene = load_scene({.scene = test_scene("every-effect.toml")});
+    RunOptions o = options("run");
+    o.until = 100.0;
+    run(scene, o);
+    const fs::path newest = list_snapshots(o.output).back(), kept = folder / "kept.h5";
+    fs::copy_file(newest, kept);
+    const auto rank_of = [](const State& state, std::size_t row) {
+        return ranks_by_rows(state, 2)[row];
+    };
+    const auto lose = [&](std::int32_t rank) { // a disc of that rank
+        return [=](State& state) {
+            std::size_t row = 0;
+            while (rank_of(state, row) != rank)
+                ++row;
+            disc_columns(state).vx[row] = std::nan("");
+        };
+    };
+    const std::function<void(State&)> faults[] = {
+        [](State& state) { state.clock.time_step *= 10.0; }, lose(0), lose(1)};
+    const std::string message = (folder / "message").string();
+    for (const auto& fault : faults) {
+        fs::copy_file(kept, newest, fs::copy_options::overwrite_existing);
+        change_newest(o.output, fault);
+        const std::string call = fmt::format(
+            "timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+            "/usr/bin/mpirun -q --oversubscribe -n 2 '{}' run '{}' --output '{}' --resume --quiet "
+            ">'{}' 2>&1",
+            LISTRIC_PROGRAM, (o.output / "scene.toml").string(), o.output.string(), message);
+        EXPECT_EQ(WEXITSTATUS(std::system(call.c_str())), 3) << contents(message);
+        EXPECT_THAT(contents(message), ContainsRegex("disc [0-9]+ ran away"));
+    }
+}
+#endif
 
 TEST_F(HardRun, AnEventThatCannotBeDoneIsNamedToo) {
     const Scene scene = load_scene(

@@ -309,6 +309,13 @@ double memory(const Scene& scene) {
            8.0 * on_detachment * on_detachment;
 }
 
+std::optional<Objection> on_ranks(const Scene& scene) {
+    if (elastic_base(scene)->scheme != coupling::CouplingScheme::strong)
+        return std::nullopt;
+    return Objection{"elastic_base.scheme", "strong takes cycles back, which one process can; use "
+                                            "modal, or start one process"};
+}
+
 } // namespace
 
 const Effect& elastic_base() {
@@ -329,6 +336,7 @@ const Effect& elastic_base() {
         .scale = [](Scene& scene,
                     const AccuracyLevel& level) { scene.find<P>()->cell_size = level.cell_size; },
         .check = check,
+        .on_ranks = on_ranks,
         .contribute = contribute,
         .explain = explain,
         .price = price,

@@ -61,6 +61,10 @@ const Effect& energy() {
                "long",
         .defaults = make_defaults<P>,
         .address = address_of<P>,
+        .on_ranks = [](const Scene&) -> std::optional<Objection> {
+            return Objection{"energy", "is added up contact by contact, which one process can; "
+                                       "leave the table out, or start one process"};
+        },
         .contribute = [](const Scene&, ModelParts& parts) { parts.accounts_energy = true; },
         .make_events = make_events,
         .measure = measure,
