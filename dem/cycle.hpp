@@ -20,11 +20,11 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics, s
 
 class Links;
 
-/// The same of a share, whose neighbour lists cannot be updated. All ranks call it alike. Only the
-/// clock is up to date then: unpack_share() brings the rest.
+/// The same of a share. All ranks call it alike. Only the clock is up to date then: unpack_share()
+/// brings the rest.
 /// @param execution  with what is packed, kept until then
 /// @param response   null but on the root
-/// Returns the cycles done, on all ranks the same: fewer where lists must be updated.
+/// Returns the cycles done, on all ranks the same: fewer where a disc has run away.
 std::int64_t advance_share(State& share, const RigidBase& base, const CyclePhysics& physics,
                            std::int64_t cycles, const Execution& execution, BaseResponse* response,
                            Links& links);

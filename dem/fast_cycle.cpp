@@ -309,9 +309,15 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
     std::int64_t done = 0;
     while (done < cycles) {
         done += fast.run(state, cycles - done, packed.team_, response, links);
-        if (done == cycles || links)
+        if (done == cycles)
             break;
         fast.unpack(state);
+        if (links) {
+            if (!links->update_lists(base))
+                return done;
+            fast.pack(state, base, physics); // ghosts are others
+            continue;
+        }
         refuse_runaways(state);
         if (update_contacts(state, base))
             fast.pack_contacts(state);

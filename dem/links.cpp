@@ -1,31 +1,39 @@
 #include "dem/links.hpp"
 
 #include "dem/cycle_physics.hpp"
+#include "dem/share_update.hpp"
 
 #include <bit>
 #include <cstring>
 
 namespace listric::dem {
 
-Links::Links(Ranks& ranks, const Share& share) : ranks_(ranks), own_(share.own) {
+Links::Links(Ranks& ranks, Share& share) : ranks_(ranks), share_(share) { connect(); }
+
+void Links::connect() {
     std::vector<std::size_t> sent, received;
-    for (const auto& rows : share.sent) {
-        sent_.insert(sent_.end(), rows.begin(), rows.end());
-        sent.push_back(ghost_numbers * rows.size());
-    }
-    for (const auto& rows : share.received) {
-        received_.insert(received_.end(), rows.begin(), rows.end());
-        received.push_back(ghost_numbers * rows.size());
-    }
+    const auto take = [](const std::vector<std::vector<std::int32_t>>& by_rank,
+                         std::vector<std::int32_t>& all, std::vector<std::size_t>& sizes) {
+        all.clear();
+        for (const auto& rows : by_rank) {
+            all.insert(all.end(), rows.begin(), rows.end());
+            sizes.push_back(ghost_numbers * rows.size());
+        }
+    };
+    take(share_.sent, sent_, sent);
+    take(share_.received, received_, received);
     to_.resize(ghost_numbers * sent_.size());
     from_.resize(ghost_numbers * received_.size());
-    ranks.connect(sent, received);
+    ranks_.connect(sent, received);
 }
 
-double Links::greatest(double number) {
-    std::uint64_t bits = std::bit_cast<std::uint64_t>(number); // in the order of numbers, NaN last
-    ranks_.greatest({&bits, 1});
-    return std::bit_cast<double>(bits);
+bool Links::update_lists(const RigidBase& base) {
+    // All know the same bound.
+    if (!(share_.state.displacement_bound < 10.0 * share_.state.mean_radius))
+        return false;
+    update_share(share_, base, ranks_);
+    connect();
+    return true;
 }
 
 void Links::share_speeds() {

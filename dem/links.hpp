@@ -11,15 +11,20 @@
 namespace listric::dem {
 
 class BaseResponse;
+struct RigidBase;
 
 /// What the cycles of a share tell and ask the other ranks. Called by one thread.
 class Links {
 public:
     /// The share must outlive it. Made by all ranks.
-    Links(Ranks& ranks, const Share& share);
+    Links(Ranks& ranks, Share& share);
+
+    /// Updates the share's lists; its ghosts are others then. False if a disc has run away, or the
+    /// base: the root looks into it.
+    bool update_lists(const RigidBase& base);
 
     /// By row of the share's discs: whether the disc is the rank's own.
-    std::span<const std::uint8_t> own() const { return own_; }
+    std::span<const std::uint8_t> own() const { return share_.own; }
 
     /// Sends numbers of own discs and takes those of ghosts.
     /// @param read   of a row, writes ghost_numbers numbers
@@ -32,8 +37,8 @@ public:
             write(static_cast<std::size_t>(received_[k]), from_.data() + ghost_numbers * k);
     }
 
-    /// The greatest of all ranks' numbers, none of which is negative; NaN is greater than all.
-    double greatest(double number);
+    /// See dem::greatest().
+    double greatest(double number) { return dem::greatest(ranks_, number); }
 
     /// Greatest speeds of cycles that the others have not been told of, m/s.
     std::vector<double> speeds;
@@ -47,8 +52,10 @@ public:
     void respond(State& state, const Clock& clock, BaseResponse* response);
 
 private:
+    void connect();
+
     Ranks& ranks_;
-    std::span<const std::uint8_t> own_;
+    Share& share_;
     std::vector<std::int32_t> sent_, received_; ///< rows, rank after rank
     std::vector<double> to_, from_;
 };

@@ -411,8 +411,7 @@ double greatest_displacement(const State& state, const RigidBase& base, Links& l
                    surface_travel(state, base, state.clock.extension));
 }
 
-/// Keeps the lists good for the cycles up to the next look. Those of a share cannot be updated:
-/// then it returns false.
+/// Keeps the lists good for the cycles up to the next look. False: see Links::update_lists().
 bool look_for_neighbours(State& state, const RigidBase& base, Links* links) {
     if (links)
         enter_speeds(state, *links);
@@ -422,9 +421,10 @@ bool look_for_neighbours(State& state, const RigidBase& base, Links* links) {
         if (!links)
             refuse_runaways(state);
         if (is_update_due(state.displacement_bound, state.skin)) {
-            if (links)
+            if (links && !links->update_lists(base))
                 return false;
-            update_contacts(state, base);
+            if (!links)
+                update_contacts(state, base);
         }
     }
     state.look_interval = next_look_interval(state.look_interval, state.window_speed,
@@ -445,6 +445,7 @@ std::int64_t advance_plainly(State& state, const RigidBase& base, const CyclePhy
         if (state.clock.cycle % state.look_interval == 0 &&
             !look_for_neighbours(state, base, links))
             return done;
+        force.resize(state.discs.rows()); // ghosts come and go
         if (!total) {
             cycle_plainly<false>(state, base, physics, pairs, force, response, nullptr, links);
             continue;

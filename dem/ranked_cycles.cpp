@@ -26,14 +26,15 @@ void RankedCycles::take(Share share) {
 }
 
 void RankedCycles::cut_anew(const State& whole) {
-    rows_.resize(static_cast<std::size_t>(ranks_.count()));
+    own_.resize(static_cast<std::size_t>(ranks_.count()));
     share_ = {};
     Share mine;
     {
         Cut cut(whole, ownership_(whole, ranks_.count()), ranks_.count());
         ranks_.scatter([&](int rank) {
             Share share = cut.share(rank);
-            rows_[static_cast<std::size_t>(rank)] = own_rows(share);
+            const auto own = cut.own(rank);
+            own_[static_cast<std::size_t>(rank)].assign(own.begin(), own.end());
             if (rank != 0)
                 return packed(share);
             mine = std::move(share);
@@ -84,8 +85,9 @@ void RankedCycles::collect(State& whole) {
         return;
     give({.task = Task::collect});
     ranks_.gather(changed(), [&](int rank, const Bytes& letter) {
-        put_back(letter, rank, rows_[static_cast<std::size_t>(rank)], whole);
+        put_back(letter, rank, own_[static_cast<std::size_t>(rank)], whole);
     });
+    sort_contacts(whole);
     is_ahead_ = false;
 }
 

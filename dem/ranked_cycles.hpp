@@ -12,8 +12,8 @@ namespace listric::dem {
 /// Cycles of a whole state on several ranks, with the bits of one. The root has the state and asks
 /// for cycles; the others serve it until it is destroyed.
 ///
-/// Shares are cut anew where neighbour lists are updated and after what is not a cycle. What is
-/// thrown on the root may leave the others waiting: then Ranks::abort() ends them.
+/// Shares are cut anew after what is not a cycle. What is thrown on the root may leave the others
+/// waiting: then Ranks::abort() ends them.
 class RankedCycles {
 public:
     /// The rank of every disc, by row.
@@ -65,8 +65,8 @@ private:
     Packed packed_; ///< of the share
     Share share_;
     std::unique_ptr<Links> links_;
-    std::vector<OwnRows> rows_; ///< on the root, of all ranks
-    bool is_ahead_ = false;     ///< the shares are, of the whole
+    std::vector<std::vector<std::int32_t>> own_; ///< on the root, by rank, rows of its discs
+    bool is_ahead_ = false;                      ///< the shares are, of the whole
 };
 
 } // namespace listric::dem

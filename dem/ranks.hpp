@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -29,6 +30,8 @@ public:
     virtual void sum(std::span<std::int64_t> numbers) = 0;       ///< over all ranks, one by one
     virtual void broadcast(Bytes& bytes) = 0;                    ///< from the root, of any length
 
+    /// A letter of any length for each rank; returns theirs.
+    virtual std::vector<Bytes> trade(std::vector<Bytes> letters) = 0;
     /// To the root from all ranks, in their order, one letter after the other.
     using Take = std::function<void(int rank, const Bytes& letter)>;
     virtual void gather(Bytes letter, const Take& take) = 0;
@@ -39,5 +42,12 @@ public:
     /// Ends the processes of all ranks. The only call that one rank makes alone.
     virtual void abort(int exit_code) = 0;
 };
+
+/// The greatest of all ranks' numbers, none of which is negative; NaN is greater than all.
+inline double greatest(Ranks& ranks, double number) {
+    auto bits = std::bit_cast<std::uint64_t>(number); // in the order of numbers, NaN last
+    ranks.greatest({&bits, 1});
+    return std::bit_cast<double>(bits);
+}
 
 } // namespace listric::dem

@@ -1,10 +1,12 @@
 #include "dem/share.hpp"
 
-#include "dem/bytes.hpp"
+#include "dem/table_bytes.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <functional>
+#include <initializer_list>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -20,33 +22,13 @@ bool is_for_cycles(const std::string& name) {
            name == "radius_rate" || name == "inertial_radius";
 }
 
-/// The rows of a table that are asked for, of columns for which is_wanted(name) holds.
-template <class Wanted>
-Table selected(const Table& table, std::span<const std::int32_t> rows, Wanted&& is_wanted) {
-    Table result;
-    for (const Column& column : table.columns()) {
-        if (!is_wanted(column.name))
-            continue;
-        Column part{column.name, column.unit, {}, column.initial, column.begins_as};
-        std::visit(
-            [&](const auto& values) {
-                std::decay_t<decltype(values)> chosen;
-                chosen.reserve(rows.size());
-                for (const std::int32_t row : rows)
-                    chosen.push_back(values[static_cast<std::size_t>(row)]);
-                part.values = std::move(chosen);
-            },
-            column.values);
-        result.set(std::move(part));
-    }
-    return result;
+/// Whether cycles, or updates of neighbour lists, change a column of discs.
+bool is_changed(const std::string& name) {
+    constexpr const char* names[] = {"x",        "y",          "vx",        "vy",
+                                     "rotation", "spin",       "radius",    "mean_vx",
+                                     "mean_vy",  "searched_x", "searched_y"};
+    return std::ranges::find(names, name) != std::end(names);
 }
-
-/// Of what the cycle writes.
-constexpr const char* disc_names[] = {"x",    "y",      "vx",      "vy",     "rotation",
-                                      "spin", "radius", "mean_vx", "mean_vy"};
-constexpr const char* contact_names[] = {"shear_force", "bonded"};
-constexpr const char* base_contact_names[] = {"shear_force", "place"};
 
 } // namespace
 
@@ -108,8 +90,6 @@ Share Cut::share(int of) {
     Share share;
     share.rows.resize(mine.own.size() + mine.ghosts.size());
     std::ranges::merge(mine.own, mine.ghosts, share.rows.begin());
-    share.contacts = mine.contacts;
-    share.base_contacts = mine.base_contacts;
     share.sent.resize(lists_.size());
     share.received.resize(lists_.size());
     for (std::size_t k = 0; k < share.rows.size(); ++k) {
@@ -125,10 +105,9 @@ Share Cut::share(int of) {
                 share.sent[other].push_back(local_[static_cast<std::size_t>(row)]);
 
     State& part = share.state;
-    const auto any = [](const std::string&) { return true; };
     part.discs = selected(whole_.discs, share.rows, is_for_cycles);
-    part.contacts = selected(whole_.contacts, share.contacts, any);
-    part.base_contacts = selected(whole_.base_contacts, share.base_contacts, any);
+    part.contacts = selected(whole_.contacts, mine.contacts);
+    part.base_contacts = selected(whole_.base_contacts, mine.base_contacts);
     part.base_nodes = whole_.base_nodes;
     if (of != 0) // the root's have the loads of all
         for (const auto loads : {base_node_columns(part).load_x, base_node_columns(part).load_y})
@@ -155,99 +134,26 @@ Share Cut::share(int of) {
     return share;
 }
 
-OwnRows own_rows(const Share& share) {
-    OwnRows own;
-    for (std::size_t k = 0; k < share.rows.size(); ++k)
-        if (share.own[k])
-            own.discs.push_back(share.rows[k]);
-    const auto first = contact_columns(share.state).first;
-    for (std::size_t k = 0; k < share.contacts.size(); ++k)
-        if (share.own[static_cast<std::size_t>(first[k])])
-            own.contacts.push_back(share.contacts[k]);
-    own.base_contacts = share.base_contacts;
-    return own;
-}
-
 namespace {
-
-/// Values of the columns of these names in the rows for which is_wanted(row) holds.
-template <class Wanted>
-void add_values(const Table& table, std::span<const char* const> names, Wanted&& is_wanted,
-                BytesOut& to) {
-    for (const char* name : names) {
-        const auto column = std::ranges::find(table.columns(), name, &Column::name);
-        if (column == table.columns().end())
-            continue;
-        std::visit(
-            [&]<class T>(const std::vector<T>& values) {
-                std::vector<T> wanted;
-                for (std::size_t k = 0; k < values.size(); ++k)
-                    if (is_wanted(k))
-                        wanted.push_back(values[k]);
-                to.add(wanted);
-            },
-            column->values);
-    }
-}
-
-void take_values(BytesIn& from, std::span<const char* const> names,
-                 std::span<const std::int32_t> rows, Table& table) {
-    for (const char* name : names) {
-        const auto column = std::ranges::find(table.columns(), name, &Column::name);
-        if (column == table.columns().end())
-            continue;
-        std::visit(
-            [&]<class T>(const std::vector<T>&) {
-                const std::vector<T> values = from.take_all<T>();
-                const auto to = table.get<T>(name);
-                assert(values.size() == rows.size());
-                for (std::size_t k = 0; k < rows.size(); ++k)
-                    to[static_cast<std::size_t>(rows[k])] = values[k];
-            },
-            column->values);
-    }
-}
 
 /// What every rank knows.
 struct Known {
     Clock clock;
-    double displacement_bound, window_speed;
+    double searched_extension, displacement_bound, window_speed;
     std::int64_t look_interval;
 };
 
-void add_table(const Table& table, BytesOut& to) {
-    to.add(table.columns().size());
-    for (const Column& column : table.columns()) {
-        to.add(std::string_view(column.name));
-        to.add(std::string_view(column.unit));
-        to.add(std::string_view(column.begins_as));
-        to.add(column.values.index());
-        std::visit([&](const auto& values) { to.add(values); }, column.values);
-        std::visit([&](const auto& initial) { to.add(initial); }, column.initial);
-    }
+Known known(const State& state) {
+    return {state.clock, state.searched_extension, state.displacement_bound, state.window_speed,
+            state.look_interval};
 }
 
-template <std::size_t index = 0> void take_values(BytesIn& from, std::size_t wanted, Column& to) {
-    if constexpr (index < std::variant_size_v<Column::Values>) {
-        if (index != wanted)
-            return take_values<index + 1>(from, wanted, to);
-        using T = typename std::variant_alternative_t<index, Column::Values>::value_type;
-        to.values = from.take_all<T>();
-        to.initial = from.take<T>();
-    }
-}
-
-Table take_table(BytesIn& from) {
-    Table table;
-    for (auto columns = from.take<std::size_t>(); columns > 0; --columns) {
-        Column column;
-        column.name = from.take_text();
-        column.unit = from.take_text();
-        column.begins_as = from.take_text();
-        take_values(from, from.take<std::size_t>(), column);
-        table.set(std::move(column));
-    }
-    return table;
+void know(const Known& known, State& state) {
+    state.clock = known.clock;
+    state.searched_extension = known.searched_extension;
+    state.displacement_bound = known.displacement_bound;
+    state.window_speed = known.window_speed;
+    state.look_interval = known.look_interval;
 }
 
 /// Adds the loads on the nodes of a base to others of the same nodes.
@@ -258,39 +164,92 @@ void add_loads(const Table& nodes, Table& to) {
                                    to.get<std::int64_t>(name).begin(), std::plus());
 }
 
+/// Rows for which is_wanted(row) holds.
+template <class Wanted> std::vector<std::int32_t> rows_where(std::size_t rows, Wanted&& is_wanted) {
+    std::vector<std::int32_t> wanted;
+    for (std::size_t k = 0; k < rows; ++k)
+        if (is_wanted(k))
+            wanted.push_back(static_cast<std::int32_t>(k));
+    return wanted;
+}
+
+/// Adds those rows of a table of pairs, with the discs' rows in the whole.
+void add_pairs(const Table& table, std::span<const std::int32_t> rows,
+               std::initializer_list<const char*> discs, const Share& share, BytesOut& to) {
+    Table pairs = selected(table, rows);
+    for (const char* name : discs)
+        for (std::int32_t& disc : pairs.get<std::int32_t>(name))
+            disc = share.rows[static_cast<std::size_t>(disc)];
+    add_table(pairs, to);
+}
+
+void put_values(const Table& from, std::span<const std::int32_t> rows, Table& to) {
+    for (const Column& column : from.columns())
+        std::visit(
+            [&]<class T>(const std::vector<T>& values) {
+                const auto all = to.get<T>(column.name);
+                for (std::size_t k = 0; k < rows.size(); ++k)
+                    all[static_cast<std::size_t>(rows[k])] = values[k];
+            },
+            column.values);
+}
+
+/// In the order of pairs, if they are not.
+void sort_pairs(Table& table, const char* first_name, const char* second_name) {
+    const auto first = table.get<std::int32_t>(first_name);
+    const auto second = table.get<std::int32_t>(second_name);
+    const auto pair_of = [&](std::int32_t row) {
+        return std::pair(first[static_cast<std::size_t>(row)],
+                         second[static_cast<std::size_t>(row)]);
+    };
+    std::vector<std::int32_t> order = rows_where(first.size(), [](std::size_t) { return true; });
+    if (std::ranges::is_sorted(order, {}, pair_of))
+        return;
+    std::ranges::sort(order, {}, pair_of);
+    table.reorder(order);
+}
+
 } // namespace
 
 Bytes changes(const Share& share) {
     const State& state = share.state;
     BytesOut to;
-    to.add(Known{state.clock, state.displacement_bound, state.window_speed, state.look_interval});
-    add_values(
-        state.discs, disc_names, [&](std::size_t k) { return share.own[k] != 0; }, to);
+    to.add(known(state));
+    const auto own = rows_where(share.rows.size(), [&](std::size_t k) { return share.own[k]; });
+    add_table(selected(state.discs, own, is_changed), to);
     // Both ranks of a contact have it; that of the first disc is asked.
     const auto first = contact_columns(state).first;
-    add_values(
-        state.contacts, contact_names,
-        [&](std::size_t k) { return share.own[static_cast<std::size_t>(first[k])] != 0; }, to);
-    add_values(
-        state.base_contacts, base_contact_names, [](std::size_t) { return true; }, to);
+    add_pairs(
+        state.contacts,
+        rows_where(first.size(),
+                   [&](std::size_t k) { return share.own[static_cast<std::size_t>(first[k])]; }),
+        {"first", "second"}, share, to);
+    add_pairs(state.base_contacts,
+              rows_where(state.base_contacts.rows(), [](std::size_t) { return true; }), {"disc"},
+              share, to);
     add_table(state.base_nodes, to);
     return to.take();
 }
 
-void put_back(const Bytes& changes, int rank, const OwnRows& rows, State& whole) {
+void put_back(const Bytes& changes, int rank, std::span<const std::int32_t> own, State& whole) {
     BytesIn from(changes);
-    const auto known = from.take<Known>();
-    whole.clock = known.clock;
-    whole.displacement_bound = known.displacement_bound;
-    whole.window_speed = known.window_speed;
-    whole.look_interval = known.look_interval;
-    take_values(from, disc_names, rows.discs, whole.discs);
-    take_values(from, contact_names, rows.contacts, whole.contacts);
-    take_values(from, base_contact_names, rows.base_contacts, whole.base_contacts);
+    know(from.take<Known>(), whole);
+    put_values(take_table(from), own, whole.discs);
+    for (Table* pairs : {&whole.contacts, &whole.base_contacts}) {
+        if (rank == 0)
+            *pairs = take_table(from);
+        else
+            append_rows(take_table(from), *pairs);
+    }
     Table nodes = take_table(from);
     if (rank != 0)
         add_loads(whole.base_nodes, nodes);
     whole.base_nodes = std::move(nodes);
+}
+
+void sort_contacts(State& whole) {
+    sort_pairs(whole.contacts, "first", "second");
+    sort_pairs(whole.base_contacts, "disc", "surface");
 }
 
 Bytes packed(const Share& share) {
@@ -300,12 +259,10 @@ Bytes packed(const Share& share) {
          {&state.discs, &state.contacts, &state.base_contacts, &state.base_nodes})
         add_table(*table, to);
     to.add(state.materials);
-    to.add(Known{state.clock, state.displacement_bound, state.window_speed, state.look_interval});
-    for (const double number :
-         {state.mean_radius, state.inertial_mass_floor, state.skin, state.searched_extension})
+    to.add(known(state));
+    for (const double number : {state.mean_radius, state.inertial_mass_floor, state.skin})
         to.add(number);
-    for (const auto* rows : {&share.rows, &share.contacts, &share.base_contacts})
-        to.add(*rows);
+    to.add(share.rows);
     to.add(share.own);
     to.add(share.sent.size());
     for (const auto* by_rank : {&share.sent, &share.received})
@@ -321,16 +278,10 @@ Share unpacked(const Bytes& bytes) {
     for (Table* table : {&state.discs, &state.contacts, &state.base_contacts, &state.base_nodes})
         *table = take_table(from);
     state.materials = from.take_all<Material>();
-    const auto known = from.take<Known>();
-    state.clock = known.clock;
-    state.displacement_bound = known.displacement_bound;
-    state.window_speed = known.window_speed;
-    state.look_interval = known.look_interval;
-    for (double* number :
-         {&state.mean_radius, &state.inertial_mass_floor, &state.skin, &state.searched_extension})
+    know(from.take<Known>(), state);
+    for (double* number : {&state.mean_radius, &state.inertial_mass_floor, &state.skin})
         *number = from.take<double>();
-    for (auto* rows : {&share.rows, &share.contacts, &share.base_contacts})
-        *rows = from.take_all<std::int32_t>();
+    share.rows = from.take_all<std::int32_t>();
     share.own = from.take_all<std::uint8_t>();
     const auto count = from.take<std::size_t>();
     for (auto* by_rank : {&share.sent, &share.received})

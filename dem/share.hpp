@@ -19,7 +19,6 @@ struct Share {
     State state;
     std::vector<std::int32_t> rows; ///< in the whole, by row of the share's discs
     std::vector<std::uint8_t> own;  ///< by row of the share's discs
-    std::vector<std::int32_t> contacts, base_contacts; ///< rows in the whole of the share's
 
     /// What is renewed after every cycle, by the other rank: own discs that are ghosts there, and
     /// ghosts that are its own, as rows of the share in the order of the whole.
@@ -39,6 +38,11 @@ public:
 
     Share share(int rank);
 
+    /// Rows of a rank's own discs.
+    std::span<const std::int32_t> own(int rank) const {
+        return lists_[static_cast<std::size_t>(rank)].own;
+    }
+
 private:
     /// Rows of the whole that go into one share.
     struct Lists {
@@ -52,20 +56,17 @@ private:
     std::vector<std::int32_t> local_; ///< by row of the whole, that in the share made last
 };
 
-/// Where in the whole a rank's own discs are, the contacts whose first disc is its own, and its
-/// base contacts: rows, as they are in its share.
-struct OwnRows {
-    std::vector<std::int32_t> discs, contacts, base_contacts;
-};
-
-OwnRows own_rows(const Share& share);
-
-/// What cycles have changed of these, and what all ranks know alike: clock, bound and nodes of the
-/// base.
+/// What cycles have changed of own discs; contacts whose first disc is own, and those with the
+/// base; and what all ranks know alike: clock, bound and nodes of the base.
 Bytes changes(const Share& share);
 
-/// Puts them into the whole, those of rank 0 first: loads on the nodes of the base add up.
-void put_back(const Bytes& changes, int rank, const OwnRows& rows, State& whole);
+/// Puts them into the whole, those of rank 0 first: contacts are added one after the other, and
+/// loads on the nodes of the base.
+/// @param own  rows of the rank's discs in the whole
+void put_back(const Bytes& changes, int rank, std::span<const std::int32_t> own, State& whole);
+
+/// Contacts of all ranks, once they have been put back.
+void sort_contacts(State& whole);
 
 /// A share as bytes, and back.
 Bytes packed(const Share& share);

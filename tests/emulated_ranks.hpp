@@ -18,8 +18,8 @@ class EmulatedRanks {
 public:
     explicit EmulatedRanks(int count)
         : count_(count), barrier_(count), bytes_(static_cast<std::size_t>(count)),
-          numbers_(static_cast<std::size_t>(count)), bits_(static_cast<std::size_t>(count)),
-          sums_(static_cast<std::size_t>(count)) {}
+          letters_(static_cast<std::size_t>(count)), numbers_(static_cast<std::size_t>(count)),
+          bits_(static_cast<std::size_t>(count)), sums_(static_cast<std::size_t>(count)) {}
 
     /// Calls root(ranks) in this thread and other(ranks) in one for each of the others.
     template <class Root, class Other> void run(Root&& root, Other&& other) {
@@ -36,6 +36,7 @@ public:
     }
 
     std::size_t exchanged = 0; ///< numbers that the root has sent to others, in all
+    std::size_t trades = 0;
 
 private:
     class One : public dem::Ranks {
@@ -86,6 +87,17 @@ private:
             bytes = all_.bytes_[0];
             wait();
         }
+        std::vector<dem::Bytes> trade(std::vector<dem::Bytes> letters) override {
+            of(all_.letters_) = std::move(letters);
+            if (mine_ == 0)
+                ++all_.trades;
+            wait();
+            std::vector<dem::Bytes> received;
+            for (const auto& sent : all_.letters_)
+                received.push_back(sent[static_cast<std::size_t>(mine_)]);
+            wait();
+            return received;
+        }
         void gather(dem::Bytes letter, const Take& take) override {
             of(all_.bytes_) = std::move(letter);
             wait();
@@ -132,6 +144,7 @@ private:
     int count_;
     std::barrier<> barrier_;
     std::vector<dem::Bytes> bytes_;                         ///< by rank
+    std::vector<std::vector<dem::Bytes>> letters_;          ///< by rank, to rank
     std::vector<std::vector<std::vector<double>>> numbers_; ///< by rank, to rank
     std::vector<std::vector<std::uint64_t>> bits_;
     std::vector<std::vector<std::int64_t>> sums_;

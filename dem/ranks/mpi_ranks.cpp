@@ -103,6 +103,32 @@ public:
         require(MPI_Bcast(bytes.data(), as_int(size), MPI_BYTE, 0, all_), "MPI_Bcast");
     }
 
+    std::vector<Bytes> trade(std::vector<Bytes> letters) override {
+        const auto ranks = static_cast<std::size_t>(count_);
+        std::vector<std::uint64_t> there, here(ranks);
+        for (const Bytes& letter : letters)
+            there.push_back(letter.size());
+        require(MPI_Alltoall(there.data(), 1, MPI_UINT64_T, here.data(), 1, MPI_UINT64_T, all_),
+                "MPI_Alltoall");
+        std::vector<Bytes> received(ranks);
+        std::vector<MPI_Request> requests;
+        for (std::size_t rank = 0; rank < ranks; ++rank) {
+            received[rank].resize(here[rank]);
+            if (here[rank] > 0)
+                require(MPI_Irecv(received[rank].data(), as_int(here[rank]), MPI_BYTE,
+                                  static_cast<int>(rank), traded, all_, &requests.emplace_back()),
+                        "MPI_Irecv");
+        }
+        for (std::size_t rank = 0; rank < ranks; ++rank)
+            if (there[rank] > 0)
+                require(MPI_Isend(letters[rank].data(), as_int(there[rank]), MPI_BYTE,
+                                  static_cast<int>(rank), traded, all_, &requests.emplace_back()),
+                        "MPI_Isend");
+        require(
+            MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE),
+            "MPI_Waitall");
+        return received;
+    }
     void gather(Bytes letter, const Take& take) override {
         if (mine_ != 0)
             return send(letter, 0, gathered);
@@ -121,7 +147,7 @@ public:
     void abort(int exit_code) override { MPI_Abort(MPI_COMM_WORLD, exit_code); }
 
 private:
-    static constexpr int gathered = 1, scattered = 2;
+    static constexpr int gathered = 1, scattered = 2, traded = 3;
 
     void send(const Bytes& letter, int rank, int tag) const {
         require(MPI_Send(letter.data(), as_int(letter.size()), MPI_BYTE, rank, tag, all_),

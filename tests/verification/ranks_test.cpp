@@ -96,6 +96,7 @@ protected:
             },
             [&](Ranks& other) { RankedCycles(other, parts.base, parts.physics, how).serve(); });
         EXPECT_EQ(ranks.exchanged > 0, count > 1);
+        EXPECT_GT(ranks.trades, 10u); // two for every update of lists
         return hash;
     }
 
