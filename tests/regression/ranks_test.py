@@ -151,7 +151,7 @@ class Ends(Ranks):
                          whole["state_hash"])
 
     def test_a_rank_that_is_killed(self):
-        whole = self.summary(0, "whole", "lis1", "--until", "100m")
+        whole = self.summary(0, "whole", "lis1", "--until", "1km")
         run = self.begin(3, "run", "lis1", "--until", "1km")
         os.kill(processes_of(self.folder / "run")[-1], signal.SIGKILL)
         begun = time.monotonic()
@@ -160,7 +160,7 @@ class Ends(Ranks):
         while processes_of(self.folder / "run") and time.monotonic() < begun + 5.0:
             time.sleep(0.05)
         self.assertEqual(processes_of(self.folder / "run"), [])
-        self.assertEqual(self.summary(2, "run", "lis1", "--until", "100m", "--resume")["state_hash"],
+        self.assertEqual(self.summary(2, "run", "lis1", "--until", "1km", "--resume")["state_hash"],
                          whole["state_hash"])
 
 
