@@ -125,8 +125,7 @@ protected:
                                        LISTRIC_SOURCE_DIR "/tests/regression/render_paraview.py",
                                        (run / "paraview.pvd").string());
         if (!picture.empty())
-            line = fmt::format("{}{} '{}'", display(), line,
-                               (folder / picture).string());
+            line = fmt::format("{}{} '{}'", display(), line, (folder / picture).string());
         const int status =
             std::system(fmt::format("{} >'{}' 2>'{}'", line, (folder / "stdout").string(),
                                     (folder / "stderr").string())
@@ -270,8 +269,8 @@ TEST_F(ParaviewTest, OneCallShowsTheLastMoment) {
     ASSERT_TRUE(on_path("pvpython")) << "package python3-paraview";
     const fs::path picture = folder / "view.png";
     const std::string line =
-        fmt::format("{}pvpython '{}' '{}' 2>'{}'", display(),
-                    (run / "paraview.py").string(), picture.string(), (folder / "stderr").string());
+        fmt::format("{}pvpython '{}' '{}' 2>'{}'", display(), (run / "paraview.py").string(),
+                    picture.string(), (folder / "stderr").string());
     EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 0) << contents(folder / "stderr");
     EXPECT_THAT(contents(picture), HasSubstr("IEND"));
 }
