@@ -30,8 +30,8 @@ public:
     RankedCycles(const RankedCycles&) = delete;
     RankedCycles& operator=(const RankedCycles&) = delete;
 
-    /// As dem::advance(), on the root, but that only the clock of the state is up to date until
-    /// collect(). Throws NumericalFailure if a disc runs away.
+    /// As dem::advance(), on the root, but that until collect() only the clock of the state is up
+    /// to date, and its contacts are with the shares. Throws NumericalFailure if a disc runs away.
     /// @param known  holds if the state is what the last call has left
     void advance(State& whole, std::int64_t cycles, Packed& known,
                  BaseResponse* response = nullptr);
@@ -52,7 +52,7 @@ private:
     };
 
     void give(const Order& order);
-    void cut_anew(const State& whole);
+    void cut_anew(State& whole);
     void take(Share share);
     std::int64_t carry_out(const Order& order, BaseResponse* response);
     Bytes changed();

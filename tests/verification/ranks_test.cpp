@@ -7,6 +7,7 @@
 #include "dem/simulation.hpp"
 #include "tests/emulated_ranks.hpp"
 #include "tests/scene_runs.hpp"
+#include "tests/support.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -142,6 +143,46 @@ TEST_F(RanksTest, ABaseAnswersToTheLoadsOfAllRanks) {
                 whole);
             EXPECT_EQ(base.answers, whole_base.answers);
         }
+}
+
+/// What discs in a box come to on ranks; without ranks (0) in one process.
+std::uint64_t hash_of_fallen(const State& start, int count, const Execution& how) {
+    const RigidBase base = support::box(200.0, 100.0, 0.3);
+    const CyclePhysics physics{.damping = 0.1, .gravity = 9.81};
+    State state = start;
+    find_contacts(state, base);
+    constexpr std::int64_t cycles = 2000;
+    if (count == 0) {
+        advance(state, base, physics, cycles, how);
+        return hash(state);
+    }
+    support::EmulatedRanks ranks(count);
+    ranks.run(
+        [&](Ranks& root) {
+            RankedCycles on_ranks(root, base, physics, how);
+            Packed known;
+            on_ranks.advance(state, cycles, known);
+            on_ranks.collect(state);
+        },
+        [&](Ranks& other) { RankedCycles(other, base, physics, how).serve(); });
+    return hash(state);
+}
+
+TEST(Ranks, MayHaveOneDiscOrFewerThanATileEach) {
+    for (const auto& discs :
+         {std::vector<support::Disc>{{50.0, 20.0, 4.0}}, support::cloud(4, 3, 10.0, 1)}) {
+        State state = support::make_state(discs, {1e9, 1e9, 0.5, false});
+        for (double& y : disc_columns(state).y)
+            y += 20.0;
+        state.clock.time_step = 1e-3;
+        for (const Cycle cycle : {Cycle::plain, best_cycle()}) {
+            const std::uint64_t whole = hash_of_fallen(state, 0, {.cycle = cycle});
+            EXPECT_NE(whole, hash(state));
+            for (const int count : {2, 3, 8})
+                EXPECT_EQ(hash_of_fallen(state, count, {.cycle = cycle}), whole)
+                    << discs.size() << " discs on " << count << " ranks, " << name(cycle);
+        }
+    }
 }
 
 } // namespace
