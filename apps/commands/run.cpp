@@ -56,8 +56,6 @@ RunOptions options_of(const RunCall& call, const Scene& scene, bool on_ranks) {
     RunOptions options = call.options;
     if (on_ranks && call.threads->count() == 0)
         options.threads = 1;
-    if (call.until)
-        options.until = parse_length(*call.until);
     options.output = call.output.empty() ? "out/" + scene.name : call.output;
     options.report = !call.no_report;
     return options;
@@ -80,6 +78,8 @@ ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
 }
 
 ExitCode run(RunCall& call) {
+    if (call.until)
+        call.options.until = parse_length(*call.until);
     call.options.stop = stop_on_signals();
     const Launch launch = read_launch();
     if (launch.count > 1 || call.ranks) {

@@ -35,18 +35,19 @@ Scene agreed_scene(Ranks& ranks, const RankedRun& run) {
     }
     if (all_are_well(ranks, scene.has_value()))
         return std::move(*scene);
-    if (ranks.mine() != 0) {
-        Bytes nothing;
-        ranks.broadcast(nothing); // the root tells what is wrong and ends all
-    }
     if (problem)
         std::rethrow_exception(problem);
     throw UsageError("not all processes can read the scene; do their machines see the same files?");
 }
 
-/// Tells what has been thrown, and ends all ranks.
+/// Tells what has been thrown, and ends all ranks. What is wrong with the call the root tells, too:
+/// the others wait for that, or for the next that it has to say.
 [[noreturn]] void end_all(Ranks& ranks) {
     const Ending ending = ending_of(std::current_exception());
+    if (ranks.mine() != 0 && ending.code == ExitCode::bad_call) {
+        Bytes next;
+        ranks.broadcast(next);
+    }
     tell(ending);
     ranks.abort(static_cast<int>(ending.code));
     std::_Exit(static_cast<int>(ending.code));

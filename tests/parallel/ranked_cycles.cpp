@@ -1,7 +1,7 @@
-// Cycles alone, on as many ranks as mpirun starts: prints discs, the ranks, their million
-// disc-steps per second and the greatest memory of all together, bytes per disc; the root's hash at
-// the end.
-//   mpirun -n 2 ranked_cycles SCENE ACCURACY RADIUS_M CYCLES REPEATS
+// Cycles alone, on as many ranks as mpirun starts, with so many threads each: prints million
+// disc-steps per second, and the greatest memory of all ranks together beyond what they had before
+// there was a state, bytes per disc; or the hash at the end, for which the state is collected.
+//   mpirun -n 2 ranked_cycles SCENE ACCURACY RADIUS_M CYCLES REPEATS THREADS [hash]
 
 #include "dem/ranked_cycles.hpp"
 #include "apps/model/effects.hpp"
@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <malloc.h>
 #include <string>
 #include <thread>
 
@@ -37,7 +38,7 @@ std::int64_t memory(const std::string& name) {
 } // namespace
 
 int main(int count, char** words) {
-    if (count != 6)
+    if (count < 7)
         return 2;
     const auto ranks = join_ranks(read_launch());
     const std::int64_t before = memory("VmRSS");
@@ -45,7 +46,8 @@ int main(int count, char** words) {
                                     .set = {std::string("hanging_wall.mean_radius_m=") + words[3]},
                                     .accuracy = words[2]});
     const ModelParts parts = make_parts(scene);
-    const Execution how;
+    const Execution how{.threads = std::atoi(words[6])};
+    const bool hashes = count > 7;
     std::int64_t discs = 0;
     {
         RankedCycles on_ranks(*ranks, parts.base, parts.physics, how);
@@ -57,6 +59,7 @@ int main(int count, char** words) {
                 scene, parts, log, {}, static_cast<int>(std::thread::hardware_concurrency()));
             add_mean_velocities(state);
             find_contacts(state, parts.base);
+            malloc_trim(0);
             std::ofstream("/proc/self/clear_refs") << 5; // the greatest memory from here on
             discs = static_cast<std::int64_t>(state.discs.rows());
             const std::int64_t cycles = std::atoll(words[4]);
@@ -66,18 +69,20 @@ int main(int count, char** words) {
                 if (ranks->count() > 1)
                     on_ranks.advance(state, cycles, known);
                 else
-                    advance(state, parts.base, parts.physics, cycles, {.packed = &known});
+                    advance(state, parts.base, parts.physics, cycles,
+                            {.threads = how.threads, .packed = &known});
                 const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
                 std::printf("%.2f\n", static_cast<double>(discs * cycles) / took.count() / 1e6);
             }
-            on_ranks.collect(state);
-            std::printf("%lld discs, %d ranks, %016lx\n", static_cast<long long>(discs),
-                        ranks->count(), hash(state));
+            if (hashes) {
+                on_ranks.collect(state);
+                std::printf("%016lx\n", hash(state));
+            }
         }
     }
     std::int64_t numbers[] = {memory("VmHWM") - before, discs};
     ranks->sum(numbers);
-    if (ranks->mine() == 0)
-        std::printf("%.0f bytes per disc\n",
+    if (ranks->mine() == 0 && !hashes)
+        std::printf("%lld discs, %.0f bytes per disc\n", static_cast<long long>(numbers[1]),
                     static_cast<double>(numbers[0]) / static_cast<double>(numbers[1]));
 }
