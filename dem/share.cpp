@@ -77,7 +77,8 @@ Cut::Cut(const State& whole, std::vector<std::int32_t> rank, int count)
             .base_contacts.push_back(static_cast<std::int32_t>(k));
     for (Lists& lists : lists_) {
         std::ranges::sort(lists.ghosts);
-        lists.ghosts.erase(std::ranges::unique(lists.ghosts).begin(), lists.ghosts.end());
+        lists.ghosts.erase(std::unique(lists.ghosts.begin(), lists.ghosts.end()),
+                           lists.ghosts.end());
     }
 }
 

@@ -208,7 +208,7 @@ void connect(Share& share, const std::vector<std::int32_t>& rank) {
     for (auto* by_rank : {&share.sent, &share.received})
         for (auto& rows : *by_rank) {
             std::ranges::sort(rows);
-            rows.erase(std::ranges::unique(rows).begin(), rows.end());
+            rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
         }
 }
 

@@ -175,6 +175,6 @@ private:
 
 /// The processes that mpirun or srun has started. Starts MPI and PETSc, which end with what it
 /// returns; the caller deletes it.
-extern "C" __attribute__((visibility("default"))) listric::dem::Ranks* LISTRIC_RANKS_ENTRY() {
-    return new listric::dem::MpiRanks();
-}
+extern "C" __attribute__((visibility("default"))) listric::dem::Ranks* LISTRIC_RANKS_ENTRY();
+
+listric::dem::Ranks* LISTRIC_RANKS_ENTRY() { return new listric::dem::MpiRanks(); }
