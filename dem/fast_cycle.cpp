@@ -48,15 +48,7 @@ double FastCycle::move_base(State& state, const BaseNodeColumns& nodes, const Cl
     for (const Strip& strip : strips_)
         for (const NodeContact& c : strip.node_contacts)
             add_load(nodes, c.force, c.contact.surface->degree);
-    const std::int64_t interval = links      ? links->response_interval
-                                  : response ? response->interval
-                                             : 0;
-    if (interval > 0 && (clock.cycle + 1) % interval == 0) {
-        if (links)
-            links->respond(state, clock, response);
-        else
-            response->respond(state, clock);
-    }
+    respond_if_due(state, clock, response, links);
     return move_nodes(nodes, clock.time_step);
 }
 

@@ -64,4 +64,16 @@ void Links::respond(State& state, const Clock& clock, BaseResponse* response) {
         std::ranges::fill(loads, 0); // the response has them, or there is none
 }
 
+void respond_if_due(State& state, const Clock& clock, BaseResponse* response, Links* links) {
+    const std::int64_t interval = links      ? links->response_interval
+                                  : response ? response->interval
+                                             : 0;
+    if (interval == 0 || (clock.cycle + 1) % interval != 0)
+        return;
+    if (links)
+        links->respond(state, clock, response);
+    else
+        response->respond(state, clock);
+}
+
 } // namespace listric::dem

@@ -60,4 +60,8 @@ private:
     std::vector<double> to_, from_;
 };
 
+/// Lets a base that deforms answer at the end of a cycle where its time has come, of a whole state
+/// or, with links, of all shares.
+void respond_if_due(State& state, const Clock& clock, BaseResponse* response, Links* links);
+
 } // namespace listric::dem

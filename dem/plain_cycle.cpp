@@ -325,15 +325,7 @@ double move_discs(State& state, const CyclePhysics& physics, UndampedMotion unda
 /// Lets the nodes of a base that deforms answer and move. Returns the largest component of a
 /// velocity, m/s.
 double move_base(State& state, const Clock& clock, BaseResponse* response, Links* links) {
-    const std::int64_t interval = links      ? links->response_interval
-                                  : response ? response->interval
-                                             : 0;
-    if (interval > 0 && (clock.cycle + 1) % interval == 0) {
-        if (links)
-            links->respond(state, clock, response);
-        else
-            response->respond(state, clock);
-    }
+    respond_if_due(state, clock, response, links);
     return move_nodes(base_node_columns(state), clock.time_step);
 }
 

@@ -30,6 +30,8 @@ public:
     RankedCycles(const RankedCycles&) = delete;
     RankedCycles& operator=(const RankedCycles&) = delete;
 
+    int ranks() const { return ranks_.count(); }
+
     /// As dem::advance(), on the root, but that until collect() only the clock of the state is up
     /// to date, and its contacts are with the shares. Throws NumericalFailure if a disc runs away.
     /// @param known  holds if the state is what the last call has left

@@ -114,17 +114,7 @@ Share Cut::share(int of) {
         for (const auto loads : {base_node_columns(part).load_x, base_node_columns(part).load_y})
             std::ranges::fill(loads, 0);
     part.materials = whole_.materials;
-    part.clock = whole_.clock;
-    part.ledger = whole_.ledger;
-    part.seed = whole_.seed;
-    part.next_id = whole_.next_id;
-    part.mean_radius = whole_.mean_radius;
-    part.inertial_mass_floor = whole_.inertial_mass_floor;
-    part.skin = whole_.skin;
-    part.searched_extension = whole_.searched_extension;
-    part.displacement_bound = whole_.displacement_bound;
-    part.window_speed = whole_.window_speed;
-    part.look_interval = whole_.look_interval;
+    static_cast<StateNumbers&>(part) = whole_;
     const auto renumber = [&](std::span<std::int32_t> discs) {
         for (std::int32_t& disc : discs)
             disc = local_[static_cast<std::size_t>(disc)];
@@ -136,26 +126,6 @@ Share Cut::share(int of) {
 }
 
 namespace {
-
-/// What every rank knows.
-struct Known {
-    Clock clock;
-    double searched_extension, displacement_bound, window_speed;
-    std::int64_t look_interval;
-};
-
-Known known(const State& state) {
-    return {state.clock, state.searched_extension, state.displacement_bound, state.window_speed,
-            state.look_interval};
-}
-
-void know(const Known& known, State& state) {
-    state.clock = known.clock;
-    state.searched_extension = known.searched_extension;
-    state.displacement_bound = known.displacement_bound;
-    state.window_speed = known.window_speed;
-    state.look_interval = known.look_interval;
-}
 
 /// Adds the loads on the nodes of a base to others of the same nodes.
 void add_loads(const Table& nodes, Table& to) {
@@ -215,7 +185,7 @@ void sort_pairs(Table& table, const char* first_name, const char* second_name) {
 Bytes changes(const Share& share) {
     const State& state = share.state;
     BytesOut to;
-    to.add(known(state));
+    to.add<StateNumbers>(state);
     const auto own = rows_where(share.rows.size(), [&](std::size_t k) { return share.own[k]; });
     add_table(selected(state.discs, own, is_changed), to);
     // Both ranks of a contact have it; that of the first disc is asked.
@@ -234,7 +204,7 @@ Bytes changes(const Share& share) {
 
 void put_back(const Bytes& changes, int rank, std::span<const std::int32_t> own, State& whole) {
     BytesIn from(changes);
-    know(from.take<Known>(), whole);
+    static_cast<StateNumbers&>(whole) = from.take<StateNumbers>();
     put_values(take_table(from), own, whole.discs);
     for (Table* pairs : {&whole.contacts, &whole.base_contacts}) {
         if (rank == 0)
@@ -260,9 +230,7 @@ Bytes packed(const Share& share) {
          {&state.discs, &state.contacts, &state.base_contacts, &state.base_nodes})
         add_table(*table, to);
     to.add(state.materials);
-    to.add(known(state));
-    for (const double number : {state.mean_radius, state.inertial_mass_floor, state.skin})
-        to.add(number);
+    to.add<StateNumbers>(state);
     to.add(share.rows);
     to.add(share.own);
     to.add(share.sent.size());
@@ -279,9 +247,7 @@ Share unpacked(const Bytes& bytes) {
     for (Table* table : {&state.discs, &state.contacts, &state.base_contacts, &state.base_nodes})
         *table = take_table(from);
     state.materials = from.take_all<Material>();
-    know(from.take<Known>(), state);
-    for (double* number : {&state.mean_radius, &state.inertial_mass_floor, &state.skin})
-        *number = from.take<double>();
+    static_cast<StateNumbers&>(state) = from.take<StateNumbers>();
     share.rows = from.take_all<std::int32_t>();
     share.own = from.take_all<std::uint8_t>();
     const auto count = from.take<std::size_t>();

@@ -57,7 +57,7 @@ private:
 };
 
 /// What cycles have changed of own discs; contacts whose first disc is own, and those with the
-/// base; and what all ranks know alike: clock, bound and nodes of the base.
+/// base; and what all ranks know alike: its numbers and the nodes of the base.
 Bytes changes(const Share& share);
 
 /// Puts them into the whole, those of rank 0 first: contacts are added one after the other, and

@@ -29,14 +29,8 @@ struct Ledger {
     double removed = 0.0;
 };
 
-/// All that the next cycle depends on: copy it, hash it, save it.
-struct State {
-    Table discs;         ///< see DiscColumns
-    Table contacts;      ///< see ContactColumns
-    Table base_contacts; ///< see BaseContactColumns
-    Table base_nodes;    ///< see BaseNodeColumns; empty where the base is rigid
-    std::map<std::string, Table> base_memory; ///< of what answers to the nodes' loads, by name
-    std::vector<Material> materials;          ///< by MaterialIndex
+/// What a state has but its tables and materials.
+struct StateNumbers {
     Clock clock;
     Ledger ledger;
     std::uint64_t seed = 1;
@@ -49,6 +43,16 @@ struct State {
     double displacement_bound = std::numeric_limits<double>::infinity();
     double window_speed = 0.0;      ///< greatest since that bound was last looked at, m/s
     std::int64_t look_interval = 1; ///< cycles between looks at it, at multiples
+};
+
+/// All that the next cycle depends on: copy it, hash it, save it.
+struct State : StateNumbers {
+    Table discs;         ///< see DiscColumns
+    Table contacts;      ///< see ContactColumns
+    Table base_contacts; ///< see BaseContactColumns
+    Table base_nodes;    ///< see BaseNodeColumns; empty where the base is rigid
+    std::map<std::string, Table> base_memory; ///< of what answers to the nodes' loads, by name
+    std::vector<Material> materials;          ///< by MaterialIndex
 };
 
 /// Columns that every disc has.

@@ -16,7 +16,6 @@ struct RunOptions {
     std::filesystem::path output;
     std::optional<double> until;           ///< extension at which the run ends, m
     int threads = 1;                       ///< of each rank
-    int ranks = 1;                         ///< processes that share the discs
     dem::RankedCycles* on_ranks = nullptr; ///< makes their cycles; none: there is one process
     bool plain = false; ///< the scalar cycle instead of the fast one, for comparison
     bool resume = false;

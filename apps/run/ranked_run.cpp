@@ -72,7 +72,6 @@ RunOutcome run_on_ranks(Ranks& ranks, const RankedRun& run) {
         const ModelParts parts = make_parts(scene);
         RankedCycles cycles(ranks, parts.base, parts.physics,
                             {options.threads, options.plain ? Cycle::plain : best_cycle()});
-        options.ranks = ranks.count();
         options.on_ranks = &cycles;
         try {
             if (ranks.mine() == 0)

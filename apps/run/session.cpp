@@ -87,6 +87,8 @@ void Session::make_cycles_by(BaseResponse* response) {
         simulation_.respond_by(*response);
 }
 
+int Session::ranks() const { return options_.on_ranks ? options_.on_ranks->ranks() : 1; }
+
 double Session::wall_seconds() const { return seconds_before_ + seconds_since(started_); }
 
 double Session::target() const {
@@ -150,7 +152,7 @@ void Session::begin() {
         measure_speed(estimated_discs(scene_), options_.threads, 0.3, parts_.accounts_energy);
     record_.predicted_seconds =
         speed.busy *
-        predict(scene_, options_.ranks * speed.disc_steps_per_second, options_.threads).seconds;
+        predict(scene_, ranks() * speed.disc_steps_per_second, options_.threads).seconds;
 
     if (scene_.picked_fault)
         log_.say(describe(*scene_.picked_fault, *scene_.detachment));
@@ -427,7 +429,7 @@ void Session::finish() {
                                               .accuracy = scene_.accuracy,
                                               .seed = scene_.seed,
                                               .threads = options_.threads,
-                                              .ranks = options_.ranks,
+                                              .ranks = ranks(),
                                               .cycle = std::string(name(execution().cycle)),
                                               .state = simulation_.state(),
                                               .record = record_,

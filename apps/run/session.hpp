@@ -50,6 +50,7 @@ private:
     dem::Execution execution() const;
     double target() const;
     double wall_seconds() const;
+    int ranks() const;
 
     void report_progress(const dem::Simulation& simulation);
     Observation now() const;

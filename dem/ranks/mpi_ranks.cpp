@@ -3,6 +3,8 @@
 #include <mpi.h>
 #include <petscsf.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -147,21 +149,29 @@ public:
     void abort(int exit_code) override { MPI_Abort(MPI_COMM_WORLD, exit_code); }
 
 private:
+    static constexpr std::size_t most_at_once = 1u << 30; // bytes
     static constexpr int gathered = 1, scattered = 2, traded = 3;
 
+    /// Of any length: MPI 3 counts bytes by int.
     void send(const Bytes& letter, int rank, int tag) const {
-        require(MPI_Send(letter.data(), as_int(letter.size()), MPI_BYTE, rank, tag, all_),
-                "MPI_Send");
+        const std::uint64_t size = letter.size();
+        require(MPI_Send(&size, 1, MPI_UINT64_T, rank, tag, all_), "MPI_Send");
+        for (std::size_t at = 0; at < letter.size(); at += most_at_once)
+            require(MPI_Send(letter.data() + at, piece(letter, at), MPI_BYTE, rank, tag, all_),
+                    "MPI_Send");
     }
     Bytes receive(int rank, int tag) const {
-        MPI_Status status;
-        require(MPI_Probe(rank, tag, all_, &status), "MPI_Probe");
-        int size = 0;
-        MPI_Get_count(&status, MPI_BYTE, &size);
-        Bytes bytes(static_cast<std::size_t>(size));
-        require(MPI_Recv(bytes.data(), size, MPI_BYTE, rank, tag, all_, MPI_STATUS_IGNORE),
-                "MPI_Recv");
+        std::uint64_t size = 0;
+        require(MPI_Recv(&size, 1, MPI_UINT64_T, rank, tag, all_, MPI_STATUS_IGNORE), "MPI_Recv");
+        Bytes bytes(size);
+        for (std::size_t at = 0; at < bytes.size(); at += most_at_once)
+            require(MPI_Recv(bytes.data() + at, piece(bytes, at), MPI_BYTE, rank, tag, all_,
+                             MPI_STATUS_IGNORE),
+                    "MPI_Recv");
         return bytes;
+    }
+    static int piece(const Bytes& bytes, std::size_t at) {
+        return static_cast<int>(std::min(most_at_once, bytes.size() - at));
     }
 
     MPI_Comm all_ = MPI_COMM_NULL;
