@@ -307,13 +307,11 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
         if (links) {
             if (!links->update_lists(base))
                 return done;
-            fast.pack(state, base, physics); // ghosts are others
-            continue;
+        } else {
+            refuse_runaways(state);
+            update_contacts(state, base);
         }
-        refuse_runaways(state);
-        if (update_contacts(state, base))
-            fast.pack_contacts(state);
-        fast.pack_searched_places(state);
+        fast.pack_updated(state);
     }
     if (!links)
         fast.unpack(state);

@@ -65,10 +65,8 @@ public:
     std::int64_t run(State& state, std::int64_t cycles, BestTeam& team, BaseResponse* response,
                      Links* links = nullptr);
 
-    /// Packs new contact lists, of the same discs.
-    void pack_contacts(const State& state);
-
-    void pack_searched_places(const State& state);
+    /// Packs what an update of the neighbour lists has changed; ghosts may have come, too.
+    void pack_updated(const State& state);
 
     /// Writes positions, velocities, shear forces and bonds back into the state's columns.
     void unpack(State& state);
@@ -96,6 +94,8 @@ private:
     /// Calls work(strip) for all strips, which the threads at hand share.
     template <class Work> void for_each_strip(Work&& work);
     void pack_discs(const State& state, const fast::Strip& strip);
+    void pack_contacts(const State& state);
+    void pack_searched_places(const State& state);
     void pack_blocks(const State& state, fast::Strip& strip);
     static std::size_t ring_of(const fast::Strip& strip);
     void assign_slots(fast::Strip& strip);

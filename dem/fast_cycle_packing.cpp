@@ -54,6 +54,13 @@ void FastCycle::pack(const State& state, const RigidBase& base, const CyclePhysi
     pack_contacts(state);
 }
 
+void FastCycle::pack_updated(const State& state) {
+    if (state.discs.rows() != disc_count_)
+        return pack(state, *base_, physics_);
+    pack_contacts(state);
+    pack_searched_places(state);
+}
+
 void FastCycle::pack_discs(const State& state, const Strip& strip) {
     const ConstDiscColumns d = disc_columns(state);
     const RadiusRates radii(state);

@@ -31,8 +31,8 @@ bool Links::update_lists(const RigidBase& base) {
     // All know the same bound.
     if (!(share_.state.displacement_bound < 10.0 * share_.state.mean_radius))
         return false;
-    update_share(share_, base, ranks_);
-    connect();
+    if (update_share(share_, base, ranks_))
+        connect();
     return true;
 }
 

@@ -19,7 +19,7 @@ public:
     /// The share must outlive it. Made by all ranks.
     Links(Ranks& ranks, Share& share);
 
-    /// Updates the share's lists; its ghosts are others then. False if a disc has run away, or the
+    /// Updates the share's lists; it may have more ghosts then. False if a disc has run away, or the
     /// base: the root looks into it.
     bool update_lists(const RigidBase& base);
 

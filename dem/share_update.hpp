@@ -7,8 +7,9 @@ namespace listric::dem {
 
 struct RigidBase;
 
-/// Updates the lists of a share as update_contacts() does those of the whole; ghosts come and go.
-/// Made by all ranks.
-void update_share(Share& share, const RigidBase& base, Ranks& ranks);
+/// Updates the lists of a share as update_contacts() does those of the whole. Discs that have come
+/// near those of another rank become ghosts, and stay so until shares are cut anew; pairs of ghosts
+/// may be listed, and change nothing. Made by all ranks; returns whether any has new ghosts.
+bool update_share(Share& share, const RigidBase& base, Ranks& ranks);
 
 } // namespace listric::dem
