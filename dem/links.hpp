@@ -19,8 +19,8 @@ public:
     /// The share must outlive it. Made by all ranks.
     Links(Ranks& ranks, Share& share);
 
-    /// Updates the share's lists; it may have more ghosts then. False if a disc has run away, or the
-    /// base: the root looks into it.
+    /// Updates the share's lists; it may have more ghosts then. False if a disc has run away, or
+    /// the base: the root looks into it.
     bool update_lists(const RigidBase& base);
 
     /// By row of the share's discs: whether the disc is the rank's own.
