@@ -90,8 +90,9 @@ struct Guard {
     double beyond_byerlee = 0.0;
 };
 
-/// A footwall that was meshed and whose stiffness is known. Under MPI every call is collective and
-/// every process gets the same answer.
+/// A footwall that was meshed and whose stiffness is known. One thread at a time may make, ask or
+/// end footwalls, for MUMPS has variables that all factorisations share. Under MPI every call is
+/// collective and every process gets the same answer.
 class Footwall {
 public:
     Footwall() = default;

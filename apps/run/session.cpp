@@ -417,11 +417,11 @@ void Session::finish() {
     if (kept_ != snapshot_path(output, extension()))
         save();
     report_window();
+    check_base(); // before the sheet, which solves for the base: that is for one thread at a time
     if (options_.figures)
         figures_.push_back(std::async(std::launch::async, [this] { return draw_sheet(); }));
     const Measures measures = measure_now();
     warn_of_haste(measures);
-    check_base();
     const EffectMeasures of_effects = measure_effects(now());
     const std::vector<ObservedHorizon> observed = compare_with_observed(faults);
     await_figures();
