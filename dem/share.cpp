@@ -114,7 +114,8 @@ Share Cut::share(int of) {
         for (const auto loads : {base_node_columns(part).load_x, base_node_columns(part).load_y})
             std::ranges::fill(loads, 0);
     part.materials = whole_.materials;
-    static_cast<StateNumbers&>(part) = whole_;
+    const StateNumbers& numbers = whole_;
+    static_cast<StateNumbers&>(part) = numbers;
     const auto renumber = [&](std::span<std::int32_t> discs) {
         for (std::int32_t& disc : discs)
             disc = local_[static_cast<std::size_t>(disc)];
