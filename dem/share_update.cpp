@@ -106,9 +106,8 @@ std::vector<Round> rounds_of(const Table& discs, std::span<const std::int32_t> r
     return rounds;
 }
 
-/// Of some discs those that may come to be listed with one of `others`: those of the same gap or
-/// less. From either side the same pairs are found.
-/// @param gap  m
+/// Numbers of those discs that are less than a gap, m, from one of `others`. From either side it is
+/// the same pairs.
 std::vector<std::int32_t> those_near(std::span<const Round> discs, std::vector<Round> others,
                                      double gap) {
     std::ranges::sort(others, {}, &Round::y);
