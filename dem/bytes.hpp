@@ -15,6 +15,9 @@ namespace listric::dem {
 /// Puts plain values one after the other.
 class BytesOut {
 public:
+    /// Takes memory for so many bytes at once.
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
+
     template <class T> void add(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
         append(&value, sizeof value);

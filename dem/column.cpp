@@ -31,6 +31,7 @@ void Table::resize(std::size_t rows) {
         std::visit(
             [&](auto& values) {
                 using T = typename std::decay_t<decltype(values)>::value_type;
+                values.reserve(rows); // not twice as much, which resize() takes for few more
                 values.resize(rows, std::get<T>(column.initial));
             },
             column.values);

@@ -181,11 +181,21 @@ void sort_pairs(Table& table, const char* first_name, const char* second_name) {
     table.reorder(order);
 }
 
+/// Room for a share as bytes: letters that grow would need it twice.
+std::size_t most_bytes(const Share& share) {
+    std::size_t bytes = 4096 + share.rows.size() * 16;
+    for (const Table* table : {&share.state.discs, &share.state.contacts,
+                               &share.state.base_contacts, &share.state.base_nodes})
+        bytes += byte_count(*table);
+    return bytes;
+}
+
 } // namespace
 
 Bytes changes(const Share& share) {
     const State& state = share.state;
     BytesOut to;
+    to.reserve(most_bytes(share));
     to.add<StateNumbers>(state);
     const auto own = rows_where(share.rows.size(), [&](std::size_t k) { return share.own[k]; });
     add_table(selected(state.discs, own, is_changed), to);
@@ -227,6 +237,7 @@ void sort_contacts(State& whole) {
 Bytes packed(const Share& share) {
     const State& state = share.state;
     BytesOut to;
+    to.reserve(most_bytes(share));
     for (const Table* table :
          {&state.discs, &state.contacts, &state.base_contacts, &state.base_nodes})
         add_table(*table, to);

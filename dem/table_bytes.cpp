@@ -41,6 +41,18 @@ void append_rows(const Table& rows, Table& to) {
             column.values);
 }
 
+std::size_t byte_count(const Table& table) {
+    std::size_t count = 8;
+    for (const Column& column : table.columns())
+        std::visit(
+            [&]<class T>(const std::vector<T>& values) {
+                count += 64 + column.name.size() + column.unit.size() + column.begins_as.size() +
+                         sizeof(T) * values.size();
+            },
+            column.values);
+    return count;
+}
+
 void add_table(const Table& table, BytesOut& to) {
     to.add(table.columns().size());
     for (const Column& column : table.columns()) {

@@ -16,6 +16,9 @@ Table selected(const Table& table, std::span<const std::int32_t> rows,
 /// Adds the rows of a table to another with the same columns.
 void append_rows(const Table& rows, Table& to);
 
+/// Bytes that add_table() adds, about.
+std::size_t byte_count(const Table& table);
+
 /// All of a table as bytes, and back.
 void add_table(const Table& table, BytesOut& to);
 Table take_table(BytesIn& from);
