@@ -51,12 +51,12 @@ def measure(radii):
 
 
 # Measured on two cores (docs/scaling.md); what a network adds is assumed.
-DISC = ((2e4, 10.0e-9), (2e5, 12.0e-9), (1e6, 14.0e-9))  # s per disc-step of one core, by discs
+DISC = ((2e4, 10.2e-9), (2e5, 10.9e-9), (1e6, 11.5e-9))  # s per disc-step of one core, by discs
 GHOST = 20e-9      # s per ghost and cycle: its motion, its contacts, packing
-EXCHANGE = 2.5e-6  # s per exchange within a machine
+EXCHANGE = 2.7e-6  # s per exchange within a machine
 LOOK = 16          # cycles between reductions
 BYTES = 40         # per ghost and exchange
-NETWORKS = {"within a machine": (0.0, 1e10), "2 µs, 10 GB/s": (2e-6, 1e10),
+NETWORKS = {"none": (0.0, 1e10), "2 µs, 10 GB/s": (2e-6, 1e10),
             "20 µs, 1.2 GB/s": (20e-6, 1.2e9)}
 
 
