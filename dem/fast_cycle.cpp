@@ -304,14 +304,15 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
         if (done == cycles)
             break;
         fast.unpack(state);
+        bool changed = true;
         if (links) {
             if (!links->update_lists(base))
                 return done;
         } else {
             refuse_runaways(state);
-            update_contacts(state, base);
+            changed = update_contacts(state, base);
         }
-        fast.pack_updated(state);
+        fast.pack_updated(state, changed);
     }
     if (!links)
         fast.unpack(state);

@@ -66,7 +66,8 @@ public:
                      Links* links = nullptr);
 
     /// Packs what an update of the neighbour lists has changed; ghosts may have come, too.
-    void pack_updated(const State& state);
+    /// @param lists_changed  not only where discs have been found
+    void pack_updated(const State& state, bool lists_changed);
 
     /// Writes positions, velocities, shear forces and bonds back into the state's columns.
     void unpack(State& state);

@@ -58,10 +58,11 @@ void FastCycle::pack(const State& state, const RigidBase& base, const CyclePhysi
     pack_contacts(state);
 }
 
-void FastCycle::pack_updated(const State& state) {
+void FastCycle::pack_updated(const State& state, bool lists_changed) {
     if (state.discs.rows() != disc_count_)
         return pack(state, *base_, physics_);
-    pack_contacts(state);
+    if (lists_changed)
+        pack_contacts(state);
     pack_searched_places(state);
 }
 

@@ -53,7 +53,7 @@ void pack(benchmark::State& run) {
     FastCycle cycle(1, fast_cycle());
     cycle.pack(state, base, {});
     for (auto _ : run)
-        cycle.pack_updated(state);
+        cycle.pack_updated(state, true);
     per_disc(run, state);
 }
 
