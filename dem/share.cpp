@@ -14,12 +14,14 @@ namespace listric::dem {
 
 namespace {
 
-/// Whether cycles need a column of discs: a core column, or one that damping or compaction adds.
-/// What effects remember stays with the whole.
+/// Whether cycles need a column of discs: of the core columns, or one that damping or compaction
+/// adds. What discs and effects remember stays with the whole.
 bool is_for_cycles(const std::string& name) {
-    static const State core = empty_state();
-    return core.discs.has(name) || name == "mean_vx" || name == "mean_vy" ||
-           name == "radius_rate" || name == "inertial_radius";
+    constexpr const char* names[] = {
+        "x",          "y",       "vx",      "vy",          "rotation",
+        "spin",       "radius",  "mass",    "material",    "searched_x",
+        "searched_y", "mean_vx", "mean_vy", "radius_rate", "inertial_radius"};
+    return std::ranges::find(names, name) != std::end(names);
 }
 
 /// Whether cycles, or updates of neighbour lists, change a column of discs.

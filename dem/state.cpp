@@ -45,22 +45,26 @@ State empty_state() {
 namespace {
 
 template <class Columns, class AnyTable> Columns discs_of(AnyTable& t) {
-    return {t.template get<std::int64_t>("id"),
-            t.template get<double>("x"),
-            t.template get<double>("y"),
-            t.template get<double>("vx"),
-            t.template get<double>("vy"),
-            t.template get<double>("rotation"),
-            t.template get<double>("spin"),
-            t.template get<double>("radius"),
-            t.template get<double>("mass"),
+    const auto number = [&](const char* name) { return t.template get<double>(name); };
+    const auto entry = [&]<class T>(const char* name, T) {
+        return t.has(name) ? t.template get<T>(name) : decltype(t.template get<T>(name))();
+    };
+    return {entry("id", std::int64_t()),
+            number("x"),
+            number("y"),
+            number("vx"),
+            number("vy"),
+            number("rotation"),
+            number("spin"),
+            number("radius"),
+            number("mass"),
             t.template get<std::uint8_t>("material"),
-            t.template get<std::int32_t>("stratum"),
-            t.template get<double>("start_x"),
-            t.template get<double>("start_y"),
-            t.template get<double>("start_extension"),
-            t.template get<double>("searched_x"),
-            t.template get<double>("searched_y")};
+            entry("stratum", std::int32_t()),
+            entry("start_x", double()),
+            entry("start_y", double()),
+            entry("start_extension", double()),
+            number("searched_x"),
+            number("searched_y")};
 }
 
 template <class Columns, class AnyTable> Columns contacts_of(AnyTable& t) {

@@ -55,20 +55,20 @@ struct State : StateNumbers {
     std::vector<Material> materials;          ///< by MaterialIndex
 };
 
-/// Columns that every disc has.
+/// Columns that every disc has. (1): cycles do not need it, so a Share has none, an empty span.
 template <bool writable> struct BasicDiscColumns {
     template <class T> using Values = std::span<std::conditional_t<writable, T, const T>>;
 
-    Values<std::int64_t> id;
+    Values<std::int64_t> id;               ///< (1)
     Values<double> x, y;                   ///< centre, m; y up from the original surface
     Values<double> vx, vy;                 ///< m/s
     Values<double> rotation, spin;         ///< rad, rad/s; counter-clockwise
     Values<double> radius;                 ///< m
     Values<double> mass;                   ///< kg per metre of thickness
     Values<std::uint8_t> material;         ///< MaterialIndex
-    Values<std::int32_t> stratum;          ///< 0 before the rift, n for the n-th sedimentation
-    Values<double> start_x, start_y;       ///< where the disc entered the model, m
-    Values<double> start_extension;        ///< and when, m of extension
+    Values<std::int32_t> stratum;          ///< 0 before the rift, n for the n-th sedimentation (1)
+    Values<double> start_x, start_y;       ///< where the disc entered the model, m (1)
+    Values<double> start_extension;        ///< and when, m of extension (1)
     Values<double> searched_x, searched_y; ///< where the last neighbour search found it, m
 };
 
