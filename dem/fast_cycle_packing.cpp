@@ -22,9 +22,16 @@ std::size_t rows_before(std::span<const std::int32_t> sorted, std::size_t disc) 
         std::ranges::lower_bound(sorted, static_cast<std::int32_t>(disc)) - sorted.begin());
 }
 
-/// A size and some more, so that later lists seldom need another place: what grows by doubling
-/// takes up to three times its memory while it does.
-std::size_t with_room(std::size_t size) { return size + size / 16; }
+/// Empties a list for about `size` values. Where there is no room the old list goes before the new
+/// one comes, with some more room than that, so that later lists seldom need another: what grows by
+/// doubling takes up to three times its memory while it does.
+template <class List> void clear_for(List& list, std::size_t size) {
+    list.clear();
+    if (list.capacity() >= size)
+        return;
+    list = List();
+    list.reserve(size + size / 16);
+}
 
 } // namespace
 
@@ -190,14 +197,12 @@ void FastCycle::pack_blocks(const State& state, Strip& strip) {
         to.rows[to.rows.size() - 8 + lane] = static_cast<std::int32_t>(row);
         lane = (lane + 1) % 8;
     };
-    for (Blocks* blocks : {&strip.inner, &strip.boundary}) {
-        blocks->blocks.clear();
-        blocks->rows.clear();
-    }
     const std::size_t tiles = (strip.end_disc - strip.first_disc) / tile_discs + 1;
-    const std::size_t blocks = with_room((strip.end_row - strip.first_row) / 8 + tiles);
-    strip.inner.blocks.reserve(blocks);
-    strip.inner.rows.reserve(8 * blocks);
+    const std::size_t blocks = (strip.end_row - strip.first_row) / 8 + tiles;
+    clear_for(strip.inner.blocks, blocks);
+    clear_for(strip.inner.rows, 8 * blocks);
+    strip.boundary.blocks.clear();
+    strip.boundary.rows.clear();
     strip.tiles.clear();
     std::size_t boundary_lane = 0;
     for (std::size_t begin = strip.first_disc; begin < strip.end_disc; begin += tile_discs) {
@@ -311,8 +316,7 @@ void FastCycle::pack_gathers(const State& state, Strip& strip) {
         [&](std::int32_t disc, std::uint32_t slot) { in[next[place_of(disc)]++] = slot; });
     const auto out = std::span(slot_of_).subspan(strip.first_row, strip.end_row - strip.first_row);
 
-    strip.gathers.clear();
-    strip.gathers.reserve(with_room(groups * (2 + 2 * group_discs * usual_slots)));
+    clear_for(strip.gathers, groups * (2 + 2 * group_discs * usual_slots));
     for (std::size_t disc = 0; disc < groups * group_discs; disc += group_discs) {
         const std::size_t counts = strip.gathers.size();
         strip.gathers.resize(counts + 2);
