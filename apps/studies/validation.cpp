@@ -91,6 +91,9 @@ public:
           runs_(request.runs.empty() ? fs::path("out/validation-" + request.accuracy)
                                      : request.runs),
           document_(document_of(request, runs_)), findings_{plan,
+                                                            request.plan.empty()
+                                                                ? "apps/studies/validation.toml"
+                                                                : request.plan.string(),
                                                             chosen(plan, request.only),
                                                             store_,
                                                             {},

@@ -105,8 +105,26 @@ ValidationPicture read_picture(const Entry& entry) {
 /// An experiment as the file says it.
 struct ExperimentText {
     ValidationExperiment experiment;
-    std::string runs, like;
+    std::string runs;
 };
+
+/// What an experiment expects, of other runs that take the places of its own. Without those that
+/// ask for more runs than there are: a control, say.
+std::vector<Expectation> expectations_of(const ValidationExperiment& experiment,
+                                         const std::vector<std::string>& runs) {
+    const auto replace = [&](std::string& name) {
+        const auto place = static_cast<std::size_t>(std::ranges::find(experiment.runs, name) -
+                                                    experiment.runs.begin());
+        if (place < runs.size())
+            name = runs[place];
+        return place < runs.size();
+    };
+    std::vector<Expectation> expectations;
+    for (Expectation e : experiment.expectations)
+        if (replace(e.run) && (e.minus.empty() || replace(e.minus)))
+            expectations.push_back(std::move(e));
+    return expectations;
+}
 
 /// @param before  experiments whose expectations this one may share
 ValidationExperiment read_experiment(const Entry& entry,
@@ -119,25 +137,19 @@ ValidationExperiment read_experiment(const Entry& entry,
         {"about", at<&T::experiment, &X::about>, "", {}, "", "before the table"},
         {"seen", at<&T::experiment, &X::seen>, "", {}, "", "in the pictures"},
         {"runs", at<&T::runs>, "", {}, "", "names of runs; the first is judged"},
-        {"like", at<&T::like>, "", {}, "", "has this one's expectations, too"},
+        {"like", at<&T::experiment, &X::like>, "", {}, "", "has this one's expectations, too"},
         {"compare", at<&T::experiment, &X::compare>, "", {}, "", "run whose values stand beside"}};
     ExperimentText text;
     read_values(entry, parameters, &text, {"expect", "picture"});
     ValidationExperiment& x = text.experiment;
-    const std::string& like = text.like;
     x.runs = words(text.runs);
     need(entry, "name", !x.name.empty());
     need(entry, "runs", !x.runs.empty());
-    if (!like.empty()) {
-        const auto other = std::ranges::find(before, like, &ValidationExperiment::name);
+    if (!x.like.empty()) {
+        const auto other = std::ranges::find(before, x.like, &ValidationExperiment::name);
         if (other == before.end())
-            fail(entry, fmt::format("like: no experiment {} before this one", like));
-        // What the other's control is for, this one has no control for.
-        for (Expectation e : other->expectations)
-            if (e.run == other->runs.front() && e.minus.empty()) {
-                e.run = x.runs.front();
-                x.expectations.push_back(std::move(e));
-            }
+            fail(entry, fmt::format("like: no experiment {} before this one", x.like));
+        x.expectations = expectations_of(*other, x.runs);
     }
     for (const Entry& item : tables(entry, "expect")) {
         x.expectations.push_back(read_expectation(item));
@@ -149,20 +161,28 @@ ValidationExperiment read_experiment(const Entry& entry,
     return x;
 }
 
-} // namespace
+/// A plan's own keys.
+struct PlanText {
+    std::string extends;
+};
 
-const ValidationRun& ValidationPlan::run(const std::string& name) const {
-    return *std::ranges::find(runs, name, &ValidationRun::name);
-}
-
-ValidationPlan load_validation_plan(const std::filesystem::path& file) {
+/// @param extended  by another: then it cannot extend a third, or itself
+ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
     const toml::table document = shelf.read(file);
-    for (const auto& [key, node] : document)
-        if (key != "run" && key != "experiment")
-            fail({node, std::string(key.str())},
-                 fmt::format("unknown key, {}", advice(key.str(), {"run", "experiment"})));
-    ValidationPlan plan;
     const Entry top{document, ""};
+    PlanText text;
+    read_values(top, {{"extends", at<&PlanText::extends>, "", {}, "", "a plan"}}, &text,
+                {"run", "experiment"});
+    ValidationPlan plan;
+    std::vector<ValidationExperiment> known; // that others can be like
+    if (const std::string& other = text.extends; !other.empty()) {
+        if (extended)
+            fail({*document.get("extends"), "extends"}, "is of a plan that is extended itself");
+        known =
+            read_plan(shelf.find(is_path(other) ? (file.parent_path() / other).string() : other),
+                      true)
+                .experiments;
+    }
     for (const Entry& entry : tables(top, "run"))
         plan.runs.push_back(read_run(entry));
     const auto check = [&](const Entry& entry, const std::string& name) {
@@ -173,8 +193,9 @@ ValidationPlan load_validation_plan(const std::filesystem::path& file) {
             fail(entry, fmt::format("no run {}, {}", name, advice(name, names)));
     };
     for (const Entry& entry : tables(top, "experiment")) {
-        plan.experiments.push_back(read_experiment(entry, plan.experiments));
-        const ValidationExperiment& x = plan.experiments.back();
+        const ValidationExperiment x = read_experiment(entry, known);
+        known.push_back(x);
+        plan.experiments.push_back(x);
         for (const std::string& name : x.runs)
             check(entry, name);
         check(entry, x.compare);
@@ -187,6 +208,16 @@ ValidationPlan load_validation_plan(const std::filesystem::path& file) {
                 check(entry, row.run);
     }
     return plan;
+}
+
+} // namespace
+
+const ValidationRun& ValidationPlan::run(const std::string& name) const {
+    return *std::ranges::find(runs, name, &ValidationRun::name);
+}
+
+ValidationPlan load_validation_plan(const std::filesystem::path& file) {
+    return read_plan(file, false);
 }
 
 bool Expectation::meets(double value) const {

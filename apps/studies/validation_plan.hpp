@@ -62,6 +62,7 @@ struct ValidationExperiment {
     std::string about; ///< before the table
     std::string seen;  ///< what people saw in the pictures of the standard runs
     std::vector<std::string> runs;
+    std::string like;    ///< an experiment whose expectations it has, of its own runs
     std::string compare; ///< a run whose values stand beside the first's
     std::vector<Expectation> expectations;
     std::vector<ValidationPicture> pictures;
@@ -74,7 +75,8 @@ struct ValidationPlan {
     const ValidationRun& run(const std::string& name) const; ///< must be there
 };
 
-/// Reads runs, experiments and expectations from a TOML file. Throws SceneError.
+/// Reads runs, experiments and expectations from a TOML file. One that `extends` another, a name on
+/// the shelf or a path beside it, may have experiments that are like those. Throws SceneError.
 ValidationPlan load_validation_plan(const std::filesystem::path& file);
 
 /// What the seeds say of an expectation.

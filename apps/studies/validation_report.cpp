@@ -58,10 +58,10 @@ std::string introduction(const ValidationFindings& f) {
         "# Validation\n\n"
         "Made by `listric validate` from the files of {} of {} runs at accuracy {}, up to {} "
         "seeds each{}; do not edit. What is expected, and by whom, is in "
-        "`apps/studies/validation.toml`; [measures.md](measures.md) defines the measures; "
+        "`{}`; `docs/measures.md` defines the measures; "
         "[measures.csv]({}/measures.csv) has every number.\n\n",
         there.size(), wanted.size(), f.accuracy, f.seeds,
-        f.first_seed == 1 ? "" : fmt::format(", from {} on", f.first_seed),
+        f.first_seed == 1 ? "" : fmt::format(", from {} on", f.first_seed), f.plan_name,
         f.beside.filename().string());
     return text + "A value is the mean over the seeds ± its standard deviation (smallest to "
                   "largest). *Met* says how many seeds fulfil the expectation; where it asks for "
@@ -95,6 +95,65 @@ std::string overview(const ValidationFindings& f) {
     return text + "\n";
 }
 
+/// What e expects and where: "width of faults, diameters, 10 km (`fault_width_diameters`)".
+std::string subject(const ValidationFindings& f, const Expectation& e) {
+    std::string what = e.what;
+    if (f.plan.run(e.run).at.size() > 1 || e.at)
+        what += ", " + extension_text(e.at.value_or(f.plan.run(e.run).at.back()));
+    return fmt::format("{} (`{}`)", what, e.measure);
+}
+
+/// An experiment's row for what another expects; none: it has no such row.
+const Expectation* same_row(const ValidationExperiment& x, const Expectation& row) {
+    const auto found = std::ranges::find_if(x.expectations, [&](const Expectation& e) {
+        return e.measure == row.measure && e.what == row.what && e.at == row.at;
+    });
+    return found == x.expectations.end() ? nullptr : &*found;
+}
+
+/// An experiment and those that are like it beside each other: in how many seeds each row is met.
+std::string comparison(const ValidationFindings& f, const std::string& like) {
+    std::vector<const ValidationExperiment*> columns;
+    for (const ValidationExperiment& x : f.experiments)
+        if (x.name == like || x.like == like)
+            columns.push_back(&x);
+    std::string text = fmt::format("Rows of {} by experiment: met, or in how many seeds.\n\n"
+                                   "| kind | measure | expected |",
+                                   like);
+    std::string rule = "|---|---|---|";
+    for (const ValidationExperiment* x : columns) {
+        text += fmt::format(" {} |", x->name);
+        rule += "---|";
+    }
+    text += '\n' + rule + '\n';
+    for (const Expectation& row : columns.front()->expectations) {
+        if (!row.is_judged())
+            continue;
+        text += fmt::format("| {} | {} | {} |", name_of(row.kind), subject(f, row), row.target());
+        for (const ValidationExperiment* x : columns) {
+            const Expectation* const e = same_row(*x, row);
+            const Verdict v = e ? judge(*e, f.values(*e, e->run)) : Verdict{};
+            text += v.of == 0     ? " |"
+                    : v.fulfilled ? " met |"
+                                  : fmt::format(" {} of {} |", v.met, v.of);
+        }
+        text += '\n';
+    }
+    return text + '\n';
+}
+
+/// Those comparisons that there are.
+std::string comparisons(const ValidationFindings& f) {
+    std::set<std::string> liked;
+    for (const ValidationExperiment& x : f.experiments)
+        if (!x.like.empty())
+            liked.insert(x.like);
+    std::string text;
+    for (const std::string& like : liked)
+        text += comparison(f, like);
+    return text;
+}
+
 std::string table(const ValidationFindings& f, const ValidationExperiment& x) {
     const bool beside = !x.compare.empty();
     std::string text = "| kind | measure | expected | by | this program |";
@@ -103,10 +162,7 @@ std::string table(const ValidationFindings& f, const ValidationExperiment& x) {
     for (const Expectation& e : x.expectations) {
         const auto all = f.values(e, e.run);
         const Verdict v = judge(e, all);
-        std::string what = e.what;
-        if (f.plan.run(e.run).at.size() > 1 || e.at)
-            what += ", " + extension_text(e.at.value_or(f.plan.run(e.run).at.back()));
-        text += fmt::format("| {} | {} (`{}`) | {} | {} | {} |", name_of(e.kind), what, e.measure,
+        text += fmt::format("| {} | {} | {} | {} | {} |", name_of(e.kind), subject(f, e),
                             e.target(), e.source, summary(e, all));
         if (beside)
             text += fmt::format(" {} |", e.run == x.runs.front() && e.minus.empty()
@@ -156,7 +212,7 @@ std::string run_name(const std::string& run, int seed) { return fmt::format("{}-
 std::string extension_text(double at) { return fmt::format("{:g} km", at / 1e3); }
 
 std::string validation_document(const ValidationFindings& f) {
-    std::string text = introduction(f) + overview(f);
+    std::string text = introduction(f) + overview(f) + comparisons(f);
     for (const ValidationExperiment& x : f.experiments) {
         text += fmt::format("## {}\n\n", x.title);
         if (!x.about.empty())

@@ -13,6 +13,7 @@ namespace listric {
 /// What a validation has found: all that its document is made of.
 struct ValidationFindings {
     const ValidationPlan& plan;
+    std::string plan_name;                         ///< its file, for people
     std::vector<ValidationExperiment> experiments; ///< those that were asked for
     const MeasureStore& store;
     std::set<std::string> finished; ///< names of the runs that are there, by run_name()

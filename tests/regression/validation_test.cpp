@@ -66,6 +66,11 @@ name = "second"
 title = "Second"
 runs = "plain"
 expect = [{measure = "extension_m", what = "reached", least = 1, source = "scene"}]
+[[experiment]]
+name = "alike"
+title = "Alike"
+runs = "plain"
+like = "first"
 )";
 
 class ValidationTest : public testing::Test {
@@ -104,6 +109,11 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
     EXPECT_THAT(document(), HasSubstr("| 150 ± 1 | nobody | 100 ± 0 (100 to 100) | missed (0 of "));
     EXPECT_THAT(document(), HasSubstr("| at least 0.50 | nobody | no value | missed (0 of 1) |"));
     EXPECT_THAT(document(), HasSubstr("| First | 3 of 3 | 1 of 2 | 0 of 1 | 1 of 1 |"));
+    // Beside each other by what both expect; the control is nothing that the second has.
+    EXPECT_THAT(document(), AllOf(HasSubstr("| expected | first | alike |"),
+                                  HasSubstr("| 200 ± 1 | met | met |"),
+                                  HasSubstr("| 150 ± 1 | 0 of 2 | 0 of 1 |"),
+                                  HasSubstr("| at least 0.50 | 0 of 1 | |")));
     EXPECT_TRUE(fs::exists(folder / "doc/report/all.png"));
     const auto hash = [&](const char* run) {
         return nlohmann::json::parse(contents(folder / "runs" / run / "summary.json"))["state_hash"]

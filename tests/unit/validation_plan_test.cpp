@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -84,6 +85,47 @@ TEST_F(Plan, SaysWhatIsRunAndExpected) {
     ASSERT_EQ(two.expectations.size(), 1u);
     EXPECT_EQ(two.expectations[0].measure, "x");
     EXPECT_EQ(two.expectations[0].run, "b");
+}
+
+TEST_F(Plan, MayExtendAnother) {
+    const std::string own = R"(extends = "validation"
+[[run]]
+name = "mine"
+scene = "lis2"
+at_m = [5000, 10000, 12000]
+[[run]]
+name = "mine-0"
+scene = "lis2"
+without = "fault_weakening bond_healing"
+at_m = [5000, 10000, 12000]
+[[experiment]]
+name = "mine"
+runs = "mine mine-0"
+like = "lis2"
+)";
+    const auto shipped =
+        load_validation_plan(LISTRIC_SOURCE_DIR "/apps/studies/validation.toml").experiments;
+    const auto lis2 = std::ranges::find(shipped, "lis2", &ValidationExperiment::name);
+    const ValidationPlan plan = load(own);
+    ASSERT_EQ(plan.experiments.size(), 1u);
+    // All of them, the control's by the second run; without one only those of the first.
+    const std::vector<Expectation>& all = plan.experiments[0].expectations;
+    ASSERT_EQ(all.size(), lis2->expectations.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Expectation& theirs = lis2->expectations[k];
+        EXPECT_EQ(all[k].target(), theirs.target());
+        EXPECT_EQ(all[k].run, theirs.run == "lis2" ? "mine" : "mine-0");
+        EXPECT_EQ(all[k].minus, theirs.minus.empty() ? "" : "mine-0");
+    }
+    std::string alone = own;
+    alone.replace(alone.find("mine mine-0"), 11, "mine");
+    const auto fewer = load(alone).experiments[0].expectations;
+    EXPECT_LT(fewer.size(), all.size());
+    EXPECT_THAT(fewer, testing::Each(testing::Field(&Expectation::minus, "")));
+    EXPECT_THAT(complaint("[[run]]", "extends = \"validatoin\"\n[[run]]"),
+                HasSubstr("did you mean validation?"));
+    EXPECT_THAT(complaint("[[run]]", "extends = \"" + file.filename().string() + "\"\n[[run]]"),
+                AllOf(HasSubstr(":1:"), HasSubstr("extended itself")));
 }
 
 TEST_F(Plan, TheOneThatIsShippedCanBeRead) {
