@@ -194,6 +194,7 @@ void Session::extend() {
     const double tolerance = simulation_.tolerance();
     const double steps_before = record_.disc_steps;
     double next_window = (std::floor((extension() + tolerance) / window) + 1.0) * window;
+    write_status("extension");
     while (extension() < target() - tolerance) {
         if (options_.stop.requested()) {
             save();
@@ -318,8 +319,9 @@ void Session::report_window() {
 
 void Session::write_status(const std::string& phase) const {
     const double share = std::max(1e-3, extension() / target());
-    const double left = phase == "genesis" ? record_.predicted_seconds
-                                           : std::max(0.0, wall_seconds() / share * (1.0 - share));
+    const double left = phase == "finished" ? 0.0
+                        : extension() > 0.0 ? std::max(0.0, wall_seconds() / share * (1.0 - share))
+                                            : record_.predicted_seconds;
     write_text(options_.output / "status.json",
                fmt::format("{{\n \"phase\": \"{}\",\n \"extension_m\": {},\n \"of_m\": {},\n "
                            "\"seconds_left\": {:.0f}\n}}\n",
