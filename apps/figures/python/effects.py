@@ -32,7 +32,17 @@ def load(folder: str) -> dict[str, list[tuple[str, float, float | None]]]:
     return measures
 
 
-def draw_panel(ax, measure: str, effects: list[tuple[str, float, float | None]]) -> None:
+def shown_names(terms: set[str]) -> dict[str, str]:
+    """Terms without the tables of their parameters, where their keys alone tell these apart."""
+    parameters = {parameter for term in terms for parameter in term.split(":")}
+    keys = [parameter.split(".")[-1] for parameter in parameters]
+    return {term: " × ".join(parameter.split(".")[-1]
+                             if keys.count(parameter.split(".")[-1]) == 1 else parameter
+                             for parameter in term.split(":")) for term in terms}
+
+
+def draw_panel(ax, measure: str, effects: list[tuple[str, float, float | None]],
+               names: dict[str, str]) -> None:
     shown = effects[:MOST_BARS]
     for y, (_, effect, error) in enumerate(shown):
         clear = error is None or abs(effect) > 2.0 * error
@@ -40,8 +50,7 @@ def draw_panel(ax, measure: str, effects: list[tuple[str, float, float | None]])
         if error is not None:
             ax.errorbar(effect, y, xerr=2.0 * error, color=INK, linewidth=0.9, capsize=2)
     ax.axvline(0.0, color=INK, linewidth=0.8)
-    ax.set_yticks(range(len(shown)), [term.replace(":", " :\n") for term, _, _ in shown],
-                  fontsize=7)
+    ax.set_yticks(range(len(shown)), [names[term] for term, _, _ in shown], fontsize=7)
     ax.set_ylim(len(shown) - 0.4, -0.6)
     left_out = len(effects) - len(shown)
     # From the panel's left edge: a measure's name may be longer than the bars' axis.
@@ -53,6 +62,7 @@ def draw_panel(ax, measure: str, effects: list[tuple[str, float, float | None]])
 
 def main(folder: str) -> None:
     measures = load(folder)
+    names = shown_names({term for effects in measures.values() for term, _, _ in effects})
     columns = min(COLUMNS, len(measures))
     rows = -(-len(measures) // columns)
     height = AROUND + BAR * max(min(len(e), MOST_BARS) for e in measures.values())
@@ -63,7 +73,7 @@ def main(folder: str) -> None:
             column, row = index % columns, index // columns
             x, y = column * WIDTH + LABELS, up - (row + 1) * height
             draw_panel(figure.add_axes((x / across, (y + 0.3) / up, (WIDTH - LABELS - 0.25) / across,
-                                        (height - AROUND) / up)), measure, effects)
+                                        (height - AROUND) / up)), measure, effects, names)
         figure.text(0.1 / across, 0.1 / up, "change from the least to the greatest value of a "
                     "parameter; bars: two standard errors, from the spread between seeds",
                     fontsize=7.5, color=FAINT)
