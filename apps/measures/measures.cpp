@@ -23,7 +23,8 @@ using Events = std::span<const std::unique_ptr<Event>>;
 
 void add_area(Measures& m, const Setting& setting, const State& state, const Profile& profile) {
     const double extension = state.clock.extension;
-    m.basin_area = area_above(profile, profile.x.size(), 2.0 * state.mean_radius);
+    m.basin_area = area_above(profile, profile.x.size(), 2.0 * state.mean_radius) -
+                   area_above_start(setting, state);
     if (extension > 0.0)
         m.area_balance = m.basin_area / (extension * setting.thickness);
 }
@@ -56,7 +57,8 @@ void add_intervening_high(Measures& m, const Profile& profile, double column) {
     const std::vector<double> depth = smoothed_depth(profile);
     if (const auto high = find_intervening_high(profile.x, depth, depocentre_prominence)) {
         m.intervening_high = Point{profile.x[*high], depth[*high]};
-        m.halfgraben_area_share = area_above(profile, *high + 1, column) / m.basin_area;
+        m.halfgraben_area_share =
+            area_above(profile, *high + 1, column) / area_above(profile, profile.x.size(), column);
     }
 }
 

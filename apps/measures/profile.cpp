@@ -39,19 +39,20 @@ struct Envelopes {
     std::vector<double> all, pre_rift;
 };
 
-Envelopes envelopes(const State& state, std::size_t columns, double width) {
-    const ConstDiscColumns d = disc_columns(state);
+/// @param x, y  of the discs, now or at their start, m
+Envelopes envelopes(const ConstDiscColumns& d, std::span<const double> x, std::span<const double> y,
+                    std::size_t columns, double width) {
     Envelopes top{std::vector<double>(columns, nothing_there),
                   std::vector<double>(columns, nothing_there)};
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        const double column = d.x[i] / width;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double column = x[i] / width;
         if (column < 0.0 || column >= static_cast<double>(columns))
             continue;
         const auto k = static_cast<std::size_t>(column);
-        const double y = d.y[i] + d.radius[i];
-        top.all[k] = std::max(top.all[k], y);
+        const double highest = y[i] + d.radius[i];
+        top.all[k] = std::max(top.all[k], highest);
         if (d.stratum[i] == 0)
-            top.pre_rift[k] = std::max(top.pre_rift[k], y);
+            top.pre_rift[k] = std::max(top.pre_rift[k], highest);
     }
     return top;
 }
@@ -62,7 +63,8 @@ Profile measure_profile(const Setting& setting, const State& state, const RigidB
     const Chain detachment = standing_base(base, state).surfaces.front().chain;
     const double width = 2.0 * state.mean_radius;
     const auto columns = static_cast<std::size_t>((setting.length + state.clock.extension) / width);
-    Envelopes top = envelopes(state, columns, width);
+    const ConstDiscColumns d = disc_columns(state);
+    Envelopes top = envelopes(d, d.x, d.y, columns, width);
     Profile p;
     p.x.resize(columns);
     p.pre_rift_top = std::move(top.pre_rift);
@@ -89,6 +91,17 @@ double area_above(const Profile& profile, std::size_t columns, double width) {
     double area = 0.0;
     for (std::size_t k = 0; k < columns; ++k)
         area -= profile.pre_rift_top[k] * width;
+    return area;
+}
+
+double area_above_start(const Setting& setting, const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const double width = 2.0 * state.mean_radius;
+    const auto columns = static_cast<std::size_t>(setting.length / width);
+    double area = 0.0;
+    for (const double top : envelopes(d, d.start_x, d.start_y, columns, width).pre_rift)
+        if (top > nothing_there) // else it was eroded
+            area -= top * width;
     return area;
 }
 

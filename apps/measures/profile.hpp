@@ -26,6 +26,10 @@ std::vector<double> smoothed_depth(const Profile& profile);
 /// `width` m, m^2.
 double area_above(const Profile& profile, std::size_t columns, double width);
 
+/// The same at the start, m^2: a packing's top is rough, and some tens of metres from the original
+/// surface.
+double area_above_start(const Setting& setting, const dem::State& state);
+
 /// Where the pre-rift top meets the detachment as it stands, x and depth, m: the shallowest
 /// pre-rift discs that lie on it. None if none does.
 std::optional<dem::Point> find_cutoff(const dem::State& state, const dem::Chain& detachment);
