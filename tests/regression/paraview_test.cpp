@@ -84,9 +84,12 @@ bool on_path(const std::string& program) {
     return std::system(("command -v " + program + " >/dev/null").c_str()) == 0;
 }
 
-/// What lends a picture a display, of a number that no other test takes at the same time.
+/// What lends a picture a display, of a number that no other test takes at the same time. ParaView
+/// connects more than once: a server that resets itself in between refuses it now and then.
 std::string display() {
-    return on_path("xvfb-run") ? fmt::format("xvfb-run -n {} ", 100 + getpid() % 20000) : "";
+    return on_path("xvfb-run") ? fmt::format("xvfb-run -n {} -s '-screen 0 1280x1024x24 -noreset' ",
+                                             100 + getpid() % 20000)
+                               : "";
 }
 
 class ParaviewTest : public testing::Test {
