@@ -121,7 +121,7 @@ TEST_F(HardRun, RanksEndTogetherWhereDiscsRunAwayOrAreNowhere) {
         fs::copy_file(kept, newest, fs::copy_options::overwrite_existing);
         change_newest(o.output, fault);
         const std::string call = fmt::format(
-            "timeout 300 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+            "timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
             "/usr/bin/mpirun -q --oversubscribe --mca mpi_yield_when_idle 1 -n 2 '{}' run '{}' "
             "--output '{}' --resume --quiet >'{}' 2>&1",
             LISTRIC_PROGRAM, (o.output / "scene.toml").string(), o.output.string(), message);
