@@ -14,6 +14,7 @@
 #include "apps/support/log.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/spelling.hpp"
+#include "apps/support/version.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,8 +34,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Hash in the summary of a finished run; empty if there is none.
-std::string finished_hash(const fs::path& folder, const std::string& accuracy, int seed) {
+/// What the summary of a finished run says of it; both empty if there is none.
+struct FinishedRun {
+    std::string hash;
+    std::string made_by; ///< version and commit of Listric
+};
+
+FinishedRun finished_run(const fs::path& folder, const std::string& accuracy, int seed) {
     std::ifstream in(folder / "summary.json");
     const auto json = nlohmann::json::parse(in, nullptr, false);
     if (!json.is_object() || !json.value("finished", false))
@@ -44,7 +50,10 @@ std::string finished_hash(const fs::path& folder, const std::string& accuracy, i
         throw UsageError(fmt::format("{}: a run at {} with seed {}, but {} with seed {} is wanted; "
                                      "--runs may name another folder",
                                      folder.string(), has, json.value("seed", -1), accuracy, seed));
-    return json.value("state_hash", "");
+    const auto from = json.value("provenance", nlohmann::json::object());
+    const std::string commit = from.value("commit", "");
+    return {json.value("state_hash", ""),
+            from.value("version", "") + (commit.empty() ? "" : "+" + commit)};
 }
 
 fs::path document_of(const ValidationRequest& request, const fs::path& runs) {
@@ -135,8 +144,8 @@ private:
     fs::path folder_of(const ValidationRun& run, int seed) const {
         return runs_ / run_name(run.name, seed);
     }
-    std::string hash_of(const ValidationRun& run, int seed) const {
-        return finished_hash(folder_of(run, seed), accuracy_of(run), seed);
+    FinishedRun finished(const ValidationRun& run, int seed) const {
+        return finished_run(folder_of(run, seed), accuracy_of(run), seed);
     }
 
     /// Makes the runs that are not there.
@@ -145,7 +154,7 @@ private:
         for (const std::string& name : names) {
             const ValidationRun& run = findings_.plan.run(name);
             for (int seed : findings_.seeds_of(run)) {
-                if (!hash_of(run, seed).empty())
+                if (!finished(run, seed).hash.empty())
                     continue;
                 SceneRequest scene;
                 scene.scene = run.scene;
@@ -172,7 +181,7 @@ private:
     void measure_runs(const ValidationRun& run) {
         bool measured = false;
         for (int seed : findings_.seeds_of(run)) {
-            const std::string hash = hash_of(run, seed);
+            const auto [hash, made_by] = finished(run, seed);
             if (hash.empty())
                 continue;
             findings_.finished.insert(run_name(run.name, seed));
@@ -186,7 +195,8 @@ private:
             request_.stop.check();
             log_.say(fmt::format("measuring {}", folder_of(run, seed).string()));
             for (auto& [at, numbers] : examine_run(folder_of(run, seed), run.at))
-                store_[{run.name, seed, at}] = {hash, {numbers.begin(), numbers.end()}};
+                store_[{run.name, seed, at}] = {
+                    hash, made_by, std::string(version), {numbers.begin(), numbers.end()}};
             save_measures(); // what is measured is kept, whatever comes next
             measured = true;
         }
@@ -212,7 +222,7 @@ private:
                 seeds.resize(static_cast<std::size_t>(row.seeds));
             const std::size_t before = frames.size();
             for (int seed : seeds)
-                if (!hash_of(run, seed).empty())
+                if (!finished(run, seed).hash.empty())
                     frames.push_back({row.run, seed, row.at});
             if (frames.size() == before)
                 return {};

@@ -46,6 +46,20 @@ std::pair<std::set<std::string>, std::set<std::string>> runs_of(const Validation
     return {present, all};
 }
 
+/// "The runs were made by Listric 0.2.0+abc, their measures taken by 0.2.0+def.", of all runs.
+std::string makers(const ValidationFindings& f, const std::set<std::string>& runs) {
+    std::set<std::string> made, measured;
+    for (const auto& [place, m] : f.store)
+        if (runs.contains(run_name(place.run, place.seed))) {
+            made.insert(m.made_by.empty() ? "a version that is not recorded" : m.made_by);
+            measured.insert(m.measured_by.empty() ? "one that is not recorded" : m.measured_by);
+        }
+    return made.empty() ? ""
+                        : fmt::format("The runs were made by Listric {}, their measures taken by "
+                                      "{}.\n\n",
+                                      fmt::join(made, ", "), fmt::join(measured, ", "));
+}
+
 /// What the document is, and how to read it.
 std::string introduction(const ValidationFindings& f) {
     std::set<std::string> wanted, there; // experiments may share runs
@@ -63,7 +77,7 @@ std::string introduction(const ValidationFindings& f) {
         there.size(), wanted.size(), f.accuracy, f.seeds,
         f.first_seed == 1 ? "" : fmt::format(", from {} on", f.first_seed), f.plan_name,
         f.beside.filename().string());
-    return text + "A value is the mean over the seeds ± its standard deviation (smallest to "
+    return text + makers(f, there) + "A value is the mean over the seeds ± its standard deviation (smallest to "
                   "largest). *Met* says how many seeds fulfil the expectation; where it asks for "
                   "most seeds or for the mean, that decides. Rows of kind *kinematics* check the "
                   "machinery: a hanging wall that slides on that detachment has them with any "

@@ -44,7 +44,11 @@ MeasureStore read_store(const std::filesystem::path& file) {
             store[{cells[0], std::atoi(cells[1].c_str()), std::atof(cells[2].c_str())}];
         m.hash = cells[3];
         for (std::size_t k = 4; k < cells.size(); ++k)
-            if (!cells[k].empty())
+            if (names[k] == "made_by")
+                m.made_by = cells[k];
+            else if (names[k] == "measured_by")
+                m.measured_by = cells[k];
+            else if (!cells[k].empty())
                 m.numbers[names[k]] = std::atof(cells[k].c_str());
     }
     return store;
@@ -55,9 +59,10 @@ void write_store(const std::filesystem::path& file, const MeasureStore& store) {
     for (const auto& [place, m] : store)
         for (const auto& [name, value] : m.numbers)
             names.insert(name);
-    std::string text = fmt::format("run,seed,at_m,state_hash,{}\n", fmt::join(names, ","));
+    std::string text = fmt::format("run,seed,at_m,state_hash,made_by,measured_by,{}\n", fmt::join(names, ","));
     for (const auto& [place, m] : store) {
-        text += fmt::format("{},{},{},{}", place.run, place.seed, place.at, m.hash);
+        text += fmt::format("{},{},{},{},{},{}", place.run, place.seed, place.at, m.hash, m.made_by,
+                            m.measured_by);
         for (const std::string& name : names) {
             const auto number = m.numbers.find(name);
             text += number == m.numbers.end() ? "," : fmt::format(",{:.6g}", number->second);

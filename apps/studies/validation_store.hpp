@@ -16,9 +16,10 @@ struct MeasuredPlace {
     auto operator<=>(const MeasuredPlace&) const = default;
 };
 
-/// Measures of one moment and the hash of the run that they come from.
+/// Measures of one moment, the hash of the run that they come from, and which Listric made the run
+/// and which measured it: version and commit.
 struct MeasuredNumbers {
-    std::string hash;
+    std::string hash, made_by, measured_by;
     std::map<std::string, double> numbers;
 };
 

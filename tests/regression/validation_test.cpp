@@ -1,6 +1,7 @@
 // `listric validate` on a scene of a few hundred discs: it makes the runs, resumes where it was
 // stopped, measures and writes.
 
+#include "apps/support/version.hpp"
 #include "tests/small_halfgraben.hpp"
 
 #include <gmock/gmock.h>
@@ -114,6 +115,9 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
                                   HasSubstr("| 200 ± 1 | met | met |"),
                                   HasSubstr("| 150 ± 1 | 0 of 2 | 0 of 1 |"),
                                   HasSubstr("| at least 0.50 | 0 of 1 | |")));
+    const std::string maker(listric::version);
+    EXPECT_THAT(document(), HasSubstr("The runs were made by Listric " + maker +
+                                      ", their measures taken by " + maker + "."));
     EXPECT_TRUE(fs::exists(folder / "doc/report/all.png"));
     const auto hash = [&](const char* run) {
         return nlohmann::json::parse(contents(folder / "runs" / run / "summary.json"))["state_hash"]
