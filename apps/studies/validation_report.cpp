@@ -77,13 +77,14 @@ std::string introduction(const ValidationFindings& f) {
         there.size(), wanted.size(), f.accuracy, f.seeds,
         f.first_seed == 1 ? "" : fmt::format(", from {} on", f.first_seed), f.plan_name,
         f.beside.filename().string());
-    return text + makers(f, there) + "A value is the mean over the seeds ± its standard deviation (smallest to "
-                  "largest). *Met* says how many seeds fulfil the expectation; where it asks for "
-                  "most seeds or for the mean, that decides. Rows of kind *kinematics* check the "
-                  "machinery: a hanging wall that slides on that detachment has them with any "
-                  "material, faults or none, so meeting them says nothing about faults. Rows of "
-                  "kind *faults* are what the paper is about. Rows of kind *conservation* are "
-                  "bookkeeping.\n\n";
+    return text + makers(f, there) +
+           "A value is the mean over the seeds ± its standard deviation (smallest to "
+           "largest). *Met* says how many seeds fulfil the expectation; where it asks for "
+           "most seeds or for the mean, that decides. Rows of kind *kinematics* check the "
+           "machinery: a hanging wall that slides on that detachment has them with any "
+           "material, faults or none, so meeting them says nothing about faults. Rows of "
+           "kind *faults* are what the paper is about. Rows of kind *conservation* are "
+           "bookkeeping.\n\n";
 }
 
 /// How many expectations of each kind are met, by experiment.

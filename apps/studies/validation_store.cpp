@@ -59,7 +59,8 @@ void write_store(const std::filesystem::path& file, const MeasureStore& store) {
     for (const auto& [place, m] : store)
         for (const auto& [name, value] : m.numbers)
             names.insert(name);
-    std::string text = fmt::format("run,seed,at_m,state_hash,made_by,measured_by,{}\n", fmt::join(names, ","));
+    std::string text =
+        fmt::format("run,seed,at_m,state_hash,made_by,measured_by,{}\n", fmt::join(names, ","));
     for (const auto& [place, m] : store) {
         text += fmt::format("{},{},{},{},{},{}", place.run, place.seed, place.at, m.hash, m.made_by,
                             m.measured_by);
