@@ -92,8 +92,9 @@ protected:
 };
 
 TEST_F(MaterialFileTest, ShippedMaterials) {
-    EXPECT_THAT(materials.names(), ElementsAre("mat18-b", "mat18-b-calibrated", "mat18-w",
-                                               "mat18-w-calibrated", "sediment"));
+    EXPECT_THAT(materials.names(),
+                ElementsAre("mat18-b", "mat18-b-calibrated", "mat18-w", "mat18-w-calibrated",
+                            "mat18-w-frictional", "sediment"));
     for (const std::string& name : materials.names()) {
         const RockMaterial rock = load_material(name);
         EXPECT_EQ(rock.name, name);
@@ -105,6 +106,12 @@ TEST_F(MaterialFileTest, ShippedMaterials) {
     EXPECT_EQ(strong.material.friction, 2.8);
     EXPECT_EQ(strong.bonds->shear_mean, 2e9);
     EXPECT_EQ(load_material("mat18-w-calibrated").material.friction, 0.5);
+    // The scenes' weakened rock: Table 1's but for its friction.
+    const Material scenes = load_material("mat18-w-frictional").material;
+    const Material table = load_material("mat18-w").material;
+    EXPECT_EQ(scenes.friction, 0.2);
+    EXPECT_EQ(scenes.normal_stiffness, table.normal_stiffness);
+    EXPECT_EQ(scenes.shear_stiffness, table.shear_stiffness);
 }
 
 TEST_F(MaterialFileTest, TheDefaultsOfTheProgramAreTable1) {
@@ -176,7 +183,7 @@ TEST_F(MaterialFileTest, WrongValuesAreNamed) {
 
 TEST_F(MaterialFileTest, MissingFilesAreAnsweredWithWhatThereIs) {
     const std::string shipped = "(materials: mat18-b, mat18-b-calibrated, mat18-w, "
-                                "mat18-w-calibrated, sediment)";
+                                "mat18-w-calibrated, mat18-w-frictional, sediment)";
     const auto missing = [&](const std::string& name) {
         return error_of([&] { load_material(name); });
     };

@@ -14,7 +14,8 @@ inline std::uint64_t drive_lis1(int threads) {
     const HangingWallParameters wall{.mean_radius = 186.2};
     const CyclePhysics physics{.gravity = 9.81, .averaging_time = 150.0};
     const BondStrength bonds;
-    const FaultWeakeningParameters weakening;
+    FaultWeakeningParameters weakening;
+    weakening.material.friction = 0.2; // mat18-w-frictional
     const SedimentationParameters filling;
     const RigidBase base = make_halfgraben({.segments = {arc_to_dip(0.0, 15e3), straight(60e3)}},
                                            {wall.length, wall.thickness, 10e3}, Material{},
