@@ -40,6 +40,7 @@ struct FinishedRun {
     std::string made_by; ///< version and commit of Listric
 };
 
+/// Throws UsageError if the folder has a run of another accuracy or seed.
 FinishedRun finished_run(const fs::path& folder, const std::string& accuracy, int seed) {
     std::ifstream in(folder / "summary.json");
     const auto json = nlohmann::json::parse(in, nullptr, false);
