@@ -8,7 +8,7 @@ Usage: tests/benchmark/benchmark.py [cycle|neighbours|runs|instructions|effects 
   runs          whole runs of lis1 at draft: wall time and where it goes
   instructions  instructions per disc-step (valgrind, AVX2 build), which are repeatable
   effects       instructions of a scene with gravity and friction alone, in this build and in one
-                without the sources of the effects; and what each effect adds
+                linked without the sources of the effects; and what each effect adds
 
 Rates are medians of several repeats. Compare lines of one session only: machines are noisy.
 """
@@ -141,54 +141,24 @@ def measure_instructions():
         for kind in ("", "--unbonded", "--plain")])
 
 
-# What takes the place of an effect's source: the same symbols, which a scene without it never calls.
-STUBS = {
-    "bond_healing": """BondHealing::BondHealing(const BondHealingParameters& p, const BondStrength& s,
-    double rate) : Event("", {p.interval, rate}), parameters_(p), strength_(s) {}
-void BondHealing::begin(State&) { std::abort(); }
-bool BondHealing::apply(State&, const RigidBase&) { std::abort(); }""",
-    "fault_weakening": """FaultWeakening::FaultWeakening(const FaultWeakeningParameters& p, double rate,
-    double, double) : Event("", {p.interval, rate}), parameters_(p) {}
-void FaultWeakening::begin(State&) { std::abort(); }
-bool FaultWeakening::apply(State&, const RigidBase&) { std::abort(); }""",
-    "property_update": """PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& p, double rate,
-    double, double) : Event("", {p.update_interval, rate}), parameters_(p) {}
-bool PropertyUpdate::apply(State&, const RigidBase&) { std::abort(); }""",
-    "weakened_discs": """double weakened_volume_change(const State&, const RigidBase&) { std::abort(); }""",
-    "sedimentation": """Sedimentation::Sedimentation(const SedimentationParameters& p, double ratio,
-    double rate) : Event("", {p.interval, rate}), target_(p.level, p.target), radius_ratio_(ratio) {}
-bool Sedimentation::apply(State&, const RigidBase&) { std::abort(); }""",
-    "compaction": """Compaction::Compaction(const CompactionParameters& p, double porosity,
-    Target surface, double rate) : Event("", {p.interval, rate}), surface_porosity_(porosity),
-    surface_(std::move(surface)) {}
-void Compaction::begin(State&) { std::abort(); }
-bool Compaction::apply(State&, const RigidBase&) { std::abort(); }""",
-    "energy_account": """EnergyAccount::EnergyAccount(double, bool, std::span<const std::string>)
-    : Observer("", never) {}
-void EnergyAccount::open(const State&, const RigidBase&) { std::abort(); }
-EnergyFlows EnergyAccount::flows() const { std::abort(); }
-void EnergyAccount::put(const EnergyFlows&) { std::abort(); }
-void EnergyAccount::book_cycles(const State&, const RigidBase&) { std::abort(); }
-void EnergyAccount::book_event(const std::string&, const State&, const RigidBase&) { std::abort(); }
-EnergyBalance EnergyAccount::balance(const State&, const RigidBase&) const { std::abort(); }""",
-}
+# What a scene with gravity and friction alone never calls, in dem/events and dem.
+EFFECTS = ("bond_healing", "compaction", "energy", "energy_account", "fault_weakening",
+           "measure_circle", "property_update", "sediment_stress", "sedimentation", "weakened_discs")
 
 
-def build_without_effects(preset, tree):
-    """Builds the program in a copy of the sources in which the effects have none."""
-    shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns("build", "out", ".git", "*.png"))
-    for name, text in STUBS.items():
-        (tree / "dem/events" / f"{name}.cpp").write_text(
-            f'#include "dem/events/{name}.hpp"\n#include <cstdlib>\nnamespace listric::dem {{\n{text}\n}}\n')
-    (tree / "dem/energy.cpp").unlink()
-    cycle = tree / "dem/plain_cycle.cpp"
-    text, found = re.subn(r"cycle_plainly<true>\(.*?\);", "std::abort();", cycle.read_text(), flags=re.S)
-    assert found == 1
-    cycle.write_text(text.replace("#include <cmath>", "#include <cmath>\n#include <cstdlib>", 1))
-    for command in (("--preset", preset, "-D", "LISTRIC_FEM=OFF"), ("--build", "--preset", preset,
-                                                                   "--target", "listric")):
-        subprocess.run(["cmake", *command], check=True, cwd=tree, capture_output=True)
-    return tree / "build" / preset / "listric"
+def link(preset, folder, without):
+    """The program linked anew into a folder, without these sources of dem: a call of what is missing
+    would end it."""
+    place, library = ROOT / "build" / preset, folder / "dem.a"
+    shutil.copy(place / "dem/liblistric_dem.a", library)
+    if without:
+        call("ar", "d", library, *(f"{name}.cpp.o" for name in without))
+    program = folder / ("listric-without" if without else "listric")
+    command = call("ninja", "-C", place, "-t", "commands", "listric").splitlines()[-1]
+    command = command.replace("dem/liblistric_dem.a", str(library)).replace(
+        "-o listric ", f"-o {program} -no-pie -Wl,--unresolved-symbols=ignore-all ")
+    subprocess.run(command, shell=True, check=True, cwd=place)
+    return program
 
 
 def measure_effects():
@@ -210,7 +180,7 @@ def measure_effects():
         steps = (after["cycles"] - before["cycles"]) * (after["discs"] + before["discs"]) / 2
         return counted, steps
 
-    program = build("x86-64-v3")
+    build("x86-64-v3")
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
@@ -227,7 +197,9 @@ def measure_effects():
                 "instructions": counted, "disc_steps": round(steps),
                 "instructions_per_disc_step": f"{counted / steps:.1f}"})
 
-        add("without effects", build_without_effects("x86-64-v3", folder / "tree"), [])
+        os.environ["LISTRIC_SHARE"] = str(ROOT / "apps")
+        program = link("x86-64-v3", folder, [])
+        add("without effects", link("x86-64-v3", folder, EFFECTS), [])
         for effects in ([], ["bonds"], ["bonds", "bond_healing"], ["fault_weakening"],
                         ["sedimentation"], ["sedimentation", "compaction"], ["energy"], alone):
             add("all", program, effects)
