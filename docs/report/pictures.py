@@ -4,7 +4,7 @@
 Usage: pictures.py RUNS, from the root of the sources
 
 RUNS has folders of finished runs: lis1, lis2, rfr, lis1-elastic, and lis1-seed2 (lis1 with --seed 2).
-Needs python3-selenium, chromium and chromium-driver.
+Needs python3-selenium, python3-pil, chromium and chromium-driver.
 """
 import subprocess
 import sys
@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 from urllib.parse import urlencode
 
+from PIL import Image
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
@@ -65,6 +66,7 @@ def draw(file, moment, colour, size, picked, picture):
             "width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": False})
         time.sleep(1.0)
         driver.save_screenshot(str(picture))
+        Image.open(picture).convert("RGB").quantize(256).save(picture, optimize=True)
     finally:
         driver.quit()
 
