@@ -13,12 +13,14 @@ RECORDED = (".png", ".csv")
 COMMIT = re.compile(r"\b(?:commit\s+|\d+\.\d+\.\d+\+)`?[0-9a-f]{7,40}\b")
 
 
+def recorded(text):
+    return [to for to in links(text) if to.endswith(RECORDED)]
+
+
 def violations(documents):
     """Pages of docs/ that link to recorded files and name no commit."""
-    return [f"{path}: {recorded[0]}: made by which commit?"
-            for path, text in documents.items() if path.startswith("docs/")
-            for recorded in [[to for to in links(text) if to.endswith(RECORDED)]]
-            if recorded and not COMMIT.search(text)]
+    return [f"{path}: {recorded(text)[0]}: made by which commit?" for path, text in documents.items()
+            if path.startswith("docs/") and recorded(text) and not COMMIT.search(text)]
 
 
 if __name__ == "__main__":
