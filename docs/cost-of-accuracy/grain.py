@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Sections of runs of different grain below each other: strata on the left, strain on the right.
 
-Usage: grain.py KM PICTURE RUN...      grain.py 2.5 grain.png out/standard out/fine out/sandbox
+Usage: grain.py KM PICTURE RUN...      grain.py 2.5 grain-2.5km.png out/standard out/fine out/sandbox
 
 The runs have figures at that extension (`listric run ... --until 2.5km`).
 """
