@@ -30,16 +30,15 @@ public:
         const double discs = static_cast<double>(estimated_discs(scene));
         const int size = std::min(largest, static_cast<int>(std::log2(discs)));
         const bool accounted = make_parts(scene).accounts_energy;
-        double& rate = rates_[{size, accounted}];
-        if (rate == 0.0)
-            rate = measure_speed(std::size_t{1} << size, threads_, 0.2, accounted)
-                       .disc_steps_per_second;
-        return predict(scene, rate, threads_).seconds;
+        const auto [speed, is_new] = speeds_.try_emplace({size, accounted});
+        if (is_new)
+            speed->second = measure_speed(std::size_t{1} << size, threads_, 0.1, accounted);
+        return predict(scene, speed->second).seconds;
     }
 
 private:
     int threads_ = all_threads();
-    std::map<std::pair<int, bool>, double> rates_; ///< by power of two, and with the account
+    std::map<std::pair<int, bool>, CycleSpeed> speeds_; ///< by power of two, and with the account
 };
 
 /// "about 16,700": three digits, thousands apart.

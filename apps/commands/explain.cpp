@@ -77,17 +77,16 @@ std::string explain_parts(const Scene& scene, EffectList effects) {
 /// Discs, cycles and time at every accuracy, and of this call.
 std::string explain_cost(const Scene& scene, const Prediction& p, const CycleSpeed& speed,
                          int threads) {
-    const double rate = speed.disc_steps_per_second;
     std::string text = fmt::format(
         "on this machine when nothing else runs, {} {} ({:.0f} million disc-steps per second)\n"
         "  {:<10} {:>10} {:>9} {:>12} {:>9}\n",
-        threads, threads == 1 ? "thread" : "threads", rate / 1e6, "accuracy", "radius, m", "discs",
+        threads, threads == 1 ? "thread" : "threads", speed.team / 1e6, "accuracy", "radius, m", "discs",
         "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {
         Scene other = scene;
         other.hanging_wall->mean_radius = level.mean_radius;
         other.extension.speed = level.speed;
-        const Prediction q = predict(other, rate, threads);
+        const Prediction q = predict(other, speed);
         text += fmt::format("  {:<10} {:>10.4g} {:>9} {:>12.0f} {:>9}{}\n", level.name,
                             level.mean_radius, q.discs_at_start, q.cycles, duration(q.seconds),
                             level.mean_radius == scene.hanging_wall->mean_radius ? "   <- this call"
@@ -105,14 +104,14 @@ std::string explain(const Scene& scene, int threads, EffectList effects) {
     CycleSpeed speed;
     if (scene.hanging_wall)
         speed =
-            measure_speed(estimated_discs(scene), threads, 1.0, make_parts(scene).accounts_energy);
+            measure_speed(estimated_discs(scene), threads, 0.5, make_parts(scene).accounts_energy);
     return explain(scene, speed, threads, effects);
 }
 
 std::string explain(const Scene& scene, const CycleSpeed& speed, int threads, EffectList effects) {
     if (scene.flexure)
         return explain_flexure(scene);
-    const Prediction p = predict(scene, speed.disc_steps_per_second, threads);
+    const Prediction p = predict(scene, speed);
     return fmt::format("{}: {}\n\n", scene.name, scene.description) +
            explain_effects(scene, effects) + explain_size(scene, p) +
            explain_parts(scene, effects) + explain_cost(scene, p, speed, threads) +

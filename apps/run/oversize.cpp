@@ -28,7 +28,7 @@ struct Excess {
 };
 
 Excess excess_of(const Scene& scene, double memory) {
-    const Prediction p = predict(scene, 1.0, 1);
+    const Prediction p = predict(scene);
     const double discs = std::max<double>(1.0, static_cast<double>(p.discs_at_end));
     return {std::max(p.cycles, p.work / discs) / most_cycles, p.memory / memory};
 }

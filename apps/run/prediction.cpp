@@ -1,6 +1,7 @@
 #include "apps/run/prediction.hpp"
 
 #include "apps/model/model.hpp"
+#include "apps/support/statistics.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
@@ -14,12 +15,20 @@ namespace listric {
 
 using namespace dem;
 
-CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted) {
-    // Hexagonal lattice on a floor, as many neighbours per disc as a settled packing has on average
-    // once every third contact is left out by a gap.
+namespace {
+
+/// Hexagonal lattice on a floor, as many neighbours per disc as a settled packing has on average
+/// once every third contact is left out by a gap.
+struct Lattice {
+    State state = empty_state();
+    RigidBase base;
+};
+
+Lattice bonded_lattice(std::size_t discs) {
     const double radius = 100.0;
     const auto columns = static_cast<std::size_t>(std::sqrt(static_cast<double>(discs) * 3.0)) + 1;
-    State state = empty_state();
+    Lattice lattice;
+    State& state = lattice.state;
     state.materials.assign(3, Material{});
     state.mean_radius = radius;
     state.skin = 0.25 * radius;
@@ -32,33 +41,58 @@ CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool ac
         d.radius[i] = radius;
         d.mass[i] = 3000.0 * pi * radius * radius;
     }
-    RigidBase base;
     const double width = 2.02 * radius * static_cast<double>(columns);
-    base.surfaces = {{"floor", {line({-width, 0.0}, {2.0 * width, 0.0})}, 0.5, 0.0, 0.0}};
+    lattice.base.surfaces = {{"floor", {line({-width, 0.0}, {2.0 * width, 0.0})}, 0.5, 0.0, 0.0}};
     state.clock.time_step = 0.1 * stable_time_step(d.mass[0], state.materials[0], 0.7, 1.0);
     sort_discs(state);
-    find_contacts(state, base);
+    find_contacts(state, lattice.base);
     const ContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
         c.bonded[k] = 1;
         c.tensile_strength[k] = c.shear_strength[k] = 1e30f;
     }
-    // Long enough that packing the state for the fast cycle does not count.
-    const auto batch = std::max<std::int64_t>(5, 4'000'000 / static_cast<std::int64_t>(discs));
-    EnergyFlows flows;
-    const Execution execution{threads, best_cycle(), accounted ? &flows : nullptr};
-    advance(state, base, {}, batch / 4 + 1, execution);
+    return lattice;
+}
+
+/// What a piece of cycles takes, s.
+struct PieceTime {
+    double quiet = 0.0; ///< by processor time
+    double wall = 0.0;
+};
+
+/// Medians of `seconds` of pieces, since another program's moment is no measure.
+PieceTime time_piece(Lattice& lattice, std::int64_t cycles, const Execution& execution,
+                     double seconds) {
+    const double sharing = execution.energy ? 1.0 : static_cast<double>(execution.threads);
+    std::vector<double> quiet, wall;
     const auto start = SteadyClock::now();
-    const std::clock_t cpu_start = std::clock(); // of all threads
-    double cycles = 0.0;
     do {
-        advance(state, base, {}, batch, execution);
-        cycles += static_cast<double>(batch);
+        const auto piece_start = SteadyClock::now();
+        const std::clock_t cpu_start = std::clock(); // of all threads
+        advance(lattice.state, lattice.base, {}, cycles, execution);
+        wall.push_back(seconds_since(piece_start));
+        quiet.push_back(static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC / sharing);
     } while (seconds_since(start) < seconds);
-    const double wall = seconds_since(start);
-    const double quiet = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC /
-                         (accounted ? 1.0 : static_cast<double>(threads));
-    return {cycles * static_cast<double>(discs) / quiet, std::max(1.0, wall / quiet)};
+    return {median(quiet), median(wall)};
+}
+
+} // namespace
+
+CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted) {
+    Lattice lattice = bonded_lattice(discs);
+    // Long enough that packing the state for the fast cycle does not count.
+    const auto cycles = std::max<std::int64_t>(5, 4'000'000 / static_cast<std::int64_t>(discs));
+    EnergyFlows flows;
+    EnergyFlows* const account = accounted ? &flows : nullptr;
+    const Execution team{threads, best_cycle(), account}, alone{1, best_cycle(), account};
+    advance(lattice.state, lattice.base, {}, cycles / 4 + 1, team);
+    const PieceTime of_team = time_piece(lattice, cycles, team, seconds);
+    const PieceTime of_one =
+        threads == 1 || accounted ? of_team : time_piece(lattice, cycles, alone, seconds);
+    const double piece = static_cast<double>(cycles) * static_cast<double>(discs);
+    return {.team = piece / of_team.quiet,
+            .one_thread = piece / of_one.quiet,
+            .busy = std::max(1.0, of_team.wall / of_team.quiet)};
 }
 
 namespace {
@@ -112,7 +146,7 @@ std::size_t new_discs(const Scene& s) {
 
 } // namespace
 
-Prediction predict(const Scene& scene, double rate, int threads) {
+Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     const HangingWallParameters& h = *scene.hanging_wall;
     const double density = h.rock_density / (1.0 - 0.166);
     const double mean_mass = density * pi * h.mean_radius * h.mean_radius;
@@ -141,9 +175,8 @@ Prediction predict(const Scene& scene, double rate, int threads) {
     double serial = price_of_windows(scene, work) + price_of_effects(scene, work) +
                     price_of_figures(scene, work.discs, parts.base_moves);
     (start < shared_from ? serial : shared) += list_price * p.disc_steps;
-    const double cycling_threads = parts.accounts_energy ? 1.0 : threads;
     p.work = shared + serial;
-    p.seconds = (shared + serial * cycling_threads) / rate;
+    p.seconds = shared / speed.team + serial / speed.one_thread;
     // Columns of a disc, its listed contacts, and the neighbour search's copies.
     const double contacts =
         std::max(3.0, 0.42 * (2.0 + scene.cycle.skin) * (2.0 + scene.cycle.skin));

@@ -6,13 +6,16 @@
 
 namespace listric {
 
-/// Speed of the cycle on this machine.
+/// Speed of the bare cycle on a machine, disc-steps per second when nothing else runs. Work that is
+/// not shared goes at the speed of one thread: a team's cycles of few discs depend on how near the
+/// cores are to each other, which no other work does.
 struct CycleSpeed {
-    double disc_steps_per_second = 0.0; ///< of all threads, when nothing else runs
+    double team = 1.0;
+    double one_thread = 1.0;
     double busy = 1.0; ///< how many times longer things take now, as other programs run
 };
 
-/// What a scene will cost on this machine.
+/// What a scene will cost on a machine.
 struct Prediction {
     std::size_t discs_at_start = 0, discs_at_end = 0;
     double time_step = 0.0; ///< s
@@ -23,11 +26,11 @@ struct Prediction {
     double seconds = 0.0; ///< wall time, when nothing else runs
 };
 
-/// @param disc_steps_per_second  of the bare cycle on this machine
-Prediction predict(const Scene& scene, double disc_steps_per_second, int threads);
+Prediction predict(const Scene& scene, const CycleSpeed& speed = {});
 
-/// A bonded lattice of the scene's size is cycled for about `seconds`, with or without the account
-/// of energy. Processor time tells the speed, so that other programs do not change it.
+/// A bonded lattice of the scene's size is cycled for about `seconds` by the team, and as long by
+/// one thread, with or without the account of energy. Processor time tells the speed, so that other
+/// programs do not change it.
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted);
 
 } // namespace listric

@@ -51,8 +51,8 @@ std::string with_hint(const std::exception& error, const fs::path& output, std::
                         : error.what();
 }
 
-MemoryError out_of_memory(const Scene& scene, int threads) {
-    const double bytes = scene.hanging_wall ? predict(scene, 1.0, threads).memory : 0.0;
+MemoryError out_of_memory(const Scene& scene) {
+    const double bytes = scene.hanging_wall ? predict(scene).memory : 0.0;
     const std::string discs =
         bytes > 0.0 ? fmt::format("the run needs about {:.0f} MB", std::ceil(bytes / 1e6))
                     : "the elastic base takes more than there is";
@@ -78,7 +78,7 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     log.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
                         scene.accuracy, scene.seed, output.string()));
     if (scene.hanging_wall)
-        note_memory_need(predict(scene, 1.0, options.threads).memory);
+        note_memory_need(predict(scene).memory);
     try {
         if (!scene.flexure)
             return run_session(scene, options, log);
@@ -94,7 +94,7 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     } catch (const StorageError& failure) {
         throw StorageError(with_hint(failure, output, "once files can be written"));
     } catch (const std::bad_alloc&) {
-        const MemoryError failure = out_of_memory(scene, options.threads);
+        const MemoryError failure = out_of_memory(scene);
         throw MemoryError(with_hint(failure, output, "where there is more memory"));
     }
 }

@@ -148,11 +148,10 @@ bool Session::resume() {
 void Session::begin() {
     record_.scene = to_toml(scene_);
     write_text(options_.output / "scene.toml", record_.scene);
-    const CycleSpeed speed =
-        measure_speed(estimated_discs(scene_), options_.threads, 0.3, parts_.accounts_energy);
-    record_.predicted_seconds =
-        speed.busy *
-        predict(scene_, ranks() * speed.disc_steps_per_second, options_.threads).seconds;
+    CycleSpeed speed =
+        measure_speed(estimated_discs(scene_), options_.threads, 0.2, parts_.accounts_energy);
+    speed.team *= ranks();
+    record_.predicted_seconds = speed.busy * predict(scene_, speed).seconds;
 
     if (scene_.picked_fault)
         log_.say(describe(*scene_.picked_fault, *scene_.detachment));

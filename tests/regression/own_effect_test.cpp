@@ -86,7 +86,7 @@ TEST_F(OwnEffect, IsExplainedPricedAndInTheReference) {
     EXPECT_THAT(reference.substr(table),
                 AllOf(HasSubstr("interval_a"), HasSubstr("time between looks at speeds")));
 
-    EXPECT_GT(predict(with(), 1e7, 1).seconds, predict(without(), 1e7, 1).seconds);
+    EXPECT_GT(predict(with()).seconds, predict(without()).seconds);
     // What it does not say that genesis depends on, genesis does not depend on.
     EXPECT_EQ(genesis_cache_path(with(), make_parts(with())),
               genesis_cache_path(without(), make_parts(without())));

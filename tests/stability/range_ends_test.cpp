@@ -70,7 +70,7 @@ TEST_F(RangeEnds, ExplainIsFinite) {
             std::string told_of_it;
             try {
                 told_of_it = explain(load_scene(request_of(scene, end)),
-                                     {.disc_steps_per_second = 1e8}, 2, program_effects());
+                                     {.team = 1e8, .one_thread = 1e8}, 2, program_effects());
             } catch (const SceneError&) {
                 continue; // does not go with the rest of the scene
             }
@@ -89,7 +89,7 @@ TEST_F(RangeEnds, ARunEndsOrIsRefused) {
     for (const std::string& end : ends) {
         try {
             const Scene scene = load_scene({.scene = every_effect, .set = {end}});
-            if (predict(scene, 1e8, 1).seconds > 10.0) { // would end, or be refused, but not here
+            if (predict(scene, {.team = 1e8, .one_thread = 1e8}).seconds > 10.0) { // would end, or be refused, but not here
                 ++long_ones;
                 continue;
             }

@@ -16,36 +16,37 @@ Scene draft(const char* scene, const std::vector<std::string>& set = {},
 }
 
 constexpr double rate = 9e7; // disc-steps per second
+constexpr CycleSpeed one_thread{.team = rate, .one_thread = rate};
 
 TEST(Prediction, CountsTheWorkOfTheScenes) {
     // Discs times cycles of runs with seed 1.
     const std::pair<const char*, double> runs[] = {
         {"lis1", 1.549e9}, {"rfr", 1.375e9}, {"lis1-elastic", 1.477e9}};
     for (const auto& [scene, disc_steps] : runs) {
-        const Prediction p = predict(draft(scene), rate, 1);
+        const Prediction p = predict(draft(scene), one_thread);
         EXPECT_NEAR(p.disc_steps, disc_steps, 0.1 * disc_steps) << scene;
     }
 }
 
 TEST(Prediction, FollowsTheSpeedOfTheMachine) {
     const Scene scene = draft("lis1");
-    const double seconds = predict(scene, rate, 1).seconds;
-    EXPECT_NEAR(predict(scene, 0.5 * rate, 1).seconds, 2.0 * seconds, 1e-9 * seconds);
+    const double seconds = predict(scene, one_thread).seconds;
+    EXPECT_NEAR(predict(scene, {.team = 0.5 * rate, .one_thread = 0.5 * rate}).seconds, 2.0 * seconds, 1e-9 * seconds);
     // Two threads of the same speed each: the cycle takes half the time, the rest what it took.
-    const double two = predict(scene, 2.0 * rate, 2).seconds;
+    const double two = predict(scene, {.team = 2.0 * rate, .one_thread = rate}).seconds;
     EXPECT_LT(two, 0.8 * seconds);
     EXPECT_GT(two, 0.5 * seconds);
 }
 
 TEST(Prediction, KnowsThePriceOfEffects) {
-    const double all = predict(draft("lis1"), rate, 1).seconds;
+    const double all = predict(draft("lis1"), one_thread).seconds;
     for (const char* effect : {"fault_weakening", "bond_healing", "compaction"})
-        EXPECT_LT(predict(draft("lis1", {}, {effect}), rate, 1).seconds, all) << effect;
-    EXPECT_LT(predict(draft("lis1", {}, {"compaction", "sedimentation"}), rate, 1).seconds,
+        EXPECT_LT(predict(draft("lis1", {}, {effect}), one_thread).seconds, all) << effect;
+    EXPECT_LT(predict(draft("lis1", {}, {"compaction", "sedimentation"}), one_thread).seconds,
               0.9 * all);
     // All pictures but the last are drawn beside the cycle.
-    EXPECT_LT(predict(draft("lis1", {"output.figures_at_m=[]"}), rate, 1).seconds, all);
-    EXPECT_GT(predict(draft("lis1-elastic"), rate, 1).seconds, 1.05 * all);
+    EXPECT_LT(predict(draft("lis1", {"output.figures_at_m=[]"}), one_thread).seconds, all);
+    EXPECT_GT(predict(draft("lis1-elastic"), one_thread).seconds, 1.05 * all);
 }
 
 } // namespace
