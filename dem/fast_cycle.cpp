@@ -83,6 +83,11 @@ double FastCycle::greatest_displacement(const State& state, double extension, Li
 
 void FastCycle::mark_ghosts(const Links* links) {
     own_.clear();
+    for (Strip& strip : strips_)
+        strip.sends = links && std::ranges::any_of(links->sent(), [&](std::int32_t row) {
+                          const auto disc = static_cast<std::size_t>(row);
+                          return disc >= strip.first_disc && disc < strip.end_disc;
+                      });
     if (!links)
         return;
     own_.assign(inertia_.size(), 0);
@@ -90,16 +95,18 @@ void FastCycle::mark_ghosts(const Links* links) {
         own_[i] = links->own()[i] ? -1 : 0;
 }
 
-void FastCycle::renew_ghosts(Links& links) {
-    links.renew_ghosts(
-        [&](std::size_t i, double* to) {
-            std::copy_n(discs_[i].place, 2, to);
-            std::copy_n(discs_[i].velocity, 3, to + 2);
-        },
-        [&](std::size_t i, const double* from) {
-            std::copy_n(from, 2, discs_[i].place);
-            std::copy_n(from + 2, 3, discs_[i].velocity);
-        });
+void FastCycle::send_ghosts(Links& links) const {
+    links.send_ghosts([&](std::size_t i, double* to) {
+        std::copy_n(discs_[i].place, 2, to);
+        std::copy_n(discs_[i].velocity, 3, to + 2);
+    });
+}
+
+void FastCycle::receive_ghosts(Links& links) {
+    links.receive_ghosts([&](std::size_t i, const double* from) {
+        std::copy_n(from, 2, discs_[i].place);
+        std::copy_n(from + 2, 3, discs_[i].velocity);
+    });
 }
 
 /// Lets the team's size follow what it does, in disc-steps. Ranks must do alike, so theirs stays.
@@ -137,16 +144,17 @@ struct FastCycle::Piece {
     int threads;
     Barrier barrier;
     Claims claims;
+    struct alignas(64) Fastest {
+        double in[2]; ///< a cycle, by its parity: one is read while the next is written
+    };
+    std::vector<Fastest> fastest; ///< of what each thread has moved, m/s
 };
 
 /// Keeps clock and watch for itself; all come to the same decisions.
 class FastCycle::Worker {
 public:
     Worker(FastCycle& fast, Piece& piece, int thread)
-        : fast_(fast), piece_(piece), thread_(thread),
-          own_(fast.strips_.size() * static_cast<std::size_t>(thread) /
-               static_cast<std::size_t>(piece.threads)),
-          clock_(piece.clock), watch_(piece.watch) {}
+        : fast_(fast), piece_(piece), thread_(thread), clock_(piece.clock), watch_(piece.watch) {}
 
     void run(std::int64_t cycles) {
         for (std::int64_t n = 0; n < cycles; ++n) {
@@ -168,7 +176,7 @@ public:
 
 private:
     template <class Work> void for_free_strips(Work&& work) {
-        piece_.claims.take(own_, ++phase_, [&](std::size_t k) { work(fast_.strips_[k]); });
+        piece_.claims.take(thread_, ++phase_, [&](std::size_t k) { work(fast_.strips_[k]); });
     }
 
     /// Keeps the lists good for the cycles up to the next look; false if they must be updated.
@@ -211,14 +219,27 @@ private:
         thins.rate *= speed;
         const auto sweep = clock_.cycle % averaging_interval == 0 ? piece_.kernels.sampling_sweep
                                                                   : piece_.kernels.sweep;
-        for_free_strips([&](Strip& strip) {
-            fast_.compute_base(strip, moment);
-            strip.fastest[parity] = sweep(piece_.shared, strip, thins);
-        });
+        double& mine = piece_.fastest[static_cast<std::size_t>(thread_)].in[parity];
+        mine = 0.0;
+        const auto sweep_strips = [&](bool that_send) {
+            for_free_strips([&](Strip& strip) {
+                if (strip.sends != that_send)
+                    return;
+                fast_.compute_base(strip, moment);
+                mine = greater(mine, sweep(piece_.shared, strip, thins));
+            });
+        };
+        if (piece_.links) { // ghosts travel while the other strips are swept
+            sweep_strips(true);
+            piece_.barrier.wait();
+            if (thread_ == 0)
+                fast_.send_ghosts(*piece_.links);
+        }
+        sweep_strips(false);
         piece_.barrier.wait();
         double fastest = greater(piece_.surface_translation * speed, fast_.fastest_node_[parity]);
-        for (const Strip& s : fast_.strips_)
-            fastest = greater(fastest, s.fastest[parity]);
+        for (const Piece::Fastest& all : piece_.fastest)
+            fastest = greater(fastest, all.in[parity]);
         if (piece_.links)
             tell_others(fastest);
         else
@@ -230,7 +251,7 @@ private:
     void tell_others(double fastest) {
         if (thread_ == 0) {
             piece_.links->speeds.push_back(fastest);
-            fast_.renew_ghosts(*piece_.links);
+            fast_.receive_ghosts(*piece_.links);
         }
         piece_.barrier.wait();
     }
@@ -251,8 +272,7 @@ private:
     FastCycle& fast_;
     Piece& piece_;
     int thread_;
-    std::size_t own_; ///< strip that it begins with
-    unsigned phase_ = 0;
+    std::uint32_t phase_ = 0;
     Clock clock_;
     Watch watch_;
 };
@@ -274,7 +294,8 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
                 .watch = {state.displacement_bound, state.window_speed, state.look_interval},
                 .threads = threads,
                 .barrier = Barrier(threads),
-                .claims = Claims(strips_.size())};
+                .claims = Claims(strips_.size(), threads),
+                .fastest = std::vector<Piece::Fastest>(static_cast<std::size_t>(threads))};
     run_team(threads, [&](int thread) { Worker(*this, piece, thread).run(cycles); });
     const std::int64_t done = state.clock.cycle - piece.clock.cycle;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
@@ -296,7 +317,7 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
         packed.team_ = BestTeam(execution.threads);
     FastCycle& fast = *packed.cycle_;
     if (!packed.holds_)
-        fast.pack(state, base, physics);
+        fast.pack(state, base, physics, links);
     packed.holds_ = false; // until all has gone well
     std::int64_t done = 0;
     while (done < cycles) {
@@ -312,7 +333,7 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
             refuse_runaways(state);
             changed = update_contacts(state, base);
         }
-        fast.pack_updated(state, changed);
+        fast.pack_updated(state, changed, links);
     }
     if (!links)
         fast.unpack(state);

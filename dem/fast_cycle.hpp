@@ -57,17 +57,18 @@ public:
     }
 
     /// Base and physics must outlive it.
-    void pack(const State& state, const RigidBase& base, const CyclePhysics& physics);
+    /// @param links  of a state that is a share; none: it is whole
+    void pack(const State& state, const RigidBase& base, const CyclePhysics& physics,
+              const Links* links = nullptr);
 
     /// Runs until `cycles` cycles are done or the lists must be updated. Updates clock and bound of
     /// the state and the nodes of its base, nothing else. Returns the number of cycles done.
-    /// @param links  of a state that is a share; none: it is whole
     std::int64_t run(State& state, std::int64_t cycles, BestTeam& team, BaseResponse* response,
                      Links* links = nullptr);
 
     /// Packs what an update of the neighbour lists has changed; ghosts may have come, too.
     /// @param lists_changed  not only where discs have been found
-    void pack_updated(const State& state, bool lists_changed);
+    void pack_updated(const State& state, bool lists_changed, const Links* links = nullptr);
 
     /// Writes positions, velocities, shear forces and bonds back into the state's columns.
     void unpack(State& state);
@@ -90,8 +91,10 @@ private:
     std::int64_t run_piece(State& state, std::int64_t cycles, BestTeam& team,
                            BaseResponse* response, Links* links);
     void mark_ghosts(const Links* links);
-    void renew_ghosts(Links& links);
-    void divide_work(const State& state);
+    void send_ghosts(Links& links) const;
+    void receive_ghosts(Links& links);
+    void divide_work(const State& state, const Links* links);
+    void cut_off_what_is_sent(const Links& links);
     /// Calls work(strip) for all strips, which the threads at hand share.
     template <class Work> void for_each_strip(Work&& work);
     void pack_discs(const State& state, const fast::Strip& strip);
@@ -126,7 +129,7 @@ private:
     std::vector<fast::Strip> strips_;
     bool bonded_ = false, frictional_ = false; ///< whether any contact is
     bool deforms_ = false;                     ///< whether the base has nodes
-    double fastest_node_[2] = {0.0, 0.0};      ///< as Strip::fastest
+    double fastest_node_[2] = {0.0, 0.0};      ///< in even and in odd cycles, m/s
     double displacement_ = 0.0;                ///< the greatest, as it was measured last, m
 
     std::vector<std::uint32_t> slot_of_, base_slot_of_; ///< by row of the contact tables

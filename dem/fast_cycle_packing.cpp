@@ -2,6 +2,7 @@
 
 #include "dem/fast_cycle.hpp"
 #include "dem/law.hpp"
+#include "dem/links.hpp"
 #include "dem/radius_rates.hpp"
 #include "dem/shared_loop.hpp"
 
@@ -42,7 +43,8 @@ template <class Work> void FastCycle::for_each_strip(Work&& work) {
     });
 }
 
-void FastCycle::pack(const State& state, const RigidBase& base, const CyclePhysics& physics) {
+void FastCycle::pack(const State& state, const RigidBase& base, const CyclePhysics& physics,
+                     const Links* links) {
     base_ = &base;
     physics_ = physics;
     time_step_ = state.clock.time_step;
@@ -59,15 +61,15 @@ void FastCycle::pack(const State& state, const RigidBase& base, const CyclePhysi
     discs_[padded + 1].place[0] = 1e30;
     std::fill(inertia_.begin() + static_cast<std::ptrdiff_t>(disc_count_), inertia_.end(),
               Inertia{});
-    divide_work(state);
+    divide_work(state, links);
     for_each_strip([&](const Strip& strip) { pack_discs(state, strip); });
     pack_searched_places(state);
     pack_contacts(state);
 }
 
-void FastCycle::pack_updated(const State& state, bool lists_changed) {
+void FastCycle::pack_updated(const State& state, bool lists_changed, const Links* links) {
     if (state.discs.rows() != disc_count_)
-        return pack(state, *base_, physics_);
+        return pack(state, *base_, physics_, links);
     if (lists_changed)
         pack_contacts(state);
     pack_searched_places(state);
@@ -98,7 +100,9 @@ void FastCycle::pack_discs(const State& state, const Strip& strip) {
 /// Gives each strip whole tiles of about equal work: a contact takes about as long as a disc, a
 /// base contact as five. Large packings are cut into some strips a thread, so that a thread which
 /// is late holds up little; small ones are not, for contacts between strips cost more than others.
-void FastCycle::divide_work(const State& state) {
+void FastCycle::divide_work(const State& state, const Links* links) {
+    if (links && threads_ == 1)
+        return cut_off_what_is_sent(*links);
     constexpr std::size_t large = 2500; // discs of a strip
     const std::span<const std::int32_t> first = contact_columns(state).first;
     const std::span<const std::int32_t> base_disc = base_contact_columns(state).disc;
@@ -119,6 +123,26 @@ void FastCycle::divide_work(const State& state) {
                                    2 * goal)
             ++tile;
         strips_[s].end_disc = std::min(tile * tile_discs, disc_count_);
+    }
+}
+
+/// Three strips, of which the first and the last have all discs that are sent: what is before the
+/// middle of the rows, and what is behind it.
+void FastCycle::cut_off_what_is_sent(const Links& links) {
+    const std::size_t middle = disc_count_ / 2 / tile_discs * tile_discs;
+    std::size_t low = 0, high = disc_count_;
+    for (const std::int32_t row : links.sent()) {
+        const std::size_t tile = static_cast<std::size_t>(row) / tile_discs * tile_discs;
+        if (tile < middle)
+            low = std::max(low, tile + tile_discs);
+        else
+            high = std::min(high, tile);
+    }
+    strips_.resize(3);
+    const std::size_t ends[] = {low, high, disc_count_};
+    for (std::size_t s = 0; s < 3; ++s) {
+        strips_[s].first_disc = s == 0 ? 0 : ends[s - 1];
+        strips_[s].end_disc = ends[s];
     }
 }
 

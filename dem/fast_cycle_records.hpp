@@ -76,6 +76,7 @@ struct Strip {
     std::size_t first_base_row = 0, end_base_row = 0; ///< of its base contacts
     std::size_t first_slot = 0, ring = 0; ///< slots of inner blocks; boundary's and base's follow
     bool bonded = false, frictional = false; ///< whether any contact is
+    bool sends = false;                      ///< whether a disc of it is a ghost of another rank
     Blocks inner;                            ///< contacts of its discs, by tiles
     Blocks boundary;                         ///< those with a second disc in a later strip
     std::vector<BaseContact> base_contacts;  ///< with rigid surfaces
@@ -84,10 +85,7 @@ struct Strip {
     std::vector<Tile> tiles;
     std::size_t look_ahead = 0;           ///< discs between the one that moves and those fetched
     AlignedVector<std::uint32_t> gathers; ///< see FastCycle::pack_gathers
-    /// Greatest component of a velocity, m/s, in even and in odd cycles: while one is written,
-    /// others may still read the other.
-    alignas(64) double fastest[2] = {0.0, 0.0};
-    double furthest = 0.0; ///< greatest distance from a searched place, squared, m^2
+    double furthest = 0.0;                ///< greatest distance from a searched place, squared, m^2
 };
 
 inline constexpr std::size_t tile_discs = 128; ///< a tile's records and slots fit the cache

@@ -26,13 +26,20 @@ public:
     /// By row of the share's discs: whether the disc is the rank's own.
     std::span<const std::uint8_t> own() const { return share_.own; }
 
-    /// Sends numbers of own discs and takes those of ghosts.
-    /// @param read   of a row, writes ghost_numbers numbers
-    /// @param write  to a row, from ghost_numbers numbers
-    template <class Read, class Write> void renew_ghosts(Read&& read, Write&& write) {
+    /// Rows of own discs that are ghosts elsewhere, rank after rank.
+    std::span<const std::int32_t> sent() const { return sent_; }
+
+    /// Sends what they are now.
+    /// @param read  of a row, writes ghost_numbers numbers
+    template <class Read> void send_ghosts(Read&& read) {
         for (std::size_t k = 0; k < sent_.size(); ++k)
             read(static_cast<std::size_t>(sent_[k]), to_.data() + ghost_numbers * k);
-        ranks_.exchange(to_, from_);
+        ranks_.begin_exchange(to_, from_);
+    }
+    /// Takes what the others have sent since.
+    /// @param write  to a row, from ghost_numbers numbers
+    template <class Write> void receive_ghosts(Write&& write) {
+        ranks_.end_exchange();
         for (std::size_t k = 0; k < received_.size(); ++k)
             write(static_cast<std::size_t>(received_[k]), from_.data() + ghost_numbers * k);
     }

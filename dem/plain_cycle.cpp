@@ -345,15 +345,14 @@ void enter_speeds(State& state, Links& links) {
 
 void renew_ghosts(State& state, Links& links) {
     const DiscColumns d = disc_columns(state);
-    links.renew_ghosts(
-        [&](std::size_t i, double* to) {
-            for (const double number : {d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i]})
-                *to++ = number;
-        },
-        [&](std::size_t i, const double* from) {
-            for (double* const number : {&d.x[i], &d.y[i], &d.vx[i], &d.vy[i], &d.spin[i]})
-                *number = *from++;
-        });
+    links.send_ghosts([&](std::size_t i, double* to) {
+        for (const double number : {d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i]})
+            *to++ = number;
+    });
+    links.receive_ghosts([&](std::size_t i, const double* from) {
+        for (double* const number : {&d.x[i], &d.y[i], &d.vx[i], &d.vy[i], &d.spin[i]})
+            *number = *from++;
+    });
 }
 
 /// One plain cycle. It is written to be read.

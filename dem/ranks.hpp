@@ -23,8 +23,10 @@ public:
     /// Says how many numbers go to and come from each rank at every exchange from now on.
     virtual void connect(std::span<const std::size_t> sent,
                          std::span<const std::size_t> received) = 0;
-    /// Numbers for rank 0, then for rank 1 and so on; as they come from them.
-    virtual void exchange(std::span<const double> sent, std::span<double> received) = 0;
+    /// Numbers for rank 0, then for rank 1 and so on; as they come from them. They are on their way
+    /// until the exchange has ended, and not to be touched.
+    virtual void begin_exchange(std::span<const double> sent, std::span<double> received) = 0;
+    virtual void end_exchange() = 0;
 
     virtual void greatest(std::span<std::uint64_t> numbers) = 0; ///< of all ranks, one by one
     virtual void sum(std::span<std::int64_t> numbers) = 0;       ///< over all ranks, one by one

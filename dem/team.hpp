@@ -56,28 +56,44 @@ private:
 };
 
 /// Work that the threads of a team take in phases which end at a barrier. Everyone begins with its
-/// own and goes on with what nobody has begun, so that a thread without a core takes less.
+/// own share and goes on with what nobody has begun, so that a thread without a core takes less.
+/// A share is a line of the cache, which comes from another core only when its thread is done.
 class Claims {
 public:
-    explicit Claims(std::size_t items) : taken_(items) {}
+    Claims(std::size_t items, int threads) : shares_(static_cast<std::size_t>(threads)) {
+        for (std::size_t k = 0; k < shares_.size(); ++k) {
+            shares_[k].first = items * k / shares_.size();
+            shares_[k].size = items * (k + 1) / shares_.size() - shares_[k].first;
+        }
+    }
 
-    /// Calls work(item) for items that are free, from `own` on. Phases count from 1.
-    template <class Work> void take(std::size_t own, unsigned phase, Work&& work) {
-        for (std::size_t k = 0; k < taken_.size(); ++k) {
-            const std::size_t item = (own + k) % taken_.size();
-            std::atomic<unsigned>& taken = taken_[item].in_phase;
-            unsigned before = taken.load(std::memory_order_relaxed);
-            if (before != phase &&
-                taken.compare_exchange_strong(before, phase, std::memory_order_relaxed))
-                work(item);
+    /// Calls work(item) for items that are free. Phases count from 1.
+    template <class Work> void take(int thread, std::uint32_t phase, Work&& work) {
+        for (std::size_t k = 0; k < shares_.size(); ++k) {
+            Share& share = shares_[(static_cast<std::size_t>(thread) + k) % shares_.size()];
+            for (std::size_t at; (at = claim(share, phase)) < share.size;)
+                work(share.first + at);
         }
     }
 
 private:
-    struct alignas(64) Taken {
-        std::atomic<unsigned> in_phase = 0; ///< the last
+    struct alignas(64) Share {
+        std::size_t first = 0, size = 0;     ///< items
+        std::atomic<std::uint64_t> taken{0}; ///< how many, and above them in which phase
     };
-    std::vector<Taken> taken_;
+
+    static std::size_t claim(Share& share, std::uint32_t phase) {
+        std::uint64_t before = share.taken.load(std::memory_order_relaxed);
+        for (;;) {
+            const std::uint64_t at = before >> 32 == phase ? before & 0xffffffff : 0;
+            if (at == share.size ||
+                share.taken.compare_exchange_weak(before, (std::uint64_t{phase} << 32) + at + 1,
+                                                  std::memory_order_relaxed))
+                return at;
+        }
+    }
+
+    std::vector<Share> shares_;
 };
 
 /// Keeps the calling thread on one core while it lives, if `threads` threads are to fill all cores:

@@ -51,7 +51,7 @@ private:
             sent_.assign(sent.begin(), sent.end());
             received_.assign(received.begin(), received.end());
         }
-        void exchange(std::span<const double> sent, std::span<double> received) override {
+        void begin_exchange(std::span<const double> sent, std::span<double> received) override {
             std::vector<std::vector<double>>& letters = of(all_.numbers_);
             letters.clear();
             std::size_t at = 0;
@@ -62,13 +62,16 @@ private:
             }
             if (mine_ == 0)
                 all_.exchanged += sent.size();
+            to_ = received;
             wait();
-            at = 0;
+        }
+        void end_exchange() override {
+            std::size_t at = 0;
             for (std::size_t rank = 0; rank < received_.size(); ++rank) {
                 const auto& letter = all_.numbers_[rank][static_cast<std::size_t>(mine_)];
                 if (letter.size() != received_[rank])
                     std::abort();
-                std::ranges::copy(letter, received.subspan(at).begin());
+                std::ranges::copy(letter, to_.subspan(at).begin());
                 at += letter.size();
             }
             wait();
@@ -139,6 +142,7 @@ private:
         EmulatedRanks& all_;
         int mine_;
         std::vector<std::size_t> sent_, received_;
+        std::span<double> to_; ///< by the exchange that has begun
     };
 
     int count_;

@@ -80,8 +80,8 @@ std::string explain_cost(const Scene& scene, const Prediction& p, const CycleSpe
     std::string text = fmt::format(
         "on this machine when nothing else runs, {} {} ({:.0f} million disc-steps per second)\n"
         "  {:<10} {:>10} {:>9} {:>12} {:>9}\n",
-        threads, threads == 1 ? "thread" : "threads", speed.team / 1e6, "accuracy", "radius, m", "discs",
-        "cycles", "time");
+        threads, threads == 1 ? "thread" : "threads", speed.team / 1e6, "accuracy", "radius, m",
+        "discs", "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {
         Scene other = scene;
         other.hanging_wall->mean_radius = level.mean_radius;

@@ -65,6 +65,7 @@ PieceTime time_piece(Lattice& lattice, std::int64_t cycles, const Execution& exe
                      double seconds) {
     const double sharing = execution.energy ? 1.0 : static_cast<double>(execution.threads);
     std::vector<double> quiet, wall;
+    advance(lattice.state, lattice.base, {}, cycles / 4 + 1, execution); // packs it
     const auto start = SteadyClock::now();
     do {
         const auto piece_start = SteadyClock::now();
@@ -80,12 +81,13 @@ PieceTime time_piece(Lattice& lattice, std::int64_t cycles, const Execution& exe
 
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted) {
     Lattice lattice = bonded_lattice(discs);
-    // Long enough that packing the state for the fast cycle does not count.
-    const auto cycles = std::max<std::int64_t>(5, 4'000'000 / static_cast<std::int64_t>(discs));
+    // So many that putting the state back after them does not count.
+    const auto cycles = std::max<std::int64_t>(50, 4'000'000 / static_cast<std::int64_t>(discs));
     EnergyFlows flows;
     EnergyFlows* const account = accounted ? &flows : nullptr;
-    const Execution team{threads, best_cycle(), account}, alone{1, best_cycle(), account};
-    advance(lattice.state, lattice.base, {}, cycles / 4 + 1, team);
+    Packed packed;
+    const Execution team{threads, best_cycle(), account, &packed};
+    const Execution alone{1, best_cycle(), account, &packed};
     const PieceTime of_team = time_piece(lattice, cycles, team, seconds);
     const PieceTime of_one =
         threads == 1 || accounted ? of_team : time_piece(lattice, cycles, alone, seconds);

@@ -79,13 +79,15 @@ public:
         require_petsc(PetscSFSetUp(ghosts_), "PetscSFSetUp");
     }
 
-    void exchange(std::span<const double> sent, std::span<double> received) override {
-        require_petsc(
-            PetscSFBcastBegin(ghosts_, MPI_DOUBLE, sent.data(), received.data(), MPI_REPLACE),
-            "PetscSFBcastBegin");
-        require_petsc(
-            PetscSFBcastEnd(ghosts_, MPI_DOUBLE, sent.data(), received.data(), MPI_REPLACE),
-            "PetscSFBcastEnd");
+    void begin_exchange(std::span<const double> sent, std::span<double> received) override {
+        sent_ = sent.data();
+        received_ = received.data();
+        require_petsc(PetscSFBcastBegin(ghosts_, MPI_DOUBLE, sent_, received_, MPI_REPLACE),
+                      "PetscSFBcastBegin");
+    }
+    void end_exchange() override {
+        require_petsc(PetscSFBcastEnd(ghosts_, MPI_DOUBLE, sent_, received_, MPI_REPLACE),
+                      "PetscSFBcastEnd");
     }
 
     void greatest(std::span<std::uint64_t> numbers) override {
@@ -177,6 +179,8 @@ private:
     MPI_Comm all_ = MPI_COMM_NULL;
     int count_ = 1, mine_ = 0;
     PetscSF ghosts_ = nullptr;
+    const double* sent_ = nullptr; ///< by the exchange that has begun
+    double* received_ = nullptr;
 };
 
 } // namespace

@@ -89,7 +89,8 @@ TEST_F(RangeEnds, ARunEndsOrIsRefused) {
     for (const std::string& end : ends) {
         try {
             const Scene scene = load_scene({.scene = every_effect, .set = {end}});
-            if (predict(scene, {.team = 1e8, .one_thread = 1e8}).seconds > 10.0) { // would end, or be refused, but not here
+            if (predict(scene, {.team = 1e8, .one_thread = 1e8}).seconds >
+                10.0) { // would end, or be refused, but not here
                 ++long_ones;
                 continue;
             }

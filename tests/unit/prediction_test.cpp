@@ -31,7 +31,8 @@ TEST(Prediction, CountsTheWorkOfTheScenes) {
 TEST(Prediction, FollowsTheSpeedOfTheMachine) {
     const Scene scene = draft("lis1");
     const double seconds = predict(scene, one_thread).seconds;
-    EXPECT_NEAR(predict(scene, {.team = 0.5 * rate, .one_thread = 0.5 * rate}).seconds, 2.0 * seconds, 1e-9 * seconds);
+    EXPECT_NEAR(predict(scene, {.team = 0.5 * rate, .one_thread = 0.5 * rate}).seconds,
+                2.0 * seconds, 1e-9 * seconds);
     // Two threads of the same speed each: the cycle takes half the time, the rest what it took.
     const double two = predict(scene, {.team = 2.0 * rate, .one_thread = rate}).seconds;
     EXPECT_LT(two, 0.8 * seconds);
