@@ -286,13 +286,20 @@ std::string ReportMoments::encode(const Observation& now) {
                        d.id.size(), text);
 }
 
-void ReportMoments::add(const Observation& now, SectionLines lines) {
+void ReportMoments::add(const Observation& now, const SectionLines& lines) {
     if (extension_ != now.state.clock.extension) {
         moments_.push_back({encode(now), ""});
         extension_ = now.state.clock.extension;
     }
-    moments_.back().lines = std::move(lines.packed);
+    moments_.back().lines = lines.packed;
     followed_ = lines.followed;
+}
+
+std::size_t ReportMoments::bytes() const {
+    std::size_t sum = 0;
+    for (const Text& moment : moments_)
+        sum += moment.discs.size() + moment.lines.size();
+    return sum;
 }
 
 std::string ReportMoments::json() const {

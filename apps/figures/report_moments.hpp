@@ -4,6 +4,7 @@
 #include "apps/scene/effect.hpp"
 #include "fem/footwall.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -26,6 +27,9 @@ struct SectionLines {
     bool followed = false; ///< faults back to their birth
 };
 
+/// By extension, m.
+using LinesOfMoments = std::map<double, SectionLines>;
+
 /// Faults, horizons, surfaces, the base, predictions and what effects draw.
 /// @param followed  whether the faults are followed back to their birth; then horizons, which
 ///                  take as long, are traced, too
@@ -41,7 +45,10 @@ public:
 
     /// Adds the discs of a moment and the lines of its section. The extension that was added last
     /// may come again, with other lines.
-    void add(const Observation& now, SectionLines lines);
+    void add(const Observation& now, const SectionLines& lines);
+
+    /// About how many bytes json() has.
+    std::size_t bytes() const;
 
     /// Whether the last moment is at that extension, m, and as much of it is there.
     bool has(double extension, bool followed) const {

@@ -46,6 +46,7 @@ constexpr Reduction reductions[] = {
 struct ReadRun {
     RunFolder folder;
     RunHistory history;
+    LinesOfMoments lines = {};
     ReportMoments moments = ReportMoments();
     double mean_radius = 0.0;
 };
@@ -69,10 +70,10 @@ std::string page_of(const std::vector<ReadRun>& runs, const Reduction& reduction
     return report_html(page);
 }
 
-/// A moment whose lines are being made.
+/// A moment whose lines are being made; none if they are there.
 struct Drawn {
     std::shared_ptr<const Moment> moment;
-    std::future<SectionLines> lines;
+    std::future<SectionLines> lines = {};
 };
 
 /// The stress below the base of a run's snapshots; none where the base is rigid.
@@ -103,7 +104,7 @@ private:
 } // namespace
 
 double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHistory& history,
-                   int every, bool every_line) {
+                   LinesOfMoments& made, const MomentChoice& choice) {
     const measures::Setting setting = make_setting(folder.scene, folder.parts);
     const auto observe = [&](const Moment& moment) -> Observation {
         return {folder.scene, folder.parts, moment.state, moment.events};
@@ -119,7 +120,12 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
         if (drawn.contains(path))
             return;
         const auto moment = std::make_shared<const Moment>(folder.read(path));
-        const bool followed = every_line || is_drawn(path);
+        const bool followed = choice.every_line || is_drawn(path);
+        const auto known = made.find(moment->state.clock.extension);
+        if (known != made.end() && known->second.followed >= followed) {
+            drawn[path] = {moment};
+            return;
+        }
         auto lines = [&, moment, followed,
                       stress = followed ? footwall.read(path) : std::vector<fem::StressPatch>()] {
             const auto faults = (followed ? report_faults : active_faults)(
@@ -133,34 +139,51 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
         const fs::path& path = folder.snapshots[k];
         if (is_drawn(path))
             draw(path); // takes longer than the others
-        if (is_drawn(path) || k % static_cast<std::size_t>(every) == 0)
+        if (is_drawn(path) || k % static_cast<std::size_t>(choice.every) == 0)
             shown.push_back(path);
     }
+    const auto keep_lines = [&](Drawn& now) {
+        if (now.lines.valid())
+            made[now.moment->state.clock.extension] = now.lines.get();
+    };
     double mean_radius = 0.0;
-    for (std::size_t k = 0; k < shown.size(); ++k) {
+    for (std::size_t k = 0;
+         k < shown.size() && static_cast<double>(moments.bytes()) <= choice.most_bytes; ++k) {
         for (std::size_t ahead = k; ahead < std::min(k + 2, shown.size()); ++ahead)
             draw(shown[ahead]);
         Drawn& now = drawn.at(shown[k]);
-        moments.add(observe(*now.moment), now.lines.get());
+        keep_lines(now);
+        moments.add(observe(*now.moment), made.at(now.moment->state.clock.extension));
         mean_radius = now.moment->state.mean_radius;
         drawn.erase(shown[k]);
     }
+    for (auto& [path, ahead] : drawn)
+        keep_lines(ahead);
     return mean_radius;
 }
 
-fs::path report_run(const ReportRequest& request) {
+fs::path report_run(const ReportRequest& request, LinesOfMoments lines) {
     std::vector<ReadRun> runs;
     for (const fs::path& output : request.outputs)
         runs.push_back(open_run(output));
+    runs.front().lines = std::move(lines);
+    const double most_bytes = 1e6 * request.most_mb;
     std::string html;
     for (const Reduction& reduction : reductions) {
+        const bool is_last = &reduction == std::end(reductions) - 1;
+        double bytes = 0.0;
         for (ReadRun& run : runs) {
             run.moments = ReportMoments(reduction.detail);
-            run.mean_radius = add_moments(run.moments, run.folder, run.history,
-                                          reduction.detail.every, request.every_line);
+            run.mean_radius = add_moments(run.moments, run.folder, run.history, run.lines,
+                                          {.every = reduction.detail.every,
+                                           .every_line = request.every_line,
+                                           .most_bytes = is_last ? 1e300 : most_bytes});
+            bytes += static_cast<double>(run.moments.bytes());
         }
+        if (bytes > most_bytes && !is_last)
+            continue;
         html = page_of(runs, reduction, request.underlay);
-        if (static_cast<double>(html.size()) <= 1e6 * request.most_mb)
+        if (static_cast<double>(html.size()) <= most_bytes)
             break;
     }
     const auto size = static_cast<double>(html.size()) / 1e6;

@@ -21,14 +21,24 @@ struct ReportRequest {
     std::optional<Underlay> underlay = std::nullopt;
 };
 
-/// Adds the snapshots of a folder: every n-th, those of the figures and the last. Faults are
-/// followed back at these two, or everywhere. Returns the mean radius, m. Throws StorageError.
+/// Which snapshots of a folder are added: every n-th, those of the figures and the last. Faults are
+/// followed back at these two, or everywhere. None after there are more than so many bytes.
+struct MomentChoice {
+    int every = 1;
+    bool every_line = false;
+    double most_bytes = 1e300;
+};
+
+/// Adds snapshots of a folder. Returns the mean radius, m. Throws StorageError.
+/// @param lines  those that have been made before, which takes longest; the others are added
 double add_moments(ReportMoments& moments, const archive::RunFolder& folder,
-                   const archive::RunHistory& history, int every = 1, bool every_line = false);
+                   const archive::RunHistory& history, LinesOfMoments& lines,
+                   const MomentChoice& choice = {});
 
 /// Writes the report of finished or unfinished runs from their folders. What makes the file too
 /// large is left out in this order: bonds, stress, every second snapshot and so on. Returns the
 /// file. Throws UsageError, SceneError, StorageError.
-std::filesystem::path report_run(const ReportRequest& request);
+/// @param lines  of the first run that have been made before
+std::filesystem::path report_run(const ReportRequest& request, LinesOfMoments lines = {});
 
 } // namespace listric

@@ -30,7 +30,7 @@ void RunReport::read_moments_until(double extension, const RunHistory& history) 
         std::erase_if(folder.snapshots, [&](const std::filesystem::path& path) {
             return snapshot_extension(path) > extension + 0.01; // names have two digits
         });
-        mean_radius_ = add_moments(moments_, folder, history);
+        mean_radius_ = add_moments(moments_, folder, history, lines_);
     });
 }
 
@@ -39,7 +39,7 @@ void RunReport::add(const Observation& now, const RunHistory& history) {
         mean_radius_ = now.state.mean_radius;
         const measures::FaultReport faults =
             active_faults(make_setting(now.scene, now.parts), now.parts.base, now.state, history);
-        moments_.add(now, section_lines(now, faults, false));
+        keep(now, section_lines(now, faults, false));
     });
 }
 
@@ -47,18 +47,24 @@ void RunReport::add(const Observation& now, const measures::FaultReport& faults,
                     const std::vector<fem::StressPatch>& footwall) {
     attempt([&] {
         mean_radius_ = now.state.mean_radius;
-        moments_.add(now, section_lines(now, faults, true, footwall));
+        keep(now, section_lines(now, faults, true, footwall));
     });
+}
+
+void RunReport::keep(const Observation& now, SectionLines lines) {
+    SectionLines& kept = lines_[now.state.clock.extension];
+    kept = std::move(lines);
+    moments_.add(now, kept);
 }
 
 void RunReport::write_page(const std::string& history, const std::string& summary, bool live) {
     const ReportPage page{.runs = {{scene_, moments_, mean_radius_, history, summary}},
                           .live = live};
     std::string html = report_html(page);
-    if (!live && static_cast<double>(html.size()) > 1e6 * ReportRequest{}.most_mb)
-        report_run({.outputs = {output_}}); // with less in it
-    else
-        write_text(output_ / "report.html", html);
+    if (live || static_cast<double>(html.size()) <= 1e6 * ReportRequest{}.most_mb)
+        return write_text(output_ / "report.html", html);
+    log_.progress("report: less of each moment, so that the file is small enough");
+    report_run({.outputs = {output_}}, lines_);
 }
 
 void RunReport::write_live(const std::string& history) {

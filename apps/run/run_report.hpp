@@ -47,6 +47,7 @@ public:
 
 private:
     void attempt(const std::function<void()>& work);
+    void keep(const Observation& now, SectionLines lines);
     void write_page(const std::string& history, const std::string& summary, bool live);
 
     const Scene& scene_;
@@ -55,6 +56,7 @@ private:
     bool wanted_, live_;
     double mean_radius_ = 0.0;
     ReportMoments moments_;
+    LinesOfMoments lines_;
 };
 
 } // namespace listric

@@ -53,7 +53,8 @@ def measure(radii):
 # Measured on two cores (docs/scaling.md); what a network adds is assumed.
 DISC = ((2e4, 10.2e-9), (2e5, 10.9e-9), (1e6, 11.5e-9))  # s per disc-step of one core, by discs
 GHOST = 20e-9      # s per ghost and cycle: its motion, its contacts, packing
-EXCHANGE = 2.7e-6  # s per exchange within a machine
+EXCHANGE = 1.7e-6  # s per exchange within a machine, behind the sweep
+BORDER = 256       # discs at either end of a share that are swept before the exchange begins
 LOOK = 16          # cycles between reductions
 BYTES = 40         # per ghost and exchange
 NETWORKS = {"none": (0.0, 1e10), "2 µs, 10 GB/s": (2e-6, 1e10),
@@ -76,8 +77,11 @@ def efficiency(discs, ranks, network):
     if own < 2 * side:
         return None
     ghosts = 2 * side
-    cycle = own * seconds_per_disc(own) + ghosts * GHOST + EXCHANGE + latency + \
-        BYTES * ghosts / bandwidth + 2 * math.log2(ranks) * (latency + EXCHANGE / 2) / LOOK
+    sweep = own * seconds_per_disc(own)
+    hidden = sweep * max(0.0, 1.0 - 2 * BORDER / own)
+    cycle = sweep + ghosts * GHOST + EXCHANGE + \
+        max(0.0, latency + BYTES * ghosts / bandwidth - hidden) + \
+        2 * math.log2(ranks) * (latency + EXCHANGE / 2) / LOOK
     return discs * seconds_per_disc(discs) / (ranks * cycle)
 
 
