@@ -104,8 +104,9 @@ namespace {
 
 /// Contacts of a moving packing are less regular than those of the lattice, and are listed anew
 /// more often.
-constexpr double cycle_price = 1.05, list_price = 0.15;
+constexpr double cycle_price = 1.05;
 constexpr double shared_from = 10000.0; ///< discs; one thread makes the lists of fewer
+constexpr double list_price_alone = 0.15, list_price_shared = 0.07;
 
 /// Making the hanging wall. Settling takes as many cycles as waves need to cross it.
 double price_of_genesis(const HangingWallParameters& h, double discs) {
@@ -176,7 +177,10 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
         cycle_price * p.disc_steps + price_of_genesis(h, start) + price_of_samples(work);
     double serial = price_of_windows(scene, work) + price_of_effects(scene, work) +
                     price_of_figures(scene, work.discs, parts.base_moves);
-    (start < shared_from ? serial : shared) += list_price * p.disc_steps;
+    if (start < shared_from)
+        serial += list_price_alone * p.disc_steps;
+    else
+        shared += list_price_shared * p.disc_steps;
     p.work = shared + serial;
     p.seconds = shared / speed.team + serial / speed.one_thread;
     // Columns of a disc, its listed contacts, and the neighbour search's copies.
