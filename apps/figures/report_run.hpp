@@ -30,9 +30,9 @@ struct MomentChoice {
 };
 
 /// Adds snapshots of a folder. Returns the mean radius, m. Throws StorageError.
-/// @param lines  those that have been made before, which takes longest; the others are added
+/// @param made  lines that have been made before, which takes longest; the others are added
 double add_moments(ReportMoments& moments, const archive::RunFolder& folder,
-                   const archive::RunHistory& history, LinesOfMoments& lines,
+                   const archive::RunHistory& history, LinesOfMoments& made,
                    const MomentChoice& choice = {});
 
 /// Writes the report of finished or unfinished runs from their folders. What makes the file too
