@@ -26,6 +26,8 @@ public:
     Packed& operator=(Packed&&) = default;
 
     void forget() { holds_ = false; }
+    /// What is packed of the discs' columns, where nothing else has changed.
+    void forget_discs() { holds_discs_ = false; }
     bool holds() const { return holds_; }
     void hold() { holds_ = true; } ///< what has been packed elsewhere
     BestTeam& team() { return team_; }
@@ -37,7 +39,8 @@ private:
 
     std::shared_ptr<FastCycle> cycle_; ///< shared with nobody: it destroys what is only named here
     BestTeam team_{1};
-    bool holds_ = false; ///< whether it is what the state is
+    bool holds_ = false;       ///< whether it is what the state is
+    bool holds_discs_ = false; ///< whether its discs are, too
 };
 
 /// How the cycle is computed; the result is the same to the last bit.

@@ -318,7 +318,10 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
     FastCycle& fast = *packed.cycle_;
     if (!packed.holds_)
         fast.pack(state, base, physics, links);
+    else if (!packed.holds_discs_)
+        fast.pack_discs(state);
     packed.holds_ = false; // until all has gone well
+    packed.holds_discs_ = true;
     std::int64_t done = 0;
     while (done < cycles) {
         done += fast.run(state, cycles - done, packed.team_, response, links);

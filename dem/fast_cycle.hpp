@@ -61,6 +61,9 @@ public:
     void pack(const State& state, const RigidBase& base, const CyclePhysics& physics,
               const Links* links = nullptr);
 
+    /// Packs the discs anew, where nothing else has changed.
+    void pack_discs(const State& state);
+
     /// Runs until `cycles` cycles are done or the lists must be updated. Updates clock and bound of
     /// the state and the nodes of its base, nothing else. Returns the number of cycles done.
     std::int64_t run(State& state, std::int64_t cycles, BestTeam& team, BaseResponse* response,

@@ -62,9 +62,13 @@ void FastCycle::pack(const State& state, const RigidBase& base, const CyclePhysi
     std::fill(inertia_.begin() + static_cast<std::ptrdiff_t>(disc_count_), inertia_.end(),
               Inertia{});
     divide_work(state, links);
-    for_each_strip([&](const Strip& strip) { pack_discs(state, strip); });
+    pack_discs(state);
     pack_searched_places(state);
     pack_contacts(state);
+}
+
+void FastCycle::pack_discs(const State& state) {
+    for_each_strip([&](const Strip& strip) { pack_discs(state, strip); });
 }
 
 void FastCycle::pack_updated(const State& state, bool lists_changed, const Links* links) {

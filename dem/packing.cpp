@@ -84,6 +84,10 @@ void scatter_and_expand(State& state, const RigidBase& base, std::span<const dou
                         const Execution& execution) {
     constexpr double start_scale = 0.55;
     constexpr int increments = 150;
+    Packed for_this_call;
+    Execution how = execution;
+    if (!how.packed)
+        how.packed = &for_this_call;
     const DiscColumns d = disc_columns(state);
     std::vector<double> seedling(radius.size());
     for (std::size_t i = 0; i < radius.size(); ++i)
@@ -100,11 +104,11 @@ void scatter_and_expand(State& state, const RigidBase& base, std::span<const dou
         for (std::size_t i = 0; i < radius.size(); ++i)
             d.radius[i] = scale * radius[i];
         find_contacts(state, base);
+        how.packed->forget();
         for (int batch = 0; batch < 3; ++batch) {
             stop_discs(state);
-            if (execution.packed)
-                execution.packed->forget();
-            advance(state, base, {damping, 0.0}, 4, execution);
+            how.packed->forget_discs();
+            advance(state, base, {damping, 0.0}, 4, how);
         }
         if (k % 10 == 0)
             report("expanding discs", static_cast<double>(k) / increments);

@@ -12,12 +12,14 @@
 #include "dem/contacts.hpp"
 #include "dem/monitor.hpp"
 #include "dem/power_cell.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <unordered_set>
 #include <utility>
 
@@ -114,6 +116,18 @@ json lines_of(const LineTable& table) {
     return lines;
 }
 
+/// "name":[...] of what whole numbers are less what they were in the moment before, which they then
+/// become.
+std::string stream(const std::string& name, std::vector<std::int32_t> now,
+                   std::vector<std::int32_t>& before) {
+    before.resize(now.size());
+    std::vector<std::int32_t> differences(now.size());
+    for (std::size_t k = 0; k < now.size(); ++k)
+        differences[k] = now[k] - before[k];
+    before = std::move(now);
+    return fmt::format("\"{}\":{}", name, packed(differences));
+}
+
 /// Faults that have not been followed back are without what is known of their past.
 json faults_of(const ExportedMoment& at, bool followed) {
     json faults = lines_of(faults_table(at));
@@ -184,17 +198,6 @@ std::string report_scales(double mean_radius) {
     return list.dump();
 }
 
-/// A number of every disc that has ever been, less what it was in the moment before.
-std::string ReportMoments::stream(const std::string& name, std::vector<std::int32_t> codes) {
-    std::vector<std::int32_t>& before = before_[name];
-    before.resize(codes.size());
-    std::vector<std::int32_t> differences(codes.size());
-    for (std::size_t k = 0; k < codes.size(); ++k)
-        differences[k] = codes[k] - before[k];
-    before = std::move(codes);
-    return fmt::format("\"{}\":{}", name, packed(differences));
-}
-
 /// Which of the bonds of the moment before are left, in their order, and the new ones: the lower
 /// id, less that of the bond before, and how much higher the other one is.
 std::string ReportMoments::bonds(const State& state) {
@@ -231,68 +234,85 @@ std::string ReportMoments::bonds(const State& state) {
                        packed(low), packed(further));
 }
 
-std::string ReportMoments::encode(const Observation& now) {
+/// None reads what another one changes.
+std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now) {
     const State& state = now.state;
     const ConstDiscColumns d = disc_columns(state);
     const std::map<std::string, Scale> all_scales = scales(state.mean_radius);
-    std::string text;
-    const auto add = [&](const std::string& name, auto&& value) {
+    std::vector<Stream> streams;
+    const auto add = [&](const std::string& name, auto value) {
         const auto found = all_scales.find(name);
         const Scale scale = found == all_scales.end() ? Scale() : found->second;
-        std::vector<std::int32_t> codes = before_[name]; // those of discs that are gone stay
-        codes.resize(static_cast<std::size_t>(state.next_id));
-        for (std::size_t i = 0; i < d.id.size(); ++i)
-            codes[static_cast<std::size_t>(d.id[i])] = scale.code(static_cast<double>(value(i)));
-        text += stream(name, std::move(codes)) + ",";
+        streams.push_back([&state, ids = d.id, name, value, scale, &before = before_[name]] {
+            std::vector<std::int32_t> codes = before; // those of discs that are gone stay
+            codes.resize(static_cast<std::size_t>(state.next_id));
+            for (std::size_t i = 0; i < ids.size(); ++i)
+                codes[static_cast<std::size_t>(ids[i])] = scale.code(static_cast<double>(value(i)));
+            return stream(name, std::move(codes), before);
+        });
     };
-    std::vector<std::int32_t> present(static_cast<std::size_t>(state.next_id));
-    for (const std::int64_t id : d.id)
-        present[static_cast<std::size_t>(id)] = 1;
-    text += stream("present", std::move(present)) + ",";
+    streams.push_back([&state, d, &before = before_["present"]] {
+        std::vector<std::int32_t> present(static_cast<std::size_t>(state.next_id));
+        for (const std::int64_t id : d.id)
+            present[static_cast<std::size_t>(id)] = 1;
+        return stream("present", std::move(present), before);
+    });
     const std::vector<double> radius = rock_radii(state), strain = window_strain(now);
     const std::vector<std::uint32_t> rock = rocks(state);
-    add("x_m", [&](std::size_t i) { return d.x[i]; });
-    add("depth_m", [&](std::size_t i) { return -d.y[i]; });
-    add("radius_m", [&](std::size_t i) { return radius[i]; });
-    add("stratum", [&](std::size_t i) { return d.stratum[i]; });
-    add("start_x_m", [&](std::size_t i) { return d.start_x[i]; });
-    add("start_depth_m", [&](std::size_t i) { return -d.start_y[i]; });
-    add("start_extension_m", [&](std::size_t i) { return d.start_extension[i]; });
-    add("rock", [&](std::size_t i) { return rock[i]; });
-    add("window_strain", [&](std::size_t i) { return strain[i]; });
+    add("x_m", [d](std::size_t i) { return d.x[i]; });
+    add("depth_m", [d](std::size_t i) { return -d.y[i]; });
+    add("radius_m", [radius](std::size_t i) { return radius[i]; });
+    add("stratum", [d](std::size_t i) { return d.stratum[i]; });
+    add("start_x_m", [d](std::size_t i) { return d.start_x[i]; });
+    add("start_depth_m", [d](std::size_t i) { return -d.start_y[i]; });
+    add("start_extension_m", [d](std::size_t i) { return d.start_extension[i]; });
+    add("rock", [rock](std::size_t i) { return rock[i]; });
+    add("window_strain", [strain](std::size_t i) { return strain[i]; });
     if (state.discs.has("total_strain")) {
         const auto total = state.discs.get<double>("total_strain");
-        add("total_strain", [&](std::size_t i) { return total[i]; });
+        add("total_strain", [total](std::size_t i) { return total[i]; });
     }
     if (now.parts.bonds) {
         const auto classes =
             rock_behaviour(measures::unbonded_shares(state), d.stratum, d.material);
         const std::vector<std::int32_t> count = bonds_per_disc(state);
-        add("behaviour", [&](std::size_t i) { return static_cast<int>(classes[i]); });
-        add("bonds", [&](std::size_t i) { return count[i]; });
+        add("behaviour", [classes](std::size_t i) { return static_cast<int>(classes[i]); });
+        add("bonds", [count](std::size_t i) { return count[i]; });
         if (detail_.bonds)
-            text += bonds(state) + ",";
+            streams.push_back([this, &state] { return bonds(state); });
     }
     if (detail_.stress) {
         const std::vector<Stress> stress = disc_stresses(state, now.parts.base);
-        add("mean_stress_pa", [&](std::size_t i) { return -0.5 * (stress[i].xx + stress[i].yy); });
-        add("shear_stress_pa", [&](std::size_t i) {
+        add("mean_stress_pa",
+            [stress](std::size_t i) { return -0.5 * (stress[i].xx + stress[i].yy); });
+        add("shear_stress_pa", [stress](std::size_t i) {
             return std::hypot(0.5 * (stress[i].xx - stress[i].yy), stress[i].xy);
         });
     }
-    text.pop_back();
-    return fmt::format("\"extension_m\":{},\"time_a\":{},\"discs\":{},\"streams\":{{{}}}",
-                       state.clock.extension, state.clock.extension / now.scene.extension.rate,
-                       d.id.size(), text);
+    return streams;
 }
 
-void ReportMoments::add(const Observation& now, const SectionLines& lines) {
-    if (extension_ != now.state.clock.extension) {
-        moments_.push_back({encode(now), ""});
-        extension_ = now.state.clock.extension;
-    }
-    moments_.back().lines = lines.packed;
-    followed_ = lines.followed;
+void ReportMoments::add(const Observation& now, const std::function<const SectionLines&()>& lines) {
+    const Clock& clock = now.state.clock;
+    const bool again = extension_ == clock.extension;
+    const std::vector<Stream> to_pack = again ? std::vector<Stream>() : streams(now);
+    const SectionLines* made = nullptr;
+    std::vector<std::string> packed(to_pack.size());
+    for_each_shared(to_pack.size() + 1, [&](std::size_t k) {
+        if (k == 0) // takes longest
+            made = &lines();
+        else
+            packed[k - 1] = to_pack[k - 1]();
+    });
+    if (!again)
+        moments_.push_back(
+            {fmt::format("\"extension_m\":{},\"time_a\":{},\"discs\":{},\"streams\":{{{}}}",
+                         clock.extension, clock.extension / now.scene.extension.rate,
+                         now.state.discs.rows(), fmt::join(packed, ",")),
+             ""});
+    extension_ = clock.extension;
+    moments_.back().lines = made->packed;
+    followed_ = made->followed;
 }
 
 std::size_t ReportMoments::bytes() const {

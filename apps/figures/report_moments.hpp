@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -43,9 +44,9 @@ class ReportMoments {
 public:
     explicit ReportMoments(const ReportDetail& detail = {}) : detail_(detail) {}
 
-    /// Adds the discs of a moment and the lines of its section. The extension that was added last
-    /// may come again, with other lines.
-    void add(const Observation& now, const SectionLines& lines);
+    /// Adds the discs of a moment and the lines of its section, which may be made while the discs
+    /// are packed. The extension that was added last may come again, with other lines.
+    void add(const Observation& now, const std::function<const SectionLines&()>& lines);
 
     /// About how many bytes json() has.
     std::size_t bytes() const;
@@ -63,8 +64,8 @@ private:
         std::string discs, lines;
     };
 
-    std::string encode(const Observation& now);
-    std::string stream(const std::string& name, std::vector<std::int32_t> codes);
+    using Stream = std::function<std::string()>; ///< makes the text of some numbers
+    std::vector<Stream> streams(const Observation& now);
     std::string bonds(const dem::State& state);
 
     ReportDetail detail_;

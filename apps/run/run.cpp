@@ -12,6 +12,7 @@
 #include "apps/support/log.hpp"
 #include "apps/support/memory.hpp"
 #include "apps/support/version.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <fmt/format.h>
 
@@ -29,6 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 RunOutcome run_session(const Scene& scene, const RunOptions& options, Log& log) {
+    const dem::Team team(options.threads);
     Session session(scene, options, log);
     try {
         if (!options.resume || !session.resume())

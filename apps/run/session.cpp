@@ -149,7 +149,7 @@ void Session::begin() {
     record_.scene = to_toml(scene_);
     write_text(options_.output / "scene.toml", record_.scene);
     CycleSpeed speed =
-        measure_speed(estimated_discs(scene_), options_.threads, 0.2, parts_.accounts_energy);
+        measure_speed(estimated_discs(scene_), options_.threads, 0.1, parts_.accounts_energy);
     speed.team *= ranks();
     record_.predicted_seconds = speed.busy * predict(scene_, speed).seconds;
 

@@ -2,6 +2,7 @@
 
 #include "dem/ground_level.hpp"
 #include "dem/radius_rates.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,7 @@ namespace {
 /// Rows of all discs by columns two mean diameters wide, each from the top down.
 struct Columns {
     std::vector<std::int32_t> column, order; ///< by row; of rows
+    std::vector<std::size_t> ends;           ///< of columns that have discs, in the order
 
     explicit Columns(const State& state) {
         const ConstDiscColumns d = disc_columns(state);
@@ -26,16 +28,23 @@ struct Columns {
             column.push_back(static_cast<std::int32_t>((x - left) / width));
         order.resize(column.size());
         std::iota(order.begin(), order.end(), 0);
-        std::ranges::sort(order, {}, [&](std::int32_t row) {
+        const auto key = [&](std::int32_t row) {
             const auto i = static_cast<std::size_t>(row);
             return std::tuple(column[i], -d.y[i], row);
-        });
+        };
+        sort_shared(std::span(order),
+                    [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+        const auto column_at = [&](std::size_t k) {
+            return column[static_cast<std::size_t>(order[k])];
+        };
+        for (std::size_t k = 1; k <= order.size(); ++k)
+            if (k == order.size() || column_at(k) != column_at(k - 1))
+                ends.push_back(k);
     }
 };
 
 /// What discs occupy of a column above a place, and what they will once they have compacted.
 struct Cover {
-    std::int32_t column = -1;
     double now = 0.0, compacted = 0.0;
 
     double kept() const { return now > 0.0 ? compacted / now : 1.0; }
@@ -67,12 +76,8 @@ bool Compaction::apply(State& state, const RigidBase& base) {
         base.motion.time_at(extension + schedule().spacing()) - base.motion.time_at(extension);
     const GroundLevel ground(state);
     const Columns columns(state);
-    Cover cover;
     std::ranges::fill(radius_rate, 0.0);
-    for (const std::int32_t row : columns.order) {
-        const auto i = static_cast<std::size_t>(row);
-        if (columns.column[i] != cover.column)
-            cover = {.column = columns.column[i]};
+    const auto compact = [&](std::size_t i, Cover& cover) {
         const double depth = cover.kept() * std::max(0.0, ground.depth({d.x[i], d.y[i]}));
         const double wanted = surface_porosity_ * std::exp(-parameters_.coefficient * depth);
         const double area = d.radius[i] * d.radius[i];
@@ -81,7 +86,7 @@ bool Compaction::apply(State& state, const RigidBase& base) {
         cover.now += area;
         cover.compacted += kept * area;
         if (!shrinks)
-            continue;
+            return;
         const double shrinkage = // of the radius
             std::max(std::sqrt(1.0 - approach * (1.0 - kept)), 1.0 - fastest * seconds);
         porosity[i] = 1.0 - (1.0 - porosity[i]) / (shrinkage * shrinkage);
@@ -90,7 +95,15 @@ bool Compaction::apply(State& state, const RigidBase& base) {
             rock_radius[i] *= shrinkage;
             rock_area[i] *= shrinkage * shrinkage;
         }
-    }
+    };
+    in_pieces(columns.ends.size(), 8, [&](std::size_t column, std::size_t end) {
+        for (; column < end; ++column) {
+            Cover cover;
+            for (std::size_t k = column == 0 ? 0 : columns.ends[column - 1];
+                 k < columns.ends[column]; ++k)
+                compact(static_cast<std::size_t>(columns.order[k]), cover);
+        }
+    });
     std::ranges::copy(d.radius, state.discs.get<double>("inertial_radius").begin());
     return false; // lists of smaller discs still hold every contact
 }
