@@ -29,7 +29,8 @@ public:
     /// What is packed of the discs' columns, where nothing else has changed.
     void forget_discs() { holds_discs_ = false; }
     bool holds() const { return holds_; }
-    void hold() { holds_ = true; } ///< what has been packed elsewhere
+    /// What has been packed elsewhere.
+    void hold() { holds_ = holds_discs_ = true; }
     BestTeam& team() { return team_; }
 
 private:
@@ -50,6 +51,14 @@ struct Execution {
     /// Adds up energies, if given: then the cycle is the plain one, on one thread.
     EnergyFlows* energy = nullptr;
     Packed* packed = nullptr; ///< none: every call packs anew
+
+    /// The same for several calls, which pack into `here` if there is nothing else.
+    Execution keeping(Packed& here) const {
+        Execution kept = *this;
+        if (!kept.packed)
+            kept.packed = &here;
+        return kept;
+    }
 };
 
 } // namespace listric::dem

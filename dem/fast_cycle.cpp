@@ -308,7 +308,7 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
                           std::int64_t cycles, const Execution& execution, BaseResponse* response,
                           Links* links) {
     Packed for_this_call;
-    Packed& packed = execution.packed ? *execution.packed : for_this_call;
+    Packed& packed = *execution.keeping(for_this_call).packed;
     if (!packed.cycle_ || !packed.cycle_->is_for(base, execution)) {
         packed.cycle_ = std::make_shared<FastCycle>(execution.threads, execution.cycle);
         packed.holds_ = false;

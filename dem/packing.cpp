@@ -85,9 +85,7 @@ void scatter_and_expand(State& state, const RigidBase& base, std::span<const dou
     constexpr double start_scale = 0.55;
     constexpr int increments = 150;
     Packed for_this_call;
-    Execution how = execution;
-    if (!how.packed)
-        how.packed = &for_this_call;
+    const Execution how = execution.keeping(for_this_call);
     const DiscColumns d = disc_columns(state);
     std::vector<double> seedling(radius.size());
     for (std::size_t i = 0; i < radius.size(); ++i)
@@ -120,9 +118,7 @@ void settle(State& state, const RigidBase& base, const CyclePhysics& physics, do
             int limit, const std::function<void(double)>& report, const Execution& execution) {
     constexpr int batch = 250;
     Packed for_this_call;
-    Execution how = execution;
-    if (!how.packed)
-        how.packed = &for_this_call;
+    const Execution how = execution.keeping(for_this_call);
     how.packed->forget();
     for (int n = 0; n < limit; n += batch) {
         advance(state, base, physics, batch, how);

@@ -26,9 +26,8 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
 
 FaultReport active_faults(const Setting& setting, const RigidBase& base, const State& now,
                           const RunHistory& history) {
-    const std::vector<DiscPlaces> older = history.before(now.clock.extension, setting);
     return measures::report_faults(setting, base, now,
-                                   std::span(older).last(std::min<std::size_t>(older.size(), 1)));
+                                   history.before(now.clock.extension, setting, 1));
 }
 
 std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,

@@ -26,10 +26,12 @@ void RunHistory::add(DiscPlaces places) {
     moments_.push_back(std::move(places));
 }
 
-std::vector<DiscPlaces> RunHistory::before(double extension, const Setting& setting) const {
+std::vector<DiscPlaces> RunHistory::before(double extension, const Setting& setting,
+                                           std::size_t most) const {
     std::vector<DiscPlaces> found;
     double next = extension;
-    for (auto moment = moments_.rbegin(); moment != moments_.rend(); ++moment) {
+    for (auto moment = moments_.rbegin(); moment != moments_.rend() && found.size() < most;
+         ++moment) {
         if (!setting.is_window(moment->extension, next))
             continue;
         next = moment->extension;

@@ -3,7 +3,9 @@
 #include "apps/measures/setting.hpp"
 #include "apps/measures/shear_field.hpp"
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,10 +23,13 @@ public:
     /// Adds a moment, and forgets those that are not older: the run has gone back.
     void add(measures::DiscPlaces places);
 
-    /// Moments before `extension`, m, oldest first. They are whole windows apart, counted back from
-    /// there, so that an extra snapshot of a stopped run does not make a window too short.
-    std::vector<measures::DiscPlaces> before(double extension,
-                                             const measures::Setting& setting) const;
+    /// The last moments before `extension`, m, oldest first. They are whole windows apart, counted
+    /// back from there, so that an extra snapshot of a stopped run does not make a window too
+    /// short.
+    /// @param most  how many
+    std::vector<measures::DiscPlaces>
+    before(double extension, const measures::Setting& setting,
+           std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
 private:
     std::vector<measures::DiscPlaces> moments_; ///< by extension

@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <unordered_set>
 #include <utility>
 
 namespace listric {
@@ -204,31 +203,36 @@ std::string ReportMoments::bonds(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstContactColumns c = contact_columns(state);
     const auto pair_of = [](std::int64_t low, std::int64_t high) { return low << 32 | high; };
-    std::unordered_set<std::int64_t> now;
+    std::vector<std::int64_t> now;
     for (std::size_t k = 0; k < c.first.size(); ++k)
         if (c.bonded[k]) {
             const std::int64_t a = d.id[static_cast<std::size_t>(c.first[k])];
             const std::int64_t b = d.id[static_cast<std::size_t>(c.second[k])];
-            now.insert(pair_of(std::min(a, b), std::max(a, b)));
+            now.push_back(pair_of(std::min(a, b), std::max(a, b)));
         }
+    std::ranges::sort(now);
+    std::vector<bool> is_old(now.size(), false);
     std::vector<std::int32_t> left;
     std::vector<std::int64_t> bonded;
     for (const std::int64_t pair : bonded_) {
-        left.push_back(now.erase(pair) > 0);
-        if (left.back())
+        const auto found = std::ranges::lower_bound(now, pair);
+        left.push_back(found != now.end() && *found == pair);
+        if (left.back()) {
+            is_old[static_cast<std::size_t>(found - now.begin())] = true;
             bonded.push_back(pair);
+        }
     }
-    std::vector<std::int64_t> fresh(now.begin(), now.end());
-    std::ranges::sort(fresh);
     std::vector<std::int32_t> low, further;
     std::int64_t last = 0;
-    for (const std::int64_t pair : fresh) {
-        const std::int64_t a = pair >> 32, b = pair & 0xffffffff;
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        if (is_old[k])
+            continue;
+        const std::int64_t a = now[k] >> 32, b = now[k] & 0xffffffff;
         low.push_back(static_cast<std::int32_t>(a - last));
         further.push_back(static_cast<std::int32_t>(b - a));
         last = a;
+        bonded.push_back(now[k]);
     }
-    bonded.insert(bonded.end(), fresh.begin(), fresh.end());
     bonded_ = std::move(bonded);
     return fmt::format("\"bonds_left\":{},\"bonds_new\":{},\"bonds_to\":{}", packed(left),
                        packed(low), packed(further));
@@ -292,27 +296,21 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
     return streams;
 }
 
-void ReportMoments::add(const Observation& now, const std::function<const SectionLines&()>& lines) {
+void ReportMoments::add(const Observation& now, const SectionLines& lines) {
     const Clock& clock = now.state.clock;
-    const bool again = extension_ == clock.extension;
-    const std::vector<Stream> to_pack = again ? std::vector<Stream>() : streams(now);
-    const SectionLines* made = nullptr;
-    std::vector<std::string> packed(to_pack.size());
-    for_each_shared(to_pack.size() + 1, [&](std::size_t k) {
-        if (k == 0) // takes longest
-            made = &lines();
-        else
-            packed[k - 1] = to_pack[k - 1]();
-    });
-    if (!again)
+    if (extension_ != clock.extension) {
+        const std::vector<Stream> to_pack = streams(now);
+        std::vector<std::string> packed(to_pack.size());
+        for_each_shared(to_pack.size(), [&](std::size_t k) { packed[k] = to_pack[k](); });
         moments_.push_back(
             {fmt::format("\"extension_m\":{},\"time_a\":{},\"discs\":{},\"streams\":{{{}}}",
                          clock.extension, clock.extension / now.scene.extension.rate,
                          now.state.discs.rows(), fmt::join(packed, ",")),
              ""});
+    }
     extension_ = clock.extension;
-    moments_.back().lines = made->packed;
-    followed_ = made->followed;
+    moments_.back().lines = lines.packed;
+    followed_ = lines.followed;
 }
 
 std::size_t ReportMoments::bytes() const {

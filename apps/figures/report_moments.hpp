@@ -44,9 +44,9 @@ class ReportMoments {
 public:
     explicit ReportMoments(const ReportDetail& detail = {}) : detail_(detail) {}
 
-    /// Adds the discs of a moment and the lines of its section, which may be made while the discs
-    /// are packed. The extension that was added last may come again, with other lines.
-    void add(const Observation& now, const std::function<const SectionLines&()>& lines);
+    /// Adds the discs of a moment and the lines of its section. The extension that was added last
+    /// may come again, with other lines.
+    void add(const Observation& now, const SectionLines& lines);
 
     /// About how many bytes json() has.
     std::size_t bytes() const;

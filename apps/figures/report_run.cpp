@@ -153,9 +153,7 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
             draw(shown[ahead]);
         Drawn& now = drawn.at(shown[k]);
         keep_lines(now);
-        moments.add(observe(*now.moment), [&]() -> const SectionLines& {
-            return made.at(now.moment->state.clock.extension);
-        });
+        moments.add(observe(*now.moment), made.at(now.moment->state.clock.extension));
         mean_radius = now.moment->state.mean_radius;
         drawn.erase(shown[k]);
     }

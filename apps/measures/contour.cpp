@@ -1,5 +1,6 @@
 #include "apps/measures/contour.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -26,27 +27,44 @@ namespace {
 /// Edges of the grid: that to the right of place k is 2 k, that above it 2 k + 1.
 class ContourLines {
 public:
-    ContourLines(const GridValues& grid, double level)
-        : grid_(grid), level_(level), next_(2 * grid.values.size(), none),
-          before_(2 * grid.values.size(), none) {
+    ContourLines(const GridValues& grid, double level) : grid_(grid), level_(level) {
         for (std::size_t row = 0; row + 1 < grid.rows; ++row)
             for (std::size_t column = 0; column + 1 < grid.columns; ++column)
-                cross_square(row * grid.columns + column);
+                if (is_crossed(row * grid.columns + column))
+                    cross_square(row * grid.columns + column);
+        std::ranges::sort(steps_, {}, &Step::from);
     }
 
     std::vector<Polyline> lines() {
+        std::vector<std::uint32_t> ends;
+        for (const Step& step : steps_)
+            ends.push_back(step.to);
+        std::ranges::sort(ends);
         std::vector<Polyline> found;
-        for (std::size_t edge = 0; edge < next_.size(); ++edge)
-            if (next_[edge] != none && before_[edge] == none)
-                found.push_back(follow(edge));
-        for (std::size_t edge = 0; edge < next_.size(); ++edge)
-            if (next_[edge] != none)
-                found.push_back(follow(edge));
+        for (Step& step : steps_)
+            if (!std::ranges::binary_search(ends, step.from))
+                found.push_back(follow(step));
+        for (Step& step : steps_)
+            if (!step.taken)
+                found.push_back(follow(step));
         return found;
     }
 
 private:
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    /// Of a line through a square, from edge to edge.
+    struct Step {
+        std::uint32_t from, to;
+        bool taken = false;
+    };
+
+    /// Whether some of a square's corners are high, but not all. What is not known is not high.
+    bool is_crossed(std::size_t k) const {
+        const float* low = grid_.values.data() + k;
+        const float* above = low + grid_.columns;
+        const int high =
+            (low[0] > level_) + (low[1] > level_) + (above[0] > level_) + (above[1] > level_);
+        return high % 4 != 0;
+    }
 
     void cross_square(std::size_t k) {
         const std::array<std::size_t, 4> corners{k, k + 1, k + grid_.columns + 1,
@@ -81,8 +99,7 @@ private:
     }
 
     void join(std::size_t from, std::size_t to) {
-        next_[from] = static_cast<std::uint32_t>(to);
-        before_[to] = static_cast<std::uint32_t>(from);
+        steps_.push_back({static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to)});
     }
 
     Point crossing(std::size_t edge) const {
@@ -96,20 +113,24 @@ private:
         return edge % 2 == 0 ? Point{p.x + step, p.y} : Point{p.x, p.y + step};
     }
 
-    Polyline follow(std::size_t edge) {
-        Polyline line{crossing(edge)};
-        while (next_[edge] != none) {
-            const std::size_t to = next_[edge];
-            next_[edge] = none;
-            edge = to;
-            line.push_back(crossing(edge));
+    /// None: the line ends at that edge.
+    Step* step_from(std::uint32_t edge) {
+        const auto found = std::ranges::lower_bound(steps_, edge, {}, &Step::from);
+        return found != steps_.end() && found->from == edge ? &*found : nullptr;
+    }
+
+    Polyline follow(Step& first) {
+        Polyline line{crossing(first.from)};
+        for (Step* step = &first; step && !step->taken; step = step_from(step->to)) {
+            step->taken = true;
+            line.push_back(crossing(step->to));
         }
         return line;
     }
 
     const GridValues& grid_;
     double level_;
-    std::vector<std::uint32_t> next_, before_; ///< by edge: the next edge of its line
+    std::vector<Step> steps_; ///< by the edge they are from, which no two share
 };
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "apps/support/statistics.hpp"
 #include "dem/base_place.hpp"
 #include "dem/cells.hpp"
+#include "dem/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -312,12 +313,13 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
         Windows windows(older, detachment, diameter, setting.youngest_sediment);
         const ConstDiscColumns d = disc_columns(now);
         const Cells cells(d.x, d.y, 3.0 * diameter);
-        for (const FaultTrace& trace : traces) {
-            report.faults.push_back(
-                describe(trace, now, detachment, field.window / setting.extension_rate));
-            trace_back(report.faults.back(), footwall_of(trace, now, cells), windows, detachment,
-                       diameter);
-        }
+        report.faults.resize(traces.size());
+        for_each_shared(traces.size(), [&](std::size_t k) {
+            report.faults[k] =
+                describe(traces[k], now, detachment, field.window / setting.extension_rate);
+        });
+        for (Fault& fault : report.faults)
+            trace_back(fault, footwall_of(fault.trace, now, cells), windows, detachment, diameter);
     }
     summarise(report, detachment, diameter);
     if (setting.detection_circle)

@@ -4,6 +4,7 @@
 #include "apps/measures/strain_ridges.hpp"
 #include "dem/cells.hpp"
 #include "dem/events/strain.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +99,7 @@ double contrast(const ShearField& field, const FaultTrace& trace,
 }
 
 /// First and last index of the stretches that are true, with gaps of up to `gap`.
-std::vector<std::pair<std::size_t, std::size_t>> runs(const std::vector<bool>& flags,
+std::vector<std::pair<std::size_t, std::size_t>> runs(const std::vector<char>& flags,
                                                       std::size_t gap) {
     std::vector<std::pair<std::size_t, std::size_t>> found;
     for (std::size_t k = 0; k < flags.size(); ++k) {
@@ -123,24 +124,29 @@ FaultTrace part(const FaultTrace& whole, std::size_t first, std::size_t last) {
 /// A line with what the strain says at each of its points.
 struct SurveyedLine {
     FaultTrace trace;
-    std::vector<bool> is_sound; ///< strained enough, along the line and in the line's sense
+    std::vector<char> is_sound; ///< strained enough, along the line and in the line's sense
 };
 
 SurveyedLine survey(Polyline points, const ShearField& field, const Cells& cells,
                     double least_strain, const FaultTraceOptions& options) {
-    SurveyedLine line{{std::move(points), {}, {}}, {}};
+    const std::size_t count = points.size();
+    SurveyedLine line{{std::move(points), std::vector<double>(count), std::vector<double>(count)},
+                      std::vector<char>(count)};
     FaultTrace& t = line.trace;
+    in_pieces(count, 8, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k) {
+            const ShearProfile profile(field, cells, t.points[k], unit(chord_at(t.points, k)),
+                                       options.profile_reach * field.diameter);
+            t.slip[k] = profile.slip();
+            t.width[k] = profile.width();
+            line.is_sound[k] =
+                profile.peak() >= least_strain && profile.alignment() >= options.least_alignment;
+        }
+    });
     double sum = 0.0;
-    for (std::size_t k = 0; k < t.points.size(); ++k) {
-        const ShearProfile profile(field, cells, t.points[k], unit(chord_at(t.points, k)),
-                                   options.profile_reach * field.diameter);
-        t.slip.push_back(profile.slip());
-        t.width.push_back(profile.width());
-        line.is_sound.push_back(profile.peak() >= least_strain &&
-                                profile.alignment() >= options.least_alignment);
-        sum += line.is_sound.back() ? t.slip.back() : 0.0;
-    }
-    for (std::size_t k = 0; k < line.is_sound.size(); ++k)
+    for (std::size_t k = 0; k < count; ++k)
+        sum += line.is_sound[k] ? t.slip[k] : 0.0;
+    for (std::size_t k = 0; k < count; ++k)
         line.is_sound[k] = line.is_sound[k] && t.slip[k] * sum > 0.0;
     return line;
 }
@@ -175,12 +181,18 @@ std::vector<FaultTrace> trace_faults(const ShearField& field, const Chain& detac
                 std::ranges::reverse(points);
             cut(survey(std::move(points), field, cells, least, options), fewest, traces);
         }
-    std::erase_if(traces, [&, all = traces, boxes = boxes_of(traces)](const FaultTrace& trace) {
-        return contrast(field, trace, all, boxes) < options.least_contrast;
+    const std::vector<Box> boxes = boxes_of(traces);
+    std::vector<double> contrasts(traces.size());
+    for_each_shared(traces.size(), [&](std::size_t k) {
+        contrasts[k] = contrast(field, traces[k], traces, boxes);
     });
-    std::ranges::stable_sort(traces, std::ranges::greater{},
+    std::vector<FaultTrace> clear;
+    for (std::size_t k = 0; k < traces.size(); ++k)
+        if (contrasts[k] >= options.least_contrast)
+            clear.push_back(std::move(traces[k]));
+    std::ranges::stable_sort(clear, std::ranges::greater{},
                              [](const FaultTrace& t) { return t.length(); });
-    return traces;
+    return clear;
 }
 
 } // namespace listric::measures

@@ -289,23 +289,37 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
     const Shares shares(map, blur * diameter, strata);
     const std::vector<Polyline> traces = cutting_traces(faults);
     std::vector<Horizon> horizons;
-    GridValues before;
-    for (const auto& [stratum, at] : extension) {
-        Horizon horizon{stratum, std::nullopt, {}, {}};
-        if (stratum > 0)
-            horizon.deposited_at = at / setting.extension_rate;
-        GridValues share = shares.up_to(stratum);
+    for (const auto& [stratum, at] : extension)
+        horizons.push_back({stratum,
+                            stratum > 0 ? std::optional(at / setting.extension_rate) : std::nullopt,
+                            {},
+                            {}});
+    const auto trace = [&](Horizon& horizon, const GridValues& share, const GridValues* below) {
         horizon.top = tops(share, room, diameter);
         for (const Polyline& top : horizon.top) {
             std::vector<Fate> fates(top.size(), Fate::drawn);
-            for (std::size_t k = 0; k < top.size() && !before.values.empty(); ++k)
-                if (share.at(top[k]) - before.at(top[k]) < least_share)
+            for (std::size_t k = 0; k < top.size() && below; ++k)
+                if (share.at(top[k]) - below->at(top[k]) < least_share)
                     fates[k] = Fate::absent;
             std::ranges::move(cut(top, std::move(fates), traces, diameter),
                               std::back_inserter(horizon.pieces));
         }
-        before = std::move(share);
-        horizons.push_back(std::move(horizon));
+    };
+    // As many at once as there are threads: a grid is large.
+    const auto most = static_cast<std::size_t>(team_size());
+    std::vector<GridValues> grids; // the last one of the batch before, then the batch's
+    for (std::size_t first = 0; first < horizons.size(); first += most) {
+        if (first > 0)
+            grids = {std::move(grids.back())};
+        const std::size_t known = grids.size(), count = std::min(most, horizons.size() - first);
+        grids.resize(known + count);
+        for_each_shared(count, [&](std::size_t k) {
+            grids[known + k] = shares.up_to(horizons[first + k].stratum);
+        });
+        for_each_shared(count, [&](std::size_t k) {
+            trace(horizons[first + k], grids[known + k],
+                  known + k > 0 ? &grids[known + k - 1] : nullptr);
+        });
     }
     return horizons;
 }

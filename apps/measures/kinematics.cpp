@@ -1,5 +1,6 @@
 #include "apps/measures/kinematics.hpp"
 
+#include "dem/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -159,14 +160,17 @@ double misfit(const Chain& detachment, const std::vector<Point>& prediction,
 
 InclinedShearFit fit_inclined_shear(const Chain& detachment, double extension,
                                     std::span<const double> x, std::span<const double> top) {
-    InclinedShearFit best{0.0, std::numeric_limits<double>::infinity()};
     const double right = x.back();
-    for (double angle = -30.0; angle <= 70.0; angle += 0.5)
-        if (const double distance = misfit(
-                detachment, inclined_shear_top(detachment, extension, angle, right), x, top, right);
-            distance < best.misfit)
-            best = {angle, distance};
-    return best;
+    std::vector<InclinedShearFit> tried(201);
+    in_pieces(tried.size(), 4, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k) {
+            const double angle = -30.0 + 0.5 * static_cast<double>(k);
+            tried[k] = {angle,
+                        misfit(detachment, inclined_shear_top(detachment, extension, angle, right),
+                               x, top, right)};
+        }
+    });
+    return *std::ranges::min_element(tried, {}, &InclinedShearFit::misfit);
 }
 
 KinematicPrediction predict_kinematics(const Chain& detachment, double extension,

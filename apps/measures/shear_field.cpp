@@ -2,6 +2,7 @@
 
 #include "dem/cells.hpp"
 #include "dem/gradient.hpp"
+#include "dem/shared_loop.hpp"
 
 #include <limits>
 
@@ -46,7 +47,7 @@ void fit_gradients(ShearField& field, std::span<const double> old_x,
     }
     const double reach = 1.9 * field.diameter;
     const Cells cells(half_x, half_y, reach);
-    for (std::size_t i = 0; i < count; ++i) {
+    const auto fit_one = [&](std::size_t i) {
         GradientFit fit;
         const double ux_i = field.x[i] - old_x[i], uy_i = field.y[i] - old_y[i];
         cells.for_each_near(half_x[i], half_y[i], [&](std::int32_t row) {
@@ -62,7 +63,11 @@ void fit_gradients(ShearField& field, std::span<const double> old_x,
             field.yx[i] = gradient->yx;
             field.yy[i] = gradient->yy;
         }
-    }
+    };
+    in_pieces(count, 512, [&](std::size_t i, std::size_t end) {
+        for (; i < end; ++i)
+            fit_one(i);
+    });
 }
 
 ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age) {

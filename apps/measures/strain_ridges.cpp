@@ -1,5 +1,6 @@
 #include "apps/measures/strain_ridges.hpp"
 
+#include "dem/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -105,17 +106,21 @@ private:
         std::vector<double> other(values.size(), 0.0);
         const auto pass = [&](const std::vector<double>& from, std::vector<double>& to,
                               bool along_columns) {
-            for (std::ptrdiff_t c = 0; c < columns_; ++c)
-                for (std::ptrdiff_t r = 0; r < rows_; ++r) {
-                    double value = 0.0;
-                    for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
-                        const std::ptrdiff_t cc = along_columns ? c + k : c;
-                        const std::ptrdiff_t rr = along_columns ? r : r + k;
-                        if (cc >= 0 && cc < columns_ && rr >= 0 && rr < rows_)
-                            value += kernel[std::abs(k)] * from[at(cc, rr)];
-                    }
-                    to[at(c, r)] = value;
-                }
+            in_pieces(static_cast<std::size_t>(columns_), 32,
+                      [&](std::size_t begin, std::size_t end) {
+                          for (auto c = static_cast<std::ptrdiff_t>(begin);
+                               c < static_cast<std::ptrdiff_t>(end); ++c)
+                              for (std::ptrdiff_t r = 0; r < rows_; ++r) {
+                                  double value = 0.0;
+                                  for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+                                      const std::ptrdiff_t cc = along_columns ? c + k : c;
+                                      const std::ptrdiff_t rr = along_columns ? r : r + k;
+                                      if (cc >= 0 && cc < columns_ && rr >= 0 && rr < rows_)
+                                          value += kernel[std::abs(k)] * from[at(cc, rr)];
+                                  }
+                                  to[at(c, r)] = value;
+                              }
+                      });
         };
         pass(values, other, true);
         pass(other, values, false);
@@ -134,10 +139,17 @@ struct Nearby {
 
 Nearby nearest_line(const std::vector<Polyline>& lines, Point p) {
     Nearby best;
+    double square = 1e300; // roots take longest: only of points that may be the nearest
     for (const auto& line : lines)
-        for (std::size_t k = 0; k < line.size(); ++k)
-            if (const double distance = norm(p - line[k]); distance < best.distance)
+        for (std::size_t k = 0; k < line.size(); ++k) {
+            const Point off = p - line[k];
+            if (dot(off, off) > square)
+                continue;
+            if (const double distance = norm(off); distance < best.distance) {
                 best = {distance, line[std::min(k + 1, line.size() - 1)] - line[k > 0 ? k - 1 : 0]};
+                square = (1.0 + 1e-9) * dot(off, off);
+            }
+        }
     return best;
 }
 

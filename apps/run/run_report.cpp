@@ -8,6 +8,7 @@
 #include "apps/support/file.hpp"
 
 #include <exception>
+#include <utility>
 
 namespace listric {
 
@@ -36,23 +37,20 @@ void RunReport::read_moments_until(double extension, const RunHistory& history) 
 
 void RunReport::add(const Observation& now, const RunHistory& history) {
     attempt([&] {
-        keep(now, [&] {
-            const measures::FaultReport faults = active_faults(make_setting(now.scene, now.parts),
-                                                               now.parts.base, now.state, history);
-            return section_lines(now, faults, false);
-        });
+        const measures::FaultReport faults =
+            active_faults(make_setting(now.scene, now.parts), now.parts.base, now.state, history);
+        keep(now, section_lines(now, faults, false));
     });
 }
 
 void RunReport::add(const Observation& now, const measures::FaultReport& faults,
                     const std::vector<fem::StressPatch>& footwall) {
-    attempt([&] { keep(now, [&] { return section_lines(now, faults, true, footwall); }); });
+    attempt([&] { keep(now, section_lines(now, faults, true, footwall)); });
 }
 
-void RunReport::keep(const Observation& now, const std::function<SectionLines()>& lines) {
+void RunReport::keep(const Observation& now, SectionLines lines) {
     mean_radius_ = now.state.mean_radius;
-    moments_.add(
-        now, [&]() -> const SectionLines& { return lines_[now.state.clock.extension] = lines(); });
+    moments_.add(now, lines_[now.state.clock.extension] = std::move(lines));
 }
 
 void RunReport::write_page(const std::string& history, const std::string& summary, bool live) {

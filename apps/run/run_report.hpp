@@ -47,7 +47,7 @@ public:
 
 private:
     void attempt(const std::function<void()>& work);
-    void keep(const Observation& now, const std::function<SectionLines()>& lines);
+    void keep(const Observation& now, SectionLines lines);
     void write_page(const std::string& history, const std::string& summary, bool live);
 
     const Scene& scene_;
