@@ -11,14 +11,19 @@ using namespace dem;
 
 namespace {
 
-/// Rows of the field's discs within `reach` on either side of p along n, and some beyond.
-std::vector<std::int32_t> discs_across(const Cells& cells, Point p, Point n, double reach,
-                                       double band) {
+/// Rows of the field's discs within `reach` on either side of p along n, and some beyond, that are
+/// at most a band off that line.
+std::vector<std::int32_t> discs_across(const ShearField& field, const Cells& cells, Point p,
+                                       Point n, double reach, double band) {
+    const Point t{n.y, -n.x};
     std::vector<std::int32_t> seen;
     // The cells are two bands wide.
     for (double s = -reach; s <= reach + band; s += 2.0 * band)
-        cells.for_each_near(p.x + s * n.x, p.y + s * n.y,
-                            [&](std::int32_t row) { seen.push_back(row); });
+        cells.for_each_near(p.x + s * n.x, p.y + s * n.y, [&](std::int32_t row) {
+            const auto k = static_cast<std::size_t>(row);
+            if (!(std::abs(dot(Point{field.x[k], field.y[k]} - p, t)) > band))
+                seen.push_back(row);
+        });
     std::ranges::sort(seen);
     seen.erase(std::ranges::unique(seen).begin(), seen.end());
     return seen;
@@ -32,11 +37,9 @@ std::vector<PlaneShear> mean_shear(const ShearField& field, const Cells& cells, 
     std::vector<PlaneShear> mean(size);
     const double band = ShearProfile::band * field.diameter;
     const Point n{-t.y, t.x};
-    for (std::int32_t row : discs_across(cells, p, n, reach, band)) {
+    for (std::int32_t row : discs_across(field, cells, p, n, reach, band)) {
         const auto k = static_cast<std::size_t>(row);
         const Point r = Point{field.x[k], field.y[k]} - p;
-        if (std::abs(dot(r, t)) > band)
-            continue;
         const PlaneShear shear = field.components(k);
         const double place = dot(r, n) / step + static_cast<double>(half);
         // A triangle of 0.75 diameters to either side.

@@ -10,6 +10,7 @@
 #include "apps/measures/fault_trace.hpp"
 #include "apps/measures/rock.hpp"
 #include "dem/events/property_update.hpp"
+#include "dem/shared_loop.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -159,6 +160,22 @@ TEST(FaultTrace, CrossingFaults) {
     EXPECT_NE(falls_right(traces[0]), falls_right(traces[1]));
     EXPECT_NEAR(std::abs(middle_of(traces[falls_right(traces[0]) ? 0 : 1].slip)), 250.0, 40.0);
     EXPECT_NEAR(std::abs(middle_of(traces[falls_right(traces[0]) ? 1 : 0].slip)), 350.0, 40.0);
+}
+
+TEST(FaultTrace, ThreadsDoNotMatter) {
+    const Block block(zone(middle, 60.0, 250.0, 3.0) + zone(middle, 120.0, -350.0, 3.0));
+    const std::vector<FaultTrace> alone = block.trace();
+    ASSERT_EQ(alone.size(), 2u);
+    for (const int threads : {2, 3, 8}) {
+        const Team team(threads);
+        const std::vector<FaultTrace> shared = block.trace();
+        ASSERT_EQ(shared.size(), alone.size());
+        for (std::size_t k = 0; k < alone.size(); ++k) {
+            EXPECT_EQ(shared[k].points, alone[k].points);
+            EXPECT_EQ(shared[k].slip, alone[k].slip);
+            EXPECT_EQ(shared[k].width, alone[k].width);
+        }
+    }
 }
 
 TEST(FaultTrace, ParallelFaultsStayApart) {

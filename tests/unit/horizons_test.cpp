@@ -5,6 +5,7 @@
 #include "apps/measures/contour.hpp"
 #include "apps/measures/horizons.hpp"
 #include "dem/power_cell.hpp"
+#include "dem/shared_loop.hpp"
 #include "dem/units.hpp"
 #include "tests/support.hpp"
 
@@ -157,6 +158,16 @@ TEST_F(HorizonTest, LevelStrata) {
     for (std::size_t k = 0; k < 4; ++k)
         for (const Point p : horizons[k].pieces[0])
             EXPECT_NEAR(p.y, levels[k], roughness);
+    for (const int threads : {2, 3, 8}) { // which trace as many at once
+        const Team team(threads);
+        const std::vector<Horizon> shared = trace();
+        ASSERT_THAT(shared, SizeIs(5));
+        for (std::size_t k = 0; k < shared.size(); ++k) {
+            EXPECT_EQ(shared[k].stratum, horizons[k].stratum);
+            EXPECT_EQ(shared[k].top, horizons[k].top);
+            EXPECT_EQ(shared[k].pieces, horizons[k].pieces);
+        }
+    }
 }
 
 // A stratum of scattered discs, half a disc thick, loses nothing: that is what a fit to the tops of
