@@ -1,5 +1,8 @@
 #include "dem/shared_loop.hpp"
 
+#include "dem/pause.hpp"
+
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -32,6 +35,7 @@ public:
         while (next_ < count_)
             take_one(lock);
         // A helper that has not begun is not waited for.
+        look_out(lock, [&] { return busy_ == 0; });
         ends_.wait(lock, [&] { return busy_ == 0; });
         for (const std::exception_ptr& failure : failures_)
             if (failure)
@@ -41,8 +45,24 @@ public:
 private:
     void help(const std::stop_token& stop) {
         std::unique_lock lock(mutex_);
-        while (begins_.wait(lock, stop, [&] { return next_ < count_; }))
+        const auto is_there = [&] { return next_ < count_; };
+        while (begins_.wait(lock, stop, is_there)) {
             take_one(lock);
+            look_out(lock, is_there);
+        }
+    }
+
+    /// Waits awake for about as long as it takes to fall asleep and be woken, for loops follow each
+    /// other.
+    template <class Done> static void look_out(std::unique_lock<std::mutex>& lock, Done done) {
+        constexpr std::chrono::microseconds longest{50};
+        const auto begin = std::chrono::steady_clock::now();
+        while (!done() && std::chrono::steady_clock::now() - begin < longest) {
+            lock.unlock();
+            for (int k = 0; k < 20; ++k)
+                pause();
+            lock.lock();
+        }
     }
 
     /// Calls begin in order: whatever fails first in time, those before it in order have begun.

@@ -1,14 +1,12 @@
 #pragma once
 
+#include "dem/pause.hpp"
+
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <thread>
 #include <vector>
-
-#if defined __SSE2__
-#include <immintrin.h>
-#endif
 
 namespace listric::dem {
 
@@ -43,12 +41,6 @@ public:
     double asleep() const { return 1e-9 * static_cast<double>(asleep_.load()); }
 
 private:
-    static void pause() {
-#if defined __SSE2__
-        _mm_pause();
-#endif
-    }
-
     const int threads_;
     alignas(64) std::atomic<int> arrived_ = 0;
     alignas(64) std::atomic<unsigned> round_ = 0;

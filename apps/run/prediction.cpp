@@ -90,7 +90,7 @@ CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool ac
     const Execution alone{1, best_cycle(), account, &packed};
     const PieceTime of_team = time_piece(lattice, cycles, team, seconds);
     const PieceTime of_one =
-        threads == 1 || accounted ? of_team : time_piece(lattice, cycles, alone, seconds);
+        threads == 1 || accounted ? of_team : time_piece(lattice, cycles, alone, 0.5 * seconds);
     const double piece = static_cast<double>(cycles) * static_cast<double>(discs);
     return {.team = piece / of_team.quiet,
             .one_thread = piece / of_one.quiet,

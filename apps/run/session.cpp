@@ -218,11 +218,14 @@ void Session::end_window() {
         const Stopwatch watch(record_.seconds_by_part["measures"]);
         append_history();
     }
-    if (is_drawn_at(scene_, extension())) {
+    const bool drawn = is_drawn_at(scene_, extension());
+    if (drawn)
+        faults_now(); // for the report, too
+    save();
+    if (drawn) { // beside the cycles that follow
         draw();
         save_field();
     }
-    save();
     report_.write_live(to_csv(record_.history));
     write_status("extension");
 }
