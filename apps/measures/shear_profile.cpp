@@ -21,7 +21,7 @@ std::vector<std::int32_t> discs_across(const ShearField& field, const Cells& cel
     for (double s = -reach; s <= reach + band; s += 2.0 * band)
         cells.for_each_near(p.x + s * n.x, p.y + s * n.y, [&](std::int32_t row) {
             const auto k = static_cast<std::size_t>(row);
-            if (!(std::abs(dot(Point{field.x[k], field.y[k]} - p, t)) > band))
+            if (std::abs(dot(Point{field.x[k], field.y[k]} - p, t)) <= band)
                 seen.push_back(row);
         });
     std::ranges::sort(seen);

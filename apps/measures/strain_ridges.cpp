@@ -104,23 +104,26 @@ private:
         for (double& k : kernel)
             k /= sum;
         std::vector<double> other(values.size(), 0.0);
+        const auto mean = [&](const std::vector<double>& from, std::ptrdiff_t c, std::ptrdiff_t r,
+                              bool along_columns) {
+            double value = 0.0;
+            for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+                const std::ptrdiff_t cc = along_columns ? c + k : c;
+                const std::ptrdiff_t rr = along_columns ? r : r + k;
+                if (cc >= 0 && cc < columns_ && rr >= 0 && rr < rows_)
+                    value += kernel[std::abs(k)] * from[at(cc, rr)];
+            }
+            return value;
+        };
         const auto pass = [&](const std::vector<double>& from, std::vector<double>& to,
                               bool along_columns) {
-            in_pieces(static_cast<std::size_t>(columns_), 32,
-                      [&](std::size_t begin, std::size_t end) {
-                          for (auto c = static_cast<std::ptrdiff_t>(begin);
-                               c < static_cast<std::ptrdiff_t>(end); ++c)
-                              for (std::ptrdiff_t r = 0; r < rows_; ++r) {
-                                  double value = 0.0;
-                                  for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
-                                      const std::ptrdiff_t cc = along_columns ? c + k : c;
-                                      const std::ptrdiff_t rr = along_columns ? r : r + k;
-                                      if (cc >= 0 && cc < columns_ && rr >= 0 && rr < rows_)
-                                          value += kernel[std::abs(k)] * from[at(cc, rr)];
-                                  }
-                                  to[at(c, r)] = value;
-                              }
-                      });
+            in_pieces(static_cast<std::size_t>(columns_), 32, [&](std::size_t c, std::size_t end) {
+                for (; c < end; ++c)
+                    for (std::ptrdiff_t r = 0; r < rows_; ++r) {
+                        const auto column = static_cast<std::ptrdiff_t>(c);
+                        to[at(column, r)] = mean(from, column, r, along_columns);
+                    }
+            });
         };
         pass(values, other, true);
         pass(other, values, false);

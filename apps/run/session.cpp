@@ -219,7 +219,7 @@ void Session::end_window() {
         append_history();
     }
     const bool drawn = is_drawn_at(scene_, extension());
-    if (drawn)
+    if (drawn && options_.figures)
         faults_now(); // for the report, too
     save();
     if (drawn) { // beside the cycles that follow
