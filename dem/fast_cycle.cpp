@@ -5,6 +5,7 @@
 #include "dem/law.hpp"
 #include "dem/links.hpp"
 #include "dem/order_free.hpp"
+#include "dem/shared_loop.hpp"
 #include "dem/team.hpp"
 
 #include <algorithm>
@@ -280,7 +281,8 @@ private:
 std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& team,
                                   BaseResponse* response, Links* links) {
     const auto begin = std::chrono::steady_clock::now();
-    const int threads = std::min(team.size(), static_cast<int>(strips_.size()));
+    const int threads =
+        std::min({team.size(), static_cast<int>(strips_.size()), threads_at_hand()});
     Piece piece{.state = state,
                 .response = response,
                 .links = links,

@@ -1,7 +1,9 @@
 #include "dem/shared_loop.hpp"
 
 #include "dem/pause.hpp"
+#include "dem/team.hpp"
 
+#include <cassert>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -25,6 +27,9 @@ public:
         }
     }
 
+    int count() const { return static_cast<int>(threads_.size()); }
+
+    /// The calling thread makes the first call.
     void share(std::size_t count, const Work& work) {
         std::unique_lock lock(mutex_);
         work_ = &work;
@@ -113,6 +118,19 @@ Team::Helpers& Team::helpers() {
 }
 
 int team_size() { return team_at_hand ? team_at_hand->threads_ : 1; }
+
+int threads_at_hand() { return team_size() == 1 ? 1 : 1 + team_at_hand->helpers().count(); }
+
+void run_team(int threads, const std::function<void(int)>& work) {
+    assert(threads <= threads_at_hand());
+    if (threads == 1)
+        return work(0);
+    team_at_hand->helpers().share(static_cast<std::size_t>(threads), [&](std::size_t k) noexcept {
+        const Team alone(1);
+        const Pinned pinned(static_cast<int>(k), threads);
+        work(static_cast<int>(k));
+    });
+}
 
 void for_each_shared(std::size_t count, const Work& work) {
     if (count > 1 && team_size() > 1)

@@ -27,7 +27,9 @@ public:
 private:
     class Helpers;
     friend int team_size();
+    friend int threads_at_hand();
     friend void for_each_shared(std::size_t, const std::function<void(std::size_t)>&);
+    friend void run_team(int, const std::function<void(int)>&);
     Helpers& helpers();
 
     int threads_;
@@ -38,10 +40,19 @@ private:
 /// Threads that share a loop of the calling thread.
 int team_size();
 
+/// Of these, the ones that could be started.
+int threads_at_hand();
+
 /// Calls work(k) for k = 0 .. count - 1. Loops within it are not shared again. After a failure no
 /// further call begins; of what the calls have thrown, the first in order of k is thrown again,
 /// whatever the threads.
 void for_each_shared(std::size_t count, const std::function<void(std::size_t)>& work);
+
+/// Calls work(k) for k = 0 .. threads - 1, each on a thread of its own, and waits for all: they may
+/// wait for each other. The calling thread makes the first. As those that meet at a barrier would
+/// wait for ever for one that failed, among several that ends the program (std::terminate).
+/// @param threads  no more than are at hand
+void run_team(int threads, const std::function<void(int)>& work);
 
 /// How a loop is cut: some pieces a thread, so that one that is late holds up little.
 struct Pieces {

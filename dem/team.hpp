@@ -5,7 +5,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <thread>
 #include <vector>
 
 namespace listric::dem {
@@ -101,23 +100,5 @@ public:
 private:
     std::vector<int> before_; ///< cores that the thread may use otherwise; empty: not pinned
 };
-
-/// Calls work(k) for k = 0 .. threads - 1, each on a thread of its own, and waits for all. Threads
-/// that meet at barriers would wait for ever for one that failed, or that could not be started:
-/// among several that ends the program (std::terminate).
-template <class Work> void run_team(int threads, Work&& work) {
-    if (threads == 1)
-        return work(0);
-    std::vector<std::jthread> others;
-    const auto take_part = [&work, threads](int k) noexcept {
-        const Pinned pinned(k, threads);
-        work(k);
-    };
-    [&]() noexcept {
-        for (int k = 1; k < threads; ++k)
-            others.emplace_back(take_part, k);
-    }();
-    take_part(0);
-}
 
 } // namespace listric::dem

@@ -1,3 +1,4 @@
+#include "dem/shared_loop.hpp"
 #include "dem/team.hpp"
 
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@ TEST(Claims, EveryItemIsTakenOnceInEveryPhase) {
         for (const int threads : {1, 2, 3}) {
             Claims claims(items, threads);
             Barrier barrier(threads);
+            const Team team(threads);
             std::vector<std::atomic<std::uint32_t>> taken(items);
             run_team(threads, [&](int thread) {
                 for (std::uint32_t phase = 1; phase <= phases; ++phase) {

@@ -5,7 +5,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/memory.hpp"
 #include "dem/cycle.hpp"
-#include "dem/team.hpp"
+#include "dem/shared_loop.hpp"
 #include "fem/footwall.hpp"
 
 #include <gmock/gmock.h>
@@ -75,6 +75,7 @@ TEST(ExitCodeDeathTest, FaultsOnThreadsEndTheProgramWithTheirCode) {
     const auto on_a_thread = [](auto exception) {
         guard_threads();
         note_memory_need(7e6);
+        const dem::Team team(2);
         dem::run_team(2, [&](int thread) {
             if (thread == 1)
                 throw exception;
