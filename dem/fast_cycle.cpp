@@ -63,7 +63,7 @@ DampedAgainst FastCycle::damped_against() const {
 double FastCycle::furthest(const Strip& strip) const {
     double greatest = 0.0;
     for (std::size_t i = strip.first_disc; i < strip.end_disc; ++i) {
-        if (!own_.empty() && own_[i] == 0)
+        if (strip.has_ghosts && own_[i] == 0)
             continue;
         const double dx = discs_[i].place[0] - searched_places_[i].x;
         const double dy = discs_[i].place[1] - searched_places_[i].y;
@@ -85,15 +85,20 @@ double FastCycle::greatest_displacement(const State& state, double extension, Li
 void FastCycle::mark_ghosts(const Links* links) {
     own_.clear();
     for (Strip& strip : strips_)
-        strip.sends = links && std::ranges::any_of(links->sent(), [&](std::int32_t row) {
-                          const auto disc = static_cast<std::size_t>(row);
-                          return disc >= strip.first_disc && disc < strip.end_disc;
-                      });
+        strip.sends = strip.has_ghosts = false;
     if (!links)
         return;
     own_.assign(inertia_.size(), 0);
     for (std::size_t i = 0; i < disc_count_; ++i)
         own_[i] = links->own()[i] ? -1 : 0;
+    for (Strip& strip : strips_) {
+        strip.sends = std::ranges::any_of(links->sent(), [&](std::int32_t row) {
+            const auto disc = static_cast<std::size_t>(row);
+            return disc >= strip.first_disc && disc < strip.end_disc;
+        });
+        const std::span own = links->own().subspan(strip.first_disc, strip.disc_count());
+        strip.has_ghosts = std::ranges::find(own, 0) != own.end();
+    }
 }
 
 void FastCycle::send_ghosts(Links& links) const {
@@ -136,7 +141,7 @@ struct FastCycle::Piece {
     State& state;
     BaseResponse* response;
     Links* links;
-    Kernels kernels;
+    Kernels kernels, kernels_with_ghosts;
     Shared shared;
     BaseNodeColumns nodes;
     double surface_translation; ///< see greatest_translation()
@@ -218,8 +223,8 @@ private:
                 fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.links);
         Stretching thins = stretching(*fast_.base_, clock_.extension);
         thins.rate *= speed;
-        const auto sweep = clock_.cycle % averaging_interval == 0 ? piece_.kernels.sampling_sweep
-                                                                  : piece_.kernels.sweep;
+        const auto sweep =
+            clock_.cycle % averaging_interval == 0 ? &Kernels::sampling_sweep : &Kernels::sweep;
         double& mine = piece_.fastest[static_cast<std::size_t>(thread_)].in[parity];
         mine = 0.0;
         const auto sweep_strips = [&](bool that_send) {
@@ -227,7 +232,9 @@ private:
                 if (strip.sends != that_send)
                     return;
                 fast_.compute_base(strip, moment);
-                mine = greater(mine, sweep(piece_.shared, strip, thins));
+                const Kernels& kernels =
+                    strip.has_ghosts ? piece_.kernels_with_ghosts : piece_.kernels;
+                mine = greater(mine, (kernels.*sweep)(piece_.shared, strip, thins));
             });
         };
         if (piece_.links) { // ghosts travel while the other strips are swept
@@ -286,7 +293,9 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
     Piece piece{.state = state,
                 .response = response,
                 .links = links,
-                .kernels = choose_kernels(level_, bonded_, frictional_, damped_against(), links),
+                .kernels = choose_kernels(level_, bonded_, frictional_, damped_against(), false),
+                .kernels_with_ghosts =
+                    choose_kernels(level_, bonded_, frictional_, damped_against(), true),
                 .shared = {discs_, inertia_, slots_.data(), time_step_, physics_.damping,
                            averaging_interval * time_step_ / physics_.averaging_time,
                            own_.empty() ? nullptr : own_.data()},

@@ -97,7 +97,7 @@ private:
     void send_ghosts(Links& links) const;
     void receive_ghosts(Links& links);
     void divide_work(const State& state, const Links* links);
-    void cut_off_what_is_sent(const Links& links);
+    void cut_off_borders(const Links& links);
     /// Calls work(strip) for all strips, which the threads at hand share.
     template <class Work> void for_each_strip(Work&& work);
     void pack_discs(const State& state, const fast::Strip& strip);

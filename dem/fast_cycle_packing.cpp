@@ -1,5 +1,6 @@
 // Packing: from the state's columns to the records of the fast cycle, and back.
 
+#include "dem/cycle_work.hpp"
 #include "dem/fast_cycle.hpp"
 #include "dem/law.hpp"
 #include "dem/links.hpp"
@@ -101,17 +102,18 @@ void FastCycle::pack_discs(const State& state, const Strip& strip) {
     }
 }
 
-/// Gives each strip whole tiles of about equal work: a contact takes about as long as a disc, a
-/// base contact as five. Large packings are cut into some strips a thread, so that a thread which
-/// is late holds up little; small ones are not, for contacts between strips cost more than others.
+/// Gives each strip whole tiles of about equal work. Large packings are cut into some strips a
+/// thread, so that a thread which is late holds up little; small ones are not, for contacts between
+/// strips cost more than others.
 void FastCycle::divide_work(const State& state, const Links* links) {
     if (links && threads_ == 1)
-        return cut_off_what_is_sent(*links);
+        return cut_off_borders(*links);
     constexpr std::size_t large = 2500; // discs of a strip
     const std::span<const std::int32_t> first = contact_columns(state).first;
     const std::span<const std::int32_t> base_disc = base_contact_columns(state).disc;
     const auto work_before = [&](std::size_t disc) {
-        return disc + rows_before(first, disc) + 5 * rows_before(base_disc, disc);
+        return disc_work * disc + contact_work * rows_before(first, disc) +
+               base_contact_work * rows_before(base_disc, disc);
     };
     const std::size_t tiles = (disc_count_ + tile_discs - 1) / tile_discs;
     const auto threads = static_cast<std::size_t>(threads_);
@@ -130,18 +132,23 @@ void FastCycle::divide_work(const State& state, const Links* links) {
     }
 }
 
-/// Three strips, of which the first and the last have all discs that are sent: what is before the
-/// middle of the rows, and what is behind it.
-void FastCycle::cut_off_what_is_sent(const Links& links) {
+/// Three strips, of which the first and the last have all discs that are sent, and all ghosts: what
+/// is before the middle of the rows, and what is behind it.
+void FastCycle::cut_off_borders(const Links& links) {
     const std::size_t middle = disc_count_ / 2 / tile_discs * tile_discs;
     std::size_t low = 0, high = disc_count_;
-    for (const std::int32_t row : links.sent()) {
-        const std::size_t tile = static_cast<std::size_t>(row) / tile_discs * tile_discs;
+    const auto cut_off = [&](std::size_t row) {
+        const std::size_t tile = row / tile_discs * tile_discs;
         if (tile < middle)
             low = std::max(low, tile + tile_discs);
         else
             high = std::min(high, tile);
-    }
+    };
+    for (const std::int32_t row : links.sent())
+        cut_off(static_cast<std::size_t>(row));
+    for (std::size_t row = 0; row < disc_count_; ++row)
+        if (!links.own()[row])
+            cut_off(row);
     strips_.resize(3);
     const std::size_t ends[] = {low, high, disc_count_};
     for (std::size_t s = 0; s < 3; ++s) {
@@ -225,7 +232,7 @@ void FastCycle::pack_blocks(const State& state, Strip& strip) {
         to.rows[to.rows.size() - 8 + lane] = static_cast<std::int32_t>(row);
         lane = (lane + 1) % 8;
     };
-    const std::size_t tiles = (strip.end_disc - strip.first_disc) / tile_discs + 1;
+    const std::size_t tiles = strip.disc_count() / tile_discs + 1;
     const std::size_t blocks = (strip.end_row - strip.first_row) / 8 + tiles;
     clear_for(strip.inner.blocks, blocks);
     clear_for(strip.inner.rows, 8 * blocks);
@@ -312,7 +319,7 @@ void FastCycle::pack_base_contacts(const State& state, Strip& strip) {
 void FastCycle::pack_gathers(const State& state, Strip& strip) {
     const ConstContactColumns c = contact_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);
-    const std::size_t groups = (strip.end_disc - strip.first_disc + group_discs - 1) / group_discs;
+    const std::size_t groups = (strip.disc_count() + group_discs - 1) / group_discs;
     // Incoming slots by disc, in the order of the rows: earlier strips reach into this one by their
     // boundaries. Outgoing contacts are consecutive rows.
     const auto for_each_incoming = [&](auto&& visit) {

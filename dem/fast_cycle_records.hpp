@@ -77,6 +77,7 @@ struct Strip {
     std::size_t first_slot = 0, ring = 0; ///< slots of inner blocks; boundary's and base's follow
     bool bonded = false, frictional = false; ///< whether any contact is
     bool sends = false;                      ///< whether a disc of it is a ghost of another rank
+    bool has_ghosts = false;                 ///< whether a disc of it is another rank's
     Blocks inner;                            ///< contacts of its discs, by tiles
     Blocks boundary;                         ///< those with a second disc in a later strip
     std::vector<BaseContact> base_contacts;  ///< with rigid surfaces
@@ -86,6 +87,8 @@ struct Strip {
     std::size_t look_ahead = 0;           ///< discs between the one that moves and those fetched
     AlignedVector<std::uint32_t> gathers; ///< see FastCycle::pack_gathers
     double furthest = 0.0;                ///< greatest distance from a searched place, squared, m^2
+
+    std::size_t disc_count() const { return end_disc - first_disc; }
 };
 
 inline constexpr std::size_t tile_discs = 128; ///< a tile's records and slots fit the cache

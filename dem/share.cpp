@@ -1,5 +1,6 @@
 #include "dem/share.hpp"
 
+#include "dem/cycle_work.hpp"
 #include "dem/table_bytes.hpp"
 
 #include <algorithm>
@@ -38,12 +39,11 @@ std::vector<std::int32_t> ranks_by_rows(const State& state, int count) {
     assert(count > 0);
     const ConstContactColumns c = contact_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);
-    // A contact takes about as long as a disc, a base contact as five.
-    std::vector<std::int64_t> work(state.discs.rows(), 1);
+    std::vector<std::int64_t> work(state.discs.rows(), disc_work);
     for (const std::int32_t first : c.first)
-        ++work[static_cast<std::size_t>(first)];
+        work[static_cast<std::size_t>(first)] += contact_work;
     for (const std::int32_t disc : b.disc)
-        work[static_cast<std::size_t>(disc)] += 5;
+        work[static_cast<std::size_t>(disc)] += base_contact_work;
     std::int64_t all = 0;
     for (const std::int64_t w : work)
         all += w;

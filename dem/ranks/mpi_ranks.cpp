@@ -1,12 +1,11 @@
 #include "dem/ranks.hpp"
 
 #include <mpi.h>
-#include <petscsf.h>
+#include <petscsys.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -35,18 +34,49 @@ int as_int(std::size_t size) {
     return static_cast<int>(size);
 }
 
+/// Messages between this rank and others that are on their way; empty ones are none.
+class Messages {
+public:
+    Messages() = default;
+    Messages(MPI_Comm all, int tag) : all_(all), tag_(tag) {}
+
+    template <class T> void receive(std::span<T> to, MPI_Datatype type, std::size_t rank) {
+        if (!to.empty())
+            require(MPI_Irecv(to.data(), as_int(to.size()), type, static_cast<int>(rank), tag_,
+                              all_, &under_way_.emplace_back()),
+                    "MPI_Irecv");
+    }
+    template <class T> void send(std::span<const T> from, MPI_Datatype type, std::size_t rank) {
+        if (!from.empty())
+            require(MPI_Isend(from.data(), as_int(from.size()), type, static_cast<int>(rank), tag_,
+                              all_, &under_way_.emplace_back()),
+                    "MPI_Isend");
+    }
+    void wait() {
+        require(MPI_Waitall(static_cast<int>(under_way_.size()), under_way_.data(),
+                            MPI_STATUSES_IGNORE),
+                "MPI_Waitall");
+        under_way_.clear();
+    }
+
+private:
+    MPI_Comm all_ = MPI_COMM_NULL;
+    int tag_ = 0;
+    std::vector<MPI_Request> under_way_;
+};
+
 class MpiRanks : public Ranks {
 public:
     MpiRanks() {
-        // PETSc starts MPI. Signals are the program's.
+        // PETSc starts MPI: the root's elastic base may need both. Signals are the program's.
         require_petsc(PetscInitializeNoArguments(), "PetscInitialize");
         require_petsc(PetscPopSignalHandler(), "PetscPopSignalHandler");
         require(MPI_Comm_dup(MPI_COMM_WORLD, &all_), "MPI_Comm_dup");
         MPI_Comm_size(all_, &count_);
         MPI_Comm_rank(all_, &mine_);
+        exchange_ = Messages(all_, exchanged);
     }
     ~MpiRanks() override {
-        PetscSFDestroy(&ghosts_);
         MPI_Comm_free(&all_);
         PetscFinalize();
     }
@@ -56,39 +86,20 @@ public:
     int count() const override { return count_; }
     int mine() const override { return mine_; }
 
-    /// A ghost's numbers are leaves of those that its own rank sends.
     void connect(std::span<const std::size_t> sent,
                  std::span<const std::size_t> received) override {
-        const auto ranks = static_cast<std::size_t>(count_);
-        std::vector<PetscInt> begins(ranks), there(ranks); // of each letter, here and at its sender
-        for (std::size_t rank = 1; rank < ranks; ++rank)
-            begins[rank] = begins[rank - 1] + static_cast<PetscInt>(sent[rank - 1]);
-        require(MPI_Alltoall(begins.data(), 1, MPIU_INT, there.data(), 1, MPIU_INT, all_),
-                "MPI_Alltoall");
-        std::vector<PetscSFNode> leaves;
-        for (std::size_t rank = 0; rank < ranks; ++rank)
-            for (std::size_t k = 0; k < received[rank]; ++k)
-                leaves.push_back(
-                    {static_cast<PetscInt>(rank), there[rank] + static_cast<PetscInt>(k)});
-        const auto roots = static_cast<PetscInt>(std::accumulate(sent.begin(), sent.end(), 0ul));
-        PetscSFDestroy(&ghosts_);
-        require_petsc(PetscSFCreate(all_, &ghosts_), "PetscSFCreate");
-        require_petsc(PetscSFSetGraph(ghosts_, roots, static_cast<PetscInt>(leaves.size()), nullptr,
-                                      PETSC_COPY_VALUES, leaves.data(), PETSC_COPY_VALUES),
-                      "PetscSFSetGraph");
-        require_petsc(PetscSFSetUp(ghosts_), "PetscSFSetUp");
+        sent_.assign(sent.begin(), sent.end());
+        received_.assign(received.begin(), received.end());
     }
 
+    // Messages of MPI's own: those of PETSc's PetscSF take 1.2 us longer (docs/scaling.md).
     void begin_exchange(std::span<const double> sent, std::span<double> received) override {
-        sent_ = sent.data();
-        received_ = received.data();
-        require_petsc(PetscSFBcastBegin(ghosts_, MPI_DOUBLE, sent_, received_, MPI_REPLACE),
-                      "PetscSFBcastBegin");
+        for (std::size_t rank = 0, at = 0; rank < received_.size(); at += received_[rank++])
+            exchange_.receive(received.subspan(at, received_[rank]), MPI_DOUBLE, rank);
+        for (std::size_t rank = 0, at = 0; rank < sent_.size(); at += sent_[rank++])
+            exchange_.send(sent.subspan(at, sent_[rank]), MPI_DOUBLE, rank);
     }
-    void end_exchange() override {
-        require_petsc(PetscSFBcastEnd(ghosts_, MPI_DOUBLE, sent_, received_, MPI_REPLACE),
-                      "PetscSFBcastEnd");
-    }
+    void end_exchange() override { exchange_.wait(); }
 
     void greatest(std::span<std::uint64_t> numbers) override {
         require(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), as_int(numbers.size()), MPI_UINT64_T,
@@ -115,22 +126,14 @@ public:
         require(MPI_Alltoall(there.data(), 1, MPI_UINT64_T, here.data(), 1, MPI_UINT64_T, all_),
                 "MPI_Alltoall");
         std::vector<Bytes> received(ranks);
-        std::vector<MPI_Request> requests;
+        Messages messages(all_, traded);
         for (std::size_t rank = 0; rank < ranks; ++rank) {
             received[rank].resize(here[rank]);
-            if (here[rank] > 0)
-                require(MPI_Irecv(received[rank].data(), as_int(here[rank]), MPI_BYTE,
-                                  static_cast<int>(rank), traded, all_, &requests.emplace_back()),
-                        "MPI_Irecv");
+            messages.receive(std::span(received[rank]), MPI_BYTE, rank);
         }
         for (std::size_t rank = 0; rank < ranks; ++rank)
-            if (there[rank] > 0)
-                require(MPI_Isend(letters[rank].data(), as_int(there[rank]), MPI_BYTE,
-                                  static_cast<int>(rank), traded, all_, &requests.emplace_back()),
-                        "MPI_Isend");
-        require(
-            MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE),
-            "MPI_Waitall");
+            messages.send(std::span<const std::byte>(letters[rank]), MPI_BYTE, rank);
+        messages.wait();
         return received;
     }
     void gather(Bytes letter, const Take& take) override {
@@ -152,7 +155,7 @@ public:
 
 private:
     static constexpr std::size_t most_at_once = 1u << 30; // bytes
-    static constexpr int gathered = 1, scattered = 2, traded = 3;
+    static constexpr int gathered = 1, scattered = 2, traded = 3, exchanged = 4;
 
     /// Of any length: MPI 3 counts bytes by int.
     void send(const Bytes& letter, int rank, int tag) const {
@@ -178,9 +181,8 @@ private:
 
     MPI_Comm all_ = MPI_COMM_NULL;
     int count_ = 1, mine_ = 0;
-    PetscSF ghosts_ = nullptr;
-    const double* sent_ = nullptr; ///< by the exchange that has begun
-    double* received_ = nullptr;
+    std::vector<std::size_t> sent_, received_; ///< numbers to and from each rank, at an exchange
+    Messages exchange_;
 };
 
 } // namespace

@@ -21,7 +21,7 @@ ELEMENTS = {f"fem/{name}" for name in ("mesh", "elasticity", "condensation", "so
 
 # The other plug-in: discs over MPI. It sees dem, and nothing sees it.
 RANKS = {"dem/ranks/mpi_ranks"}
-RANKS_LIBRARIES = ("mpi.h", "petscsf.h")
+RANKS_LIBRARIES = ("mpi.h", "petscsys.h")
 
 # Headers that are neither ours nor of the C++ standard, whose names have no dot and no slash.
 SYSTEM = ("dlfcn.h", "fcntl.h", "sched.h", "sys/", "unistd.h", "immintrin.h")
