@@ -1,10 +1,13 @@
 #include "apps/run/run.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
+#include "apps/commands/start_ranks.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/join_ranks.hpp"
 #include "apps/run/oversize.hpp"
 #include "apps/run/ranked_run.hpp"
+
+#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
@@ -19,7 +22,7 @@ struct RunCall {
     std::optional<std::string> until;
     std::string output;
     CLI::Option* threads = nullptr;
-    bool ranks = false;
+    int ranks = 1; ///< 0: as many as were started together
     bool force_size = false;
     bool no_report = false;
 };
@@ -82,7 +85,13 @@ ExitCode run(RunCall& call) {
         call.options.until = parse_length(*call.until);
     call.options.stop = stop_on_signals();
     const Launch launch = read_launch();
-    if (launch.count > 1 || call.ranks) {
+    if (call.ranks > 1 && launch.count == 1)
+        return start_ranks(call.ranks);
+    if (call.ranks > 1 && call.ranks != launch.count)
+        throw UsageError(fmt::format("--ranks={}: {} processes were started together; without "
+                                     "mpirun or srun the program starts them itself",
+                                     call.ranks, launch.count));
+    if (launch.count > 1 || call.ranks == 0) {
         const auto ranks = join_ranks(launch);
         if (ranks->count() > 1)
             return run_part(call, *ranks);
@@ -111,8 +120,13 @@ Command add_run(CLI::App& program) {
     CLI::App* command = program.add_subcommand("run", "Run a scene");
     add_scene(*command, call->scene);
     call->threads = add_threads(*command, call->options.threads);
-    command->add_flag("--ranks", call->ranks,
-                      "One of several processes, even if the environment does not say so");
+    command
+        ->add_flag("--ranks{0}", call->ranks,
+                   "--ranks=N: made by N processes, which mpirun starts; without a number: by "
+                   "those that were started, though the environment does not say so")
+        ->check(CLI::Range(0, 1 << 20))
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    call->ranks = 1; // CLI11 counts flags, from 0
     command->add_flag("--plain", call->options.plain, "The scalar cycle: same bits, slower");
     command->add_option("--output", call->output, "Folder of results (default: out/SCENE)");
     command->add_option("--until", call->until, "End at this extension, such as 5km");

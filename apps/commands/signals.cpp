@@ -11,7 +11,9 @@ namespace listric {
 namespace {
 
 std::atomic<bool> stop_requested = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+std::atomic<int> receiver = 0; ///< a process
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "signal handlers use them");
 
 void answer_with(void (*handler)(int)) {
     for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
@@ -27,6 +29,11 @@ void exit_on_signals() {
 }
 
 void ignore_signals() { answer_with(SIG_IGN); }
+
+void hand_on_signals(int process) {
+    receiver = process;
+    answer_with([](int) { kill(receiver, SIGUSR1); });
+}
 
 StopToken stop_on_signals() {
     answer_with([](int) { stop_requested = true; });

@@ -2,36 +2,14 @@
 
 #include "apps/support/error.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/process.hpp"
 #include "apps/support/resources.hpp"
 
 #include <cstdlib>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace listric {
 
 namespace {
-
-/// Runs a program, by its path or found on PATH, without a shell. Returns its exit code, or -1.
-int run_program(const std::vector<std::string>& words) {
-    std::vector<char*> arguments;
-    for (const std::string& word : words)
-        // execvp does not write to its arguments; its type is older than const.
-        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
-        arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    const pid_t child = fork();
-    if (child == 0) {
-        // Ctrl-C is for the run, which finishes its picture first.
-        setpgid(0, 0);
-        execvp(arguments[0], arguments.data());
-        _exit(127);
-    }
-    int status = 0;
-    if (child < 0 || waitpid(child, &status, 0) < 0)
-        return -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
 
 /// Whether it is a Python with these modules.
 bool has(const std::string& python, const std::vector<std::string>& modules) {

@@ -41,10 +41,10 @@ class Ranks(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
-        self.environment = ENVIRONMENT | {"LISTRIC_CACHE": str(self.folder / "cache")}
+        self.environment = dict(ENVIRONMENT)
 
     def run_on(self, ranks, output, *words):
-        """Runs to the end; 0 ranks: without mpirun."""
+        """Runs to the end; 0 ranks: without mpirun of the test's own."""
         return subprocess.run(command(ranks, self.folder / output, *words), env=self.environment,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                               timeout=10 * LONGEST)
@@ -76,7 +76,8 @@ class Ranks(unittest.TestCase):
     def begin(self, ranks, output, *words):
         """A run that has begun to extend."""
         run = subprocess.Popen(command(ranks, self.folder / output, *words), env=self.environment,
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                               start_new_session=True)
         self.addCleanup(run.stdout.close)
         self.addCleanup(run.kill)
         first = self.folder / output / "snapshots"
@@ -149,6 +150,20 @@ class Ends(Ranks):
         self.assertEqual(json.loads((self.folder / "run/status.json").read_text())["phase"], "stopped")
         self.assertEqual(self.summary(0, "run", "lis1", "--until", "1km", "--resume")["state_hash"],
                          whole["state_hash"])
+
+    def test_ctrl_c_where_the_program_starts_mpirun(self):
+        whole = self.summary(0, "whole", "lis1", "--until", "1km")
+        run = self.begin(0, "run", "lis1", "--until", "1km", "--ranks=2")
+        os.killpg(run.pid, signal.SIGINT)  # as a terminal does
+        run.communicate(timeout=LONGEST)
+        self.assertEqual(run.returncode, 130)
+        self.assertEqual(processes_of(self.folder / "run"), [])
+        last = self.summary(0, "run", "lis1", "--until", "1km", "--resume", "--ranks=2")
+        self.assertEqual((last["ranks"], last["state_hash"]), (2, whole["state_hash"]))
+
+    def test_more_ranks_than_mpirun_starts(self):
+        ended = self.run_on(0, "run", "lis1", "--ranks=1000")
+        self.assertEndsWith(ended.returncode, ended.stdout, 2, "--oversubscribe -n 1000")
 
     def test_a_rank_that_is_killed(self):
         whole = self.summary(0, "whole", "lis1", "--until", "1km")
