@@ -85,6 +85,8 @@ ExitCode run(RunCall& call) {
         call.options.until = parse_length(*call.until);
     call.options.stop = stop_on_signals();
     const Launch launch = read_launch();
+    if (call.ranks < 0)
+        throw UsageError(fmt::format("--ranks={}: a number of processes, such as 2", call.ranks));
     if (call.ranks > 1 && launch.count == 1)
         return start_ranks(call.ranks);
     if (call.ranks > 1 && call.ranks != launch.count)
@@ -124,7 +126,6 @@ Command add_run(CLI::App& program) {
         ->add_flag("--ranks{0}", call->ranks,
                    "--ranks=N: made by N processes, which mpirun starts; without a number: by "
                    "those that were started, though the environment does not say so")
-        ->check(CLI::Range(0, 1 << 20))
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     call->ranks = 1; // CLI11 counts flags, from 0
     command->add_flag("--plain", call->options.plain, "The scalar cycle: same bits, slower");

@@ -33,6 +33,8 @@ void ignore_signals() { answer_with(SIG_IGN); }
 void hand_on_signals(int process) {
     receiver = process;
     answer_with([](int) { kill(receiver, SIGUSR1); });
+    if (stop_requested)
+        kill(process, SIGUSR1);
 }
 
 StopToken stop_on_signals() {

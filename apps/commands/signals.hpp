@@ -18,7 +18,7 @@ StopToken stop_on_signals();
 /// They are for another process to answer, which tells this one.
 void ignore_signals();
 
-/// Another process is asked to stop, by SIGUSR1.
+/// Another process is asked to stop, by SIGUSR1; also if it has been requested before.
 void hand_on_signals(int process);
 
 } // namespace listric

@@ -92,7 +92,7 @@ public:
         received_.assign(received.begin(), received.end());
     }
 
-    // Messages of MPI's own: those of PETSc's PetscSF take 1.2 us longer (docs/scaling.md).
+    // Messages of MPI's own: those of PETSc's PetscSF take longer (docs/scaling.md).
     void begin_exchange(std::span<const double> sent, std::span<double> received) override {
         for (std::size_t rank = 0, at = 0; rank < received_.size(); at += received_[rank++])
             exchange_.receive(received.subspan(at, received_[rank]), MPI_DOUBLE, rank);
