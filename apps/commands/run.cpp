@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <memory>
 #include <optional>
 
@@ -22,7 +23,7 @@ struct RunCall {
     std::optional<std::string> until;
     std::string output;
     CLI::Option* threads = nullptr;
-    int ranks = 1; ///< 0: as many as were started together
+    std::string ranks = "1";
     bool force_size = false;
     bool no_report = false;
 };
@@ -41,6 +42,17 @@ double parse_length(const std::string& text) {
         value > 1e7)
         throw UsageError("--until " + text + ": a length of at least 0, such as 5km or 500m");
     return unit == "km" ? 1e3 * value : value;
+}
+
+/// A number of processes; 0 for "all": as many as were started together.
+int parse_ranks(const std::string& text) {
+    int count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (text == "all")
+        return 0;
+    if (error != std::errc() || end != text.data() + text.size() || count < 1)
+        throw UsageError(fmt::format("--ranks={}: a number of processes, such as 2", text));
+    return count;
 }
 
 /// Refuses what nobody waits for, or what several processes cannot make.
@@ -85,15 +97,14 @@ ExitCode run(RunCall& call) {
         call.options.until = parse_length(*call.until);
     call.options.stop = stop_on_signals();
     const Launch launch = read_launch();
-    if (call.ranks < 0)
-        throw UsageError(fmt::format("--ranks={}: a number of processes, such as 2", call.ranks));
-    if (call.ranks > 1 && launch.count == 1)
-        return start_ranks(call.ranks);
-    if (call.ranks > 1 && call.ranks != launch.count)
+    const int ranks_asked = parse_ranks(call.ranks);
+    if (ranks_asked > 1 && launch.count == 1)
+        return start_ranks(ranks_asked);
+    if (ranks_asked > 1 && ranks_asked != launch.count)
         throw UsageError(fmt::format("--ranks={}: {} processes were started together; without "
                                      "mpirun or srun the program starts them itself",
-                                     call.ranks, launch.count));
-    if (launch.count > 1 || call.ranks == 0) {
+                                     ranks_asked, launch.count));
+    if (launch.count > 1 || ranks_asked == 0) {
         const auto ranks = join_ranks(launch);
         if (ranks->count() > 1)
             return run_part(call, *ranks);
@@ -123,11 +134,10 @@ Command add_run(CLI::App& program) {
     add_scene(*command, call->scene);
     call->threads = add_threads(*command, call->options.threads);
     command
-        ->add_flag("--ranks{0}", call->ranks,
+        ->add_flag("--ranks{all}", call->ranks,
                    "--ranks=N: made by N processes, which mpirun starts; without a number: by "
                    "those that were started, though the environment does not say so")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    call->ranks = 1; // CLI11 counts flags, from 0
     command->add_flag("--plain", call->options.plain, "The scalar cycle: same bits, slower");
     command->add_option("--output", call->output, "Folder of results (default: out/SCENE)");
     command->add_option("--until", call->until, "End at this extension, such as 5km");

@@ -20,6 +20,7 @@ ENVIRONMENT = {name: value for name, value in os.environ.items()
                if not name.startswith(("OMPI_", "PMIX_", "PMI_"))}
 ENVIRONMENT |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 LONGEST = 60.0  # s, until a run that something has ended is gone
+LONG = "4km"  # takes seconds on any machine, so that what ends a run comes before its end
 needs_finite_elements = unittest.skipIf(os.environ.get("LISTRIC_FEM") == "0",
                                         "a build without finite elements")
 
@@ -83,7 +84,7 @@ class Ranks(unittest.TestCase):
         first = self.folder / output / "snapshots"
         while run.poll() is None and not list(first.glob("*.h5")):
             time.sleep(0.05)
-        time.sleep(1.0)
+        time.sleep(0.2)
         return run
 
 
@@ -129,7 +130,7 @@ class Ends(Ranks):
         self.assertEqual(self.summary(1, "one", "lis1", "--until", "0m")["ranks"], 1)
 
     def test_a_full_disk(self):
-        run = self.begin(2, "run", "lis1", "--until", "1km")
+        run = self.begin(2, "run", "lis1", "--until", LONG)
         root = processes_of(self.folder / "run")[0]
         resource.prlimit(root, resource.RLIMIT_FSIZE, (100000, 100000))  # write() fails as on a full disk
         said, _ = run.communicate(timeout=LONGEST)
@@ -141,33 +142,45 @@ class Ends(Ranks):
         self.assertEndsWith(ended.returncode, ended.stdout, 3, "below the whole hanging wall")
 
     def test_a_request_to_stop(self):
-        whole = self.summary(0, "whole", "lis1", "--until", "1km")
-        run = self.begin(2, "run", "lis1", "--until", "1km")
+        whole = self.summary(0, "whole", "lis1", "--until", LONG)
+        run = self.begin(2, "run", "lis1", "--until", LONG)
         run.send_signal(signal.SIGUSR1)  # which mpirun hands on
         run.communicate(timeout=LONGEST)
         self.assertEqual(run.returncode, 130)
         self.assertEqual(processes_of(self.folder / "run"), [])
         self.assertEqual(json.loads((self.folder / "run/status.json").read_text())["phase"], "stopped")
-        self.assertEqual(self.summary(0, "run", "lis1", "--until", "1km", "--resume")["state_hash"],
+        self.assertEqual(self.summary(0, "run", "lis1", "--until", LONG, "--resume")["state_hash"],
                          whole["state_hash"])
 
     def test_ctrl_c_where_the_program_starts_mpirun(self):
-        whole = self.summary(0, "whole", "lis1", "--until", "1km")
-        run = self.begin(0, "run", "lis1", "--until", "1km", "--ranks=2")
+        whole = self.summary(0, "whole", "lis1", "--until", LONG)
+        run = self.begin(0, "run", "lis1", "--until", LONG, "--ranks=2")
         os.killpg(run.pid, signal.SIGINT)  # as a terminal does
         run.communicate(timeout=LONGEST)
         self.assertEqual(run.returncode, 130)
         self.assertEqual(processes_of(self.folder / "run"), [])
-        last = self.summary(0, "run", "lis1", "--until", "1km", "--resume", "--ranks=2")
+        last = self.summary(0, "run", "lis1", "--until", LONG, "--resume", "--ranks=2")
         self.assertEqual((last["ranks"], last["state_hash"]), (2, whole["state_hash"]))
 
     def test_more_ranks_than_mpirun_starts(self):
         ended = self.run_on(0, "run", "lis1", "--ranks=1000")
         self.assertEndsWith(ended.returncode, ended.stdout, 2, "--oversubscribe -n 1000")
 
+    def test_ranks_without_a_number_are_those_that_were_started(self):
+        alone = self.summary(0, "alone", "lis1", "--until", "0m", "--ranks")
+        self.assertEqual(alone["ranks"], 1)
+        self.environment["LISTRIC_RANKS_PLUGIN"] = "/none"
+        ended = self.run_on(0, "run", "lis1", "--ranks")
+        self.assertEndsWith(ended.returncode, ended.stdout, 2, "plug-in for runs over MPI cannot be loaded")
+
+    def test_a_number_of_ranks_that_is_none(self):
+        for number in ("0", "-1", "two", "2.5"):
+            ended = self.run_on(0, "run", "lis1", f"--ranks={number}")
+            self.assertEndsWith(ended.returncode, ended.stdout, 2, f"--ranks={number}: a number of processes")
+
     def test_a_rank_that_is_killed(self):
-        whole = self.summary(0, "whole", "lis1", "--until", "1km")
-        run = self.begin(3, "run", "lis1", "--until", "1km")
+        whole = self.summary(0, "whole", "lis1", "--until", LONG)
+        run = self.begin(3, "run", "lis1", "--until", LONG)
         os.kill(processes_of(self.folder / "run")[-1], signal.SIGKILL)
         begun = time.monotonic()
         run.communicate(timeout=LONGEST)
@@ -175,7 +188,7 @@ class Ends(Ranks):
         while processes_of(self.folder / "run") and time.monotonic() < begun + 5.0:
             time.sleep(0.05)
         self.assertEqual(processes_of(self.folder / "run"), [])
-        self.assertEqual(self.summary(2, "run", "lis1", "--until", "1km", "--resume")["state_hash"],
+        self.assertEqual(self.summary(2, "run", "lis1", "--until", LONG, "--resume")["state_hash"],
                          whole["state_hash"])
 
 
