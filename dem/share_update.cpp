@@ -42,7 +42,7 @@ public:
         if (y.left > y.right)
             return; // there are none
         bottom_ = y.left;
-        height_ = std::max(height, (y.right - y.left) / static_cast<double>(d.y.size()));
+        per_height_ = 1.0 / std::max(height, (y.right - y.left) / static_cast<double>(d.y.size()));
         slabs_.resize(static_cast<std::size_t>(slab_of(y.right)) + 1);
         for (std::size_t k = 0; k < d.y.size(); ++k)
             if (share.own[k])
@@ -51,14 +51,14 @@ public:
     }
 
     explicit Outline(BytesIn from)
-        : bottom_(from.take<double>()), height_(from.take<double>()),
+        : bottom_(from.take<double>()), per_height_(from.take<double>()),
           slabs_(from.take_all<Interval>()) {
         add_up();
     }
     Bytes letter() const {
         BytesOut to;
         to.add(bottom_);
-        to.add(height_);
+        to.add(per_height_);
         to.add(slabs_);
         return to.take();
     }
@@ -78,14 +78,14 @@ public:
 
 private:
     std::int64_t slab_of(double y) const {
-        return static_cast<std::int64_t>(std::floor((y - bottom_) / height_));
+        return static_cast<std::int64_t>(std::floor((y - bottom_) * per_height_));
     }
     void add_up() {
         for (const Interval& slab : slabs_)
             all_.add(slab);
     }
 
-    double bottom_ = 0.0, height_ = 1.0;
+    double bottom_ = 0.0, per_height_ = 1.0; ///< m, slabs per m
     std::vector<Interval> slabs_;
     Interval all_;
 };

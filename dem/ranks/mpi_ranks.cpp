@@ -1,4 +1,6 @@
 #include "dem/ranks.hpp"
+#include "dem/ranks/mailboxes.hpp"
+#include "dem/ranks/require.hpp"
 
 #include <mpi.h>
 #include <petscsys.h>
@@ -13,15 +15,6 @@
 namespace listric::dem {
 
 namespace {
-
-void require(int error, const char* what) {
-    if (error == MPI_SUCCESS)
-        return;
-    char text[MPI_MAX_ERROR_STRING];
-    int length = 0;
-    MPI_Error_string(error, text, &length);
-    throw std::runtime_error(std::string(what) + ": " + std::string(text, text + length));
-}
 
 void require_petsc(PetscErrorCode error, const char* what) {
     if (error != 0)
@@ -74,9 +67,11 @@ public:
         require(MPI_Comm_dup(MPI_COMM_WORLD, &all_), "MPI_Comm_dup");
         MPI_Comm_size(all_, &count_);
         MPI_Comm_rank(all_, &mine_);
-        exchange_ = Messages(all_, exchanged);
+        messages_ = Messages(all_, exchanged);
+        mailboxes_.open(all_);
     }
     ~MpiRanks() override {
+        mailboxes_.close();
         MPI_Comm_free(&all_);
         PetscFinalize();
     }
@@ -90,16 +85,30 @@ public:
                  std::span<const std::size_t> received) override {
         sent_.assign(sent.begin(), sent.end());
         received_.assign(received.begin(), received.end());
+        mailboxes_.connect(sent_, received_);
     }
 
-    // Messages of MPI's own: those of PETSc's PetscSF take longer (docs/scaling.md).
     void begin_exchange(std::span<const double> sent, std::span<double> received) override {
-        for (std::size_t rank = 0, at = 0; rank < received_.size(); at += received_[rank++])
-            exchange_.receive(received.subspan(at, received_[rank]), MPI_DOUBLE, rank);
-        for (std::size_t rank = 0, at = 0; rank < sent_.size(); at += sent_[rank++])
-            exchange_.send(sent.subspan(at, sent_[rank]), MPI_DOUBLE, rank);
+        received_into_ = received;
+        mailboxes_.begin_exchange();
+        each_part(received, received_, [&](std::span<double> part, std::size_t rank) {
+            if (!mailboxes_.reaches(rank))
+                messages_.receive(part, MPI_DOUBLE, rank);
+        });
+        each_part(sent, sent_, [&](std::span<const double> part, std::size_t rank) {
+            if (mailboxes_.reaches(rank))
+                mailboxes_.put(part, rank);
+            else
+                messages_.send(part, MPI_DOUBLE, rank);
+        });
     }
-    void end_exchange() override { exchange_.wait(); }
+    void end_exchange() override {
+        each_part(received_into_, received_, [&](std::span<double> part, std::size_t rank) {
+            if (mailboxes_.reaches(rank))
+                mailboxes_.take(part, rank);
+        });
+        messages_.wait();
+    }
 
     void greatest(std::span<std::uint64_t> numbers) override {
         require(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), as_int(numbers.size()), MPI_UINT64_T,
@@ -175,6 +184,13 @@ private:
                     "MPI_Recv");
         return bytes;
     }
+    /// What goes between this rank and each other one that it exchanges anything with.
+    template <class T, class Go>
+    void each_part(std::span<T> all, const std::vector<std::size_t>& sizes, Go&& go) const {
+        for (std::size_t rank = 0, at = 0; rank < sizes.size(); at += sizes[rank++])
+            if (sent_[rank] + received_[rank] > 0)
+                go(all.subspan(at, sizes[rank]), rank);
+    }
     static int piece(const Bytes& bytes, std::size_t at) {
         return static_cast<int>(std::min(most_at_once, bytes.size() - at));
     }
@@ -182,7 +198,9 @@ private:
     MPI_Comm all_ = MPI_COMM_NULL;
     int count_ = 1, mine_ = 0;
     std::vector<std::size_t> sent_, received_; ///< numbers to and from each rank, at an exchange
-    Messages exchange_;
+    std::span<double> received_into_;          ///< of the exchange under way
+    Messages messages_;
+    Mailboxes mailboxes_;
 };
 
 } // namespace

@@ -1,0 +1,136 @@
+#include "dem/ranks/mailboxes.hpp"
+
+#include "dem/pause.hpp"
+#include "dem/ranks/require.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <sched.h>
+
+namespace listric::dem {
+
+namespace {
+
+/// What a place begins with: the number of the exchange that has filled it.
+using Stamp = std::atomic_ref<std::uint64_t>;
+static_assert(Stamp::is_always_lock_free, "processes share it");
+constexpr std::size_t line = 64; // bytes that a processor moves at once
+
+Stamp stamp_of(std::byte* place) { return Stamp(*reinterpret_cast<std::uint64_t*>(place)); }
+
+/// Bytes of a place for so many numbers.
+std::size_t size_of(std::size_t numbers) {
+    return line + (numbers * sizeof(double) + line - 1) / line * line;
+}
+
+} // namespace
+
+void Mailboxes::open(MPI_Comm all) {
+    all_ = all;
+    int count = 0, mine = 0, here = 0;
+    MPI_Comm_size(all_, &count);
+    MPI_Comm_rank(all_, &mine);
+    const char* wanted = std::getenv("LISTRIC_MAILBOXES");
+    int are_wanted = !wanted || std::strcmp(wanted, "0") != 0;
+    require(MPI_Allreduce(MPI_IN_PLACE, &are_wanted, 1, MPI_INT, MPI_MIN, all_), "MPI_Allreduce");
+    if (are_wanted)
+        require(MPI_Comm_split_type(all_, MPI_COMM_TYPE_SHARED, mine, MPI_INFO_NULL, &here_),
+                "MPI_Comm_split_type");
+    else
+        require(MPI_Comm_split(all_, mine, 0, &here_), "MPI_Comm_split");
+    MPI_Comm_size(here_, &here);
+    ranks_here_.resize(static_cast<std::size_t>(here));
+    require(MPI_Allgather(&mine, 1, MPI_INT, ranks_here_.data(), 1, MPI_INT, here_),
+            "MPI_Allgather");
+    boxes_.resize(static_cast<std::size_t>(count));
+    for (const int rank : ranks_here_)
+        boxes_[static_cast<std::size_t>(rank)].is_here = rank != mine;
+}
+
+void Mailboxes::close() {
+    give_room(0);
+    MPI_Comm_free(&here_);
+}
+
+void Mailboxes::give_room(std::size_t bytes) {
+    if (window_ != MPI_WIN_NULL) {
+        MPI_Win_unlock_all(window_);
+        MPI_Win_free(&window_);
+    }
+    room_ = bytes;
+    if (bytes == 0)
+        return;
+    void* mine = nullptr;
+    require(MPI_Win_allocate_shared(static_cast<MPI_Aint>(bytes), 1, MPI_INFO_NULL, here_, &mine,
+                                    &window_),
+            "MPI_Win_allocate_shared");
+    require(MPI_Win_lock_all(MPI_MODE_NOCHECK, window_), "MPI_Win_lock_all");
+}
+
+void Mailboxes::connect(std::span<const std::size_t> sent, std::span<const std::size_t> received) {
+    std::vector<std::uint64_t> offsets(ranks_here_.size()), offsets_there(ranks_here_.size());
+    std::uint64_t room = 0;
+    for (std::size_t k = 0; k < ranks_here_.size(); ++k) {
+        const auto rank = static_cast<std::size_t>(ranks_here_[k]);
+        Box& box = boxes_[rank];
+        box.to_size = size_of(sent[rank]);
+        box.from_size = size_of(received[rank]);
+        offsets[k] = room;
+        if (box.is_here && sent[rank] + received[rank] > 0)
+            room += 2 * box.from_size;
+    }
+    require(MPI_Allreduce(MPI_IN_PLACE, &room, 1, MPI_UINT64_T, MPI_MAX, here_), "MPI_Allreduce");
+    if (room > room_)
+        give_room(room + room / 2);
+    if (room == 0)
+        return;
+    const auto memory_of = [&](std::size_t k) {
+        MPI_Aint size = 0;
+        int unit = 0;
+        void* memory = nullptr;
+        require(MPI_Win_shared_query(window_, static_cast<int>(k), &size, &unit, &memory),
+                "MPI_Win_shared_query");
+        return static_cast<std::byte*>(memory);
+    };
+    int mine = 0;
+    MPI_Comm_rank(here_, &mine);
+    for (std::size_t k = 0; k < ranks_here_.size(); ++k) {
+        const auto rank = static_cast<std::size_t>(ranks_here_[k]);
+        Box& box = boxes_[rank];
+        if (!box.is_here || sent[rank] + received[rank] == 0)
+            continue;
+        box.from = memory_of(static_cast<std::size_t>(mine)) + offsets[k];
+        for (const std::size_t place : {std::size_t{0}, box.from_size})
+            stamp_of(box.from + place).store(0); // before anybody knows of it
+    }
+    require(
+        MPI_Alltoall(offsets.data(), 1, MPI_UINT64_T, offsets_there.data(), 1, MPI_UINT64_T, here_),
+        "MPI_Alltoall");
+    for (std::size_t k = 0; k < ranks_here_.size(); ++k)
+        boxes_[static_cast<std::size_t>(ranks_here_[k])].to = memory_of(k) + offsets_there[k];
+}
+
+void Mailboxes::put(std::span<const double> numbers, std::size_t rank) const {
+    const Box& box = boxes_[rank];
+    std::byte* place = box.to + exchange_ % 2 * box.to_size;
+    std::memcpy(place + line, numbers.data(), numbers.size_bytes());
+    stamp_of(place).store(exchange_, std::memory_order_release);
+}
+
+void Mailboxes::take(std::span<double> numbers, std::size_t rank) const {
+    const Box& box = boxes_[rank];
+    std::byte* place = box.from + exchange_ % 2 * box.from_size;
+    constexpr int awake = 1000; // pauses, some 20 us, before others may have the core
+    for (int waited = 0; stamp_of(place).load(std::memory_order_acquire) != exchange_; ++waited) {
+        pause();
+        if (waited < awake)
+            continue;
+        int any = 0; // what MPI has under way goes on meanwhile
+        MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &any, MPI_STATUS_IGNORE);
+        sched_yield();
+    }
+    std::memcpy(numbers.data(), place + line, numbers.size_bytes());
+}
+
+} // namespace listric::dem
