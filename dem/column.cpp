@@ -54,16 +54,19 @@ void Table::begin_rows(std::size_t first) {
 
 void Table::reorder(std::span<const std::int32_t> order) {
     assert(std::ranges::all_of(order, [&](std::int32_t row) {
-        return row >= 0 && static_cast<std::size_t>(row) < rows_;
+        return row >= 0 && static_cast<std::size_t>(row) <= rows_;
     }));
     const std::size_t worth = 1 + 20000 / (order.size() + 1); // columns
     in_pieces(columns_.size(), worth, [&](std::size_t column, std::size_t end) {
         for (; column < end; ++column)
             std::visit(
-                [&](auto& values) {
-                    std::decay_t<decltype(values)> moved(order.size());
-                    for (std::size_t k = 0; k < order.size(); ++k)
-                        moved[k] = values[static_cast<std::size_t>(order[k])];
+                [&]<class T>(std::vector<T>& values) {
+                    const T initial = std::get<T>(columns_[column].initial);
+                    std::vector<T> moved(order.size());
+                    for (std::size_t k = 0; k < order.size(); ++k) {
+                        const auto row = static_cast<std::size_t>(order[k]);
+                        moved[k] = row < rows_ ? values[row] : initial;
+                    }
                     values = std::move(moved);
                 },
                 columns_[column].values);

@@ -80,7 +80,8 @@ public:
     /// New rows get each column's initial value.
     void resize(std::size_t rows);
 
-    /// Row k becomes the former row order[k]: sorts, selects or drops rows.
+    /// Row k becomes the former row order[k], or a new one where that is rows(): sorts, selects,
+    /// adds or drops rows.
     void reorder(std::span<const std::int32_t> order);
 
 private:

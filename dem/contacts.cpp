@@ -47,7 +47,7 @@ bool merge(Table& table, const char* first_name, const char* second_name,
     const auto first = table.get<std::int32_t>(first_name);
     const auto second = table.get<std::int32_t>(second_name);
     const auto pair_of = [&](std::size_t k) { return Pair{first[k], second[k]}; };
-    const auto new_row = static_cast<std::int32_t>(first.size()); // initial values, appended below
+    const auto new_row = static_cast<std::int32_t>(first.size());
     auto pieces = by_piece(first.size(), 4096, [&](std::size_t row, std::size_t end) {
         Merged merged;
         auto next = row == 0 ? found.begin() : std::ranges::lower_bound(found, pair_of(row));
@@ -75,7 +75,6 @@ bool merge(Table& table, const char* first_name, const char* second_name,
     const std::vector<std::int32_t> rows = joined(std::span(pieces), &Merged::rows);
     if (added.empty() && rows.size() == first.size())
         return false;
-    table.resize(first.size() + 1);
     table.reorder(rows);
     const auto new_first = table.get<std::int32_t>(first_name);
     const auto new_second = table.get<std::int32_t>(second_name);

@@ -95,7 +95,7 @@ TEST(Column, ResizeGivesNewRowsTheInitialValue) {
     EXPECT_THAT(t.get<double>("length"), ElementsAre(8.0));
 }
 
-TEST(Column, ReorderSortsSelectsAndDrops) {
+TEST(Column, ReorderSortsSelectsAddsAndDrops) {
     Table t = three_rows();
     for (std::size_t k = 0; k < 3; ++k) {
         t.get<double>("length")[k] = 10.0 + static_cast<double>(k);
@@ -107,6 +107,8 @@ TEST(Column, ReorderSortsSelectsAndDrops) {
     EXPECT_THAT(t.get<std::uint8_t>("flag"), ElementsAre(2, 0, 2, 1));
     t.reorder(std::vector<std::int32_t>{3});
     EXPECT_THAT(t.get<double>("length"), ElementsAre(11.0));
+    t.reorder(std::vector<std::int32_t>{1, 0, 1}); // of one row
+    EXPECT_THAT(t.get<double>("length"), ElementsAre(1.5, 11.0, 1.5));
     t.reorder(std::vector<std::int32_t>{});
     EXPECT_EQ(t.rows(), 0u);
     EXPECT_THAT(t.get<float>("strength"), IsEmpty());
