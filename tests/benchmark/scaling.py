@@ -53,7 +53,7 @@ def measure(radii):
 # Measured on two cores (docs/scaling.md); what a network adds is assumed.
 DISC = ((2e4, 10.2e-9), (2e5, 10.9e-9), (1e6, 11.5e-9))  # s per disc-step of one core, by discs
 GHOST = 20e-9      # s per ghost and cycle: its motion, its contacts, packing
-EXCHANGE = 1.7e-6  # s per exchange within a machine, behind the sweep
+EXCHANGE = 1.7e-6  # s per exchange by messages, behind the sweep
 BORDER = 256       # discs at either end of a share that are swept before the exchange begins
 LOOK = 16          # cycles between reductions
 BYTES = 40         # per ghost and exchange
