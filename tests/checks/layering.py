@@ -20,7 +20,7 @@ LIBRARIES = {"dem": {"dem"}, "fem": {"fem"}, "coupling": {"dem", "fem", "couplin
 ELEMENTS = {f"fem/{name}" for name in ("mesh", "elasticity", "condensation", "solution", "material")}
 
 # The other plug-in: discs over MPI. It sees dem, and nothing sees it.
-RANKS = {"dem/ranks/mpi_ranks"}
+RANKS = {f"dem/ranks/{name}" for name in ("mailboxes", "mpi_ranks", "require")}
 RANKS_LIBRARIES = ("mpi.h", "petscsys.h")
 
 # Headers that are neither ours nor of the C++ standard, whose names have no dot and no slash.
@@ -51,7 +51,7 @@ def is_allowed(path, name):
     if ".." in name or name.startswith("/"):  # could reach anything
         return False
     if is_ours(name):
-        if unit(name) in ELEMENTS and unit(path) not in ELEMENTS or unit(name) in RANKS:
+        if any(unit(name) in plugin and unit(path) not in plugin for plugin in (ELEMENTS, RANKS)):
             return False
         return room(name) in rooms_seen_from(room(path))
     if name.islower() and "." not in name and "/" not in name:
