@@ -88,6 +88,7 @@ public:
         mailboxes_.connect(sent_, received_);
     }
 
+    // Between machines by messages of MPI's own: PetscSF's take longer (docs/scaling.md).
     void begin_exchange(std::span<const double> sent, std::span<double> received) override {
         received_into_ = received;
         mailboxes_.begin_exchange();
