@@ -38,17 +38,21 @@ std::optional<Foot> nearest(const Surface& surface, const BasePlace& place, Poin
     return point ? std::optional(point->foot) : std::nullopt;
 }
 
-double end_distance(const Surface& surface, const BasePlace& place, Point p) {
-    const auto distance = [&](Point end) { return std::hypot(p.x - end.x, p.y - end.y); };
+bool is_near_end(const Surface& surface, const BasePlace& place, Point p, double distance) {
+    const auto is_near = [&](Point end) {
+        const double dx = p.x - end.x, dy = p.y - end.y;
+        return dx * dx + dy * dy < 1.001 * distance * distance && // nearly always not, and quick
+               std::hypot(dx, dy) <= distance;
+    };
     if (place.deforms(surface) && surface.follows == Follows::nodes) {
         const Trace trace = place.trace(surface);
-        return std::min(distance(trace.node(0)), distance(trace.node(place.x.size() - 1)));
+        return is_near(trace.node(0)) || is_near(trace.node(place.x.size() - 1));
     }
     const Point moved = place.deforms(surface) ? Point{place.ux[0], place.uy[0]}
                                                : Point{surface.translation.x * place.extension,
                                                        surface.translation.y * place.extension};
     p = p - moved;
-    return std::min(distance(surface.chain.front().start), distance(surface.chain.back().end));
+    return is_near(surface.chain.front().start) || is_near(surface.chain.back().end);
 }
 
 RigidBase standing_base(const RigidBase& base, const State& state) {

@@ -24,8 +24,8 @@ BasePlace searched_base_place(const State& state); ///< at the last search of al
 /// Closest point of a surface.
 std::optional<Foot> nearest(const Surface& surface, const BasePlace& place, Point p);
 
-/// Distance of a point from the nearer open end of a surface, m.
-double end_distance(const Surface& surface, const BasePlace& place, Point p);
+/// Whether a point is within a distance, m, of an open end of a surface.
+bool is_near_end(const Surface& surface, const BasePlace& place, Point p, double distance);
 
 /// The base as it stands, with chains of lines for what is deformed: for measuring and drawing.
 RigidBase standing_base(const RigidBase& base, const State& state);

@@ -45,8 +45,19 @@ public:
                 static_cast<std::int32_t>(i);
     }
 
+    /// All discs, by cell.
+    std::span<const std::int32_t> discs() const { return discs_; }
+
     /// Calls visit(disc) for every disc within one cell width of (x, y), and for some beyond.
     template <class Visit> void for_each_near(double x, double y, Visit&& visit) const {
+        for_each_run_near(x, y, [&](std::size_t begin, std::size_t end) {
+            for (; begin < end; ++begin)
+                visit(discs_[begin]);
+        });
+    }
+
+    /// The same for runs of discs(): visit(begin, end).
+    template <class Visit> void for_each_run_near(double x, double y, Visit&& visit) const {
         if (discs_.empty())
             return;
         const std::int64_t c = column(x), r = row(y);
@@ -58,8 +69,7 @@ public:
              ++k) {
             const auto begin = static_cast<std::size_t>(k * rows_ + low);
             const auto end = static_cast<std::size_t>(k * rows_ + high + 1);
-            for (std::int32_t i = begin_[begin]; i < begin_[end]; ++i)
-                visit(discs_[static_cast<std::size_t>(i)]);
+            visit(static_cast<std::size_t>(begin_[begin]), static_cast<std::size_t>(begin_[end]));
         }
     }
 

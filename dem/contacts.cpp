@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace listric::dem {
 
@@ -15,7 +16,11 @@ namespace {
 /// A pair to be listed: of two discs, or of disc and surface.
 struct Pair {
     std::int32_t first, second;
-    auto operator<=>(const Pair&) const = default;
+    bool operator==(const Pair&) const = default;
+    auto operator<=>(const Pair& other) const { return key() <=> other.key(); }
+
+private:
+    std::int64_t key() const { return (static_cast<std::int64_t>(first) << 32) + second; }
 };
 
 /// The discs whose pairs are searched.
@@ -88,38 +93,84 @@ bool merge(Table& table, const char* first_name, const char* second_name,
     return true;
 }
 
-bool find_disc_contacts(State& state, const Searched& searched) {
-    const ConstDiscColumns d = disc_columns(std::as_const(state));
+/// All pairs, in order. A disc has few, so they are dealt out to their first discs.
+std::vector<Pair> sorted(std::span<const std::vector<Pair>> pieces, std::size_t discs) {
+    std::vector<std::uint32_t> ends(discs + 1, 0); // of each disc's pairs, once they are dealt out
+    for (const std::vector<Pair>& piece : pieces)
+        for (const Pair& pair : piece)
+            ++ends[static_cast<std::size_t>(pair.first) + 1];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Pair> result(ends.back());
+    for (const std::vector<Pair>& piece : pieces)
+        for (const Pair& pair : piece)
+            result[ends[static_cast<std::size_t>(pair.first)]++] = pair;
+    const auto at = [&](std::uint32_t k) {
+        return result.begin() + static_cast<std::ptrdiff_t>(k);
+    };
+    in_pieces(discs, 8192, [&](std::size_t disc, std::size_t end) {
+        for (; disc < end; ++disc)
+            std::sort(at(disc == 0 ? 0 : ends[disc - 1]), at(ends[disc]));
+    });
+    return result;
+}
+
+/// A disc as a search sees it.
+struct Candidate {
+    double x, y, radius; ///< m
+    std::int32_t row;
+    std::uint8_t is_searched;
+};
+
+/// Discs in the order of their cells, so that a search reads memory in succession.
+std::vector<Candidate> candidates_of(const ConstDiscColumns& d, const Cells& cells,
+                                     const Searched& searched) {
+    std::vector<Candidate> candidates(d.x.size());
+    in_pieces(candidates.size(), 8192, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k) {
+            const auto i = static_cast<std::size_t>(cells.discs()[k]);
+            candidates[k] = {d.searched_x[i], d.searched_y[i], d.radius[i], cells.discs()[k],
+                             searched.flags[i]};
+        }
+    });
+    return candidates;
+}
+
+/// Pairs of a searched disc and another that are near each other, in no order.
+std::vector<std::vector<Pair>> pairs_near(const State& state, const Searched& searched) {
+    const ConstDiscColumns d = disc_columns(state);
     const double largest = d.x.empty() ? 0.0 : *std::ranges::max_element(d.radius);
     const Cells cells(d.searched_x, d.searched_y, 2.0 * largest + state.skin);
-    const bool all = searched.rows.size() == d.x.size();
-
-    const auto find = [&](std::size_t k, std::size_t end) {
-        std::vector<Pair> found;
-        found.reserve(4 * (end - k));
+    const std::vector<Candidate> candidates = candidates_of(d, cells, searched);
+    return by_piece(searched.rows.size(), 512, [&](std::size_t k, std::size_t end) {
+        std::vector<Pair> found(4 * (end - k));
+        std::size_t count = 0;
         for (; k < end; ++k) {
             const std::int32_t row = searched.rows[k];
             const auto i = static_cast<std::size_t>(row);
-            const auto pairs_before = static_cast<std::ptrdiff_t>(found.size());
-            cells.for_each_near(d.searched_x[i], d.searched_y[i], [&](std::int32_t candidate) {
-                const auto j = static_cast<std::size_t>(candidate);
-                // Of two searched discs, the first finds the pair.
-                if (j == i || (j < i && searched.flags[j]))
-                    return;
-                const double dx = d.searched_x[j] - d.searched_x[i];
-                const double dy = d.searched_y[j] - d.searched_y[i];
-                const double reach = d.radius[i] + d.radius[j] + state.skin;
-                if (dx * dx + dy * dy < reach * reach)
-                    found.push_back({std::min(row, candidate), std::max(row, candidate)});
+            const double x = d.searched_x[i], y = d.searched_y[i], radius = d.radius[i];
+            cells.for_each_run_near(x, y, [&](std::size_t begin, std::size_t last) {
+                if (found.size() < count + (last - begin))
+                    found.resize((count + (last - begin)) * 5 / 4);
+                for (; begin < last; ++begin) {
+                    const Candidate& other = candidates[begin];
+                    const double dx = other.x - x, dy = other.y - y;
+                    const double reach = radius + other.radius + state.skin;
+                    // Without a branch: the processor would guess it wrongly.
+                    const bool is_near = dx * dx + dy * dy < reach * reach;
+                    // Of two searched discs, the first finds the pair.
+                    const bool finds = (row < other.row) | ((other.row < row) & !other.is_searched);
+                    found[count] = {std::min(row, other.row), std::max(row, other.row)};
+                    count += static_cast<std::size_t>(is_near & finds);
+                }
             });
-            if (all)
-                std::sort(found.begin() + pairs_before, found.end());
         }
+        found.resize(count);
         return found;
-    };
-    std::vector<Pair> found = joined(by_piece(searched.rows.size(), 512, find));
-    if (!all)
-        sort_shared(std::span(found), std::less{});
+    });
+}
+
+bool find_disc_contacts(State& state, const Searched& searched) {
+    const std::vector<Pair> found = sorted(pairs_near(state, searched), state.discs.rows());
     const ConstContactColumns c = contact_columns(std::as_const(state));
     return merge(state.contacts, "first", "second", found, [&](std::size_t k) {
         return c.bonded[k] || !(searched.flags[static_cast<std::size_t>(c.first[k])] ||
@@ -147,7 +198,7 @@ bool find_base_contacts(State& state, const RigidBase& base, const Searched& sea
                 // Beyond an open end a surface has no foot, but a disc may come back within the
                 // skin.
                 if ((foot && foot->distance <= reach) ||
-                    end_distance(base.surfaces[s], place, p) <= reach)
+                    is_near_end(base.surfaces[s], place, p, reach))
                     found.push_back({row, static_cast<std::int32_t>(s)});
             }
         return found;
