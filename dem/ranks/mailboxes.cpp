@@ -3,6 +3,8 @@
 #include "dem/pause.hpp"
 #include "dem/ranks/require.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
@@ -28,7 +30,7 @@ std::size_t size_of(std::size_t numbers) {
 
 void Mailboxes::open(MPI_Comm all) {
     all_ = all;
-    int count = 0, mine = 0, here = 0;
+    int count = 0, mine = 0, here = 0, mine_here = 0;
     MPI_Comm_size(all_, &count);
     MPI_Comm_rank(all_, &mine);
     const char* wanted = std::getenv("LISTRIC_MAILBOXES");
@@ -40,6 +42,8 @@ void Mailboxes::open(MPI_Comm all) {
     else
         require(MPI_Comm_split(all_, mine, 0, &here_), "MPI_Comm_split");
     MPI_Comm_size(here_, &here);
+    MPI_Comm_rank(here_, &mine_here);
+    mine_here_ = static_cast<std::size_t>(mine_here);
     ranks_here_.resize(static_cast<std::size_t>(here));
     require(MPI_Allgather(&mine, 1, MPI_INT, ranks_here_.data(), 1, MPI_INT, here_),
             "MPI_Allgather");
@@ -59,6 +63,7 @@ void Mailboxes::give_room(std::size_t bytes) {
         MPI_Win_free(&window_);
     }
     room_ = bytes;
+    boards_.clear();
     if (bytes == 0)
         return;
     void* mine = nullptr;
@@ -68,9 +73,19 @@ void Mailboxes::give_room(std::size_t bytes) {
     require(MPI_Win_lock_all(MPI_MODE_NOCHECK, window_), "MPI_Win_lock_all");
 }
 
+std::byte* Mailboxes::memory_of(std::size_t number_here) const {
+    MPI_Aint size = 0;
+    int unit = 0;
+    void* memory = nullptr;
+    require(MPI_Win_shared_query(window_, static_cast<int>(number_here), &size, &unit, &memory),
+            "MPI_Win_shared_query");
+    return static_cast<std::byte*>(memory);
+}
+
 void Mailboxes::connect(std::span<const std::size_t> sent, std::span<const std::size_t> received) {
+    const bool all_are_here = ranks_here_.size() > 1 && ranks_here_.size() == boxes_.size();
     std::vector<std::uint64_t> offsets(ranks_here_.size()), offsets_there(ranks_here_.size());
-    std::uint64_t room = 0;
+    std::uint64_t room = all_are_here ? 2 * size_of(most_shown) : 0;
     for (std::size_t k = 0; k < ranks_here_.size(); ++k) {
         const auto rank = static_cast<std::size_t>(ranks_here_[k]);
         Box& box = boxes_[rank];
@@ -81,34 +96,48 @@ void Mailboxes::connect(std::span<const std::size_t> sent, std::span<const std::
             room += 2 * box.from_size;
     }
     require(MPI_Allreduce(MPI_IN_PLACE, &room, 1, MPI_UINT64_T, MPI_MAX, here_), "MPI_Allreduce");
-    if (room > room_)
-        give_room(room + room / 2);
     if (room == 0)
         return;
-    const auto memory_of = [&](std::size_t k) {
-        MPI_Aint size = 0;
-        int unit = 0;
-        void* memory = nullptr;
-        require(MPI_Win_shared_query(window_, static_cast<int>(k), &size, &unit, &memory),
-                "MPI_Win_shared_query");
-        return static_cast<std::byte*>(memory);
+    const bool is_larger = room > room_;
+    if (is_larger)
+        give_room(room + room / 2);
+    std::byte* const mine = memory_of(mine_here_);
+    const auto clear = [&](std::size_t offset, std::size_t size) { // before anybody knows of it
+        stamp_of(mine + offset).store(0);
+        stamp_of(mine + offset + size).store(0);
     };
-    int mine = 0;
-    MPI_Comm_rank(here_, &mine);
+    if (all_are_here && is_larger)
+        clear(0, size_of(most_shown));
     for (std::size_t k = 0; k < ranks_here_.size(); ++k) {
         const auto rank = static_cast<std::size_t>(ranks_here_[k]);
         Box& box = boxes_[rank];
         if (!box.is_here || sent[rank] + received[rank] == 0)
             continue;
-        box.from = memory_of(static_cast<std::size_t>(mine)) + offsets[k];
-        for (const std::size_t place : {std::size_t{0}, box.from_size})
-            stamp_of(box.from + place).store(0); // before anybody knows of it
+        box.from = mine + offsets[k];
+        clear(offsets[k], box.from_size);
     }
     require(
         MPI_Alltoall(offsets.data(), 1, MPI_UINT64_T, offsets_there.data(), 1, MPI_UINT64_T, here_),
         "MPI_Alltoall");
-    for (std::size_t k = 0; k < ranks_here_.size(); ++k)
-        boxes_[static_cast<std::size_t>(ranks_here_[k])].to = memory_of(k) + offsets_there[k];
+    boards_.clear();
+    for (std::size_t k = 0; k < ranks_here_.size(); ++k) {
+        std::byte* const memory = memory_of(k);
+        boxes_[static_cast<std::size_t>(ranks_here_[k])].to = memory + offsets_there[k];
+        if (all_are_here)
+            boards_.push_back(memory);
+    }
+}
+
+void Mailboxes::await(std::byte* place, std::uint64_t stamp) const {
+    constexpr int awake = 1000; // pauses, some 20 us, before others may have the core
+    for (int waited = 0; stamp_of(place).load(std::memory_order_acquire) != stamp; ++waited) {
+        pause();
+        if (waited < awake)
+            continue;
+        int any = 0; // what MPI has under way goes on meanwhile
+        MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &any, MPI_STATUS_IGNORE);
+        sched_yield();
+    }
 }
 
 void Mailboxes::put(std::span<const double> numbers, std::size_t rank) const {
@@ -121,16 +150,22 @@ void Mailboxes::put(std::span<const double> numbers, std::size_t rank) const {
 void Mailboxes::take(std::span<double> numbers, std::size_t rank) const {
     const Box& box = boxes_[rank];
     std::byte* place = box.from + exchange_ % 2 * box.from_size;
-    constexpr int awake = 1000; // pauses, some 20 us, before others may have the core
-    for (int waited = 0; stamp_of(place).load(std::memory_order_acquire) != exchange_; ++waited) {
-        pause();
-        if (waited < awake)
-            continue;
-        int any = 0; // what MPI has under way goes on meanwhile
-        MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &any, MPI_STATUS_IGNORE);
-        sched_yield();
-    }
+    await(place, exchange_);
     std::memcpy(numbers.data(), place + line, numbers.size_bytes());
+}
+
+void Mailboxes::greatest(std::span<std::uint64_t> numbers) {
+    ++look_;
+    const std::size_t place = look_ % 2 * size_of(most_shown);
+    std::memcpy(boards_[mine_here_] + place + line, numbers.data(), numbers.size_bytes());
+    stamp_of(boards_[mine_here_] + place).store(look_, std::memory_order_release);
+    std::array<std::uint64_t, most_shown> theirs;
+    for (std::byte* const board : boards_) {
+        await(board + place, look_);
+        std::memcpy(theirs.data(), board + place + line, numbers.size_bytes());
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            numbers[k] = std::max(numbers[k], theirs[k]);
+    }
 }
 
 } // namespace listric::dem

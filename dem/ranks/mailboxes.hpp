@@ -33,6 +33,11 @@ public:
     /// Waits for them.
     void take(std::span<double> numbers, std::size_t rank) const;
 
+    /// Whether all ranks can look at so many numbers of each other.
+    bool show(std::size_t numbers) const { return !boards_.empty() && numbers <= most_shown; }
+    /// One by one, those of all ranks.
+    void greatest(std::span<std::uint64_t> numbers);
+
 private:
     /// Two places each, in turns: what is put into one has been taken before the other is used
     /// again, since every exchange goes both ways.
@@ -42,13 +47,20 @@ private:
         std::byte *to = nullptr, *from = nullptr;
     };
     void give_room(std::size_t bytes);
+    std::byte* memory_of(std::size_t number_here) const;
+    void await(std::byte* place, std::uint64_t stamp) const;
 
+    static constexpr std::size_t most_shown = 16;
     MPI_Comm all_ = MPI_COMM_NULL, here_ = MPI_COMM_NULL;
     MPI_Win window_ = MPI_WIN_NULL;
     std::size_t room_ = 0;        ///< of a rank, bytes
     std::vector<int> ranks_here_; ///< by number on this machine, that of all
     std::vector<Box> boxes_;      ///< by rank of all
-    std::uint64_t exchange_ = 0;
+    /// What each rank shows the others, where all are here, by number on this machine; two places,
+    /// in turns, at the start of its memory.
+    std::vector<std::byte*> boards_;
+    std::size_t mine_here_ = 0;
+    std::uint64_t exchange_ = 0, look_ = 0;
 };
 
 } // namespace listric::dem
