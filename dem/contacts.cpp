@@ -135,31 +135,39 @@ std::vector<Candidate> candidates_of(const ConstDiscColumns& d, const Cells& cel
     return candidates;
 }
 
-/// Pairs of a searched disc and another that are near each other, in no order.
+/// Pairs of a searched disc and another that are near each other, in no order. Of two searched
+/// discs, the first by cell finds the pair.
 std::vector<std::vector<Pair>> pairs_near(const State& state, const Searched& searched) {
     const ConstDiscColumns d = disc_columns(state);
     const double largest = d.x.empty() ? 0.0 : *std::ranges::max_element(d.radius);
     const Cells cells(d.searched_x, d.searched_y, 2.0 * largest + state.skin);
     const std::vector<Candidate> candidates = candidates_of(d, cells, searched);
-    return by_piece(searched.rows.size(), 512, [&](std::size_t k, std::size_t end) {
-        std::vector<Pair> found(4 * (end - k));
+    std::vector<std::uint32_t> not_searched(candidates.size() + 1, 0); // before each
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+        not_searched[k + 1] = not_searched[k] + !candidates[k].is_searched;
+
+    return by_piece(candidates.size(), 512, [&](std::size_t k, std::size_t end) {
+        std::vector<Pair> found(4 * (end - k - (not_searched[end] - not_searched[k])));
         std::size_t count = 0;
         for (; k < end; ++k) {
-            const std::int32_t row = searched.rows[k];
-            const auto i = static_cast<std::size_t>(row);
-            const double x = d.searched_x[i], y = d.searched_y[i], radius = d.radius[i];
-            cells.for_each_run_near(x, y, [&](std::size_t begin, std::size_t last) {
+            const Candidate& disc = candidates[k];
+            if (!disc.is_searched)
+                continue;
+            cells.for_each_run_near(disc.x, disc.y, [&](std::size_t begin, std::size_t last) {
+                if (begin <= k && not_searched[std::min(last, k)] == not_searched[begin])
+                    begin = k + 1; // nothing for it to find before
+                if (begin >= last)
+                    return;
                 if (found.size() < count + (last - begin))
                     found.resize((count + (last - begin)) * 5 / 4);
                 for (; begin < last; ++begin) {
                     const Candidate& other = candidates[begin];
-                    const double dx = other.x - x, dy = other.y - y;
-                    const double reach = radius + other.radius + state.skin;
+                    const double dx = other.x - disc.x, dy = other.y - disc.y;
+                    const double reach = disc.radius + other.radius + state.skin;
                     // Without a branch: the processor would guess it wrongly.
                     const bool is_near = dx * dx + dy * dy < reach * reach;
-                    // Of two searched discs, the first finds the pair.
-                    const bool finds = (row < other.row) | ((other.row < row) & !other.is_searched);
-                    found[count] = {std::min(row, other.row), std::max(row, other.row)};
+                    const bool finds = (begin > k) | !other.is_searched;
+                    found[count] = {std::min(disc.row, other.row), std::max(disc.row, other.row)};
                     count += static_cast<std::size_t>(is_near & finds);
                 }
             });
