@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace listric {
+
+/// The place of the first byte at which a text is no UTF-8 (RFC 3629: no overlong forms, surrogates
+/// or numbers above 10FFFF) or is NUL; none where all of it is sound.
+std::optional<std::size_t> unsound_byte(std::string_view text);
+
+/// A text of somebody's as a message may hold it: control characters and bytes that are no UTF-8
+/// are written as \xNN, so that a terminal obeys none of them.
+std::string shown(std::string_view text);
+
+} // namespace listric

@@ -1,0 +1,38 @@
+#include "apps/support/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace listric {
+namespace {
+
+TEST(Text, is_sound_where_it_is_utf8) {
+    for (const std::string text : {"", "Trias", "H\xc3\xb6he", "\xe2\x82\xac", "\xf0\x9f\x8f\x94",
+                                   "\xed\x9f\xbf", "\xf4\x8f\xbf\xbf"})
+        EXPECT_FALSE(unsound_byte(text)) << shown(text);
+}
+
+TEST(Text, tells_the_first_byte_that_is_none) {
+    EXPECT_EQ(unsound_byte("H\xf6he"), 1u);          // Windows-1252
+    EXPECT_EQ(unsound_byte("ab\xc0\xaf"), 2u);       // overlong
+    EXPECT_EQ(unsound_byte("\xe0\x80\x80"), 0u);     // overlong
+    EXPECT_EQ(unsound_byte("\xed\xa0\x80"), 0u);     // surrogate
+    EXPECT_EQ(unsound_byte("\xf4\x90\x80\x80"), 0u); // above 10FFFF
+    EXPECT_EQ(unsound_byte("\xe2\x82"), 0u);         // cut short
+    EXPECT_EQ(unsound_byte("a\x80"), 1u);
+    EXPECT_EQ(unsound_byte(std::string("a\0b", 3)), 1u);
+}
+
+TEST(Text, is_shown_without_what_a_terminal_obeys) {
+    EXPECT_EQ(shown("H\xc3\xb6he 10 %"), "H\xc3\xb6he 10 %");
+    EXPECT_EQ(shown("\x1b[31mred"), "\\x1b[31mred");
+    EXPECT_EQ(shown("H\xf6he"), "H\\xf6he");
+    EXPECT_EQ(shown("a\xc2\x9b"
+                    "b"),
+              "a\\xc2\\x9bb");
+    EXPECT_EQ(shown("one\ntwo"), "one\\x0atwo");
+}
+
+} // namespace
+} // namespace listric
