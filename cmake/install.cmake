@@ -44,7 +44,7 @@ install(EXPORT listric NAMESPACE listric:: FILE ListricTargets.cmake DESTINATION
 configure_package_config_file(cmake/ListricConfig.cmake.in ListricConfig.cmake
   INSTALL_DESTINATION ${package})
 write_basic_package_version_file(ListricConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/ListricConfig.cmake
+install(FILES ${PROJECT_BINARY_DIR}/ListricConfig.cmake cmake/FindLibcsv.cmake
   ${PROJECT_BINARY_DIR}/ListricConfigVersion.cmake DESTINATION ${package} COMPONENT development)
 
 include(cmake/package.cmake)

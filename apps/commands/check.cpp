@@ -50,18 +50,26 @@ std::string about(double number) {
     return "about " + digits;
 }
 
+/// What is odd about the files of a scene, a line each.
+std::string warnings_of(const Scene& scene) {
+    std::string lines;
+    for (const std::string& warning : scene.warnings)
+        lines += "\nwarning: " + warning;
+    return lines;
+}
+
 std::string check_scene_file(const std::string& file, const toml::table& document, Times& times) {
     const SceneRequest request{.scene = file};
     const Scene scene = load_scene(request);
     const auto tables =
         std::ranges::count_if(document, [](const auto& entry) { return entry.second.is_table(); });
     if (!scene.hanging_wall)
-        return fmt::format("{} tables, no discs, a few seconds", tables);
+        return fmt::format("{} tables, no discs, a few seconds{}", tables, warnings_of(scene));
     if (const auto oversize = oversize_of(scene, program_effects(), machine_memory()))
         refuse_scene(request, oversize->parameter, oversize->message);
-    return fmt::format("{} tables, {} discs, {}", tables,
+    return fmt::format("{} tables, {} discs, {}{}", tables,
                        about(static_cast<double>(estimated_discs(scene))),
-                       duration(times.seconds(scene)));
+                       duration(times.seconds(scene)), warnings_of(scene));
 }
 
 std::string check_sweep(const fs::path& file, Times& times) {
@@ -72,7 +80,7 @@ std::string check_sweep(const fs::path& file, Times& times) {
     if (scene.hanging_wall)
         text += fmt::format(", {} if each takes as long as {}",
                             duration(static_cast<double>(runs) * times.seconds(scene)), scene.name);
-    return text;
+    return text + warnings_of(scene);
 }
 
 std::string check_validation(const fs::path& file) {

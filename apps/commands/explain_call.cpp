@@ -2,6 +2,7 @@
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/log.hpp"
 
 #include <iostream>
 #include <memory>
@@ -21,8 +22,12 @@ ExitCode explain(const ExplainCall& call) {
         std::cout << parameter_reference(program_effects());
     else if (call.scene.scene.empty())
         throw UsageError("explain: a scene is needed, or --parameters");
-    else
-        std::cout << explain(load_scene(call.scene), call.threads, program_effects());
+    else {
+        const Scene scene = load_scene(call.scene);
+        std::cout << explain(scene, call.threads, program_effects());
+        for (const std::string& warning : scene.warnings)
+            warn(warning);
+    }
     return ExitCode::done;
 }
 

@@ -4,6 +4,7 @@
 #include "apps/commands/signals.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/number.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/version.hpp"
 #include "dem/cycle_choice.hpp"
@@ -68,6 +69,23 @@ void require_cycle() {
     }
 }
 
+/// Numbers of all calls are read as those of files are: in every locale, and by the same rules.
+void read_numbers_alike(CLI::App& app) {
+    const CLI::Validator number(
+        [](std::string& word) {
+            const auto value = parse_number(word);
+            if (!value)
+                return no_number(word);
+            word = fmt::format("{}", *value);
+            return std::string();
+        },
+        "");
+    for (CLI::App* command : app.get_subcommands({}))
+        for (CLI::Option* option : command->get_options())
+            if (option->get_type_name().find("FLOAT") != std::string::npos)
+                option->check(number);
+}
+
 ExitCode dispatch(int argc, char** argv) {
     CLI::App app{"listric: a numerical sandbox for halfgrabens", "listric"};
     app.set_version_flag("--version", std::string(version));
@@ -79,6 +97,7 @@ ExitCode dispatch(int argc, char** argv) {
                                         add_calibrate(app),  add_study(app),    add_sweep(app),
                                         add_trace(app),      add_validate(app), add_schema(app),
                                         add_completion(app), add_manual(app)};
+    read_numbers_alike(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -6,10 +6,13 @@
 #include "apps/run/join_ranks.hpp"
 #include "apps/run/oversize.hpp"
 #include "apps/run/ranked_run.hpp"
+#include "apps/support/number.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -30,18 +33,16 @@ struct RunCall {
 
 /// "5km", "5000m" or "5000" in metres.
 double parse_length(const std::string& text) {
-    std::size_t used = 0;
-    double value = 0.0;
-    try {
-        value = std::stod(text, &used);
-    } catch (const std::exception&) {
-        used = 0;
+    const double unit = text.ends_with("km") ? 1e3 : 1.0;
+    const std::size_t letters = unit > 1.0 ? 2 : text.ends_with('m') ? 1 : 0;
+    const auto value = parse_number(std::string_view(text).substr(0, text.size() - letters));
+    const double metres = unit * value.value_or(NAN);
+    if (!(metres >= 0.0 && metres <= 1e7)) {
+        const std::string what = value ? "" : number_objection(text);
+        throw UsageError(fmt::format("--until {}: a length of at least 0, such as 5km or 500m{}",
+                                     shown_start(text), what.empty() ? "" : "; this is " + what));
     }
-    const std::string unit = text.substr(used);
-    if (used == 0 || !(unit.empty() || unit == "m" || unit == "km") || !(value >= 0.0) ||
-        value > 1e7)
-        throw UsageError("--until " + text + ": a length of at least 0, such as 5km or 500m");
-    return unit == "km" ? 1e3 * value : value;
+    return metres;
 }
 
 /// A number of processes; 0 for "all": as many as were started together.

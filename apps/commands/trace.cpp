@@ -3,10 +3,10 @@
 #include "apps/measures/moved_points.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <iostream>
 #include <memory>
 
@@ -16,12 +16,11 @@ namespace {
 
 /// Depth positive down in the file, y up in the program.
 measures::MovedPoints read_moved_points(const std::string& file) {
-    constexpr std::array<std::string_view, 4> names{"x_m", "depth_m", "dx_m", "ddepth_m"};
     constexpr std::size_t fewest = 30;
-    CsvRows rows = read_csv(file, names);
+    CsvRows rows = read_csv(file, {.numbers = {"x_m", "depth_m", "dx_m", "ddepth_m"}});
     if (rows.size() < fewest)
         throw SceneError(
-            fmt::format("{}: has {} points, needs at least {}", file, rows.size(), fewest));
+            fmt::format("{}: has {} points, needs at least {}", shown(file), rows.size(), fewest));
     for (const std::size_t column : {1, 3})
         for (double& value : rows.columns[column])
             value = -value;

@@ -155,6 +155,8 @@ void Session::begin() {
 
     if (scene_.picked_fault)
         log_.say(describe(*scene_.picked_fault, *scene_.detachment));
+    for (const std::string& warning : scene_.warnings)
+        log_.say("warning: " + warning);
     write_status("genesis");
     make_footwall();
     State state;

@@ -11,7 +11,7 @@ namespace listric {
 /// Where a picked fault is and how it is read: keys of [detachment] that are no part of a scene.
 struct FaultSource {
     std::string csv; ///< file with the columns x_m and depth_m
-    std::string csv_delimiter = ",";
+    std::string csv_delimiter = "auto";
     std::string svg;                               ///< drawing
     std::string svg_path;                          ///< id of the path in it
     std::vector<std::array<double, 4>> svg_points; ///< px, py, x (m), depth (m)

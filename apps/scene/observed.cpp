@@ -1,53 +1,54 @@
 #include "apps/scene/observed.hpp"
 
 #include "apps/support/csv.hpp"
+#include "apps/support/csv_records.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <map>
 
 namespace listric {
 
-std::vector<PickedLine> read_picked_lines(const std::filesystem::path& file) {
-    std::vector<std::string_view> columns{"x_m", "depth_m"};
-    const bool dated = csv_has_column(file, "age_a");
-    if (dated)
-        columns.push_back("age_a");
-    const std::vector<std::string> names = read_csv_words(file, "name");
-    const CsvRows rows = read_csv(file, columns);
-    std::vector<PickedLine> lines;
+PickedFile read_picked_lines(const std::filesystem::path& path, double shift) {
+    const CsvRows rows =
+        read_csv(path, {.words = "name", .numbers = {"x_m", "depth_m"}, .optional = {"age_a"}});
+    PickedFile picked{path.string(), {}, {}};
+    std::map<std::string, std::size_t> places;
     for (std::size_t k = 0; k < rows.size(); ++k) {
+        const std::string& name = rows.words[k];
+        const double x = rows.columns[0][k], depth = rows.columns[1][k], age = rows.columns[2][k];
         const auto refuse = [&](const std::string& what) {
-            throw SceneError(fmt::format("{}:{}: {}", file.string(), rows.line[k], what));
+            throw SceneError(fmt::format("{}: {}", csv_place(picked.file, rows.line[k]), what));
         };
-        const double x = rows.columns[0][k], depth = rows.columns[1][k];
-        if (names[k].empty())
+        if (name.empty())
             refuse("has no name");
         if (std::abs(x) > 1e7 || std::abs(depth) > 1e5)
             refuse(fmt::format("x_m = {}, depth_m = {} is out of range, allowed: x_m -1e7 to 1e7, "
                                "depth_m -1e5 to 1e5; is it in metres?",
                                text(x), text(depth)));
-        auto line = std::ranges::find(lines, names[k], &PickedLine::name);
-        if (line == lines.end())
-            line = lines.insert(line, {names[k], std::nullopt, {}, {}});
-        if (dated) {
-            const double age = rows.columns[2][k];
-            if (age < 0.0)
-                refuse(fmt::format("age_a: {} is after the end of extension, allowed: at least 0",
-                                   text(age)));
-            if (line->age && *line->age != age)
-                refuse(fmt::format("age_a: {} has {} above and {} here; a horizon has one age",
-                                   names[k], text(*line->age), text(age)));
-            line->age = age;
+        const auto [place, is_new] = places.try_emplace(name, picked.lines.size());
+        if (is_new) {
+            picked.lines.push_back({name, std::nullopt, {}, {}});
+            picked.rows.emplace_back();
         }
-        line->x.push_back(x);
-        line->depth.push_back(depth);
+        PickedLine& line = picked.lines[place->second];
+        if (age < 0.0)
+            refuse(fmt::format("age_a: {} is after the end of extension, allowed: at least 0",
+                               text(age)));
+        if (!std::isnan(age) && line.age && *line.age != age)
+            refuse(fmt::format("age_a: {} has {} above and {} here; a horizon has one age",
+                               shown_start(name), text(*line.age), text(age)));
+        if (!std::isnan(age))
+            line.age = age;
+        line.x.push_back(x + shift);
+        line.depth.push_back(depth);
+        picked.rows[place->second].push_back(rows.line[k]);
     }
-    return lines;
+    return picked;
 }
 
 } // namespace listric

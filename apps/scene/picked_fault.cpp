@@ -3,6 +3,7 @@
 #include "apps/scene/fault_fit.hpp"
 #include "apps/scene/fault_svg.hpp"
 #include "apps/support/csv.hpp"
+#include "apps/support/csv_records.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
 #include "dem/units.hpp"
@@ -28,13 +29,12 @@ constexpr double wide_gap = 4.0;    ///< median distances of neighbours
 }
 
 FaultPoints read_csv_points(const FaultSource& source, const std::filesystem::path& file) {
-    const char delimiter = source.csv_delimiter == "tab" ? '\t' : source.csv_delimiter[0];
     const CsvRows rows =
-        read_csv(file, std::array<std::string_view, 2>{"x_m", "depth_m"}, delimiter);
+        read_csv(file, {.numbers = {"x_m", "depth_m"}, .delimiter = source.csv_delimiter});
     FaultPoints fault;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         fault.points.push_back({rows.columns[0][k], -rows.columns[1][k]});
-        fault.where.push_back(fmt::format("{}:{}", file.string(), rows.line[k]));
+        fault.where.push_back(csv_place(file.string(), rows.line[k]));
     }
     return fault;
 }

@@ -81,6 +81,8 @@ struct Scene {
 
     std::vector<EffectPart> effects; ///< in the order of the program's list
 
+    std::vector<std::string> warnings; ///< what was odd about its files; no part of what is run
+
     /// The parameters of an effect, by their type; null where it is off.
     template <class Parameters> const Parameters* find() const {
         return find_in<const Parameters>(effects);

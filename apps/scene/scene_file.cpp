@@ -1,6 +1,7 @@
 #include "apps/scene/scene_file.hpp"
 
 #include "apps/scene/file_names.hpp"
+#include "apps/scene/picks_check.hpp"
 #include "apps/scene/pieces.hpp"
 #include "apps/scene/scene_checks.hpp"
 #include "apps/scene/tables.hpp"
@@ -198,30 +199,37 @@ std::string existing(const Entry& entry, const std::string& name, const fs::path
     return file;
 }
 
-/// Reads the picked lines that the document names.
+/// Reads the picked lines that the document names. A section has one origin: picks are shifted as
+/// its fault is, unless they have a shift of their own.
 void take_observed(Scene& scene, const SceneTable& table, const toml::table& document,
-                   const fs::path& folder) {
+                   const fs::path& folder, double fault_shift) {
     const toml::node* const node = document.get(table.name);
     if (!node || !node->is_table())
         return;
     const toml::table& given = *node->as_table();
     ObservedSource source;
     read_source(table, given, &source);
-    if (given.contains("horizons"))
-        scene.observed->horizons = read_picked_lines(
-            existing(entry_at(document, "observed.horizons"), source.horizons, folder));
-    if (given.contains("faults"))
-        scene.observed->faults = read_picked_lines(
-            existing(entry_at(document, "observed.faults"), source.faults, folder));
+    const double shift = source.shift_x.value_or(fault_shift);
+    const auto take = [&](const char* key, const std::string& name, PickKind kind,
+                          std::vector<PickedLine>& lines) {
+        if (!given.contains(key))
+            return;
+        const Entry entry = entry_at(document, fmt::format("{}.{}", table.name, key));
+        const PickedFile picked = read_picked_lines(existing(entry, name, folder), shift);
+        lines = picked.lines;
+        check_picks(scene, picked, kind, shift);
+    };
+    take("horizons", source.horizons, PickKind::horizons, scene.observed->horizons);
+    take("faults", source.faults, PickKind::faults, scene.observed->faults);
 }
 
 /// Fits the detachment to a picked fault, if the document names one; hanging_wall.thickness_m is
-/// then its depth.
-void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table& document,
-                       const fs::path& folder) {
+/// then its depth. Returns what is added to every x of the section.
+double take_picked_fault(Scene& scene, const SceneTable& table, const toml::table& document,
+                         const fs::path& folder) {
     const toml::node* const node = document.get(table.name);
     if (!node || !node->is_table())
-        return;
+        return 0.0;
     const toml::table& given = *node->as_table();
     FaultSource source;
     read_source(table, given, &source);
@@ -235,7 +243,7 @@ void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table&
     if (!given.contains("svg"))
         refuse_beside({"svg_path", "svg_points"}, "is of svg, which is not there");
     if (!given.contains("csv") && !given.contains("svg"))
-        return;
+        return source.shift_x;
     if (given.contains("csv"))
         refuse_beside({"svg"}, "stands in place of csv; leave out one");
     refuse_beside({"segments", "start_dip_deg"}, "follows from the picked fault; leave it out");
@@ -246,6 +254,7 @@ void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table&
         fit_detachment(*scene.detachment, read_fault(source, file), source.tolerance);
     if (scene.hanging_wall)
         scene.hanging_wall->thickness = -detachment_chain(*scene.detachment, 0.0).back().end.y;
+    return source.shift_x;
 }
 
 /// The document that a call asks for.
@@ -316,8 +325,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     const auto table_named = [&](std::string_view name) -> const SceneTable& {
         return *std::ranges::find(all, name, &SceneTable::name);
     };
-    take_picked_fault(scene, table_named("detachment"), document, path.parent_path());
-    take_observed(scene, table_named("observed"), document, path.parent_path());
+    const double shift =
+        take_picked_fault(scene, table_named("detachment"), document, path.parent_path());
     for (const SceneTable& table : all)
         if (const toml::node* node = document.get(table.name))
             read_table({*node, std::string(table.name)}, table.parameters, table.add(table, scene),
@@ -327,6 +336,7 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     drop_effects(scene, request.without, all);
     check_scene(scene, document, effects);
     check_rocks(scene, rocks, document);
+    take_observed(scene, table_named("observed"), document, path.parent_path(), shift);
     return scene;
 }
 

@@ -1,6 +1,7 @@
 #include "apps/scene/tables.hpp"
 
 #include "apps/scene/pieces.hpp"
+#include "apps/support/csv.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -72,11 +73,11 @@ std::vector<Parameter> fault_source_parameters() {
          "",
          "in place of start_dip_deg and segments: a picked fault, columns x_m and depth_m"},
         {"csv_delimiter",
-         one_of<&S::csv_delimiter>({",", ";", "tab"}),
+         one_of<&S::csv_delimiter>(csv_delimiters()),
          "",
          {},
          "",
-         "between the columns"},
+         "between the columns; auto: as the header has it"},
         {"svg", at<&S::svg>, "", {}, "", "in place of csv: a drawing with the fault as a path"},
         {"svg_path", at<&S::svg_path>, "", {}, "", "id of the path"},
         {"svg_points", at<&S::svg_points>, "", far, "",
@@ -121,6 +122,12 @@ std::vector<Parameter> observed_source_parameters() {
          {},
          "",
          "file with picked faults, which are drawn: columns name, x_m, depth_m"},
+        {"shift_x_m",
+         at<&S::shift_x>,
+         "m",
+         {.from = -1e7, .to = 1e7},
+         "",
+         "added to every x of the picks; default: as detachment.shift_x_m"},
     };
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/scene.hpp"
 #include "dem/target_line.hpp"
 
 #include <filesystem>
@@ -11,6 +12,10 @@ namespace listric {
 /// Reads a line that changes with time from a CSV file with a header and the columns time_a, x_m
 /// and `value` (others are ignored): rows by time, those of one time by x. Throws SceneError.
 std::vector<dem::TargetStage> read_target_csv(const std::filesystem::path& file,
+                                              std::string_view value = "y_m");
+
+/// The same for a scene, in whose model and time the line must be; what is odd is a warning of it.
+std::vector<dem::TargetStage> read_target_csv(Scene& scene, const std::filesystem::path& file,
                                               std::string_view value = "y_m");
 
 } // namespace listric

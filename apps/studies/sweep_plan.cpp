@@ -3,13 +3,13 @@
 #include "apps/model/effects.hpp"
 #include "apps/scene/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
+#include "apps/support/number.hpp"
 #include "dem/random.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 
 namespace listric {
@@ -79,7 +79,7 @@ std::vector<Entry> elements(const Entry& entry, std::string_view allowed) {
 
 SweepValue number_value(double number) {
     const std::string text = fmt::format("{:.6g}", number);
-    return {text, text, std::strtod(text.c_str(), nullptr)};
+    return {text, text, parse_number(text)};
 }
 
 /// Refuses a value that the scene refuses.
@@ -140,9 +140,8 @@ SweepMeasure read_measure(const Entry& entry) {
     if (sign == std::string::npos)
         return measure;
     measure.name = measure.text.substr(0, sign);
-    char* end = nullptr;
-    measure.at = std::strtod(measure.text.c_str() + sign + 1, &end);
-    if (*end != '\0' || sign + 1 == measure.text.size() || !(*measure.at >= 0.0))
+    measure.at = parse_number(std::string_view(measure.text).substr(sign + 1));
+    if (!measure.at || !(*measure.at >= 0.0))
         fail(entry, "after @ comes an extension in metres, such as strain_top10@5000");
     return measure;
 }

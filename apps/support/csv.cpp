@@ -1,156 +1,275 @@
 #include "apps/support/csv.hpp"
 
+#include "apps/support/csv_header.hpp"
+#include "apps/support/csv_records.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/number.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <optional>
-#include <string>
+#include <utility>
 
 namespace listric {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-std::vector<std::string> cells_of(const std::string& line, char delimiter) {
-    std::vector<std::string> cells(1);
-    for (char letter : line) {
-        if (letter == delimiter)
-            cells.emplace_back();
-        else if (letter != '\r' && letter != '"')
-            cells.back() += letter;
-    }
-    for (std::string& cell : cells) {
-        cell.erase(0, cell.find_first_not_of(" \t"));
-        cell.erase(cell.find_last_not_of(" \t") + 1);
-    }
-    return cells;
-}
+constexpr std::size_t largest_file = 256 << 20; ///< bytes, all of which are read at once
+constexpr std::size_t most_rows = 5'000'000;
 
-bool is_blank(const std::string& line) {
-    const auto first = line.find_first_not_of(" \t\r");
-    return first == line.npos || line[first] == '#';
-}
-
-std::optional<double> number(const std::string& cell) {
-    double value = 0.0;
-    const char* end = cell.data() + cell.size();
-    const auto [stopped, error] = std::from_chars(cell.data(), end, value);
-    if (error != std::errc{} || stopped != end || !std::isfinite(value))
-        return std::nullopt;
-    return value;
-}
-
-/// The lines of a file that say something.
-class Lines {
-public:
-    Lines(const std::filesystem::path& path, char delimiter)
-        : path_(path), file_(path, std::ios::binary), delimiter_(delimiter) {
-        if (!file_.is_open())
-            fail();
-    }
-
-    std::optional<std::vector<std::string>> next() {
-        for (std::string line; std::getline(file_, line);) {
-            if (++number_ == 1 && line.starts_with("\xef\xbb\xbf")) // as spreadsheets write it
-                line.erase(0, 3);
-            if (!is_blank(line))
-                return cells_of(line, delimiter_);
-        }
-        if (file_.bad())
-            fail();
-        return std::nullopt;
-    }
-
-    std::size_t number() const { return number_; }
-
-    [[noreturn]] void refuse(std::string_view what) const {
-        throw SceneError(fmt::format("{}:{}: {}", path_.string(), number_, what));
-    }
-
-private:
-    [[noreturn]] void fail() const {
-        throw SceneError(
-            fmt::format("{}: cannot be read: {}", path_.string(), std::strerror(errno)));
-    }
-
-    std::filesystem::path path_;
-    std::ifstream file_;
-    char delimiter_;
-    std::size_t number_ = 0;
+struct Delimiter {
+    std::string_view word;
+    char sign;
 };
 
-/// What may be wrong with a header that lacks a column.
-std::string hint(const std::vector<std::string>& header, std::string_view name, char delimiter) {
-    for (const char other : {',', ';'})
-        if (other != delimiter && header.size() == 1 && header[0].find(other) != std::string::npos)
-            return fmt::format("; its columns seem to be parted by {}", other);
-    const std::string_view stem = name.substr(0, name.rfind('_') + 1); // "depth_" of "depth_m"
-    for (const std::string& cell : header)
-        if (stem.size() > 1 && cell.starts_with(stem) && cell.size() > stem.size())
-            return fmt::format("; {} is in another unit (1 km = 1000 m, 1 ft = 0.3048 m)", cell);
+constexpr std::array<Delimiter, 4> delimiters{
+    {{",", ','}, {";", ';'}, {"tab", '\t'}, {"blank", ' '}}};
+
+[[noreturn]] void refuse(const std::string& place, const std::string& what) {
+    throw SceneError(fmt::format("{}: {}", place, what));
+}
+
+/// Bytes of a file that could hold a table.
+std::string bytes_of(const fs::path& path) {
+    const std::string name = shown(path.string());
+    const auto fail = [&](std::string_view why) {
+        refuse(name, fmt::format("cannot be read: {}", why));
+    };
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status))
+        fail(error ? error.message() : std::strerror(ENOENT));
+    if (!fs::is_regular_file(status)) // a pipe may never end
+        refuse(name, "is no regular file; needs a table in CSV");
+    std::ifstream file(path, std::ios::binary);
+    if (!file.is_open())
+        fail(std::strerror(errno));
+    std::string bytes(std::min<std::uintmax_t>(fs::file_size(path, error), largest_file + 1), '\0');
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (file.bad())
+        fail(std::strerror(errno));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    if (bytes.size() > largest_file)
+        refuse(name, "has more than 256 MB, allowed: at most that; keep every n-th row");
+    return bytes;
+}
+
+/// What a file is that is no text in UTF-8, by its first bytes.
+std::string other_format(std::string_view bytes) {
+    using namespace std::literals;
+    if (bytes.starts_with("\xff\xfe\0\0"sv) || bytes.starts_with("\0\0\xfe\xff"sv))
+        return "UTF-32";
+    const bool in_pairs = bytes.size() > 3 && ((bytes[1] == '\0' && bytes[3] == '\0') ||
+                                               (bytes[0] == '\0' && bytes[2] == '\0'));
+    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff") || in_pairs)
+        return "UTF-16";
+    if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("\xd0\xcf\x11\xe0"))
+        return "a workbook of a spreadsheet or an archive";
+    if (bytes.starts_with("\x1f\x8b") || bytes.starts_with("BZh") ||
+        bytes.starts_with("\xfd"
+                          "7zXZ"))
+        return "compressed";
     return "";
+}
+
+/// The text of a file, whatever wrote it.
+std::string text_of(const fs::path& path) {
+    std::string text = bytes_of(path);
+    if (const std::string format = other_format(text); !format.empty())
+        refuse(shown(path.string()), fmt::format("is {}; save it as CSV UTF-8", format));
+    if (text.starts_with("\xef\xbb\xbf")) // as spreadsheets write it
+        text.erase(0, 3);
+    if (const auto bad = unsound_byte(text)) {
+        const std::size_t begin = *bad - std::min<std::size_t>(*bad, 10);
+        const std::string beside(text, std::max(begin, text.find_last_of("\r\n", *bad) + 1), 20);
+        refuse(csv_place(path.string(), line_of(text, *bad)),
+               fmt::format("\"{}\" has the byte {}, which is {}; save the file as CSV UTF-8",
+                           shown(beside), shown(text.substr(*bad, 1)),
+                           text[*bad] == '\0' ? "no text" : "no UTF-8"));
+    }
+    if (text.starts_with("sep=")) // a spreadsheet's own line; the header says as much
+        text[0] = '#';
+    return text;
+}
+
+/// The first row, as a delimiter parts it.
+CsvRecord header_of(std::string_view text, const std::string& file, char delimiter) {
+    CsvRecord header;
+    read_records(text, file, delimiter, [&](CsvRecord& record) {
+        header = std::move(record);
+        return false;
+    });
+    return header;
+}
+
+bool has(const CsvRecord& header, std::string_view name) {
+    return std::ranges::find(header.cells, name) != header.cells.end();
+}
+
+/// A way to read the header: with the delimiter that finds most of the wanted columns.
+struct Reading {
+    Delimiter delimiter = delimiters[0];
+    CsvRecord header;
+    std::size_t found = 0;
+};
+
+Reading best_reading(std::string_view text, const std::string& file,
+                     const std::vector<std::string_view>& names, std::string_view word) {
+    std::optional<Reading> best;
+    std::optional<SceneError> refusal;
+    for (const Delimiter& delimiter : delimiters) {
+        if (word != "auto" && word != delimiter.word)
+            continue;
+        try {
+            Reading reading{delimiter, header_of(text, file, delimiter.sign), 0};
+            reading.found = static_cast<std::size_t>(std::ranges::count_if(
+                names, [&](std::string_view name) { return has(reading.header, name); }));
+            if (!best || reading.found > best->found)
+                best = std::move(reading);
+        } catch (const SceneError& error) { // a quote that another delimiter may explain
+            if (!refusal)
+                refusal = error;
+        }
+    }
+    if (!best)
+        throw SceneError(*refusal);
+    return *best;
+}
+
+/// Where a column is in the header; its size if it is not there.
+std::size_t place_of(const CsvRecord& header, std::string_view name, const std::string& where) {
+    const auto found = std::ranges::find(header.cells, name);
+    if (found != header.cells.end() &&
+        std::find(found + 1, header.cells.end(), name) != header.cells.end())
+        refuse(where, fmt::format("has two columns {}; leave one out or rename it", name));
+    return static_cast<std::size_t>(found - header.cells.begin());
+}
+
+/// A word in one line, without signs that a terminal obeys.
+std::string word_of(const std::string& cell, const std::string& where, std::string_view column) {
+    std::string word;
+    for (const char letter : cell)
+        if (letter != '\n' && letter != '\r' && letter != '\t')
+            word += letter;
+        else if (!word.empty() && word.back() != ' ')
+            word += ' ';
+    if (shown(word) != word)
+        refuse(where, fmt::format("{}: \"{}\" has a control character; leave it out", column,
+                                  shown_start(word)));
+    return word;
+}
+
+/// Whether a row fits below its header; a spreadsheet may write empty cells behind it.
+void check_width(const CsvRecord& record, const CsvRecord& header, const Delimiter& delimiter,
+                 const std::string& file) {
+    std::size_t width = record.cells.size();
+    while (width > header.cells.size() && record.cells[width - 1].empty())
+        --width;
+    if (width > header.cells.size())
+        refuse(csv_place(file, record.line),
+               fmt::format("has {} cells, but the header {}; a cell with a {} in it needs quotes, "
+                           "and numbers need a decimal point",
+                           width, header.cells.size(),
+                           delimiter.sign == ',' ? "comma" : delimiter.word));
+}
+
+std::vector<std::string_view> needed_columns(const CsvColumns& wanted) {
+    std::vector<std::string_view> names;
+    if (!wanted.words.empty())
+        names.push_back(wanted.words);
+    names.insert(names.end(), wanted.numbers.begin(), wanted.numbers.end());
+    return names;
+}
+
+/// The header with all that is needed.
+Reading read_header(std::string_view text, const std::string& file, const CsvColumns& wanted) {
+    const std::vector<std::string_view> names = needed_columns(wanted);
+    Reading reading = best_reading(text, file, names, wanted.delimiter);
+    if (reading.header.cells.empty())
+        refuse(shown(file), fmt::format("has no header, needs {}", fmt::join(names, ", ")));
+    if (reading.found == names.size())
+        return reading;
+    const std::string where = csv_place(file, reading.header.line);
+    const auto missing =
+        std::ranges::find_if_not(names, [&](auto name) { return has(reading.header, name); });
+    std::string hint = header_hint(reading.header.cells, *missing, names, text);
+    if (wanted.delimiter != "auto")
+        if (const Reading other = best_reading(text, file, names, "auto");
+            other.found > reading.found)
+            hint = fmt::format("; its columns seem to be parted by {0}; give csv_delimiter = "
+                               "\"{0}\", or leave it out",
+                               other.delimiter.word);
+    refuse(where, fmt::format("has no column {}, needs a header with {}; it has {}{}", *missing,
+                              fmt::join(names, ", "), header_text(reading.header.cells), hint));
 }
 
 } // namespace
 
-CsvRows read_csv(const std::filesystem::path& path, std::span<const std::string_view> columns,
-                 char delimiter) {
-    Lines lines(path, delimiter);
-    const auto header = lines.next();
+std::vector<std::string_view> csv_delimiters() {
+    std::vector<std::string_view> words{"auto"};
+    for (const Delimiter& delimiter : delimiters)
+        words.push_back(delimiter.word);
+    return words;
+}
+
+CsvRows read_csv(const fs::path& path, const CsvColumns& wanted) {
+    const std::string file = path.string(), text = text_of(path);
+    const Reading reading = read_header(text, file, wanted);
+    const CsvRecord& header = reading.header;
+    std::vector<std::string_view> names = wanted.numbers;
+    names.insert(names.end(), wanted.optional.begin(), wanted.optional.end());
     std::vector<std::size_t> place;
-    for (const std::string_view name : columns) {
-        if (!header)
-            break;
-        place.push_back(
-            static_cast<std::size_t>(std::ranges::find(*header, name) - header->begin()));
-        if (place.back() == header->size())
-            lines.refuse(fmt::format("has no column {}, needs a header with {}; it has {}{}", name,
-                                     fmt::join(columns, ", "), fmt::join(*header, ", "),
-                                     hint(*header, name, delimiter)));
-    }
-    CsvRows rows{std::vector<std::vector<double>>(columns.size()), {}};
-    while (const auto row = lines.next()) {
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-            const std::string cell = place[k] < row->size() ? (*row)[place[k]] : "";
-            const auto value = number(cell);
+    for (const std::string_view name : names)
+        place.push_back(place_of(header, name, csv_place(file, header.line)));
+    const std::size_t words =
+        wanted.words.empty() ? 0 : place_of(header, wanted.words, csv_place(file, header.line));
+
+    CsvRows rows{{}, std::vector<std::vector<double>>(names.size()), {}};
+    bool below = false;
+    read_records(text, file, reading.delimiter.sign, [&](CsvRecord& record) {
+        if (!std::exchange(below, true))
+            return true;
+        check_width(record, header, reading.delimiter, file);
+        record.cells.resize(std::max(record.cells.size(), header.cells.size() + 1));
+        const auto where = [&] { return csv_place(file, record.line); };
+        if (!wanted.words.empty())
+            rows.words.push_back(word_of(record.cells[words], where(), wanted.words));
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            const std::string& cell = record.cells[place[k]];
+            if (cell.empty() && k >= wanted.numbers.size()) {
+                rows.columns[k].push_back(std::numeric_limits<double>::quiet_NaN());
+                continue;
+            }
+            const auto value = parse_number(cell);
             if (!value)
-                lines.refuse(fmt::format("{}: \"{}\" is not a finite number", columns[k], cell));
+                refuse(where(), fmt::format("{}: {}", names[k], no_number(cell)));
             rows.columns[k].push_back(*value);
         }
-        rows.line.push_back(lines.number());
-    }
+        rows.line.push_back(record.line);
+        if (rows.line.size() > most_rows)
+            refuse(where(), fmt::format("has more than {} rows; keep every n-th", most_rows));
+        return true;
+    });
     if (rows.line.empty())
-        throw SceneError(fmt::format("{}: has no {}, needs {}", path.string(),
-                                     header ? "rows" : "header", fmt::join(columns, ", ")));
+        refuse(shown(file),
+               fmt::format("has no rows, needs {}", fmt::join(needed_columns(wanted), ", ")));
     return rows;
 }
 
-bool csv_has_column(const std::filesystem::path& path, std::string_view name) {
-    const auto header = Lines(path, ',').next();
-    return header && std::ranges::find(*header, name) != header->end();
-}
-
-std::vector<std::string> read_csv_words(const std::filesystem::path& path, std::string_view column,
-                                        char delimiter) {
-    Lines lines(path, delimiter);
-    const auto header = lines.next();
-    const std::size_t place =
-        header ? static_cast<std::size_t>(std::ranges::find(*header, column) - header->begin()) : 0;
-    if (!header || place == header->size())
-        lines.refuse(
-            fmt::format("has no column {}, needs a header with it{}", column,
-                        header ? "; it has " + fmt::format("{}", fmt::join(*header, ", ")) : ""));
-    std::vector<std::string> words;
-    while (const auto row = lines.next())
-        words.push_back(place < row->size() ? (*row)[place] : "");
-    return words;
+bool csv_has_column(const fs::path& path, std::string_view name) {
+    const std::string text = text_of(path);
+    return best_reading(text, path.string(), {name}, "auto").found > 0;
 }
 
 } // namespace listric

@@ -1,29 +1,37 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace listric {
 
+/// What is wanted of a CSV file; it may have other columns.
+struct CsvColumns {
+    std::string_view words = {};                 ///< a column of words; none: no words are wanted
+    std::vector<std::string_view> numbers = {};  ///< columns with a number in every row
+    std::vector<std::string_view> optional = {}; ///< columns that may be missing, or empty in a row
+    std::string_view delimiter = "auto";         ///< "auto": that with which the header has them
+};
+
+/// Words of csv_delimiter: "auto", ",", ";", "tab", "blank".
+std::vector<std::string_view> csv_delimiters();
+
 /// Rows of the wanted columns of a CSV file.
 struct CsvRows {
-    std::vector<std::vector<double>> columns; ///< in the order in which they were asked for
-    std::vector<std::size_t> line;            ///< of the file, from 1, by row
+    std::vector<std::string> words;
+    std::vector<std::vector<double>>
+        columns;                   ///< numbers, then optional: not a number where none is
+    std::vector<std::size_t> line; ///< of the file, from 1, by row
 
     std::size_t size() const { return line.size(); }
 };
 
-/// Reads numbers from a CSV file with a header; other columns, blank lines and those that begin
-/// with # are ignored. Throws SceneError: file, line, column, what is there and what is allowed.
-CsvRows read_csv(const std::filesystem::path& file, std::span<const std::string_view> columns,
-                 char delimiter = ',');
-
-/// A column of words, a row each as read_csv has them. Throws SceneError.
-std::vector<std::string> read_csv_words(const std::filesystem::path& file, std::string_view column,
-                                        char delimiter = ',');
+/// Reads a CSV file with a header: RFC 4180 with any line ends, in UTF-8 with or without its mark.
+/// Blank lines, rows of empty cells and lines that begin with # are left out. Throws SceneError:
+/// file, line, column, what is there and what is allowed.
+CsvRows read_csv(const std::filesystem::path& file, const CsvColumns& wanted);
 
 /// Whether the header has a column. Throws SceneError if the file cannot be read.
 bool csv_has_column(const std::filesystem::path& file, std::string_view name);

@@ -65,4 +65,12 @@ std::string shown(std::string_view text) {
     return safe;
 }
 
+std::string shown_start(std::string_view text, std::size_t most) {
+    if (text.size() <= most)
+        return shown(text);
+    while (most > 0 && (byte_at(text, most) & 0xc0) == 0x80) // not within a character
+        --most;
+    return shown(text.substr(0, most)) + "...";
+}
+
 } // namespace listric

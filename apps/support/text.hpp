@@ -15,4 +15,7 @@ std::optional<std::size_t> unsound_byte(std::string_view text);
 /// are written as \xNN, so that a terminal obeys none of them.
 std::string shown(std::string_view text);
 
+/// The same of a text that may be long: its first characters, and how it goes on as "...".
+std::string shown_start(std::string_view text, std::size_t most = 60);
+
 } // namespace listric

@@ -32,7 +32,7 @@ FOREIGN = {
     "coupling": ("Eigen/",),
     "apps/measures": (),
     "apps": SYSTEM + ("fmt/", "nlohmann/", "toml++/", "CLI/", "hdf5.h", "Eigen/", "unsupported/Eigen/",
-             "pugixml.hpp", "zlib.h"),
+             "pugixml.hpp", "zlib.h", "csv.h"),
 }
 
 

@@ -81,11 +81,10 @@ TEST(MovedPoints, NeitherRotationNorEvenShearIsAFault) {
 
 TEST(MovedPoints, AFileThatIsNoneIsRefusedByLineAndColumn) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "points.csv";
-    constexpr std::array<std::string_view, 2> names{"x_m", "depth_m"};
     const auto refusal = [&](const char* text) -> std::string {
         std::ofstream(file) << text;
         try {
-            read_csv(file.string(), names);
+            read_csv(file, {.numbers = {"x_m", "depth_m"}});
         } catch (const SceneError& error) {
             return error.what();
         }

@@ -3,6 +3,7 @@
 #include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/csv.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
@@ -18,12 +19,14 @@ void read_motion(Scene& scene, const std::string& file, const Refuse& refuse) {
     P& motion = *scene.find<P>();
     if (!motion.uplift.empty() || !motion.shift.empty())
         refuse("base_motion.csv", "beside base_motion.uplift or shift; give one of them");
-    if (csv_has_column(file, "dx_m") || csv_has_column(file, "dy_m")) {
-        motion.shift = read_target_csv(file, "dx_m");
-        motion.uplift = read_target_csv(file, "dy_m");
-    } else {
-        motion.uplift = read_target_csv(file, "uplift_m");
-    }
+    const bool two = csv_has_column(file, "dx_m") || csv_has_column(file, "dy_m");
+    if (two && csv_has_column(file, "uplift_m"))
+        refuse("base_motion.csv", fmt::format("{}: has uplift_m beside dx_m or dy_m; give dx_m and "
+                                              "dy_m, or uplift_m alone",
+                                              shown(file)));
+    if (two)
+        motion.shift = read_target_csv(scene, file, "dx_m");
+    motion.uplift = read_target_csv(scene, file, two ? "dy_m" : "uplift_m");
 }
 
 void check(const Scene& scene, const Refuse& refuse) {

@@ -38,7 +38,7 @@ void read_target(Scene& scene, const std::string& file, const Refuse& refuse) {
     P& p = *scene.find<P>();
     if (!p.target.empty())
         refuse("footwall_erosion.target_csv", "beside footwall_erosion.target; give one of them");
-    p.target = read_target_csv(file);
+    p.target = read_target_csv(scene, file);
 }
 
 void check(const Scene& scene, const Refuse& refuse) {

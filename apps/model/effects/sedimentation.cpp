@@ -96,7 +96,7 @@ const Effect& sedimentation() {
                        if (!p.target.empty())
                            refuse("sedimentation.target_csv",
                                   "beside sedimentation.target; give one of them");
-                       p.target = read_target_csv(file);
+                       p.target = read_target_csv(scene, file);
                    }}},
         .rock =
             RockSource{

@@ -1,0 +1,159 @@
+#include "apps/scene/picks_check.hpp"
+
+#include "apps/support/csv_records.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/spelling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric {
+
+namespace {
+
+/// A length to a decimetre: shifted coordinates have no more.
+std::string metres(double x) { return text(std::round(10.0 * x) / 10.0); }
+
+struct Pick {
+    double x, depth;
+    std::size_t row;
+};
+
+/// The picks of a file in the order of its rows.
+std::vector<Pick> all_picks(const PickedFile& picked) {
+    std::vector<Pick> all;
+    for (std::size_t l = 0; l < picked.lines.size(); ++l)
+        for (std::size_t k = 0; k < picked.rows[l].size(); ++k)
+            all.push_back({picked.lines[l].x[k], picked.lines[l].depth[k], picked.rows[l][k]});
+    std::ranges::sort(all, {}, &Pick::row);
+    return all;
+}
+
+double greatest(const std::vector<Pick>& picks, double Pick::*member) {
+    double greatest = 0.0;
+    for (const Pick& pick : picks)
+        greatest = std::max(greatest, std::abs(pick.*member));
+    return greatest;
+}
+
+/// Where a scene's model is, or may be drawn.
+struct Room {
+    double left, right, bottom;
+
+    bool holds(double x, double depth) const { return x >= left && x <= right && depth <= bottom; }
+};
+
+Room room_of(const Scene& scene, PickKind kind) {
+    const double length = scene.hanging_wall->length, thickness = scene.hanging_wall->thickness;
+    const double right = length + scene.extension.distance, margin = 0.01 * length;
+    if (kind == PickKind::faults) // which are drawn, in the footwall, too
+        return {-length, right + length, 3.0 * thickness};
+    return {-margin, right + margin, 1.2 * thickness};
+}
+
+/// What is said of picks of one file.
+class Check {
+public:
+    Check(Scene& scene, const PickedFile& picked, PickKind kind, double shift)
+        : scene_(scene), file_(picked.file), picks_(all_picks(picked)), kind_(kind), shift_(shift),
+          thickness_(scene.hanging_wall->thickness) {}
+
+    void all() {
+        check_sign();
+        check_unit();
+        check_room();
+    }
+
+private:
+    [[noreturn]] void refuse(const Pick& at, const std::string& what) const {
+        throw SceneError(fmt::format("{}: {}", csv_place(file_, at.row), what));
+    }
+    void warn(const Pick& at, const std::string& what) {
+        scene_.warnings.push_back(fmt::format("{}: {}", csv_place(file_, at.row), what));
+    }
+
+    /// Hills and sediment above the original surface are few and low; elevations are all of them.
+    void check_sign() {
+        const auto is_above = [&](const Pick& pick) { return pick.depth < -0.01 * thickness_; };
+        const auto first = std::ranges::find_if(picks_, is_above);
+        if (first == picks_.end())
+            return;
+        const auto count = std::ranges::count_if(picks_, is_above);
+        const bool all =
+            std::ranges::none_of(picks_, [](const Pick& pick) { return pick.depth > 0.0; });
+        const std::string what =
+            fmt::format("depth_m: {} is above the original surface{}; depth is positive down",
+                        text(first->depth),
+                        count == 1 ? "" : fmt::format(", as {} of {} picks", count, picks_.size()));
+        if (all && greatest(picks_, &Pick::depth) > 0.1 * thickness_)
+            refuse(*first, what);
+        warn(*first, what);
+    }
+
+    /// Kilometres look like picks in a corner of the model.
+    void check_unit() {
+        constexpr double tiny = 0.005;
+        const double x = greatest(picks_, &Pick::x), depth = greatest(picks_, &Pick::depth);
+        const bool near = x < tiny * scene_.hanging_wall->length && picks_.size() > 1;
+        const bool shallow = depth > 0.0 && depth < tiny * thickness_;
+        const std::string ask =
+            fmt::format("picks reach x_m = {} and depth_m = {}, the model {} m and {} m; are they "
+                        "in metres?",
+                        text(x), text(depth), text(scene_.hanging_wall->length), text(thickness_));
+        if (near && shallow)
+            refuse(picks_.front(), ask);
+        if (near || shallow)
+            warn(picks_.front(), ask);
+    }
+
+    void check_room() {
+        const Room room = room_of(scene_, kind_);
+        const auto is_in = [&](const Pick& pick) { return room.holds(pick.x, pick.depth); };
+        const auto inside = static_cast<std::size_t>(std::ranges::count_if(picks_, is_in));
+        if (2 * inside >= picks_.size())
+            return;
+        const auto first = std::ranges::find_if_not(picks_, is_in);
+        const auto [least, most] = std::ranges::minmax_element(picks_, {}, &Pick::x);
+        const auto [high, low] = std::ranges::minmax_element(picks_, {}, &Pick::depth);
+        const std::string what = fmt::format(
+            "{} picks lie beyond the model: they reach from x_m = {} to {} and depth_m = {} "
+            "to {}{}; it has room from {} to {} and down to {}{}",
+            inside == 0 ? fmt::format("all {}", picks_.size())
+                        : fmt::format("{} of {}", picks_.size() - inside, picks_.size()),
+            metres(least->x - shift_), metres(most->x - shift_), text(high->depth),
+            text(low->depth),
+            shift_ == 0.0 ? "" : fmt::format(", with a shift of {} m", text(shift_)),
+            metres(room.left), metres(room.right), metres(room.bottom), cure(room, *least, *most));
+        if (inside == 0)
+            refuse(*first, what);
+        warn(*first, what);
+    }
+
+    std::string cure(const Room& room, const Pick& least, const Pick& most) const {
+        const bool good_without =
+            room.holds(least.x - shift_, 0.0) && room.holds(most.x - shift_, 0.0);
+        if (shift_ != 0.0 && good_without)
+            return "; without the shift they lie in it, give observed.shift_x_m = 0.0";
+        if (!room.holds(least.x, 0.0) && !room.holds(most.x, 0.0))
+            return "; give observed.shift_x_m, which is added to every x_m, so that the breakaway "
+                   "is at 0";
+        return "; are they in metres?";
+    }
+
+    Scene& scene_;
+    std::string file_;
+    std::vector<Pick> picks_;
+    PickKind kind_;
+    double shift_, thickness_;
+};
+
+} // namespace
+
+void check_picks(Scene& scene, const PickedFile& picked, PickKind kind, double shift) {
+    if (scene.hanging_wall)
+        Check(scene, picked, kind, shift).all();
+}
+
+} // namespace listric

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "apps/scene/observed.hpp"
+#include "apps/scene/scene.hpp"
+
+namespace listric {
+
+enum class PickKind { horizons, faults };
+
+/// Refuses picks of a file that cannot be in the model of a scene: all of them above the original
+/// surface, in another unit or beyond it; what is odd about some is a warning of the scene.
+/// @param shift  that was added to every x, m
+/// Throws SceneError with file and line.
+void check_picks(Scene& scene, const PickedFile& picked, PickKind kind, double shift);
+
+} // namespace listric

@@ -1,0 +1,107 @@
+#include "apps/support/csv_header.hpp"
+
+#include "apps/support/number.hpp"
+#include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace listric {
+
+namespace {
+
+/// "Depth [km]" as a name of ours: depth_km.
+std::string plain(std::string_view cell) {
+    std::string name;
+    for (const char letter : cell) {
+        const auto sign = static_cast<unsigned char>(letter);
+        if (std::isalnum(sign))
+            name += static_cast<char>(std::tolower(sign));
+        else if (!name.empty() && name.back() != '_')
+            name += '_';
+    }
+    while (name.ends_with('_'))
+        name.pop_back();
+    return name;
+}
+
+/// The line of names that stands behind a # at the head of the file.
+bool is_behind_hash(std::string_view text, std::string_view name) {
+    while (text.starts_with('#')) {
+        const auto end = std::min(text.find_first_of("\r\n"), text.size());
+        if (text.substr(0, end).find(name) != text.npos)
+            return true;
+        text.remove_prefix(std::min(text.find_first_not_of("\r\n", end), text.size()));
+    }
+    return false;
+}
+
+constexpr const char* lengths = "1 km = 1000 m, 1 ft = 0.3048 m";
+constexpr const char* times = "1 Ma = 1e6 a, 1 ka = 1000 a";
+
+/// What a column is called that holds depths or distances in other programs.
+bool is_other_name(std::string_view column, std::string_view missing) {
+    const auto one_of = [&](std::initializer_list<std::string_view> names) {
+        return std::ranges::any_of(names, [&](auto name) {
+            return column == name || column.starts_with(fmt::format("{}_", name));
+        });
+    };
+    if (missing == "depth_m")
+        return one_of({"z", "y", "tvd", "tvdss", "elevation", "elev", "height", "tiefe"});
+    if (missing == "x_m")
+        return one_of({"distance", "dist", "offset", "easting", "east", "position", "lon"});
+    if (missing == "y_m")
+        return one_of({"depth", "z", "elevation", "elev", "height", "level"});
+    if (missing == "name")
+        return one_of({"horizon", "fault", "label", "surface", "id", "marker"});
+    return false;
+}
+
+} // namespace
+
+std::string header_text(const std::vector<std::string>& header) {
+    return shown_start(fmt::format("{}", fmt::join(header, ", ")), 200);
+}
+
+std::string header_hint(const std::vector<std::string>& header, std::string_view missing,
+                        const std::vector<std::string_view>& needed, std::string_view text) {
+    if (is_behind_hash(text, missing))
+        return "; the names stand behind a #, leave it out";
+    if (std::ranges::all_of(header,
+                            [](const auto& cell) { return parse_number(cell).has_value(); }))
+        return fmt::format("; put a line with the names, {}, above the numbers",
+                           fmt::join(needed, ","));
+    const std::size_t unit = missing.rfind('_');
+    const std::string_view stem = missing.substr(0, unit); // "depth" of "depth_m"
+    for (const std::string& cell : header) {
+        const std::string column = plain(cell);
+        if (column == missing)
+            return fmt::format("; did you mean {} by \"{}\"? write it so", missing,
+                               shown_start(cell));
+        if (unit == missing.npos)
+            continue;
+        if (column == stem || column == fmt::format("{}_metres", stem) ||
+            column == fmt::format("{}_meters", stem))
+            return fmt::format("; call {} {} if it is in that unit", shown_start(cell), missing);
+        if (column.starts_with(fmt::format("{}_", stem)) &&
+            column.find('_', stem.size() + 1) == column.npos)
+            return fmt::format("; {} is in another unit ({})", shown_start(cell),
+                               missing.ends_with("_a") ? times : lengths);
+    }
+    for (const std::string& cell : header)
+        if (is_other_name(plain(cell), missing))
+            return fmt::format("; if {} is what is meant, call it {}{}", shown_start(cell), missing,
+                               missing == "depth_m" ? ", in metres and positive down"
+                               : missing == "y_m"   ? ", in metres and positive up"
+                                                    : "");
+    for (const std::string& cell : header)
+        if (const auto meant = nearest(cell, needed); meant && *meant == missing)
+            return fmt::format("; did you mean {} by \"{}\"?", missing, shown_start(cell));
+    return "";
+}
+
+} // namespace listric

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace listric {
+
+/// The finite number that a text is, in every locale: digits with a point, a sign, and an exponent
+/// after e or, as Fortran writes it, d. Blanks around it do no harm; a number too near to zero is
+/// 0.
+std::optional<double> parse_number(std::string_view text);
+
+/// What a text is that is no number, and what to write: "a decimal comma; write 1012.75". Empty
+/// where nobody can tell.
+std::string number_objection(std::string_view text);
+
+/// "\"1012,75\" is not a finite number: a decimal comma; write 1012.75"
+std::string no_number(std::string_view text);
+
+} // namespace listric
