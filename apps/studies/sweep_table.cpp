@@ -1,12 +1,15 @@
 #include "apps/studies/sweep_table.hpp"
 
+#include "apps/support/csv_records.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+#include "apps/support/number.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 
 namespace listric {
 
@@ -30,15 +33,6 @@ std::string cell(std::string text) {
     return text;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells;
-    for (std::size_t begin = 0, end; begin <= line.size(); begin = end + 1) {
-        end = std::min(line.find(',', begin), line.size());
-        cells.push_back(line.substr(begin, end - begin));
-    }
-    return cells;
-}
-
 } // namespace
 
 std::string to_csv(const SweepPlan& plan, std::span<const SweepPoint> points,
@@ -47,8 +41,9 @@ std::string to_csv(const SweepPlan& plan, std::span<const SweepPoint> points,
     for (const SweepRow& row : rows) {
         text += fmt::format("{},{}", row.run, row.seed);
         for (const SweepValue& value : points[row.run - 1])
-            text += "," + value.text;
-        text += fmt::format(",{},{},{}", cell(row.outcome), row.exit_code, row.state_hash);
+            text += fmt::format(",{}", csv_cell(value.text));
+        text +=
+            fmt::format(",{},{},{}", csv_cell(cell(row.outcome)), row.exit_code, row.state_hash);
         for (const std::optional<double>& measure : row.measures)
             text += measure ? fmt::format(",{}", *measure) : ",";
         text += "\n";
@@ -58,37 +53,47 @@ std::string to_csv(const SweepPlan& plan, std::span<const SweepPoint> points,
 
 std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoint> points,
                                  const std::filesystem::path& file) {
-    std::ifstream in(file);
-    std::string line;
-    if (!std::getline(in, line))
-        throw StorageError(file.string() + ": cannot be read, or is empty");
-    const auto refuse = [&] {
+    const std::string text = read_text(file);
+    const auto refuse = [&](const std::string& line) {
         throw UsageError(fmt::format("{}: is of another plan: {}", file.string(), line));
     };
-    if (line != header(plan))
-        refuse();
-    const std::size_t before = 2 + plan.parameters.size(), all = cells_of(line).size();
+    const std::string first = header(plan), found = text.substr(0, text.find('\n'));
+    if (found != first)
+        refuse(shown_start(found, 200));
+    const auto all = static_cast<std::size_t>(1 + std::ranges::count(first, ','));
+    const std::size_t before = 2 + plan.parameters.size();
     std::vector<SweepRow> rows;
-    while (std::getline(in, line)) {
-        const std::vector<std::string> cells = cells_of(line);
+    read_records(text, file.string(), ',', [&](const CsvRecord& record) {
+        if (record.line == 1)
+            return true;
+        const std::vector<std::string>& cells = record.cells;
+        const auto refuse_row = [&] { refuse(fmt::format("line {}", record.line)); };
+        const auto number = [&](const std::string& cell) {
+            const auto value = parse_number(cell);
+            if (!value)
+                refuse_row();
+            return *value;
+        };
+        if (cells.size() != all)
+            refuse_row();
+        const double run = number(cells[0]);
+        if (!(run >= 1.0 && run <= static_cast<double>(points.size())))
+            refuse_row();
         SweepRow row;
-        if (cells.size() == all) {
-            row.run = static_cast<std::size_t>(std::strtoull(cells[0].c_str(), nullptr, 10));
-            row.seed = std::atoi(cells[1].c_str());
-        }
-        if (row.run < 1 || row.run > points.size())
-            refuse();
+        row.run = static_cast<std::size_t>(run);
+        row.seed = std::atoi(cells[1].c_str());
         for (std::size_t k = 2; k < before; ++k)
             if (cells[k] != points[row.run - 1][k - 2].text)
-                refuse();
+                refuse_row();
         row.outcome = cells[before];
         row.exit_code = std::atoi(cells[before + 1].c_str());
         row.state_hash = cells[before + 2];
         for (std::size_t k = before + 3; k < all; ++k)
             row.measures.push_back(cells[k].empty() ? std::nullopt
-                                                    : std::optional(std::atof(cells[k].c_str())));
+                                                    : std::optional(number(cells[k])));
         rows.push_back(std::move(row));
-    }
+        return true;
+    });
     return rows;
 }
 

@@ -29,7 +29,8 @@ struct SweepRow {
 std::string to_csv(const SweepPlan& plan, std::span<const SweepPoint> points,
                    std::span<const SweepRow> rows);
 
-/// Reads what to_csv() has written. Throws UsageError if it is of another plan, StorageError.
+/// Reads what to_csv() has written. Throws UsageError if it is of another plan, SceneError,
+/// StorageError.
 std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoint> points,
                                  const std::filesystem::path& file);
 

@@ -91,6 +91,16 @@ bool CsvRecord::is_empty() const {
     return std::ranges::all_of(cells, [](const std::string& cell) { return cell.empty(); });
 }
 
+std::string csv_cell(const std::string& text) {
+    const bool plain = text.find_first_of(",\"\r\n") == text.npos && !text.starts_with(' ') &&
+                       !text.starts_with('\t') && !text.ends_with(' ') && !text.ends_with('\t');
+    if (plain)
+        return text;
+    std::string cell(2 * text.size() + 2, '\0');
+    cell.resize(csv_write(cell.data(), cell.size(), text.data(), text.size()));
+    return cell;
+}
+
 std::string csv_place(const std::string& file, std::size_t line) {
     return fmt::format("{}:{}", shown(file), line);
 }

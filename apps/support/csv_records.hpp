@@ -23,6 +23,9 @@ struct CsvRecord {
 void read_records(std::string_view text, const std::string& file, char delimiter,
                   const std::function<bool(CsvRecord&)>& take);
 
+/// A text as one cell, in quotes where it needs them.
+std::string csv_cell(const std::string& text);
+
 /// "file:line", as a message may hold it.
 std::string csv_place(const std::string& file, std::size_t line);
 

@@ -12,6 +12,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
@@ -27,6 +29,7 @@ using measures::LineMisfit;
 using measures::misfit;
 using measures::Polyline;
 using support::Disc;
+using testing::AllOf;
 using testing::HasSubstr;
 
 TEST(LineMisfit, DistancesOfPointsBesideTheLine) {
@@ -102,6 +105,105 @@ TEST_F(PicksFile, DamagedOnesAreRefusedWithLineAndCure) {
     EXPECT_THAT(complaint_of("name,x_m,depth_m,age_a\na,0,0,1e5\na,1,0,2e5\n"),
                 HasSubstr(":3: age_a: a has 100000 above and 200000 here"));
     EXPECT_THROW(load("horizons = \"none.csv\"\n"), SceneError);
+}
+
+/// A scene of 12 km by 3 km on a picked fault, and what is said of its picks.
+class SectionPicks : public PicksFile {
+protected:
+    static std::string fault(double shift) {
+        std::string text = "x_m,depth_m\n";
+        for (int k = 0; k <= 40; ++k) {
+            const double dip = (60.0 - 1.5 * k) * pi / 180.0;
+            text += fmt::format("{:.2f},{:.2f}\n",
+                                shift + 6000.0 * (std::sin(pi / 3.0) - std::sin(dip)),
+                                6000.0 * (std::cos(dip) - 0.5));
+        }
+        return text + fmt::format("{},3000\n", shift + 15'000.0);
+    }
+    /// 40 picks of a horizon of 1 km and down, by factors.
+    static std::string picks(double shift, double across, double down) {
+        std::string text = "name,x_m,depth_m\n";
+        for (int k = 0; k < 40; ++k)
+            text += fmt::format("Trias,{:.5f},{:.5f}\n", shift + across * (500.5 + 250.0 * k),
+                                down * (1012.75 + 3.25 * k));
+        return text;
+    }
+    Scene load_section(const std::string& detachment, const std::string& table) const {
+        std::ofstream(folder / "s.toml")
+            << "accuracy = \"draft\"\n[hanging_wall]\nlength_m = 12000.0\n[detachment]\ncsv = "
+               "\"fault.csv\"\n"
+            << detachment << "[extension]\ndistance_m = 600.0\n[gravity]\n[observed]\n"
+            << table;
+        return load_scene({.scene = (folder / "s.toml").string()}, program_effects());
+    }
+    std::string said_of(const std::string& text, const std::string& detachment = "",
+                        const std::string& table = "horizons = \"picks.csv\"\n") const {
+        std::ofstream(folder / "picks.csv") << text;
+        try {
+            const Scene scene = load_section(detachment, table);
+            return scene.warnings.empty() ? "correct" : "warning: " + scene.warnings.front();
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+    }
+    SectionPicks() { std::ofstream(folder / "fault.csv") << fault(0.0); }
+};
+
+TEST_F(SectionPicks, ElevationsAreRefusedAndFewAboveTheSurfaceTold) {
+    EXPECT_EQ(said_of(picks(0.0, 1.0, 1.0)), "correct");
+    EXPECT_THAT(said_of(picks(0.0, 1.0, -1.0)),
+                HasSubstr("picks.csv:2: depth_m: -1012.75 is above the original surface, as 40 of "
+                          "40 picks; depth is positive down"));
+    EXPECT_THAT(said_of("name,x_m,depth_m\na,500,1000\na,900,-800\n"),
+                AllOf(HasSubstr("warning: "), HasSubstr("picks.csv:3: depth_m: -800 is above")));
+    EXPECT_EQ(said_of("name,x_m,depth_m\na,500,10\na,900,-20\n"), "correct");
+    EXPECT_THAT(said_of(picks(0.0, 1.0, -1.0), "", "faults = \"picks.csv\"\n"),
+                HasSubstr("is above the original surface"));
+}
+
+TEST_F(SectionPicks, KilometresAreRefused) {
+    for (const double sign : {1.0, -1.0})
+        EXPECT_THAT(said_of(picks(0.0, 1e-3, sign * 1e-3)),
+                    AllOf(HasSubstr("picks.csv:2: picks reach x_m = 10.25"),
+                          HasSubstr("the model 12000 m and 3000 m; are they in metres?")));
+    EXPECT_THAT(said_of(picks(0.0, 1.0, 1e-3)),
+                AllOf(HasSubstr("warning: "), HasSubstr("are they in metres?")));
+    EXPECT_THAT(said_of(picks(0.0, 100.0, 100.0)), HasSubstr("in metres?")); // centimetres
+}
+
+TEST_F(SectionPicks, AreShiftedAsTheFault) {
+    const double east = 5412345.67;
+    std::ofstream(folder / "fault.csv") << fault(east);
+    std::ofstream(folder / "picks.csv") << picks(east, 1.0, 1.0);
+    const std::string shift = "shift_x_m = -5412345.67\n", table = "horizons = \"picks.csv\"\n";
+    const Scene scene = load_section(shift, table);
+    EXPECT_NEAR(scene.observed->horizons[0].x[0], 500.5, 1e-6);
+    EXPECT_TRUE(scene.warnings.empty());
+    // With a shift of their own, and without any.
+    std::ofstream(folder / "fault.csv") << fault(0.0);
+    EXPECT_NEAR(load_section("", table + shift).observed->horizons[0].x[0], 500.5, 1e-6);
+    EXPECT_THAT(said_of(picks(east, 1.0, 1.0)),
+                AllOf(HasSubstr("picks.csv:2: all 40 picks lie beyond the model: they reach from "
+                                "x_m = 5412846.2 to 5422596.2 and depth_m = 1012.75 to 1139.5"),
+                      HasSubstr("give observed.shift_x_m")));
+    std::ofstream(folder / "fault.csv") << fault(east);
+    EXPECT_THAT(said_of(picks(0.0, 1.0, 1.0), shift),
+                AllOf(HasSubstr("all 40 picks lie beyond"), HasSubstr("observed.shift_x_m = 0.0")));
+    EXPECT_EQ(said_of(picks(0.0, 1.0, 1.0), shift, table + "shift_x_m = 0.0\n"), "correct");
+}
+
+TEST_F(SectionPicks, AsSpreadsheetsWriteThem) {
+    std::string text = picks(0.0, 1.0, 1.0);
+    std::ranges::replace(text, ',', ';');
+    EXPECT_EQ(said_of(text), "correct");
+    EXPECT_THAT(said_of("name,x_m,depth_m\nTrias,\"500,50\",\"1012,75\"\n"),
+                HasSubstr("picks.csv:2: x_m: \"500,50\" is not a finite number: a decimal comma"));
+    // Dated where the age is known.
+    EXPECT_EQ(said_of("name,x_m,depth_m,age_a\nTrias,500,1000,\nSyn,500,100,3e4\nSyn,900,100,\n"),
+              "correct");
+    const Scene scene = load_section("", "horizons = \"picks.csv\"\n");
+    EXPECT_FALSE(scene.observed->horizons[0].age);
+    EXPECT_EQ(scene.observed->horizons[1].age, 3e4);
 }
 
 /// Rock up to -1 km and two layers of sediment on it, 500 m each, deposited after 0.5 and 1 Ma.

@@ -183,6 +183,16 @@ TEST_F(PickedFaultFile, GoodVariants) {
     EXPECT_NEAR(depth(table(",", "\r\n"), ""), wanted, 0.01);
     EXPECT_NEAR(depth(table(";"), "csv_delimiter = \";\""), wanted, 0.01);
     EXPECT_NEAR(depth(table("\t"), "csv_delimiter = \"tab\""), wanted, 0.01);
+    for (const char* delimiter : {";", "\t", " ", "   "}) // the header tells
+        EXPECT_NEAR(depth(table(delimiter), ""), wanted, 0.01);
+    EXPECT_NEAR(depth(table(",", "\r"), ""), wanted, 0.01);
+    std::string fortran = "x_m,depth_m\n";
+    for (const Point p : sampled(shipped("lis1"), 500.0, 0.0)) {
+        std::string row = fmt::format("{:+.6E},{:+.6E}\n", p.x, std::abs(p.y));
+        std::ranges::replace(row, 'E', 'D');
+        fortran += row;
+    }
+    EXPECT_NEAR(depth(fortran, ""), wanted, 0.1);
     EXPECT_NEAR(depth("# picked by hand\n\n" + table(), ""), wanted, 0.01);
     std::string moved = "x_m,depth_m\n";
     for (const Point p : sampled(shipped("lis1"), 500.0, 0.0))
@@ -207,9 +217,11 @@ TEST_F(PickedFaultFile, DamagedOnesAreRefusedWithLineAndCure) {
     EXPECT_THAT(complaint_of(replaced(table(), "x_m,depth_m", "x_ft,depth_ft")),
                 HasSubstr("1 ft = 0.3048 m"));
     EXPECT_THAT(complaint_of(replaced(table(), "x_m,depth_m", "x,z")),
-                HasSubstr("has no column x_m, needs a header with x_m, depth_m"));
-    EXPECT_THAT(complaint_of(table(";")), HasSubstr("seem to be parted by ;"));
-    EXPECT_THAT(complaint_of(table(" ")), HasSubstr("has no column x_m"));
+                AllOf(HasSubstr("has no column x_m, needs a header with x_m, depth_m"),
+                      HasSubstr("call x x_m")));
+    write("fault.csv", table());
+    EXPECT_THAT(complaint("csv = \"fault.csv\"\ncsv_delimiter = \"tab\""),
+                HasSubstr("seem to be parted by ,; give csv_delimiter = \",\""));
     // In the order of the file: 500 m further down the points go on from 2 km.
     EXPECT_THAT(complaint_of("x_m,depth_m\n0,0\n5000,5000\n2000,2000\n20000,8000\n40000,8000\n"),
                 AllOf(HasSubstr(":4: x_m goes back by 3000 m"), HasSubstr("fold back")));

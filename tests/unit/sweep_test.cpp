@@ -140,6 +140,13 @@ TEST_F(SweepPlanFile, ATableIsReadAsItWasWritten) {
                     "4,7,0.2,mat18-b-calibrated,a; 'b',3,,,\n");
     std::ofstream(file) << text;
     EXPECT_EQ(to_csv(plan, points, read_sweep(plan, points, file)), text);
+    // A word of a plan may hold what parts cells.
+    auto odd = points;
+    odd[3][1].text = "my, \"own\" rock.toml ";
+    std::ofstream(file) << to_csv(plan, odd, rows);
+    EXPECT_EQ(read_sweep(plan, odd, file).size(), 2u);
+    std::ofstream(file) << text << "1,6,0\n";
+    EXPECT_THROW(read_sweep(plan, points, file), UsageError);
     std::ofstream(file) << replaced(text, "0.2", "0.3");
     EXPECT_THROW(read_sweep(plan, points, file), UsageError);
 }

@@ -20,7 +20,9 @@ using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::StartsWith;
 
 TEST(TargetLine, HeightIsLinearBetweenPointsAndLevelBeyond) {
@@ -130,11 +132,14 @@ TEST_F(TargetFileTest, BadFilesAreRefusedWithTheirLine) {
     EXPECT_EQ(error(header), "line.csv: has no rows, needs time_a, x_m, y_m");
     EXPECT_EQ(error("time_a,x_m,z_m\n0,0,0\n"),
               "line.csv:1: has no column y_m, needs a header with time_a, x_m, y_m; it has time_a, "
-              "x_m, z_m");
-    EXPECT_EQ(error(header + "0,0,nan\n"), "line.csv:2: y_m: \"nan\" is not a finite number");
-    EXPECT_EQ(error(header + "0,inf,0\n"), "line.csv:2: x_m: \"inf\" is not a finite number");
+              "x_m, z_m; if z_m is what is meant, call it y_m, in metres and positive up");
+    EXPECT_EQ(error(header + "0,0,nan\n"),
+              "line.csv:2: y_m: \"nan\" is not a finite number: no value; leave out what has none");
+    EXPECT_EQ(error(header + "0,inf,0\n"),
+              "line.csv:2: x_m: \"inf\" is not a finite number: infinity");
     EXPECT_EQ(error(header + "0,1;5,0\n"), "line.csv:2: x_m: \"1;5\" is not a finite number");
-    EXPECT_EQ(error(header + "0,0,0\n0,5\n"), "line.csv:3: y_m: \"\" is not a finite number");
+    EXPECT_EQ(error(header + "0,0,0\n0,5\n"),
+              "line.csv:3: y_m: \"\" is not a finite number: nothing is there");
     EXPECT_EQ(error(header + "0,0,0\n0,0,5\n"),
               "line.csv:3: x_m: 0 comes after 0 at the same time; sort the rows of one time by x, "
               "each x once");
@@ -146,8 +151,45 @@ TEST_F(TargetFileTest, BadFilesAreRefusedWithTheirLine) {
               "allowed: at least 0");
     EXPECT_EQ(error(header + "0,0,2e5\n"),
               "line.csv:2: y_m: 200000 is out of range, allowed: at least -1e5, at most 1e5");
+    // As a spreadsheet writes it where decimals have commas.
+    EXPECT_THAT(error("\"time_a\",\"x_m\",\"y_m\"\n\"0\",\"0\",\"-100,5\"\n"),
+                StartsWith("line.csv:2: y_m: \"-100,5\" is not a finite number: a decimal comma"));
+    EXPECT_THAT(error(header + "0,5e9,1\n"), StartsWith("line.csv:2: x_m: 5e9 is out of range"));
+    EXPECT_EQ(read_target_csv(write("time_a;x_m;y_m\n0;0;-100.5\n", "line.csv"))[0].points[0].y,
+              -100.5);
     EXPECT_EQ(error_of([&] { read_target_csv(folder / "none.csv"); }),
               "none.csv: cannot be read: No such file or directory");
+}
+
+TEST_F(TargetFileTest, LinesBesideTheModelAreRefusedAndOddOnesAreTold) {
+    const auto file = [&](const std::string& rows) {
+        write("time_a,x_m,y_m\n" + rows, "line.csv");
+        return std::string("target_csv = 'line.csv'\n");
+    };
+    const auto warnings = [&](const std::string& rows) { return load(file(rows)).warnings; };
+    EXPECT_THAT(scene_error(file("0,5412345,0\n0,5422345,-200\n")),
+                HasSubstr("line.csv: x_m reaches from 5412345 to 5422345, the model from 0 to"));
+    EXPECT_THAT(warnings("0,0,0\n0,12,-200\n"), ElementsAre(HasSubstr("is it in metres?")));
+    EXPECT_THAT(warnings("0,0,0\n0.5,0,-200\n"), ElementsAre(HasSubstr("is it in years")));
+    EXPECT_THAT(warnings("0,0,0\n0,40000,-200\n5e5,0,-200\n"), IsEmpty());
+}
+
+TEST_F(TargetFileTest, MotionOfTheBaseIsReadLikeTargets) {
+    const auto said = [&](const std::string& text) {
+        write(text, "motion.csv");
+        return error_of([&] {
+            load_scene({.scene = write("[hanging_wall]\n[detachment]\nsegments = [{arc = {radius_m "
+                                       "= 15e3}}]\n[base_motion]\ncsv = 'motion.csv'\n",
+                                       "scene.toml")});
+        });
+    };
+    EXPECT_EQ(said("time_a;x_m;uplift_m\n0;0;0\n0;40000;0\n1e6;0;+100\n1e6;40000;1D2\n"), "no error");
+    EXPECT_THAT(said("time_a,x_m,uplift_m\n0,0,\"0,5\"\n"), HasSubstr("a decimal comma"));
+    EXPECT_THAT(said("time_a,x_m,uplift_m,dx_m,dy_m\n0,0,0,0,0\n"),
+                HasSubstr("uplift_m beside dx_m or dy_m"));
+    EXPECT_THAT(said("time_a,x_m,dx_m\n0,0,0\n"), HasSubstr("has no column dy_m"));
+    EXPECT_THAT(said("time_a,x_m,uplift_m\n0,5e5,0\n0,6e5,0\n1e6,5e5,1\n"),
+                HasSubstr("give x from the breakaway on"));
 }
 
 TEST_F(TargetFileTest, ScenesGiveLinesOrFiles) {
