@@ -35,10 +35,11 @@ struct RunCall {
 double parse_length(const std::string& text) {
     const double unit = text.ends_with("km") ? 1e3 : 1.0;
     const std::size_t letters = unit > 1.0 ? 2 : text.ends_with('m') ? 1 : 0;
-    const auto value = parse_number(std::string_view(text).substr(0, text.size() - letters));
+    const std::string_view number = std::string_view(text).substr(0, text.size() - letters);
+    const auto value = parse_number(number);
     const double metres = unit * value.value_or(NAN);
     if (!(metres >= 0.0 && metres <= 1e7)) {
-        const std::string what = value ? "" : number_objection(text);
+        const std::string what = value ? "" : number_objection(number);
         throw UsageError(fmt::format("--until {}: a length of at least 0, such as 5km or 500m{}",
                                      shown_start(text), what.empty() ? "" : "; this is " + what));
     }

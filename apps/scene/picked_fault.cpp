@@ -123,7 +123,8 @@ void check_points(const FaultPoints& fault, double tolerance) {
         if (-p.y > deep || std::abs(p.x) > far)
             refuse(fault.where[k],
                    fmt::format("x_m = {}, depth_m = {} is out of range, allowed: x_m -1e6 to 1e6, "
-                               "depth_m to 1e5; is it in metres?",
+                               "depth_m to 1e5; is it in metres? From map "
+                               "coordinates detachment.shift_x_m leads to the breakaway",
                                text(p.x), text(-p.y)));
     }
     check_order(fault, tolerance);

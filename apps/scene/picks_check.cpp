@@ -14,7 +14,7 @@ namespace listric {
 namespace {
 
 /// A length to a decimetre: shifted coordinates have no more.
-std::string metres(double x) { return text(std::round(10.0 * x) / 10.0); }
+std::string metres(double x) { return fmt::format("{}", std::round(10.0 * x) / 10.0); }
 
 struct Pick {
     double x, depth;

@@ -111,7 +111,7 @@ std::string number_objection(std::string_view given) {
     constexpr std::size_t longest = 60; // expressions must not go deep
     std::string text(trimmed(given));
     if (text.empty())
-        return "nothing is there";
+        return "empty";
     if (text.size() > longest)
         return "";
     if (std::string said = word_objection(text); !said.empty())

@@ -139,7 +139,7 @@ TEST_F(TargetFileTest, BadFilesAreRefusedWithTheirLine) {
               "line.csv:2: x_m: \"inf\" is not a finite number: infinity");
     EXPECT_EQ(error(header + "0,1;5,0\n"), "line.csv:2: x_m: \"1;5\" is not a finite number");
     EXPECT_EQ(error(header + "0,0,0\n0,5\n"),
-              "line.csv:3: y_m: \"\" is not a finite number: nothing is there");
+              "line.csv:3: y_m: \"\" is not a finite number: empty");
     EXPECT_EQ(error(header + "0,0,0\n0,0,5\n"),
               "line.csv:3: x_m: 0 comes after 0 at the same time; sort the rows of one time by x, "
               "each x once");
@@ -183,7 +183,8 @@ TEST_F(TargetFileTest, MotionOfTheBaseIsReadLikeTargets) {
                                        "scene.toml")});
         });
     };
-    EXPECT_EQ(said("time_a;x_m;uplift_m\n0;0;0\n0;40000;0\n1e6;0;+100\n1e6;40000;1D2\n"), "no error");
+    EXPECT_EQ(said("time_a;x_m;uplift_m\n0;0;0\n0;40000;0\n1e6;0;+100\n1e6;40000;1D2\n"),
+              "no error");
     EXPECT_THAT(said("time_a,x_m,uplift_m\n0,0,\"0,5\"\n"), HasSubstr("a decimal comma"));
     EXPECT_THAT(said("time_a,x_m,uplift_m,dx_m,dy_m\n0,0,0,0,0\n"),
                 HasSubstr("uplift_m beside dx_m or dy_m"));
