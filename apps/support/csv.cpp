@@ -91,11 +91,13 @@ std::string text_of(const fs::path& path) {
     if (text.starts_with("\xef\xbb\xbf")) // as spreadsheets write it
         text.erase(0, 3);
     if (const auto bad = unsound_byte(text)) {
-        const std::size_t begin = *bad - std::min<std::size_t>(*bad, 10);
-        const std::string beside(text, std::max(begin, text.find_last_of("\r\n", *bad) + 1), 20);
+        const std::size_t begin =
+            std::max(*bad - std::min<std::size_t>(*bad, 10), text.find_last_of("\r\n", *bad) + 1);
+        const std::size_t end =
+            std::min({*bad + 10, text.find_first_of("\r\n", *bad), text.size()});
         refuse(csv_place(path.string(), line_of(text, *bad)),
                fmt::format("\"{}\" has the byte {}, which is {}; save the file as CSV UTF-8",
-                           shown(beside), shown(text.substr(*bad, 1)),
+                           shown(text.substr(begin, end - begin)), shown(text.substr(*bad, 1)),
                            text[*bad] == '\0' ? "no text" : "no UTF-8"));
     }
     if (text.starts_with("sep=")) // a spreadsheet's own line; the header says as much
