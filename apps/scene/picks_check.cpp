@@ -98,10 +98,10 @@ private:
         const double x = greatest(picks_, &Pick::x), depth = greatest(picks_, &Pick::depth);
         const bool near = x < tiny * scene_.hanging_wall->length && picks_.size() > 1;
         const bool shallow = depth > 0.0 && depth < tiny * thickness_;
-        const std::string ask =
-            fmt::format("picks reach x_m = {} and depth_m = {}, the model {} m and {} m; are they "
-                        "in metres?",
-                        text(x), text(depth), text(scene_.hanging_wall->length), text(thickness_));
+        const std::string ask = fmt::format(
+            "picks reach x_m = {} and depth_m = {}, the model {} m and {} m; are they "
+            "in metres?",
+            text(x), text(depth), metres(scene_.hanging_wall->length), metres(thickness_));
         if (near && shallow)
             refuse(picks_.front(), ask);
         if (near || shallow)

@@ -67,8 +67,8 @@ void check_place(Scene& scene, const std::vector<TargetStage>& stages, const std
     }
     if (least == most)
         return;
-    const std::string reach = fmt::format("x_m reaches from {} to {}, the model from 0 to {}",
-                                          text(least), text(most), text(right));
+    const std::string reach =
+        fmt::format("x_m reaches from {} to {}, the model from 0 to {}", least, most, right);
     if (least > right || most < -10.0 * right)
         throw SceneError(
             fmt::format("{}: {}; give x from the breakaway on, in metres", file, reach));
