@@ -76,7 +76,7 @@ private:
 
     /// Hills and sediment above the original surface are few and low; elevations are all of them.
     void check_sign() {
-        const auto is_above = [&](const Pick& pick) { return pick.depth < -0.01 * thickness_; };
+        const auto is_above = [&](const Pick& pick) { return pick.depth < -0.02 * thickness_; };
         const auto first = std::ranges::find_if(picks_, is_above);
         if (first == picks_.end())
             return;

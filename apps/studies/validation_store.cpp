@@ -1,15 +1,14 @@
 #include "apps/studies/validation_store.hpp"
 
+#include "apps/support/csv_records.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/number.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <vector>
 
 namespace listric {
@@ -25,23 +24,26 @@ std::optional<double> number_at(const MeasureStore& store, const MeasuredPlace& 
 
 MeasureStore read_store(const std::filesystem::path& file) {
     MeasureStore store;
-    std::ifstream in(file);
-    std::string line, cell;
     std::vector<std::string> names;
-    while (std::getline(in, line)) {
-        std::vector<std::string> cells;
-        std::istringstream row(line + ",");
-        while (std::getline(row, cell, ','))
-            cells.push_back(cell);
+    const auto refuse = [&](const std::string& what) {
+        throw StorageError(fmt::format("{}: {}; --remeasure writes it anew", file.string(), what));
+    };
+    const auto number = [&](const std::string& cell) {
+        const auto value = parse_number(cell);
+        if (!value)
+            refuse(no_number(cell));
+        return *value;
+    };
+    const auto take = [&](const CsvRecord& record) {
+        const std::vector<std::string>& cells = record.cells;
         if (names.empty()) {
             names = cells;
-            continue;
+            return true;
         }
         if (cells.size() != names.size() || cells.size() < 4)
-            throw StorageError(file.string() + ": a line has another number of columns than the "
-                                               "first; --remeasure writes it anew");
+            refuse("a line has another number of columns than the first");
         MeasuredNumbers& m =
-            store[{cells[0], std::atoi(cells[1].c_str()), std::atof(cells[2].c_str())}];
+            store[{cells[0], static_cast<int>(number(cells[1])), number(cells[2])}];
         m.hash = cells[3];
         for (std::size_t k = 4; k < cells.size(); ++k)
             if (names[k] == "made_by")
@@ -49,7 +51,14 @@ MeasureStore read_store(const std::filesystem::path& file) {
             else if (names[k] == "measured_by")
                 m.measured_by = cells[k];
             else if (!cells[k].empty())
-                m.numbers[names[k]] = std::atof(cells[k].c_str());
+                m.numbers[names[k]] = number(cells[k]);
+        return true;
+    };
+    const std::string text = read_text_if_there(file);
+    try {
+        read_records(text, file.string(), ',', take);
+    } catch (const SceneError& error) {
+        refuse(error.what());
     }
     return store;
 }

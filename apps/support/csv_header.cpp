@@ -40,6 +40,20 @@ bool is_behind_hash(std::string_view text, std::string_view name) {
     return false;
 }
 
+/// The number of a line further down that has all names; 0 if none of the first does.
+std::size_t line_of_names(std::string_view text, const std::vector<std::string_view>& names) {
+    constexpr std::size_t furthest = 50;
+    for (std::size_t line = 1; line <= furthest && !text.empty(); ++line) {
+        const auto end = std::min(text.find_first_of("\r\n"), text.size());
+        const std::string_view words = text.substr(0, end);
+        if (std::ranges::all_of(names, [&](auto name) { return words.find(name) != words.npos; }))
+            return line;
+        text.remove_prefix(
+            std::min(end + (text.substr(end).starts_with("\r\n") ? 2 : 1), text.size()));
+    }
+    return 0;
+}
+
 constexpr const char* lengths = "1 km = 1000 m, 1 ft = 0.3048 m";
 constexpr const char* times = "1 Ma = 1e6 a, 1 ka = 1000 a";
 
@@ -71,6 +85,8 @@ std::string header_hint(const std::vector<std::string>& header, std::string_view
                         const std::vector<std::string_view>& needed, std::string_view text) {
     if (is_behind_hash(text, missing))
         return "; the names stand behind a #, leave it out";
+    if (const std::size_t line = line_of_names(text, needed); line > 1)
+        return fmt::format("; line {} seems to have them, put a # before what stands above", line);
     if (std::ranges::all_of(header,
                             [](const auto& cell) { return parse_number(cell).has_value(); }))
         return fmt::format("; put a line with the names, {}, above the numbers",

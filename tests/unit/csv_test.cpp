@@ -155,6 +155,8 @@ TEST_F(Csv, HeadersThatAreNearlyRight) {
     EXPECT_THAT(refusal("0,0\n1,2\n"), HasSubstr("put a line with the names, x_m,depth_m, above"));
     EXPECT_THAT(refusal("#x_m,depth_m\n0,0\n1,2\n"), HasSubstr("behind a #"));
     EXPECT_THAT(refusal("x_m,\x1b]0;title\x07\x1b[31m\n1,2\n"), HasSubstr("\\x1b]0;title"));
+    EXPECT_THAT(refusal("My fault\r\n\r\nx_m,depth_m\r\n0,0\r\n"),
+                HasSubstr("line 3 seems to have them, put a # before"));
     EXPECT_THAT(refusal("# only\n"), HasSubstr("has no header, needs x_m, depth_m"));
     EXPECT_THAT(refusal(std::string(500'000, 'x') + "\n"), Not(HasSubstr("accepted")));
 }
