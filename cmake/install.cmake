@@ -26,7 +26,8 @@ install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT pro
 install(DIRECTORY apps/figures/report DESTINATION ${share}/figures COMPONENT program)
 install(FILES docs/measures.md DESTINATION ${share} COMPONENT program)
 # Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/python.md).
-install(DIRECTORY apps/python/listric DESTINATION lib/python3/dist-packages COMPONENT program
+set(LISTRIC_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the Python package goes, below the prefix")
+install(DIRECTORY apps/python/listric DESTINATION ${LISTRIC_PYTHON_FOLDER} COMPONENT program
   FILES_MATCHING PATTERN *.py PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

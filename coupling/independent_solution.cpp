@@ -1,6 +1,7 @@
 #include "coupling/independent_solution.hpp"
 
 #include "coupling/modes.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/trace.hpp"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ struct Line {
     /// |dX/dt|; shape functions are quadratic, so central differences are exact.
     double stretch(std::size_t face, double t) const {
         const Point a = at(face, t - 0.5), b = at(face, t + 0.5);
-        return std::hypot(b.x - a.x, b.y - a.y);
+        return hypotenuse(b.x - a.x, b.y - a.y);
     }
 };
 

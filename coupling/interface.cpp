@@ -1,6 +1,7 @@
 #include "coupling/interface.hpp"
 
 #include "dem/base_place.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ InterfaceBalance interface_balance(const State& state, const RigidBase& base) {
         fx += f.x;
         fy += f.y;
         moment += own;
-        magnitude += std::hypot(f.x, f.y);
+        magnitude += hypotenuse(f.x, f.y);
         moments += std::abs(own);
         Point velocity;
         for (std::size_t m = 0; m <= static_cast<std::size_t>(surface.degree); ++m) {
@@ -104,7 +105,7 @@ InterfaceBalance interface_balance(const State& state, const RigidBase& base) {
         power += load[k].x * nodes.vx[k] + load[k].y * nodes.vy[k];
     }
     const auto over = [](double error, double all) { return all > 0.0 ? error / all : 0.0; };
-    return {over(std::hypot(fx, fy), magnitude), over(std::abs(moment), moments),
+    return {over(hypotenuse(fx, fy), magnitude), over(std::abs(moment), moments),
             over(std::abs(power), powers)};
 }
 

@@ -1,5 +1,7 @@
 #include "dem/base.hpp"
 
+#include "dem/hypotenuse.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -69,7 +71,7 @@ std::optional<Found> search(const Chain& chain, Point p) {
 } // namespace
 
 Segment line(Point start, Point end) {
-    const double length = std::hypot(end.x - start.x, end.y - start.y);
+    const double length = hypotenuse(end.x - start.x, end.y - start.y);
     const Point t{(end.x - start.x) / length, (end.y - start.y) / length};
     return {start, end, t, t, length, 0.0};
 }
@@ -151,7 +153,7 @@ Stretching stretching(const RigidBase& base, double extension) {
 double greatest_translation(const RigidBase& base) {
     double greatest = 0.0;
     for (const Surface& surface : base.surfaces)
-        greatest = std::max(greatest, std::hypot(surface.translation.x, surface.translation.y));
+        greatest = std::max(greatest, hypotenuse(surface.translation.x, surface.translation.y));
     return greatest;
 }
 

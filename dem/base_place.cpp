@@ -1,5 +1,6 @@
 #include "dem/base_place.hpp"
 
+#include "dem/hypotenuse.hpp"
 #include "dem/order_free.hpp"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ bool is_near_end(const Surface& surface, const BasePlace& place, Point p, double
     const auto is_near = [&](Point end) {
         const double dx = p.x - end.x, dy = p.y - end.y;
         return dx * dx + dy * dy < 1.001 * distance * distance && // nearly always not, and quick
-               std::hypot(dx, dy) <= distance;
+               hypotenuse(dx, dy) <= distance;
     };
     if (place.deforms(surface) && surface.follows == Follows::nodes) {
         const Trace trace = place.trace(surface);
@@ -87,13 +88,13 @@ double height_at(const ConstBaseNodeColumns& nodes, double x) {
 
 double greatest_node_displacement(const BasePlace& place) {
     return greatest(place.x.size(),
-                    [&](std::size_t k) { return std::hypot(place.ux[k], place.uy[k]); });
+                    [&](std::size_t k) { return hypotenuse(place.ux[k], place.uy[k]); });
 }
 
 double greatest_node_travel(const State& state) {
     const ConstBaseNodeColumns n = base_node_columns(state);
     return greatest(n.x.size(), [&](std::size_t k) {
-        return std::hypot(n.ux[k] - n.searched_ux[k], n.uy[k] - n.searched_uy[k]);
+        return hypotenuse(n.ux[k] - n.searched_ux[k], n.uy[k] - n.searched_uy[k]);
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include "dem/base_place.hpp"
 #include "dem/cells.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/order_free.hpp"
 #include "dem/shared_loop.hpp"
 
@@ -304,7 +305,7 @@ std::vector<bool> touching(const State& state) {
             const auto i = static_cast<std::size_t>(c.first[k]),
                        j = static_cast<std::size_t>(c.second[k]);
             result[k] = c.bonded[k] ||
-                        std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) < d.radius[i] + d.radius[j];
+                        hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i]) < d.radius[i] + d.radius[j];
         }
     });
     return result;

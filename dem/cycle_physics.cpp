@@ -1,5 +1,7 @@
 #include "dem/cycle_physics.hpp"
 
+#include "dem/hypotenuse.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -16,7 +18,7 @@ void refuse_runaways(const State& state) {
         return;
     const ConstDiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < d.x.size(); ++i)
-        if (!(std::hypot(d.x[i] - d.searched_x[i], d.y[i] - d.searched_y[i]) <
+        if (!(hypotenuse(d.x[i] - d.searched_x[i], d.y[i] - d.searched_y[i]) <
               10.0 * state.mean_radius))
             throw NumericalFailure("disc " + std::to_string(d.id[i]) +
                                    " ran away at x = " + std::to_string(d.x[i]) +

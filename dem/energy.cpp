@@ -1,6 +1,7 @@
 #include "dem/energy.hpp"
 
 #include "dem/base_contact.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/radius_rates.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         const double reach = d.radius[i] + d.radius[j];
         const double distance = std::sqrt(dx * dx + dy * dy);
         const double before =
-            reach - (radii[i] + radii[j]) * dt - std::hypot(dx - dvx * dt, dy - dvy * dt);
+            reach - (radii[i] + radii[j]) * dt - hypotenuse(dx - dvx * dt, dy - dvy * dt);
         const double now = reach - distance;
         const ContactParameters& p = pairs(d.material[i], d.material[j]);
         energy.normal_strain += normal_energy(before, now, c.bonded[k], p);

@@ -57,7 +57,7 @@ namespace v4 {
 
 #endif
 
-Kernels choose_kernels(Cycle level, bool bonded, bool frictional, DampedAgainst motion,
+Kernels choose_kernels([[maybe_unused]] Cycle level, bool bonded, bool frictional, DampedAgainst motion,
                        bool has_ghosts) {
 #if defined __x86_64__
     if (level == Cycle::v4)

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cmath>
+#include "dem/hypotenuse.hpp"
+
 #include <optional>
 
 namespace listric::dem {
@@ -10,7 +11,7 @@ struct Gradient {
     double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;
 
     /// Engineering shear strain on the plane of largest shear.
-    double shear() const { return std::hypot(xx - yy, xy + yx); }
+    double shear() const { return hypotenuse(xx - yy, xy + yx); }
 };
 
 /// Least-squares fit of a displacement gradient to what surrounds a point.

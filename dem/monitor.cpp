@@ -1,6 +1,7 @@
 #include "dem/monitor.hpp"
 
 #include "dem/base_place.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
 #include "dem/order_free.hpp"
 #include "dem/shared_loop.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace listric::dem {
 
@@ -27,7 +27,7 @@ void for_each_touching(const State& state, Strip strip, std::size_t k, std::size
         if (!strip.holds(d.x[i]) && !strip.holds(d.x[j]))
             continue;
         const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
-        const double distance = std::hypot(dx, dy);
+        const double distance = hypotenuse(dx, dy);
         const double overlap = d.radius[i] + d.radius[j] - distance;
         if (overlap > 0.0 || c.bonded[k])
             visit(k, i, j, Point{dx / distance, dy / distance}, overlap);
@@ -126,7 +126,7 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
              Sums sums;
              for (; i < end; ++i) {
                  const double weight = d.mass[i] * gravity;
-                 const double unbalanced = std::hypot(force[i].x, force[i].y - weight);
+                 const double unbalanced = hypotenuse(force[i].x, force[i].y - weight);
                  sums.weight += weight;
                  sums.unbalanced += unbalanced;
                  sums.max_unbalanced = greater(sums.max_unbalanced, unbalanced);
@@ -145,7 +145,7 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
          by_piece(contacts.pairs.size(), 2048, [&](std::size_t k, std::size_t end) {
              OrderFreeSum sum;
              for (; k < end; ++k)
-                 sum += std::hypot(contacts.pairs[k].force.x, contacts.pairs[k].force.y);
+                 sum += hypotenuse(contacts.pairs[k].force.x, contacts.pairs[k].force.y);
              return sum;
          }))
         contact_sum += piece;

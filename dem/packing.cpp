@@ -2,11 +2,11 @@
 
 #include "dem/bond.hpp"
 #include "dem/contacts.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/monitor.hpp"
 #include "dem/random.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace listric::dem {
 
@@ -62,7 +62,7 @@ std::vector<Point> scatter(const RigidBase& base, std::span<const double> radius
                 for (std::int32_t other : cells[static_cast<std::size_t>(a * rows + b)]) {
                     const auto j = static_cast<std::size_t>(other);
                     free = free &&
-                           std::hypot(place[j].x - p.x, place[j].y - p.y) >= radius[i] + radius[j];
+                           hypotenuse(place[j].x - p.x, place[j].y - p.y) >= radius[i] + radius[j];
                 }
         if (!free)
             continue;

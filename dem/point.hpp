@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include "dem/hypotenuse.hpp"
 
 namespace listric::dem {
 
@@ -16,7 +16,7 @@ inline Point operator*(double factor, Point a) { return {factor * a.x, factor * 
 
 inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; } ///< > 0: b is left of a
-inline double norm(Point a) { return std::hypot(a.x, a.y); }
+inline double norm(Point a) { return hypotenuse(a.x, a.y); }
 inline Point unit(Point a) { return (1.0 / norm(a)) * a; }
 
 } // namespace listric::dem

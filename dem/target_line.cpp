@@ -1,5 +1,7 @@
 #include "dem/target_line.hpp"
 
+#include "dem/hypotenuse.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -31,7 +33,7 @@ double TargetLine::above(Point p) const {
         const double dx = b.x - a.x, dy = b.y - a.y;
         const double t =
             std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-        least = std::min(least, std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy));
+        least = std::min(least, hypotenuse(p.x - a.x - t * dx, p.y - a.y - t * dy));
     };
     for (auto k = first == points_.begin() ? first : first - 1;
          k != points_.end() && k + 1 != points_.end() && k != last; ++k)

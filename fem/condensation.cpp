@@ -211,7 +211,7 @@ std::vector<double> ElasticFootwall::inverse_of_schur_complement() {
         make_solver(true);
     const std::size_t n = 2 * nodes_.size();
     Mat factors = solver_factors(), inverse = nullptr;
-    must(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr), "condensation");
+    must(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "condensation");
     const PetscErrorCode indefinite = MatFactorInvertSchurComplement(factors);
     must(PetscPopErrorHandler(), "condensation");
     if (indefinite)

@@ -2,6 +2,7 @@
 
 #include "fem/elasticity.hpp"
 
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/distributed/grid_refinement.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/mapping_q.h>
@@ -116,10 +117,14 @@ void ElasticFootwall::set_up() {
     mapping_.initialize(dealii::MappingQ<2>(static_cast<unsigned>(request_.degree)), *mesh_.cells);
     unknowns_.distribute_dofs(element_);
     owned_ = unknowns_.locally_owned_dofs();
-    dealii::DoFTools::extract_locally_relevant_dofs(unknowns_, relevant_);
+    relevant_ = dealii::DoFTools::extract_locally_relevant_dofs(unknowns_);
 
     constraints_.clear();
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+    constraints_.reinit(owned_, relevant_);
+#else
     constraints_.reinit(relevant_);
+#endif
     dealii::DoFTools::make_hanging_node_constraints(unknowns_, constraints_);
     for (const auto& [side, boundary] : {std::pair(request_.left_side, Boundary::left),
                                          std::pair(request_.right_side, Boundary::right)})

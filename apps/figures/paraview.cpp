@@ -6,6 +6,7 @@
 #include "apps/support/resources.hpp"
 #include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
 #include "dem/monitor.hpp"
 
@@ -144,7 +145,7 @@ std::string contacts_file(const State& state) {
             const auto i = static_cast<std::size_t>(c.first[k]);
             const auto j = static_cast<std::size_t>(c.second[k]);
             const double overlap =
-                d.radius[i] + d.radius[j] - std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]);
+                d.radius[i] + d.radius[j] - hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i]);
             const ContactParameters law = contact_parameters(state.materials[d.material[i]],
                                                              state.materials[d.material[j]], 1.0);
             normal.push_back(law.normal_stiffness * static_cast<float>(overlap));

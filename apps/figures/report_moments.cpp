@@ -10,11 +10,13 @@
 #include "apps/support/base64.hpp"
 #include "apps/support/deflate.hpp"
 #include "dem/contacts.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/monitor.hpp"
 #include "dem/power_cell.hpp"
 #include "dem/shared_loop.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -161,7 +163,7 @@ json footwall_of(std::span<const fem::StressPatch> patches, double right) {
             corners.push_back(std::round(patch.corner[k].x + patch.displacement[k].x));
             corners.push_back(-std::round(patch.corner[k].y + patch.displacement[k].y));
         }
-        shear.push_back(short_length(1e-6 * std::hypot(0.5 * (patch.xx - patch.yy), patch.xy)));
+        shear.push_back(short_length(1e-6 * hypotenuse(0.5 * (patch.xx - patch.yy), patch.xy)));
     }
     return {{"corners", std::move(corners)}, {"shear_mpa", std::move(shear)}};
 }
@@ -290,7 +292,7 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
         add("mean_stress_pa",
             [stress](std::size_t i) { return -0.5 * (stress[i].xx + stress[i].yy); });
         add("shear_stress_pa", [stress](std::size_t i) {
-            return std::hypot(0.5 * (stress[i].xx - stress[i].yy), stress[i].xy);
+            return hypotenuse(0.5 * (stress[i].xx - stress[i].yy), stress[i].xy);
         });
     }
     return streams;

@@ -19,8 +19,13 @@ using nlohmann::json;
 
 namespace {
 
-/// Where Debian's libjs-dygraphs is.
-constexpr const char* charts_folder = "/usr/share/javascript/dygraphs";
+/// Where dygraphs is: among our own files, for systems that have no package of it, or where
+/// Debian's libjs-dygraphs puts it.
+fs::path charts_folder() {
+    const fs::path own = resource_folder() / "figures/report/dygraphs";
+    std::error_code error;
+    return fs::is_directory(own, error) ? own : fs::path("/usr/share/javascript/dygraphs");
+}
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
@@ -134,8 +139,8 @@ std::string report_html(const ReportPage& page) {
         scripts += read_text(folder / name);
     const std::map<std::string, std::string> parts{
         {"style", read_text(folder / "report.css")},
-        {"charts_style", read_text_if_there(fs::path(charts_folder) / "dygraph.min.css")},
-        {"charts", as_script(read_text_if_there(fs::path(charts_folder) / "dygraph.min.js"))},
+        {"charts_style", read_text_if_there(charts_folder() / "dygraph.min.css")},
+        {"charts", as_script(read_text_if_there(charts_folder() / "dygraph.min.js"))},
         {"palettes", read_text(folder / "palettes.json")},
         {"data", data_of(page)},
         {"scripts", as_script(scripts)}};

@@ -1,6 +1,7 @@
 #include "apps/laboratory/sample.hpp"
 
 #include "dem/contacts.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/monitor.hpp"
 #include "dem/packing.hpp"
 #include "dem/units.hpp"
@@ -62,7 +63,7 @@ std::size_t grow_floaters(Specimen& s, double overlap) {
         const auto j = static_cast<std::size_t>(c.second[k]);
         if (contacts[i] >= 3 && contacts[j] >= 3)
             continue;
-        const double gap = std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) - d.radius[i] - d.radius[j];
+        const double gap = hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i]) - d.radius[i] - d.radius[j];
         gaps[i].push_back(gap);
         gaps[j].push_back(gap);
     }

@@ -1,5 +1,6 @@
 #include "apps/measures/blocks.hpp"
 
+#include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
 #include <cmath>
@@ -126,7 +127,7 @@ std::optional<double> head_block_tilt(const State& state, const Chain& detachmen
 RampFlatRampRotations measure_ramp_flat_ramp(const State& state, const Chain& detachment,
                                              const RampFlatRamp& parts) {
     const auto breakaway = block_of(state, detachment, [](Point start, const auto&) {
-        return std::hypot(start.x, start.y) < block_size;
+        return hypotenuse(start.x, start.y) < block_size;
     });
     const auto toe = block_of(state, detachment, [&](Point, const auto& foot) {
         return foot && foot->arc_length < parts.flat_start &&

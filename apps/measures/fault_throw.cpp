@@ -3,6 +3,7 @@
 #include "apps/measures/rigid_motion.hpp"
 #include "apps/support/statistics.hpp"
 #include "dem/cells.hpp"
+#include "dem/hypotenuse.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -124,7 +125,7 @@ std::vector<Layer> layers_beside(const State& state, const Cells& cells, const P
         RigidMotion back;
         cells.for_each_near(centre.x, centre.y, [&](std::int32_t row) {
             const auto i = static_cast<std::size_t>(row);
-            if (d.stratum[i] == 0 && std::hypot(d.x[i] - centre.x, d.y[i] - centre.y) < reach)
+            if (d.stratum[i] == 0 && hypotenuse(d.x[i] - centre.x, d.y[i] - centre.y) < reach)
                 back.add({d.x[i], d.y[i]}, {d.start_x[i], d.start_y[i]});
         });
         if (back.size() < fewest)

@@ -1,5 +1,6 @@
 #include "apps/measures/kinematics.hpp"
 
+#include "dem/hypotenuse.hpp"
 #include "dem/shared_loop.hpp"
 #include "dem/units.hpp"
 
@@ -23,7 +24,7 @@ Point tangent_at(const Chain& chain, double arc_length) {
     const double end = length_of(chain);
     const double from = std::clamp(arc_length, 0.0, end - h);
     const Point a = point_at(chain, from), b = point_at(chain, from + h);
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const double length = hypotenuse(b.x - a.x, b.y - a.y);
     return {(b.x - a.x) / length, (b.y - a.y) / length};
 }
 

@@ -1,6 +1,7 @@
 #include "apps/measures/lower_block.hpp"
 
 #include "dem/cells.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ double bounded_share(const RunSoFar& run, Point middle) {
         double sum = 0.0, count = 0.0;
         cells.for_each_near(p.x, p.y, [&](std::int32_t row) {
             const auto k = static_cast<std::size_t>(row);
-            if (std::hypot(field.x[k] - p.x, field.y[k] - p.y) < reach) {
+            if (hypotenuse(field.x[k] - p.x, field.y[k] - p.y) < reach) {
                 sum += field.shear(k);
                 count += 1.0;
             }
@@ -63,7 +64,7 @@ double low_angle_length(const RunSoFar& run, const std::vector<std::size_t>& blo
     constexpr double near = 3e3; // m
     const auto is_near = [&](Point p) {
         return std::ranges::any_of(block, [&](std::size_t i) {
-            return std::hypot(run.discs.x[i] - p.x, run.discs.y[i] - p.y) < near;
+            return hypotenuse(run.discs.x[i] - p.x, run.discs.y[i] - p.y) < near;
         });
     };
     double length = 0.0;

@@ -3,6 +3,7 @@
 #include "apps/support/statistics.hpp"
 #include "dem/cells.hpp"
 #include "dem/events/strain.hpp"
+#include "dem/hypotenuse.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -55,7 +56,7 @@ double spacing_of(const MovedPoints& points) {
             const auto j = static_cast<std::size_t>(row);
             if (j != i)
                 distances.push_back(
-                    std::hypot(points.x[j] - points.x[i], points.y[j] - points.y[i]));
+                    hypotenuse(points.x[j] - points.x[i], points.y[j] - points.y[i]));
         });
         if (distances.size() < closest)
             continue;

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "dem/base.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/state.hpp"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,7 +29,7 @@ struct PlaneShear {
     double turn = 0.0;    ///< u_xy + u_yx
 
     /// Engineering shear strain on the plane of largest shear, without sign.
-    double size() const { return std::hypot(stretch, turn); }
+    double size() const { return dem::hypotenuse(stretch, turn); }
 
     /// Engineering shear strain on a plane of direction t (unit vector): > 0 where the left side
     /// moves along t relative to the right side.

@@ -7,6 +7,7 @@
 #include "coupling/base_memory.hpp"
 #include "coupling/independent_solution.hpp"
 #include "coupling/interface_loads.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +45,7 @@ std::unique_ptr<ElasticBase> make_elastic_base(const Scene& scene, const ModelPa
     const auto& parameters = *elastic_base(scene);
     Interface interface = condense(footwall, parameters.degree);
     const std::size_t last = interface.x.size() - 1;
-    const double spacing = std::hypot(interface.x[last] - interface.x[last - 1],
+    const double spacing = hypotenuse(interface.x[last] - interface.x[last - 1],
                                       interface.y[last] - interface.y[last - 1]);
     auto base = std::make_unique<ElasticBase>(std::move(interface),
                                               make_coupling_parameters(scene, parts, spacing));

@@ -6,6 +6,7 @@
 #include "apps/support/stopwatch.hpp"
 #include "dem/contacts.hpp"
 #include "dem/cycle.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/material.hpp"
 #include "dem/units.hpp"
 
@@ -49,7 +50,7 @@ State bonded_discs(const std::vector<Place>& places, const Material& material,
     for (std::size_t k = 0; k < c.first.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.first[k]);
         const auto j = static_cast<std::size_t>(c.second[k]);
-        if (std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) < 2.001 * radius) {
+        if (hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i]) < 2.001 * radius) {
             c.bonded[k] = 1;
             c.tensile_strength[k] = c.shear_strength[k] = 1e30f;
         }

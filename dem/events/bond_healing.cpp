@@ -2,6 +2,7 @@
 
 #include "dem/bond.hpp"
 #include "dem/contacts.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/shared_loop.hpp"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ bool BondHealing::apply(State& state, const RigidBase&) {
                 continue;
             const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
             const double old_dx = h.x[j] - h.x[i], old_dy = h.y[j] - h.y[i];
-            const double distance = std::hypot(dx, dy), old_distance = std::hypot(old_dx, old_dy);
+            const double distance = hypotenuse(dx, dy), old_distance = hypotenuse(old_dx, old_dy);
             // Slip at the contact: turning of the line of centres less rolling of the two discs. A
             // pair that turns as one body does not slip.
             const double turn = std::atan2(old_dx * dy - old_dy * dx, old_dx * dx + old_dy * dy);
@@ -70,7 +71,7 @@ bool BondHealing::apply(State& state, const RigidBase&) {
                                 (d.radius[j] - half) * (d.rotation[j] - h.rotation[j]);
             const double opening =
                 parameters_.measure == HealingMeasure::slip ? 0.0 : distance - old_distance;
-            if (std::hypot(slip, opening) < strain * (d.radius[i] + d.radius[j]))
+            if (hypotenuse(slip, opening) < strain * (d.radius[i] + d.radius[j]))
                 install_bond(state, k, strength_, state.clock.cycle);
         }
     });

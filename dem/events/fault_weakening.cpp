@@ -4,6 +4,7 @@
 #include "dem/contacts.hpp"
 #include "dem/events/measure_circle.hpp"
 #include "dem/events/weakened_discs.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/power_cell.hpp"
 #include "dem/shared_loop.hpp"
 #include "dem/units.hpp"
@@ -77,7 +78,7 @@ std::vector<FaultSegment> scan(const Displacements& s, const Cells& cells, doubl
                     circle.clear();
                     cells.for_each_near(x, y, [&](std::int32_t member) {
                         const auto k = static_cast<std::size_t>(member);
-                        if (std::hypot(s.x[k] - x, s.y[k] - y) <= 0.5 * diameter)
+                        if (hypotenuse(s.x[k] - x, s.y[k] - y) <= 0.5 * diameter)
                             circle.push_back(member);
                     });
                     if (slip_bound(s, circle, {x, y}) <= threshold)

@@ -1,11 +1,11 @@
 #include "dem/events/property_update.hpp"
 
 #include "dem/cells.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/power_cell.hpp"
 #include "dem/shared_loop.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace listric::dem {
 
@@ -60,7 +60,7 @@ bool PropertyUpdate::apply(State& state, const RigidBase& base) {
                 const auto o = static_cast<std::size_t>(other);
                 const double rock_area = w.rock_area[static_cast<std::size_t>(rows[o])];
                 if (cells[o].closed && rock_area > 0.0 &&
-                    std::hypot(x[o] - x[k], y[o] - y[k]) < zone) {
+                    hypotenuse(x[o] - x[k], y[o] - y[k]) < zone) {
                     now += cells[o].area;
                     before += rock_area;
                 }

@@ -2,10 +2,10 @@
 
 #include "dem/cells.hpp"
 #include "dem/gradient.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/shared_loop.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace listric::dem {
 
@@ -53,7 +53,7 @@ std::vector<double> shear_strain(const State& state) {
             const double ux_i = d.x[i] - old_x[i], uy_i = d.y[i] - old_y[i];
             cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
                 const auto j = static_cast<std::size_t>(row);
-                if (!in_window[j] || std::hypot(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
+                if (!in_window[j] || hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i]) > reach)
                     return;
                 fit.add(old_x[j] - old_x[i], old_y[j] - old_y[i], d.x[j] - old_x[j] - ux_i,
                         d.y[j] - old_y[j] - uy_i);

@@ -100,6 +100,18 @@ class Installed(unittest.TestCase):
         self.assertAlmostEqual(throw, 30.0 * 3 ** 0.5 / 2, delta=0.25 * 26.0)
         self.assertLess(misfit, 1.0)
 
+    def test_a_project_of_dem_alone_needs_no_package(self):
+        folder = self.place / "dem-alone"
+        folder.mkdir()
+        (folder / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\n"
+            "find_package(Listric REQUIRED COMPONENTS dem)\nadd_library(mine STATIC mine.cpp)\n"
+            "target_link_libraries(mine PRIVATE listric::dem)\n")
+        (folder / "mine.cpp").write_text("#include <listric/dem.hpp>\n")
+        hidden = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON"
+                  for name in ("fmt", "tomlplusplus", "nlohmann_json", "pugixml", "ZLIB", "PkgConfig")]
+        call("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}", *hidden)
+        call("cmake", "--build", folder / "build")
+
     def test_a_project_builds_the_sources_with_its_own(self):
         folder = self.project("fetched", f"-DLISTRIC_SOURCE_DIR={SOURCES}", "-DLISTRIC_FEM=OFF")
         self.assertEqual(call(folder / "drive_lis1").strip(), self.state_hash)

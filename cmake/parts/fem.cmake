@@ -1,0 +1,10 @@
+find_package(deal.II 9.4 QUIET)
+if(NOT deal.II_FOUND OR NOT DEAL_II_WITH_PETSC OR NOT DEAL_II_WITH_P4EST)
+  message(FATAL_ERROR "deal.II with PETSc and p4est is not found")
+endif()
+# deal.II's own flags (-std=c++17 -O2 -funroll-loops ...) stay away from every target.
+include(${DEAL_II_TARGET_CONFIG})
+function(use_part target)
+  target_include_directories(${target} SYSTEM PRIVATE ${DEAL_II_INCLUDE_DIRS})
+  target_link_libraries(${target} PRIVATE ${DEAL_II_TARGET_RELEASE})
+endfunction()

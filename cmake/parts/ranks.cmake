@@ -1,0 +1,6 @@
+find_package(PkgConfig QUIET REQUIRED)
+pkg_search_module(PETSC QUIET REQUIRED IMPORTED_TARGET petsc PETSc)
+find_package(MPI QUIET REQUIRED COMPONENTS CXX)
+function(use_part target)
+  target_link_libraries(${target} PRIVATE PkgConfig::PETSC MPI::MPI_CXX)
+endfunction()

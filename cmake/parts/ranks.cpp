@@ -1,0 +1,4 @@
+#include <mpi.h>
+#include <petscsys.h>
+
+int version() { return MPI_VERSION + PETSC_VERSION_MAJOR; }

@@ -1,0 +1,216 @@
+"""The launcher with packages, presets, folders and environments as strangers have them. It is copied
+beside sources that are built in a moment; dpkg, apt and sudo are scripts that note what is asked of them.
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from program import SOURCES
+
+NOBODY = 65534
+SCRIPTS = {
+    # All packages are installed but those in the file `missing`.
+    "dpkg-query": 'for name; do grep -qsx -- "$name" "$NOTES/missing" || echo "$name installed"; done',
+    # The system has all packages but those in `absent`.
+    "apt-cache": '''shift; for name; do
+        grep -qsx -- "$name" "$NOTES/absent" || printf '%s:\\n  Installed: (none)\\n  Candidate: 1\\n' "$name"
+        done; printf 'libvirtual:\\n  Candidate: (none)\\n' ''',
+    # Notes calls, and what the launcher had said by then.
+    "apt-get": '''echo "$*" >>"$NOTES/calls"
+        [ -f "$NOTES/broken" ] && { cat "$NOTES/broken"; exit 100; }
+        case "$*" in *install*) cp "$NOTES/stderr" "$NOTES/said"; rm -f "$NOTES/missing";; esac''',
+    "sudo": 'exec "$@"',
+}
+TOOLS = ("readlink awk mkdir flock ls cat grep rm env nproc cp sleep tail head sort sh "
+         "cmake ninja c++ pkg-config").split()
+PROJECT = r'''
+cmake_minimum_required(VERSION 3.25)
+project(listric NONE)
+set(LISTRIC_TESTS OFF CACHE BOOL "")
+file(WRITE ${CMAKE_BINARY_DIR}/listric "#!/bin/sh\nprintf 'program: '; printf '<%s>' \"$@\"\n")
+file(CHMOD ${CMAKE_BINARY_DIR}/listric PERMISSIONS OWNER_READ OWNER_EXECUTE WORLD_READ WORLD_EXECUTE)
+add_custom_target(listric)
+'''
+
+
+class Launcher(unittest.TestCase):
+    def setUp(self):
+        self.place = pathlib.Path(tempfile.mkdtemp(prefix="listric launcher "))
+        self.addCleanup(shutil.rmtree, self.place)
+        self.place.chmod(0o755)
+        self.root, self.notes, self.scripts = (self.place / name for name in ("sources", "notes", "scripts"))
+        for folder in (self.root / "apps/scenes", self.notes, self.scripts):
+            folder.mkdir(parents=True)
+        for name in ("listric", "CMakePresets.json"):
+            shutil.copy2(SOURCES / name, self.root)
+        (self.root / "CMakeLists.txt").write_text(PROJECT)
+        (self.root / "apps/scenes/rigid.toml").write_text("[gravity]\n")
+        (self.root / "apps/scenes/elastic.toml").write_text("[gravity]\n\t[ elastic_base.rock ]\n")
+        for name, text in SCRIPTS.items():
+            self.write_script(name, text)
+        self.path = f"{self.scripts}:{os.environ['PATH']}"
+
+    def write_script(self, name, text):
+        file = self.scripts / name
+        file.write_text("#!/bin/sh\n" + text + "\n")
+        file.chmod(0o755)
+
+    def only_tools(self, *left_out):
+        """A PATH without dpkg, apt and sudo; what is left out is not there either."""
+        folder = self.place / "tools"
+        folder.mkdir()
+        for name in set(TOOLS) - set(left_out):
+            (folder / name).symlink_to(shutil.which(name))
+        self.path = str(folder)
+
+    def call(self, *words, launcher=None, code=0, user=None, **environment):
+        """What it wrote to its streams."""
+        kept = {name: value for name, value in os.environ.items()
+                if not name.startswith(("LISTRIC_", "OMPI_", "PMI_", "SLURM_"))}
+        with open(self.notes / "stderr", "w") as stderr:
+            done = subprocess.run(
+                [launcher or self.root / "listric", *words], stdout=subprocess.PIPE, stderr=stderr, text=True,
+                cwd=self.place, user=user, check=False, stdin=subprocess.DEVNULL,
+                env={**kept, "PATH": self.path, "NOTES": str(self.notes), **environment})
+        said = (self.notes / "stderr").read_text()
+        self.assertEqual(done.returncode, code, said)
+        return done.stdout, said
+
+    def note(self, name, *lines):
+        (self.notes / name).write_text("".join(f"{line}\n" for line in lines))
+
+    def installs(self):
+        file = self.notes / "calls"
+        calls = file.read_text().splitlines() if file.exists() else []
+        return [call for call in calls if " install " in call]
+
+    def test_calls_from_anywhere(self):
+        link = self.place / "a link"
+        link.symlink_to(self.root / "listric")
+        wanted = "program: <explain><a b><*>"
+        for launcher, more in ((self.root / "listric", {}), (link, {"CDPATH": "/usr:/"}),
+                               ("sources/listric", {"LISTRIC_BUILD": "-other"})):
+            self.assertEqual(self.call("explain", "a b", "*", launcher=launcher, **more)[0], wanted)
+        self.assertTrue((self.place / "-other/native/listric").exists())
+        self.assertEqual(self.call("explain", "a b", "*"), (wanted, ""))  # later calls start at once
+
+    def test_numbers_of_the_environment_are_no_commands(self):
+        trap = f"a[$(touch '{self.place}/trap')]"
+        for count, mine in (("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"), ("PMI_SIZE", "PMI_RANK"),
+                            ("SLURM_STEP_NUM_TASKS", "SLURM_PROCID")):
+            for values in ((trap, "1"), ("2", trap), (trap, trap)):
+                out, _ = self.call("scenes", **dict(zip((count, mine), values)))
+                self.assertEqual(out, "program: <scenes>")
+        self.assertFalse((self.place / "trap").exists())
+        self.call("scenes", OMPI_COMM_WORLD_SIZE="08", OMPI_COMM_WORLD_RANK="09")
+        self.call("scenes", PMI_SIZE="", PMI_RANK="-1")
+
+    def test_presets_that_are_none(self):
+        for preset in ("release", "strict", "nonsense", "../native", "native ci", "nat*", "$(id)"):
+            _, said = self.call("scenes", LISTRIC_PRESET=preset, code=2)
+            self.assertIn("native x86-64-v3 generic ci debug", said)
+        self.assertFalse((self.root / "build").exists())
+        shutil.copy2(self.root / "CMakePresets.json", self.root / "CMakeUserPresets.json")
+        (self.root / "CMakeUserPresets.json").write_text('''{"version": 6, "configurePresets": [
+            {"hidden":true,"name":"hidden-one"},{"inherits":["native"],"name":"mine"}],
+            "buildPresets": [{"name": "no-configuration", "configurePreset": "mine"}]}''')
+        self.call("scenes", LISTRIC_PRESET="mine")
+        for preset in ("hidden-one", "no-configuration"):
+            self.call("scenes", LISTRIC_PRESET=preset, code=2)
+
+    def test_folders_of_others_stay(self):
+        for name, files in {"cmake": ("CMakeCache.txt",), "named": ("CMakeCache.txt", "origin"),
+                            "papers": ("thesis.tex",)}.items():
+            folder = self.place / name / "debug"
+            folder.mkdir(parents=True)
+            for file in files:
+                (folder / file).write_text("CMAKE_PROJECT_NAME:STATIC=other\n")
+            _, said = self.call("scenes", LISTRIC_BUILD=str(folder.parent), LISTRIC_PRESET="debug", code=2)
+            self.assertIn("LISTRIC_BUILD", said)
+            self.assertEqual(sorted(file.name for file in folder.iterdir()), sorted(files))
+
+    def test_own_folders_are_made_afresh(self):
+        self.call("scenes")
+        made = self.root / "build/native/made"
+        made.touch()
+        (self.root / "build/native/origin").unlink()  # as CMake by hand leaves it: taken over
+        self.call("scenes")
+        self.assertTrue(made.exists())
+        moved = self.place / "moved"
+        self.root.rename(moved)
+        _, said = self.call("scenes", launcher=moved / "listric")
+        self.assertIn("starting afresh", said)
+        self.assertFalse((moved / "build/native/made").exists())
+
+    def test_all_packages_are_installed_at_once_and_said_before(self):
+        self.note("missing", "g++", "libdeal.ii-dev", "petsc-dev", "openmpi-bin", "mkdocs")
+        self.call("run", "elastic", "--ranks=2")
+        self.assertEqual(len(self.installs()), 1, self.installs())
+        self.assertIn("--no-install-recommends", self.installs()[0])
+        said = (self.notes / "said").read_text()
+        for name in ("g++", "libdeal.ii-dev", "petsc-dev", "openmpi-bin"):
+            self.assertIn(f" {name} ", self.installs()[0] + " ")
+            self.assertIn(f" {name}", said)
+        self.assertNotIn("mkdocs", self.installs()[0])
+        for words, asked in ((("run", "rigid"), 0), (("run", "rigid", "--ranks=1"), 0), (("scenes",), 0),
+                             (("run", "rigid", "--ranks", "2"), 1), (("run", "rigid", "--ranks"), 1),
+                             (("run", "rigid", "--set=elastic_base.order=2"), 1)):
+            self.note("missing", "petsc-dev")
+            self.note("calls")
+            self.call(*words)
+            self.assertEqual(len(self.installs()), asked, words)
+
+    def test_packages_that_the_system_does_not_have(self):
+        self.note("missing", "gmsh", "petsc-dev", "chromium", "chromium-driver")
+        self.note("absent", "gmsh", "chromium")
+        _, said = self.call("test", "-N")
+        self.assertIn("no package chromium gmsh: going on without", said)
+        self.assertTrue(self.installs()[0].endswith(" chromium-driver petsc-dev"), self.installs())
+
+    def test_reasons_of_a_failed_installation_are_few(self):
+        self.note("missing", "g++")
+        self.note("broken", *(f"Ign:{k} http://deb.debian.org" for k in range(100)),
+                  *(f"E: Failed to fetch {k}" for k in range(9)))
+        _, said = self.call("scenes", code=2)
+        self.assertEqual(said.count("E: Failed"), 3)
+        self.assertLess(len(said.splitlines()), 8)
+        self.assertRegex(said, "by hand: .*apt-get install --no-install-recommends g[+][+]\n")
+
+    def test_without_rights(self):
+        self.call("scenes")
+        self.note("missing", "g++", "libdeal.ii-dev")
+        self.only_tools()
+        for name in ("dpkg-query", "apt-cache", "apt-get"):
+            shutil.copy2(self.scripts / name, self.path)
+        user = None if os.geteuid() else NOBODY
+        if user:
+            for file in [self.place, *self.place.rglob("*")]:
+                os.chown(file, user, -1, follow_symlinks=False)
+        _, said = self.call("run", "elastic", code=2, user=user)
+        self.assertRegex(said, "as root: .*apt-get install --no-install-recommends g[+][+] libdeal.ii-dev\n")
+        # A tree that cannot be written runs what was built, else names the way out.
+        for folder in (self.root / "build", self.root / "build/native"):
+            folder.chmod(0o555)
+        out, said = self.call("scenes", user=user)
+        self.assertEqual(out, "program: <scenes>")
+        self.assertIn("as it was last built", said)
+        _, said = self.call("scenes", user=user, code=4, LISTRIC_PRESET="debug")
+        self.assertIn("LISTRIC_BUILD", said)
+        (self.root / "build").chmod(0o755)
+
+    def test_without_dpkg(self):
+        self.only_tools("cmake", "c++")
+        _, said = self.call("scenes", code=2)
+        self.assertIn("not found: cmake c++;", said)
+        self.assertIn("docs/install.md", said)
+        for name in ("cmake", "c++"):
+            (self.place / "tools" / name).symlink_to(shutil.which(name))
+        self.assertEqual(self.call("scenes")[0], "program: <scenes>")
+
+
+if __name__ == "__main__":
+    unittest.main()
