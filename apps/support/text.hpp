@@ -15,4 +15,8 @@ std::optional<std::size_t> unsound_byte(std::string_view text);
 /// are written as \xNN, so that a terminal obeys none of them.
 std::string shown(std::string_view text);
 
+/// The beginning of a text without control characters that takes no more than so many columns of a
+/// terminal; "..." for what is cut off, where there is room for that.
+std::string cut_to(std::string_view text, std::size_t columns);
+
 } // namespace listric

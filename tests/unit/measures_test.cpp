@@ -245,6 +245,51 @@ TEST(Cutoff, OfTheConstantSlipOfLis2) {
     EXPECT_NEAR(m.rollover_tilt.value(), 19.0986, 1e-3);
 }
 
+TEST(Measures, OfTheRollAreNoneBeyondTheArc) {
+    const Scene scene = load_scene(
+        {.scene = "lis1",
+         .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
+    const RigidBase base = make_rigid_base(scene);
+    State state = lattice(scene, base);
+    turn(state, 70.0, [](Point) { return true; });
+    for (const auto& [extension, is_there] : {std::pair(23e3, true), std::pair(24e3, false)}) {
+        state.clock.extension = extension;
+        const Measures m = measure(make_setting(scene, make_parts(scene)), state, base, {});
+        EXPECT_EQ(m.rollover_tilt.has_value(), is_there);
+        EXPECT_EQ(m.predicted_tilt.has_value(), is_there);
+        EXPECT_TRUE(m.area_balance && m.cutoff);
+    }
+}
+
+TEST(Measures, OfAreaAreNoneWhereRockWasEroded) {
+    const Scene scene = load_scene(
+        {.scene = "lis1",
+         .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
+    const RigidBase base = make_rigid_base(scene);
+    State state = lattice(scene, base);
+    state.clock.extension = 2e3;
+    const Setting setting = make_setting(scene, make_parts(scene));
+    const auto known = [&] {
+        const Measures m = measure(setting, state, base, {});
+        EXPECT_EQ(m.area_balance.has_value(), m.dilation_area.has_value());
+        EXPECT_EQ(m.area_balance.has_value(), m.depth_to_detachment.has_value());
+        EXPECT_TRUE(m.area_balance || !(m.inclined_shear_angle || m.normals_misfit));
+        EXPECT_TRUE(m.rollover_tilt && m.predicted_tilt);
+        return m.area_balance.has_value();
+    };
+    EXPECT_TRUE(known());
+    // Of 2 x 15 km2 a hundredth may be gone: 1/2000 of a hanging wall of 40 x 15 km2.
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    std::vector<std::int32_t> kept;
+    for (std::size_t i = 0; i < d.y.size(); ++i)
+        if (i % 1000 != 0)
+            kept.push_back(static_cast<std::int32_t>(i));
+    reorder_discs(state, kept);
+    EXPECT_FALSE(known());
+    state.clock.extension = 20e3;
+    EXPECT_TRUE(known());
+}
+
 TEST(InterveningHigh, BetweenTheFirstDepocentreAndTheMostProminentBeyond) {
     const Drawn d(
         {{0, 0.0}, {10, 900.0}, {20, 350.0}, {30, 700.0}, {40, 300.0}, {50, 1000.0}, {60, 0.0}});
