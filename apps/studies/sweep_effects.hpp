@@ -25,8 +25,9 @@ struct SweepEffect {
     /// Of a: change of the measure from the least value of a to the greatest, others in their
     /// middle. Of a:b: half of what that effect of a changes from the least b to the greatest.
     double effect = 0.0;
-    std::optional<double> standard_error; ///< none: no run was repeated with another seed
-    int degrees_of_freedom = 0;           ///< that the standard error is known from
+    /// None: no run was repeated with another seed.
+    std::optional<double> standard_error = std::nullopt;
+    int degrees_of_freedom = 0; ///< that the standard error is known from
     /// How likely chance alone gives such an effect or a larger one, by Student's t, and how far to
     /// either side the truth may lie in 95 of 100 sweeps; there where the standard error is.
     std::optional<double> p = std::nullopt, margin_95 = std::nullopt;

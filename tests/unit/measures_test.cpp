@@ -8,6 +8,7 @@
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
+#include "dem/events/weakened_discs.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -287,6 +288,26 @@ TEST(Measures, OfAreaAreNoneWhereRockWasEroded) {
     reorder_discs(state, kept);
     EXPECT_FALSE(known());
     state.clock.extension = 20e3;
+    EXPECT_TRUE(known());
+}
+
+TEST(Measures, OfWeakenedVolumeAreNoneWhereThereIsMoreSedimentThanRock) {
+    const Scene scene = load_scene({.scene = "lis1"});
+    const ModelParts parts = make_parts(scene);
+    State state = lattice(scene, parts.base);
+    add_weakened_columns(state);
+    const auto known = [&] {
+        NamedNumbers numbers;
+        for (const EffectPart& part : scene.effects)
+            if (part.effect->name == "fault_weakening")
+                numbers = part.effect->measure({scene, parts, state, {}}).numbers;
+        EXPECT_EQ(numbers.at(0).first, "weak_fraction");
+        return numbers.size() == 2 && numbers[1].first == "volume_error_fraction";
+    };
+    EXPECT_TRUE(known());
+    state.ledger.deposited = 1.2 * state.ledger.initial;
+    EXPECT_FALSE(known());
+    state.ledger.removed = 0.3 * state.ledger.initial;
     EXPECT_TRUE(known());
 }
 
