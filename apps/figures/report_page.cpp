@@ -52,9 +52,14 @@ json picks_of(const std::vector<PickedLine>& lines) {
     return list;
 }
 
-/// Null of what is no JSON object: a page with it could not be read at all.
+/// Null of what is no JSON object: a page with it could not be read at all. What is nested more
+/// deeply than ours ever is falls away, as writing it would recurse.
 json object_or_null(const std::string& text) {
-    json object = json::parse(text, nullptr, false);
+    constexpr int deepest = 64;
+    const auto is_ours = [](int depth, json::parse_event_t, const json&) {
+        return depth <= deepest;
+    };
+    json object = json::parse(text, is_ours, false);
     return object.is_object() ? object : json();
 }
 

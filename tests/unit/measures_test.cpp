@@ -208,6 +208,17 @@ TEST(RampFlatRamp, RotationsOfItsParts) {
     EXPECT_NEAR(m.breakaway_rotation.value(), 80.0, 1e-9);
     EXPECT_NEAR(m.lower_block_rotation.value(), 43.0, 1e-9);
     EXPECT_NEAR(m.toe_rotation.value(), -15.0, 1e-9);
+    // The upper ramp is 11.0 km long; from the lower one's head 12.3 km are left, from the toe 19.
+    const auto known = [&](double extension) {
+        state.clock.extension = extension;
+        const auto parts = find_ramp_flat_ramp(base.surfaces.front().chain).value();
+        const auto r = measure_ramp_flat_ramp(state, base.surfaces.front().chain, parts);
+        return std::vector{r.breakaway.has_value(), r.lower_block.has_value(), r.toe.has_value()};
+    };
+    EXPECT_EQ(known(10.9e3), (std::vector{true, true, true}));
+    EXPECT_EQ(known(11.1e3), (std::vector{false, true, true}));
+    EXPECT_EQ(known(12.5e3), (std::vector{false, false, true}));
+    EXPECT_EQ(known(20.0e3), (std::vector{false, false, false}));
 }
 
 TEST(RampFlatRamp, OtherDetachmentsHaveNoSuchParts) {

@@ -48,6 +48,8 @@ TEST(ReportPage, WhatIsDamagedIsMissingAndThePageSaysSo) {
         EXPECT_THAT(html, Not(HasSubstr("discarded>"))) << damaged;
         EXPECT_THAT(lacks_of(bad), testing::ElementsAre(HasSubstr("summary.json is damaged")));
     }
+    EXPECT_NO_THROW(report_html(
+        page(history, "{\"a\": " + std::string(300'000, '[') + std::string(300'000, ']') + "}")));
     for (const char* damaged : {"", "x", "extension_m,x\n0,1\n1", "extension_m,x\n0\n"})
         EXPECT_THAT(lacks_of(page(damaged, "{}")), testing::ElementsAre(HasSubstr("history.csv")));
     EXPECT_THAT(lacks_of(page(history, "{}")), testing::IsEmpty());
