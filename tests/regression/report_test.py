@@ -355,8 +355,8 @@ class Report(unittest.TestCase):
                                     text.replace('id="palettes">{', 'id="palettes">', 1))):
             page = self.folder / f"broken-{k}.html"
             page.write_text(broken)
-            self.driver.get(f"file://{page}")
-            time.sleep(1)
+            self.driver.get(f"file://{page}")   # returns when it is loaded
+            time.sleep(0.3)
             said = self.driver.find_element("id", "trouble")
             self.assertTrue(said.is_displayed(), k)
             self.assertIn("listric report DIR", said.text)
