@@ -1,6 +1,7 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/underlay.hpp"
 #include "apps/figures/report_run.hpp"
+#include "apps/support/log.hpp"
 
 #include <iostream>
 #include <memory>
@@ -29,8 +30,11 @@ Command add_report(CLI::App& program) {
     add_underlay(*command, call->underlay);
     return {command, [call] {
                 call->request.underlay = underlay_of(call->underlay);
-                std::cout << report_run(call->request).string() << '\n';
-                return ExitCode::done;
+                const WrittenReport report = report_run(call->request);
+                std::cout << report.file.string() << '\n';
+                for (const std::string& lack : report.lacks)
+                    warn("the page is not whole: " + lack);
+                return report.lacks.empty() ? ExitCode::done : ExitCode::storage_failed;
             }};
 }
 

@@ -1,10 +1,15 @@
 #include "apps/commands/underlay.hpp"
 
 #include "apps/support/error.hpp"
+#include "apps/support/png.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <string>
 
 namespace listric {
 
@@ -17,6 +22,36 @@ void add_underlay(CLI::App& command, UnderlayOptions& options) {
         ->delimiter(',');
 }
 
+namespace {
+
+/// Of a section of the Earth: nobody means more, m.
+constexpr double furthest = 1e8;
+
+/// Throws UsageError.
+void require_corners(const std::vector<double>& c) {
+    const auto refuse = [](const std::string& why) {
+        throw UsageError(fmt::format(
+            "--corners: {}; needs x0,z0,x1,z1 in metres, of the picture's upper left and lower "
+            "right corner, depth positive down: --corners 0,0,50000,15000",
+            why));
+    };
+    if (c.size() != 4)
+        refuse(c.empty() ? "are missing" : fmt::format("{} numbers", c.size()));
+    for (const double value : c)
+        if (!(std::abs(value) <= furthest))
+            refuse(fmt::format("{:g} is no place in a section", value));
+    const auto is_above = [](double low, double high) {
+        return high - low > 1e-6 * std::max(std::abs(low), std::abs(high));
+    };
+    if (!is_above(c[0], c[2]))
+        refuse(fmt::format("x1 = {:g} must be greater than x0 = {:g}", c[2], c[0]));
+    if (!is_above(c[1], c[3]))
+        refuse(fmt::format("z1 = {:g} must be greater than z0 = {:g}{}", c[3], c[1],
+                           c[3] < 0.0 ? ", these are heights" : ""));
+}
+
+} // namespace
+
 std::optional<Underlay> underlay_of(const UnderlayOptions& options) {
     if (options.image.empty() && options.corners.empty())
         return std::nullopt;
@@ -24,11 +59,14 @@ std::optional<Underlay> underlay_of(const UnderlayOptions& options) {
     if (options.image.empty())
         throw UsageError("--corners: is of --underlay, which is not there");
     if (!std::filesystem::is_regular_file(options.image, error))
-        throw UsageError(fmt::format("--underlay {}: no such file", options.image));
+        throw UsageError(fmt::format("--underlay {}: no such file", shown(options.image)));
+    require_corners(options.corners);
+    try {
+        read_png(options.image);
+    } catch (const UsageError& problem) {
+        throw UsageError(fmt::format("--underlay {}", problem.what()));
+    }
     const std::vector<double>& c = options.corners;
-    if (c.size() != 4 || !(c[0] < c[2]) || !(c[1] < c[3]))
-        throw UsageError("--corners: needs x0,z0,x1,z1 in metres, of the picture's upper left and "
-                         "lower right corner, depth positive down: --corners 0,0,50000,15000");
     return Underlay{options.image, c[0], c[1], c[2], c[3]};
 }
 

@@ -104,17 +104,14 @@ void draw_base(const RunFolder& run, const PictureOrder& order) {
                                  nodes.x[k], nodes.y[k], nodes.ux[k], nodes.uy[k]);
     }
     write_text(run.output / "base.csv", table);
-    const fs::path figures = run.output / "figures";
-    std::string problem =
-        run_drawing_script("base.py", {run.output.string(), figures.string(), order.text()});
-    if (problem.empty() && has_effect(run.scene, "elastic_base")) {
-        const TemporaryFolder data(figures);
-        export_footwall(run, data.path);
-        problem = run_drawing_script("footwall.py", {run.output.string(), data.path.string(),
-                                                     figures.string(), order.text()});
-    }
-    if (!problem.empty())
-        throw StorageError(problem);
+    const fs::path folder = fs::absolute(run.output), figures = folder / "figures";
+    run_drawing_script("base.py", {folder.string(), figures.string(), order.text()});
+    if (!has_effect(run.scene, "elastic_base"))
+        return;
+    const TemporaryFolder data(figures);
+    export_footwall(run, data.path);
+    run_drawing_script("footwall.py",
+                       {folder.string(), data.path.string(), figures.string(), order.text()});
 }
 
 } // namespace listric

@@ -60,10 +60,7 @@ void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
     std::error_code error;
     if (fs::exists(output / "deflection.csv", error)) {
         const Scene scene = load_scene({.scene = (output / "scene.toml").string()});
-        const PictureOrder order{formats, provenance_of_run(output, scene)};
-        if (const std::string problem = draw_flexure(output, order); !problem.empty())
-            throw StorageError(problem);
-        return;
+        return draw_flexure(output, {formats, provenance_of_run(output, scene)});
     }
     const RunFolder run = open_run(output);
     const PictureOrder order{formats, provenance_of_run(output, run.scene)};

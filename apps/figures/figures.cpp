@@ -2,7 +2,6 @@
 
 #include "apps/archive/provenance.hpp"
 #include "apps/figures/frame.hpp"
-#include "apps/support/error.hpp"
 #include "apps/support/python.hpp"
 
 #include <fmt/format.h>
@@ -26,10 +25,8 @@ void FigureFrames::add(const Observation& now, const FaultReport& faults) {
 }
 
 void FigureFrames::draw(const std::string& kind) const {
-    const std::string problem = run_drawing_script(
-        "figures.py", {kind, data_.path.string(), folder_.string(), order_.text()});
-    if (!problem.empty())
-        throw StorageError(problem);
+    run_drawing_script("figures.py", {kind, fs::absolute(data_.path).string(),
+                                      fs::absolute(folder_).string(), order_.text()});
 }
 
 std::future<std::string> draw_figures(const Observation& now, const FaultReport& faults,

@@ -34,7 +34,7 @@ public:
     /// @param kind  "sections" of every frame, one "experiment" sheet, an "animation" or
     ///              a "gallery", gallery.png, or "multiples", multiples.png; the latter three
     ///              in their own format
-    /// Throws StorageError if it cannot be drawn.
+    /// Throws what run_drawing_script() throws if it cannot be drawn.
     void draw(const std::string& kind) const;
 
 private:

@@ -6,11 +6,11 @@ namespace listric {
 
 namespace fs = std::filesystem;
 
-std::string draw_flexure(const fs::path& output, const PictureOrder& order) {
+void draw_flexure(const fs::path& output, const PictureOrder& order) {
     std::error_code error;
     fs::create_directories(output / "figures", error);
-    return run_drawing_script("flexure.py",
-                              {output.string(), (output / "figures").string(), order.text()});
+    const fs::path run = fs::absolute(output);
+    run_drawing_script("flexure.py", {run.string(), (run / "figures").string(), order.text()});
 }
 
 } // namespace listric

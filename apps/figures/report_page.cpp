@@ -3,12 +3,14 @@
 #include "apps/scene/effect.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/png.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -55,6 +57,31 @@ json picks_of(const std::vector<PickedLine>& lines) {
     return list;
 }
 
+/// Null of what is no JSON object: a page with it could not be read at all. What is nested more
+/// deeply than ours ever is falls away, as writing it would recurse.
+json object_or_null(const std::string& text) {
+    constexpr int deepest = 64;
+    const auto is_ours = [](int depth, json::parse_event_t, const json&) {
+        return depth <= deepest;
+    };
+    json object = json::parse(text, is_ours, false);
+    return object.is_object() ? object : json();
+}
+
+/// Whether a text is a table as history.csv: a head, and rows with as many cells.
+bool is_table(const std::string& text) {
+    std::istringstream in(text);
+    std::string row;
+    std::getline(in, row);
+    const auto cells = std::ranges::count(row, ',');
+    if (!row.starts_with("extension_m,") || !text.ends_with('\n'))
+        return false;
+    while (std::getline(in, row))
+        if (std::ranges::count(row, ',') != cells)
+            return false;
+    return true;
+}
+
 /// All of a run but its moments.
 json head_of(const ReportPage::Run& run) {
     const Scene& scene = run.scene;
@@ -70,7 +97,7 @@ json head_of(const ReportPage::Run& run) {
               {"mean_radius_m", run.mean_radius},
               {"scales", json::parse(report_scales(run.mean_radius))},
               {"history", run.history},
-              {"summary", run.summary.empty() ? json() : json::parse(run.summary, nullptr, false)}};
+              {"summary", object_or_null(run.summary)}};
     if (scene.observed)
         head["picks"] = {{"horizons", picks_of(scene.observed->horizons)},
                          {"faults", picks_of(scene.observed->faults)}};
@@ -78,7 +105,7 @@ json head_of(const ReportPage::Run& run) {
 }
 
 json underlay_of(const Underlay& underlay) {
-    const std::string image = read_text(underlay.image);
+    const std::string image = read_png(underlay.image).bytes;
     const auto* const bytes = reinterpret_cast<const unsigned char*>(image.data());
     return {{"image", "data:image/png;base64," + base64({bytes, image.size()})},
             {"corners_m", {underlay.left, underlay.top, underlay.right, underlay.bottom}}};
@@ -87,6 +114,7 @@ json underlay_of(const Underlay& underlay) {
 std::string data_of(const ReportPage& page) {
     json head{{"program", "listric " + std::string(version)},
               {"left_out", page.left_out},
+              {"lacks", lacks_of(page)},
               {"live", page.live}};
     const fs::path resources = resource_folder();
     std::string measures = read_text_if_there(resources / "measures.md");
@@ -111,6 +139,20 @@ std::string data_of(const ReportPage& page) {
 }
 
 } // namespace
+
+std::vector<std::string> lacks_of(const ReportPage& page) {
+    std::vector<std::string> lacks;
+    for (const ReportPage::Run& run : page.runs) {
+        const bool ended = !run.summary.empty() || run.has_summary;
+        if (ended && object_or_null(run.summary).is_null())
+            lacks.push_back(run.folder +
+                            "summary.json is damaged, so that measures at the end are missing");
+        if ((ended || !run.history.empty()) && !page.live && !is_table(run.history))
+            lacks.push_back(run.folder + "history.csv is missing or damaged, so that curves are "
+                                         "missing or wrong");
+    }
+    return lacks;
+}
 
 std::string definitions_of(const std::string& document) {
     json definitions = json::object();

@@ -19,6 +19,8 @@ struct ReportPage {
         double mean_radius = 0.0; ///< m
         std::string history;      ///< as history.csv
         std::string summary = {}; ///< as summary.json; empty: the run has not ended
+        std::string folder = {};  ///< with a separator, for messages
+        bool has_summary = false; ///< the file is there, be it empty
     };
     std::vector<Run> runs;
     std::string left_out = {}; ///< what is not there so that the file is smaller
@@ -29,6 +31,9 @@ struct ReportPage {
 /// The page: one file that asks for no other, with its scripts and data. Throws StorageError if a
 /// file of the program's is missing.
 std::string report_html(const ReportPage& page);
+
+/// What a page lacks that the runs' folders should have, a sentence each; the page says so, too.
+std::vector<std::string> lacks_of(const ReportPage& page);
 
 /// What a table of docs/measures.md says of its names, as a JSON object.
 std::string definitions_of(const std::string& document);

@@ -60,14 +60,18 @@ ReadRun open_run(const fs::path& output) {
     return {std::move(folder), std::move(history)};
 }
 
-std::string page_of(const std::vector<ReadRun>& runs, const Reduction& reduction,
-                    const std::optional<Underlay>& underlay) {
+ReportPage page_of(const std::vector<ReadRun>& runs, const Reduction& reduction,
+                   const std::optional<Underlay>& underlay) {
     ReportPage page{.runs = {}, .left_out = reduction.left_out, .underlay = underlay};
-    for (const ReadRun& run : runs)
+    std::error_code error;
+    for (const ReadRun& run : runs) {
+        const fs::path& folder = run.folder.output;
         page.runs.push_back({run.folder.scene, run.moments, run.mean_radius,
-                             read_text_if_there(run.folder.output / "history.csv"),
-                             read_text_if_there(run.folder.output / "summary.json")});
-    return report_html(page);
+                             read_text_if_there(folder / "history.csv"),
+                             read_text_if_there(folder / "summary.json"), (folder / "").string(),
+                             fs::exists(folder / "summary.json", error)});
+    }
+    return page;
 }
 
 /// A moment whose lines are being made; none if they are there.
@@ -162,13 +166,14 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
     return mean_radius;
 }
 
-fs::path report_run(const ReportRequest& request, LinesOfMoments lines) {
+WrittenReport report_run(const ReportRequest& request, LinesOfMoments lines) {
     std::vector<ReadRun> runs;
     for (const fs::path& output : request.outputs)
         runs.push_back(open_run(output));
     runs.front().lines = std::move(lines);
     const double most_bytes = 1e6 * request.most_mb;
     std::string html;
+    std::vector<std::string> lacks;
     for (const Reduction& reduction : reductions) {
         const bool is_last = &reduction == std::end(reductions) - 1;
         double bytes = 0.0;
@@ -182,7 +187,9 @@ fs::path report_run(const ReportRequest& request, LinesOfMoments lines) {
         }
         if (bytes > most_bytes && !is_last)
             continue;
-        html = page_of(runs, reduction, request.underlay);
+        const ReportPage page = page_of(runs, reduction, request.underlay);
+        lacks = lacks_of(page);
+        html = report_html(page);
         if (static_cast<double>(html.size()) <= most_bytes)
             break;
     }
@@ -194,7 +201,7 @@ fs::path report_run(const ReportRequest& request, LinesOfMoments lines) {
     const fs::path file =
         request.file.empty() ? request.outputs.front() / "report.html" : request.file;
     write_text(file, html);
-    return file;
+    return {file, std::move(lacks)};
 }
 
 } // namespace listric

@@ -35,10 +35,16 @@ double add_moments(ReportMoments& moments, const archive::RunFolder& folder,
                    const archive::RunHistory& history, LinesOfMoments& made,
                    const MomentChoice& choice = {});
 
+/// A report that has been written, and what it lacks that the folders should have.
+struct WrittenReport {
+    std::filesystem::path file;
+    std::vector<std::string> lacks = {};
+};
+
 /// Writes the report of finished or unfinished runs from their folders. What makes the file too
-/// large is left out in this order: bonds, stress, every second snapshot and so on. Returns the
-/// file. Throws UsageError, SceneError, StorageError.
+/// large is left out in this order: bonds, stress, every second snapshot and so on. Throws
+/// UsageError, SceneError, StorageError.
 /// @param lines  of the first run that have been made before
-std::filesystem::path report_run(const ReportRequest& request, LinesOfMoments lines = {});
+WrittenReport report_run(const ReportRequest& request, LinesOfMoments lines = {});
 
 } // namespace listric

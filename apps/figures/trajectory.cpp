@@ -31,7 +31,8 @@ void Trajectory::add(const ExportedMoment& at) {
 }
 
 void Trajectory::write(const std::filesystem::path& file) const {
-    std::vector<std::string> words{data_.path.string(), file.string()};
+    std::vector<std::string> words{std::filesystem::absolute(data_.path).string(),
+                                   std::filesystem::absolute(file).string()};
     words.insert(words.end(), rock_names().begin(), rock_names().end());
     run_script_with("gsd", "python3-gsd", "trajectory.py", words);
 }

@@ -160,7 +160,7 @@ void run_laboratory(const LaboratoryRequest& request) {
     carry_out(report, request, test);
     report.summary["wall_s"] = seconds_since(started);
     write_text(output / "summary.json", report.summary.dump(2) + "\n");
-    draw_or_warn("laboratory.py", {output.string()});
+    draw_or_warn("laboratory.py", {std::filesystem::absolute(output).string()});
 }
 
 } // namespace listric

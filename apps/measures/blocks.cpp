@@ -3,6 +3,7 @@
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -75,6 +76,23 @@ std::vector<std::size_t> block_of(const State& state, const Chain& detachment, C
     return block;
 }
 
+/// Where the last piece ends that turns what slides along it, m along the chain.
+double turning_ends(const Chain& detachment) {
+    constexpr double straight = 1e-12; // 1/m
+    constexpr double corner = 1e-6;    // of a unit tangent
+    double at = 0.0, end = 0.0;
+    Point before = detachment.front().start_tangent;
+    for (const Segment& s : detachment) {
+        if (std::hypot(s.start_tangent.x - before.x, s.start_tangent.y - before.y) > corner)
+            end = at;
+        at += s.length;
+        if (std::abs(s.curvature) > straight)
+            end = at;
+        before = s.end_tangent;
+    }
+    return end;
+}
+
 } // namespace
 
 std::optional<RampFlatRamp> find_ramp_flat_ramp(const Chain& detachment) {
@@ -126,15 +144,27 @@ std::optional<double> head_block_tilt(const State& state, const Chain& detachmen
 
 RampFlatRampRotations measure_ramp_flat_ramp(const State& state, const Chain& detachment,
                                              const RampFlatRamp& parts) {
+    const double extension = state.clock.extension, end = turning_ends(detachment);
     const auto breakaway = block_of(state, detachment, [](Point start, const auto&) {
         return hypotenuse(start.x, start.y) < block_size;
     });
+    double rear = end; // of the toe, m along the detachment
     const auto toe = block_of(state, detachment, [&](Point, const auto& foot) {
-        return foot && foot->arc_length < parts.flat_start &&
-               std::atan2(foot->normal.x, foot->normal.y) < toe_dip && foot->distance < block_size;
+        const bool is_toe = foot && foot->arc_length < parts.flat_start &&
+                            std::atan2(foot->normal.x, foot->normal.y) < toe_dip &&
+                            foot->distance < block_size;
+        if (is_toe)
+            rear = std::min(rear, foot->arc_length);
+        return is_toe;
     });
-    return {rotation_of(state, breakaway), rotation_of(state, toe),
-            mean_rotation(state, lower_block(state, detachment, parts), block_size)};
+    RampFlatRampRotations found;
+    if (extension <= parts.flat_start)
+        found.breakaway = rotation_of(state, breakaway);
+    if (rear + extension <= end)
+        found.toe = rotation_of(state, toe);
+    if (parts.lower_start + extension <= end)
+        found.lower_block = mean_rotation(state, lower_block(state, detachment, parts), block_size);
+    return found;
 }
 
 } // namespace listric::measures

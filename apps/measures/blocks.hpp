@@ -30,7 +30,8 @@ std::vector<std::size_t> lower_block(const dem::State& state, const dem::Chain& 
 std::optional<double> head_block_tilt(const dem::State& state, const dem::Chain& detachment,
                                       double thickness);
 
-/// Rotations of three parts of the hanging wall, degrees, positive toward the detachment.
+/// Rotations of three parts of the hanging wall, degrees, positive toward the detachment. None once
+/// a part has left the piece that turns it: the breakaway the upper ramp, the others the lower one.
 struct RampFlatRampRotations {
     std::optional<double> breakaway, toe, lower_block;
 };

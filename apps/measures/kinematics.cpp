@@ -15,8 +15,9 @@ using namespace dem;
 
 namespace {
 
-constexpr double spacing = 25.0;                                     ///< of samples, m
-constexpr double nowhere = -std::numeric_limits<double>::infinity(); ///< height of no curve, m
+constexpr double spacing = 25.0;                                         ///< of samples, m
+constexpr double least_shear_angle = -30.0, greatest_shear_angle = 70.0; ///< that are tried
+constexpr double nowhere = -std::numeric_limits<double>::infinity();     ///< height of no curve, m
 
 /// Unit vector along the chain.
 Point tangent_at(const Chain& chain, double arc_length) {
@@ -162,10 +163,13 @@ double misfit(const Chain& detachment, const std::vector<Point>& prediction,
 InclinedShearFit fit_inclined_shear(const Chain& detachment, double extension,
                                     std::span<const double> x, std::span<const double> top) {
     const double right = x.back();
-    std::vector<InclinedShearFit> tried(201);
+    constexpr double step = 0.5;
+    constexpr auto steps =
+        static_cast<std::size_t>((greatest_shear_angle - least_shear_angle) / step);
+    std::vector<InclinedShearFit> tried(steps + 1);
     in_pieces(tried.size(), 4, [&](std::size_t k, std::size_t end) {
         for (; k < end; ++k) {
-            const double angle = -30.0 + 0.5 * static_cast<double>(k);
+            const double angle = least_shear_angle + step * static_cast<double>(k);
             tried[k] = {angle,
                         misfit(detachment, inclined_shear_top(detachment, extension, angle, right),
                                x, top, right)};
@@ -174,19 +178,46 @@ InclinedShearFit fit_inclined_shear(const Chain& detachment, double extension,
     return *std::ranges::min_element(tried, {}, &InclinedShearFit::misfit);
 }
 
+bool head_block_turns(const Chain& detachment, double extension) {
+    constexpr double less = 0.5 * pi / 180.0, steeper = 5.0 * pi / 180.0;
+    const auto dip = [](Point tangent) { return std::atan2(-tangent.y, tangent.x); };
+    double at = 0.0, end = 0.0, least = dip(detachment.front().start_tangent);
+    const auto take = [&](Point tangent) {
+        if (dip(tangent) < least - less) {
+            least = dip(tangent);
+            end = at;
+        }
+        return dip(tangent) < least + steeper;
+    };
+    for (const Segment& s : detachment) {
+        if (!take(s.start_tangent))
+            break;
+        at += s.length;
+        if (!take(s.end_tangent))
+            break;
+    }
+    return end == 0.0 || extension <= end;
+}
+
 KinematicPrediction predict_kinematics(const Chain& detachment, double extension,
                                        const Profile& profile) {
     assert(extension > 0.0);
     const double right = profile.x.back();
     const Point cutoff = point_at(detachment, extension);
     KinematicPrediction found;
-    found.shear = fit_inclined_shear(detachment, extension, profile.x, profile.pre_rift_top);
-    found.tilt = normals_tilt(detachment, extension);
-    found.cutoff = Point{cutoff.x, -cutoff.y};
-    if (const double share = normals_halfgraben_share(detachment, extension, right); share > 0.0)
+    const InclinedShearFit shear =
+        fit_inclined_shear(detachment, extension, profile.x, profile.pre_rift_top);
+    if (shear.angle > least_shear_angle && shear.angle < greatest_shear_angle)
+        found.shear = shear;
+    if (head_block_turns(detachment, extension))
+        found.tilt = normals_tilt(detachment, extension);
+    if (extension <= length_of(detachment))
+        found.cutoff = Point{cutoff.x, -cutoff.y};
+    if (const double share = normals_halfgraben_share(detachment, extension, right);
+        share > 0.0 && share < 1.0)
         found.halfgraben_share = share;
     const std::vector<Point> normals = normals_top(detachment, extension, right);
-    if (!normals.empty()) {
+    if (!normals.empty() && extension < detachment.front().length) {
         // Beyond the block that rotates, the hanging wall collapses.
         const double last = cutoff.x + 0.5 * (detachment.front().end.x - cutoff.x);
         found.normals_misfit = misfit(detachment, normals, profile.x, profile.pre_rift_top, last);

@@ -46,12 +46,18 @@ InclinedShearFit fit_inclined_shear(const dem::Chain& detachment, double extensi
 double misfit(const dem::Chain& detachment, const std::vector<dem::Point>& prediction,
               std::span<const double> x, std::span<const double> top, double last);
 
-/// What the constructions say of a basin.
+/// Whether some of the head block is still on its way along the detachment to where that dips
+/// least, before it steepens again by 5 degrees or more. Beyond, it has turned by as much as it
+/// can, whatever the extension. On a plane it never turns, which is a result.
+bool head_block_turns(const dem::Chain& detachment, double extension);
+
+/// What the constructions say of a basin, each as far as it reaches.
 struct KinematicPrediction {
-    InclinedShearFit shear;               ///< that fits the pre-rift top best
-    std::optional<double> normals_misfit; ///< of the head block, m
-    double tilt = 0.0;                    ///< of the head block, degrees
-    dem::Point cutoff;                    ///< x and depth, m
+    std::optional<InclinedShearFit> shear; ///< that fits the pre-rift top best; none at the end of
+                                           ///< the angles that are tried
+    std::optional<double> normals_misfit;  ///< of the head block, m; while it is on the first piece
+    std::optional<double> tilt;            ///< of the head block, degrees; while it turns
+    std::optional<dem::Point> cutoff;      ///< x and depth, m
     std::optional<double> halfgraben_share;
 };
 

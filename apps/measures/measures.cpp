@@ -19,19 +19,34 @@ using namespace dem;
 
 namespace {
 
+/// Eroded rock, over extension x thickness, that the balance of areas may be wrong by.
+constexpr double most_eroded = 0.01;
+
+/// Whether so much of the rock that was there before the rift is gone.
+bool rock_is_eroded(const Setting& setting, const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    double rock = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] == 0)
+            rock += d.mass[i];
+    const double share = 1.0 - rock / state.ledger.initial; // of the hanging wall
+    return share * setting.length > most_eroded * state.clock.extension;
+}
+
 using Events = std::span<const std::unique_ptr<Event>>;
 
 void add_area(Measures& m, const Setting& setting, const State& state, const Profile& profile) {
     const double extension = state.clock.extension;
     m.basin_area = area_above(profile, profile.x.size(), 2.0 * state.mean_radius) -
                    area_above_start(setting, state);
-    if (extension > 0.0)
+    if (extension > 0.0 && !rock_is_eroded(setting, state))
         m.area_balance = m.basin_area / (extension * setting.thickness);
 }
 
 void add_rotations(Measures& m, const Setting& setting, const State& state,
                    const Chain& detachment) {
-    m.rollover_tilt = head_block_tilt(state, detachment, setting.thickness);
+    if (head_block_turns(detachment, state.clock.extension))
+        m.rollover_tilt = head_block_tilt(state, detachment, setting.thickness);
     if (const auto parts = find_ramp_flat_ramp(detachment)) {
         const auto rotations = measure_ramp_flat_ramp(state, detachment, *parts);
         m.breakaway_rotation = rotations.breakaway;
@@ -42,12 +57,16 @@ void add_rotations(Measures& m, const Setting& setting, const State& state,
 
 void add_prediction(Measures& m, const Setting& setting, const Chain& detachment, double extension,
                     const Profile& profile) {
-    m.dilation_area = extension * setting.thickness - m.basin_area;
-    m.depth_to_detachment = m.basin_area / extension;
     const KinematicPrediction predicted = predict_kinematics(detachment, extension, profile);
-    m.inclined_shear_angle = predicted.shear.angle;
-    m.inclined_shear_misfit = predicted.shear.misfit;
-    m.normals_misfit = predicted.normals_misfit;
+    if (m.area_balance) { // else the pre-rift top is not what deformation made it
+        m.dilation_area = extension * setting.thickness - m.basin_area;
+        m.depth_to_detachment = m.basin_area / extension;
+        m.normals_misfit = predicted.normals_misfit;
+        if (predicted.shear) {
+            m.inclined_shear_angle = predicted.shear->angle;
+            m.inclined_shear_misfit = predicted.shear->misfit;
+        }
+    }
     m.predicted_tilt = predicted.tilt;
     m.predicted_cutoff = predicted.cutoff;
     m.predicted_halfgraben_area_share = predicted.halfgraben_share;

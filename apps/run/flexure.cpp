@@ -338,10 +338,11 @@ void bend_base(const Scene& scene, int threads, const fs::path& output,
     };
     write_summary(0.0); // the picture's legend reads it
     const auto drawing = SteadyClock::now();
-    if (const std::string problem =
-            draw_flexure(output, {.provenance = archive::provenance(scene)});
-        !problem.empty())
-        say("warning: no figure: " + problem);
+    try {
+        draw_flexure(output, {.provenance = archive::provenance(scene)});
+    } catch (const std::exception& error) {
+        say(std::string("warning: no figure: ") + error.what());
+    }
     write_summary(seconds_since(drawing));
     say(fmt::format("deflection {:.2f} m, thin plate {:.2f} m{}; figure in {}",
                     bent.deflection.at_centre(), plate_deflection(flexure, c.plate, 0.0),

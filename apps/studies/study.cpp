@@ -94,7 +94,7 @@ void run_study(StudyRequest request) {
     write_text(request.output / "study.csv", to_csv(result));
     write_text(request.output / "study.json", json.dump(2) + "\n");
     print(result);
-    draw_or_warn("study.py", {request.output.string()});
+    draw_or_warn("study.py", {std::filesystem::absolute(request.output).string()});
 }
 
 } // namespace listric

@@ -191,7 +191,7 @@ StudyResult study_isostasy(const StudyRequest& asked) {
                                              0.0});
                 }
     write_text(request.output / "isostasy.csv", table);
-    draw_or_warn("isostasy.py", {request.output.string()});
+    draw_or_warn("isostasy.py", {std::filesystem::absolute(request.output).string()});
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include "apps/figures/figures.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
+#include "apps/studies/effects_table.hpp"
 #include "apps/studies/sweep_effects.hpp"
 #include "apps/studies/sweep_plan.hpp"
 #include "apps/studies/sweep_table.hpp"
@@ -18,6 +19,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iostream>
+#include <iterator>
 #include <set>
 
 namespace listric {
@@ -174,6 +177,11 @@ private:
                                      plan_.measures[m].text));
     }
 
+    void warn_of_few_seeds() {
+        if (const std::string text = warning_of_few(plan_.seeds); !text.empty())
+            log_.say("warning: " + text);
+    }
+
     void write_effects(const std::vector<SweepRow>& rows) {
         const std::vector<SweepFactor> factors = factors_of(plan_, points_, rows);
         std::vector<std::size_t> run;
@@ -182,24 +190,25 @@ private:
             run.push_back(row.run);
             seed.push_back(row.seed);
         }
-        std::string text = "measure,term,effect,standard_error\n";
+        std::vector<SweepEffect> effects;
         for (std::size_t m = 0; m < plan_.measures.size(); ++m) {
             std::vector<std::optional<double>> values;
             for (const SweepRow& row : rows)
                 values.push_back(row.measures[m]);
-            for (const SweepEffect& e :
-                 effects_on(plan_.measures[m].text, factors, run, seed, values))
-                text +=
-                    fmt::format("{},{},{:.6g},{}\n", e.measure, e.term, e.effect,
-                                e.standard_error ? fmt::format("{:.3g}", *e.standard_error) : "");
+            std::ranges::move(effects_on(plan_.measures[m].text, factors, run, seed, values),
+                              std::back_inserter(effects));
         }
         for (const SweepFactor& factor : factors)
             if (!factor.word.empty())
                 log_.say(fmt::format("{} has more than two words, which have no order: effects.csv "
                                      "has no effect of it",
                                      factor.name));
-        write_text(output_ / "effects.csv", text);
-        draw_or_warn("effects.py", {output_.string()});
+        write_text(output_ / "effects.csv", effects_csv(effects));
+        std::cout << effects_text(effects);
+        if (!factors.empty())
+            warn_of_few_seeds();
+        if (!effects.empty())
+            draw_or_warn("effects.py", {fs::absolute(output_).string()});
     }
 
     /// The last state of every point, by its first seed that is finished.
@@ -224,8 +233,8 @@ private:
         try {
             figure.draw("multiples");
             fs::rename(output_ / "multiples.png", output_ / "sheet.png");
-        } catch (const StorageError& error) {
-            log_.say(std::string("warning: ") + error.what());
+        } catch (const std::exception& error) {
+            log_.say(std::string("warning: no sheet.png: ") + error.what());
         }
     }
 

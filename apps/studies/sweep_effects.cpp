@@ -1,5 +1,7 @@
 #include "apps/studies/sweep_effects.hpp"
 
+#include "apps/studies/student.hpp"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -48,18 +50,37 @@ std::vector<Value> kept(std::span<const Value> all, const std::vector<std::size_
     return result;
 }
 
-/// Variance of a run about the mean of its point and seed; none without repeated points.
-std::optional<double> variance_of_repeats(const std::vector<std::size_t>& point,
-                                          const std::vector<int>& seed, const VectorXd& y) {
+/// A variance, and how many independent differences it is the mean square of.
+struct Variance {
+    double value;
+    int degrees_of_freedom;
+};
+
+/// Of a run about the mean of its point and seed; none without repeated points.
+std::optional<Variance> variance_of_repeats(const std::vector<std::size_t>& point,
+                                            const std::vector<int>& seed, const VectorXd& y) {
     Columns means{{VectorXd::Ones(y.size())}};
     means.add_indicators(point);
     means.add_indicators(seed);
     const MatrixXd m = means.matrix();
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(m);
-    const auto freedom = static_cast<double>(y.size() - solver.rank());
-    if (freedom < 1.0)
+    const auto freedom = static_cast<int>(y.size() - solver.rank());
+    if (freedom < 1)
         return std::nullopt;
-    return (y - m * solver.solve(y)).squaredNorm() / freedom;
+    return Variance{(y - m * solver.solve(y)).squaredNorm() / freedom, freedom};
+}
+
+/// Adds what chance may do. What is round-off, beside values of such a size, is no effect.
+void add_chance(SweepEffect& effect, const Variance& variance, double square_of_weights,
+                double largest_value) {
+    const double error = 2.0 * std::sqrt(variance.value * square_of_weights);
+    const double round_off = 1e-12 * largest_value;
+    effect.standard_error = error;
+    effect.degrees_of_freedom = variance.degrees_of_freedom;
+    effect.p = std::abs(effect.effect) <= round_off
+                   ? 1.0
+                   : student_p(effect.effect / error, variance.degrees_of_freedom);
+    effect.margin_95 = error * student_quantile(0.95, variance.degrees_of_freedom);
 }
 
 } // namespace
@@ -117,7 +138,7 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
             continue;
         SweepEffect effect{measure, terms[k], 2.0 * fit(j), std::nullopt};
         if (variance)
-            effect.standard_error = 2.0 * std::sqrt(*variance * inverse.row(j).squaredNorm());
+            add_chance(effect, *variance, inverse.row(j).squaredNorm(), y.cwiseAbs().maxCoeff());
         effects.push_back(std::move(effect));
     }
     return effects;

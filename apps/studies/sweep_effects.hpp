@@ -25,13 +25,20 @@ struct SweepEffect {
     /// Of a: change of the measure from the least value of a to the greatest, others in their
     /// middle. Of a:b: half of what that effect of a changes from the least b to the greatest.
     double effect = 0.0;
-    std::optional<double> standard_error; ///< none: no run was repeated with another seed
+    /// None: no run was repeated with another seed.
+    std::optional<double> standard_error = std::nullopt;
+    int degrees_of_freedom = 0; ///< that the standard error is known from
+    /// How likely chance alone gives such an effect or a larger one, by Student's t, and how far to
+    /// either side the truth may lie in 95 of 100 sweeps; there where the standard error is.
+    std::optional<double> p = std::nullopt, margin_95 = std::nullopt;
 };
 
 /// Least squares on all main effects and two-way interactions with a constant for each seed, since
 /// runs of one seed begin with one packing (a block; Montgomery, Design and Analysis of
 /// Experiments, ch. 5 and 6). A term that the runs cannot tell from others is left out. Errors are
-/// those of repeated points: the spread between seeds once the mean difference of seeds is off.
+/// those of repeated points: the spread between seeds once the mean difference of seeds is off,
+/// taken to be the same at all points. Of n points and s seeds, all finished, it has
+/// (n - 1) (s - 1) degrees of freedom.
 /// @param point   number of the design point, by run
 /// @param values  by run; none: it failed or the measure has no meaning
 std::vector<SweepEffect> effects_on(const std::string& measure,

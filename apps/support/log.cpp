@@ -1,9 +1,14 @@
 #include "apps/support/log.hpp"
 
+#include "apps/support/text.hpp"
+
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
+#include <string_view>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace listric {
@@ -11,6 +16,23 @@ namespace listric {
 namespace {
 
 constexpr std::string_view clear_line = "\r\x1b[K";
+
+/// Whether standard error is a terminal that obeys "\r" and escape sequences.
+bool rewrites_lines() {
+    const char* kind = std::getenv("TERM");
+    return isatty(STDERR_FILENO) != 0 && kind && *kind && std::string_view(kind) != "dumb";
+}
+
+/// Columns of the terminal as it is now: a window may have been resized.
+std::size_t terminal_width() {
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+        return size.ws_col;
+    if (const char* columns = std::getenv("COLUMNS"))
+        if (const long width = std::strtol(columns, nullptr, 10); width > 0)
+            return static_cast<std::size_t>(width);
+    return 80;
+}
 
 } // namespace
 
@@ -30,7 +52,7 @@ void warn(std::string_view message) {
 }
 
 Log::Log(const std::filesystem::path& file, bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {
+    : quiet_(quiet), terminal_(rewrites_lines()) {
     if (!file.empty())
         file_.open(file, std::ios::app);
 }
@@ -56,7 +78,10 @@ void Log::progress(std::string_view line) {
         return;
     has_progressed_ = true;
     last_progress_ = SteadyClock::now();
-    tell(fmt::format("{}{}{}", terminal_ ? clear_line : "", line, terminal_ ? "" : "\n"));
+    if (terminal_) // the last column stays free: some wrap a line that ends in it
+        tell(fmt::format("{}{}", clear_line, cut_to(shown(line), terminal_width() - 1)));
+    else
+        tell(fmt::format("{}\n", line));
     shows_progress_ = terminal_;
 }
 

@@ -13,4 +13,13 @@ namespace listric {
 int run_program(const std::vector<std::string>& words,
                 const std::function<void(int process)>& begun = {});
 
+/// How a program ended whose words were kept.
+struct SilentEnd {
+    int code = -1;         ///< as run_program has it
+    std::string said = {}; ///< the last 64 kB of its standard error
+};
+
+/// The same of a program that says nothing to the user and reads nothing from him.
+SilentEnd run_silently(const std::vector<std::string>& words);
+
 } // namespace listric

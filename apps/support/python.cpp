@@ -4,70 +4,132 @@
 #include "apps/support/log.hpp"
 #include "apps/support/process.hpp"
 #include "apps/support/resources.hpp"
+#include "apps/support/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdlib>
+#include <map>
+#include <mutex>
+#include <stdexcept>
 
 namespace listric {
 
 namespace {
 
-/// Whether it is a Python with these modules.
-bool has(const std::string& python, const std::vector<std::string>& modules) {
-    std::vector<std::string> words{python, "-c",
-                                   "import importlib.util as u, sys\n"
-                                   "sys.exit(not all(map(u.find_spec, sys.argv[1:])))"};
-    words.insert(words.end(), modules.begin(), modules.end());
-    return run_program(words) == 0;
-}
+/// Exit codes of scripts, as apps/figures/python/script.py has them; 127 is of no program.
+constexpr int bad_input = 2, no_room = 4, no_library = 69, no_program = 127, interrupted = 130;
 
-/// LISTRIC_PYTHON of the environment, else the first on PATH if it has the modules, else the
-/// system's.
-std::string find_python(const std::vector<std::string>& modules) {
+/// A Python, and with which options it is called.
+using Interpreter = std::vector<std::string>;
+
+/// Those that may do, the best first: LISTRIC_PYTHON of the environment, else the first on PATH,
+/// else the system's. Alone (-I), without the caller's variables, current folder and own packages,
+/// which may not fit the system's; then with own packages, where only these have what is needed.
+std::vector<Interpreter> interpreters() {
     const char* wanted = std::getenv("LISTRIC_PYTHON");
-    return wanted && *wanted ? wanted : has("python3", modules) ? "python3" : "/usr/bin/python3";
+    const Interpreter alone{"-I", "-X", "utf8"}, with_own{"-E", "-X", "utf8"};
+    std::vector<std::string> programs{"python3", "/usr/bin/python3"};
+    if (wanted && *wanted)
+        programs = {wanted};
+    std::vector<Interpreter> all;
+    for (const Interpreter& options : {alone, with_own})
+        for (const std::string& program : programs) {
+            all.push_back({program});
+            all.back().insert(all.back().end(), options.begin(), options.end());
+        }
+    return all;
 }
 
-/// That draws.
-const std::string& python() {
-    static const std::string found = find_python({"numpy", "matplotlib"});
-    return found;
+/// Whether it is a Python with these modules, as far as can be told without loading them.
+bool has(Interpreter python, const std::vector<std::string>& modules) {
+    python.insert(python.end(), {"-c", "import importlib.util as u, sys\n"
+                                       "sys.exit(not all(map(u.find_spec, sys.argv[1:])))"});
+    python.insert(python.end(), modules.begin(), modules.end());
+    return run_silently(python).code == 0;
 }
 
-/// Of a Python and one of the program's scripts.
-std::vector<std::string> words_of(const std::string& python, const std::string& script,
-                                  const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{python,
-                                   (resource_folder() / "figures/python" / script).string()};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    return words;
+/// The last line of what a script has said, without its own name.
+std::string last_line(std::string text, const std::string& script) {
+    while (!text.empty() && text.back() == '\n')
+        text.pop_back();
+    std::string line = text.substr(text.rfind('\n') + 1);
+    if (line.starts_with(script + ": "))
+        line.erase(0, script.size() + 2);
+    return shown(line);
+}
+
+/// Throws what the end of a script means.
+[[noreturn]] void refuse(const SilentEnd& end, const std::string& script,
+                         const std::string& python) {
+    const std::string said = last_line(end.said, script);
+    if (end.code == interrupted)
+        throw Interrupted();
+    if (end.code < 0)
+        throw StorageError(fmt::format("{}: no process for it can be started", script));
+    if (end.code > 128)
+        throw StorageError(fmt::format("{} was ended by signal {}, as it is where memory is short",
+                                       script, end.code - 128));
+    if (end.code == bad_input)
+        throw UsageError(fmt::format("{}: {}", script, said));
+    if (end.code == no_room)
+        throw StorageError(fmt::format("{}: {}", script, said));
+    throw std::runtime_error(fmt::format("{} of {} failed with exit code {}: {}", script, python,
+                                         end.code, said.empty() ? "it says nothing" : said));
+}
+
+/// Runs a script on the first interpreter that can load the modules.
+void run_script(const std::vector<std::string>& modules, const std::string& packages,
+                const std::string& script, const std::vector<std::string>& arguments) {
+    // By module: the one that did, so that others are not tried again. Threads draw.
+    static std::map<std::string, Interpreter> that_did;
+    static std::mutex mutex;
+    std::vector<Interpreter> candidates = interpreters();
+    {
+        const std::lock_guard lock(mutex);
+        if (const auto known = that_did.find(modules.back()); known != that_did.end())
+            candidates = {known->second};
+    }
+    std::string lacking;
+    for (const Interpreter& python : candidates) {
+        if (candidates.size() > 1 && !has(python, modules))
+            continue;
+        std::vector<std::string> words = python;
+        words.push_back((resource_folder() / "figures/python" / script).string());
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const SilentEnd end = run_silently(words);
+        if (end.code == no_library || end.code == no_program) {
+            lacking = fmt::format(" ({}: {})", python[0], last_line(end.said, script));
+            continue;
+        }
+        const std::lock_guard lock(mutex);
+        that_did[modules.back()] = python;
+        return end.code == 0 ? void() : refuse(end, script, python[0]);
+    }
+    throw UsageError(fmt::format("{} needs Python with {}, and {} has them not{}: install {}, or "
+                                 "name another Python in LISTRIC_PYTHON",
+                                 script, fmt::join(modules, " and "), shown(candidates.front()[0]),
+                                 lacking, packages));
 }
 
 } // namespace
 
-std::string run_drawing_script(const std::string& script,
-                               const std::vector<std::string>& arguments) {
-    const int code = run_program(words_of(python(), script, arguments));
-    return code == 0
-               ? ""
-               : "the drawing script failed (exit code " + std::to_string(code) + " of " +
-                     python() + "; it needs numpy and matplotlib, LISTRIC_PYTHON names another)";
+void run_drawing_script(const std::string& script, const std::vector<std::string>& arguments) {
+    run_script({"numpy", "matplotlib"}, "python3-matplotlib", script, arguments);
 }
 
 void draw_or_warn(const std::string& script, const std::vector<std::string>& arguments) {
-    if (const std::string problem = run_drawing_script(script, arguments); !problem.empty())
-        warn("no figure: " + problem);
+    try {
+        run_drawing_script(script, arguments);
+    } catch (const std::exception& error) {
+        warn(std::string("no figure: ") + error.what());
+    }
 }
 
 void run_script_with(const std::string& module, const std::string& package,
                      const std::string& script, const std::vector<std::string>& arguments) {
-    const std::vector<std::string> modules{"numpy", module};
-    const std::string found = find_python(modules);
-    if (!has(found, modules))
-        throw UsageError(found + " has no module " + module + ": install the package " + package +
-                         ", or name another Python in LISTRIC_PYTHON");
-    if (const int code = run_program(words_of(found, script, arguments)); code != 0)
-        throw StorageError(script + " failed (exit code " + std::to_string(code) + " of " + found +
-                           ")");
+    run_script({"numpy", module}, package, script, arguments);
 }
 
 } // namespace listric

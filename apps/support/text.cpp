@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace listric {
 
 namespace {
@@ -30,6 +32,38 @@ std::size_t character_length(std::string_view text, std::size_t k) {
     const bool surrogate = first == 0xed && second > 0x9f;
     const bool too_large = first == 0xf4 && second > 0x8f;
     return overlong || surrogate || too_large ? 0 : length;
+}
+
+/// The number of a character (its bytes are sound).
+unsigned code_point(std::string_view character) {
+    unsigned code = byte_at(character, 0);
+    if (character.size() > 1)
+        code &= 0x7fu >> character.size();
+    for (std::size_t k = 1; k < character.size(); ++k)
+        code = code << 6 | (byte_at(character, k) & 0x3f);
+    return code;
+}
+
+struct CodeRange {
+    unsigned first, last;
+};
+
+/// Characters without a column of their own, and those of two columns, in broad ranges of Unicode
+/// (its tables DerivedGeneralCategory and EastAsianWidth): what is taken for wider than it is costs
+/// a column, the reverse a line.
+constexpr CodeRange joined[] = {
+    {0x300, 0x36f}, {0x200b, 0x200f}, {0x20d0, 0x20ff}, {0xfe00, 0xfe0f}};
+constexpr CodeRange wide[] = {
+    {0x1100, 0x115f},   {0x231a, 0x231b},  {0x23e9, 0x23f3}, {0x25fd, 0x25fe},   {0x2600, 0x27bf},
+    {0x2b1b, 0x2b55},   {0x2e80, 0xa4cf},  {0xa960, 0xa97f}, {0xac00, 0xd7ff},   {0xf900, 0xfaff},
+    {0xfe10, 0xfe6f},   {0xff00, 0xff60},  {0xffe0, 0xffe6}, {0x16fe0, 0x18cff}, {0x1aff0, 0x1b2ff},
+    {0x1f000, 0x1faff}, {0x20000, 0x3ffff}};
+
+std::size_t columns_of(std::string_view character) {
+    const auto is_in = [code = code_point(character)](const CodeRange& range) {
+        return range.first <= code && code <= range.last;
+    };
+    return std::ranges::any_of(joined, is_in) ? 0 : std::ranges::any_of(wide, is_in) ? 2 : 1;
 }
 
 /// Characters that a terminal obeys: those below a blank, DEL, and U+0080 to U+009F.
@@ -71,6 +105,22 @@ std::string shown_start(std::string_view text, std::size_t most) {
     while (most > 0 && (byte_at(text, most) & 0xc0) == 0x80) // not within a character
         --most;
     return shown(text.substr(0, most)) + "...";
+}
+
+std::string cut_to(std::string_view text, std::size_t columns) {
+    constexpr std::string_view dots = "...";
+    const std::size_t room = columns > 2 * dots.size() ? columns - dots.size() : columns;
+    std::size_t used = 0, end = 0; // that leaves room for the dots
+    for (std::size_t k = 0; k < text.size();) {
+        const std::size_t length = std::max<std::size_t>(character_length(text, k), 1);
+        used += columns_of(text.substr(k, length));
+        if (used > columns)
+            return std::string(text.substr(0, end)) + std::string(room < columns ? dots : "");
+        k += length;
+        if (used <= room)
+            end = k;
+    }
+    return std::string(text);
 }
 
 } // namespace listric

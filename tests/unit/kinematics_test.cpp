@@ -168,5 +168,55 @@ TEST(Misfit, OfAShiftedCurve) {
     EXPECT_NEAR(misfit(chain, flat, x, top, 20.1e3), 0.0, 1e-9);
 }
 
+TEST(HeadBlock, TurnsUntilAllOfItIsWhereTheDetachmentDipsLeast) {
+    // A quarter circle of 15 km, then a flat: 23.56 km.
+    EXPECT_TRUE(head_block_turns(arc_and_flat(90.0), 23.5e3));
+    EXPECT_FALSE(head_block_turns(arc_and_flat(90.0), 23.6e3));
+    // The upper of two ramps: 11.0 km.
+    EXPECT_TRUE(head_block_turns(ramp_flat_ramp(), 10.9e3));
+    EXPECT_FALSE(head_block_turns(ramp_flat_ramp(), 11.1e3));
+    // A plane turns nothing, at any extension.
+    EXPECT_TRUE(head_block_turns({line({0.0, 0.0}, {50e3, -50e3})}, 60e3));
+    // What is nearly flat, in pieces, ends with the last piece that turns by half a degree.
+    Chain pieces{line({0.0, 0.0}, {5e3, -5e3}), line({5e3, -5e3}, {15e3, -6e3}),
+                 line({15e3, -6e3}, {60e3, -10e3})};
+    EXPECT_TRUE(head_block_turns(pieces, 17e3));
+    EXPECT_FALSE(head_block_turns(pieces, 18e3));
+}
+
+TEST(KinematicPrediction, SaysNothingBeyondItsConstructions) {
+    const Chain chain = arc_and_flat(90.0);
+    Profile profile;
+    for (double x = 100.0; x < 65e3; x += 200.0) {
+        profile.x.push_back(x);
+        profile.pre_rift_top.push_back(std::max(-3e3, -x));
+    }
+    const KinematicPrediction near = predict_kinematics(chain, 10e3, profile);
+    EXPECT_NEAR(near.tilt.value(), 10.0 / 15.0 / degree, 1e-4);
+    EXPECT_TRUE(near.cutoff && near.normals_misfit && near.halfgraben_share);
+    const KinematicPrediction far = predict_kinematics(chain, 24e3, profile);
+    EXPECT_FALSE(far.tilt);
+    EXPECT_FALSE(far.normals_misfit); // of a head block that has left the arc
+    EXPECT_TRUE(far.cutoff);          // on the flat
+    EXPECT_FALSE(predict_kinematics(chain, 110e3, profile).cutoff);
+    // A top that no angle between -30 and 70 degrees fits best.
+    for (double& top : profile.pre_rift_top)
+        top = 0.0;
+    EXPECT_FALSE(predict_kinematics(chain, 10e3, profile).shear);
+}
+
+TEST(KinematicPrediction, AShareIsNoMoreThanTheWhole) {
+    Profile profile;
+    for (double x = 100.0; x < 45e3; x += 200.0) {
+        profile.x.push_back(x);
+        profile.pre_rift_top.push_back(-100.0);
+    }
+    for (const double extension : {2e3, 5e3, 7e3, 10e3}) {
+        const auto share =
+            predict_kinematics(ramp_flat_ramp(), extension, profile).halfgraben_share;
+        EXPECT_LT(share.value_or(0.0), 1.0) << extension;
+    }
+}
+
 } // namespace
 } // namespace listric

@@ -8,6 +8,7 @@
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
+#include "dem/events/weakened_discs.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -207,6 +208,17 @@ TEST(RampFlatRamp, RotationsOfItsParts) {
     EXPECT_NEAR(m.breakaway_rotation.value(), 80.0, 1e-9);
     EXPECT_NEAR(m.lower_block_rotation.value(), 43.0, 1e-9);
     EXPECT_NEAR(m.toe_rotation.value(), -15.0, 1e-9);
+    // The upper ramp is 11.0 km long; from the lower one's head 12.3 km are left, from the toe 19.
+    const auto known = [&](double extension) {
+        state.clock.extension = extension;
+        const auto parts = find_ramp_flat_ramp(base.surfaces.front().chain).value();
+        const auto r = measure_ramp_flat_ramp(state, base.surfaces.front().chain, parts);
+        return std::vector{r.breakaway.has_value(), r.lower_block.has_value(), r.toe.has_value()};
+    };
+    EXPECT_EQ(known(10.9e3), (std::vector{true, true, true}));
+    EXPECT_EQ(known(11.1e3), (std::vector{false, true, true}));
+    EXPECT_EQ(known(12.5e3), (std::vector{false, false, true}));
+    EXPECT_EQ(known(20.0e3), (std::vector{false, false, false}));
 }
 
 TEST(RampFlatRamp, OtherDetachmentsHaveNoSuchParts) {
@@ -243,6 +255,71 @@ TEST(Cutoff, OfTheConstantSlipOfLis2) {
     EXPECT_NEAR(m.cutoff.value().x, 6.34e3, 250.0);
     EXPECT_NEAR(m.cutoff.value().y, 7.67e3, 250.0);
     EXPECT_NEAR(m.rollover_tilt.value(), 19.0986, 1e-3);
+}
+
+TEST(Measures, OfTheRollAreNoneBeyondTheArc) {
+    const Scene scene = load_scene(
+        {.scene = "lis1",
+         .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
+    const RigidBase base = make_rigid_base(scene);
+    State state = lattice(scene, base);
+    turn(state, 70.0, [](Point) { return true; });
+    for (const auto& [extension, is_there] : {std::pair(23e3, true), std::pair(24e3, false)}) {
+        state.clock.extension = extension;
+        const Measures m = measure(make_setting(scene, make_parts(scene)), state, base, {});
+        EXPECT_EQ(m.rollover_tilt.has_value(), is_there);
+        EXPECT_EQ(m.predicted_tilt.has_value(), is_there);
+        EXPECT_TRUE(m.area_balance && m.cutoff);
+    }
+}
+
+TEST(Measures, OfAreaAreNoneWhereRockWasEroded) {
+    const Scene scene = load_scene(
+        {.scene = "lis1",
+         .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
+    const RigidBase base = make_rigid_base(scene);
+    State state = lattice(scene, base);
+    state.clock.extension = 2e3;
+    const Setting setting = make_setting(scene, make_parts(scene));
+    const auto known = [&] {
+        const Measures m = measure(setting, state, base, {});
+        EXPECT_EQ(m.area_balance.has_value(), m.dilation_area.has_value());
+        EXPECT_EQ(m.area_balance.has_value(), m.depth_to_detachment.has_value());
+        EXPECT_TRUE(m.area_balance || !(m.inclined_shear_angle || m.normals_misfit));
+        EXPECT_TRUE(m.rollover_tilt && m.predicted_tilt);
+        return m.area_balance.has_value();
+    };
+    EXPECT_TRUE(known());
+    // Of 2 x 15 km2 a hundredth may be gone: 1/2000 of a hanging wall of 40 x 15 km2.
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    std::vector<std::int32_t> kept;
+    for (std::size_t i = 0; i < d.y.size(); ++i)
+        if (i % 1000 != 0)
+            kept.push_back(static_cast<std::int32_t>(i));
+    reorder_discs(state, kept);
+    EXPECT_FALSE(known());
+    state.clock.extension = 20e3;
+    EXPECT_TRUE(known());
+}
+
+TEST(Measures, OfWeakenedVolumeAreNoneWhereThereIsMoreSedimentThanRock) {
+    const Scene scene = load_scene({.scene = "lis1"});
+    const ModelParts parts = make_parts(scene);
+    State state = lattice(scene, parts.base);
+    add_weakened_columns(state);
+    const auto known = [&] {
+        NamedNumbers numbers;
+        for (const EffectPart& part : scene.effects)
+            if (part.effect->name == "fault_weakening")
+                numbers = part.effect->measure({scene, parts, state, {}}).numbers;
+        EXPECT_EQ(numbers.at(0).first, "weak_fraction");
+        return numbers.size() == 2 && numbers[1].first == "volume_error_fraction";
+    };
+    EXPECT_TRUE(known());
+    state.ledger.deposited = 1.2 * state.ledger.initial;
+    EXPECT_FALSE(known());
+    state.ledger.removed = 0.3 * state.ledger.initial;
+    EXPECT_TRUE(known());
 }
 
 TEST(InterveningHigh, BetweenTheFirstDepocentreAndTheMostProminentBeyond) {

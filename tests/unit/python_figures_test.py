@@ -7,6 +7,7 @@ import contextlib
 import io
 import json
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -19,10 +20,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "apps/figures/pytho
 import plot
 
 import numpy as np
+from PIL import Image
 
+import animation
 import axes
 import base
 import discs
+import effects
 import figures
 import footwall
 import frame as frames
@@ -31,6 +35,7 @@ import laboratory
 import page
 import panels
 import scales
+import script
 import sections
 import sheet
 import study
@@ -108,6 +113,35 @@ class Underlay(Folder):
                            horizons=[[0, 0.0, -900.0]])
         with self.assertRaisesRegex(plot.InputError, "section.png"):
             sections.draw_figure(frame, ["underlay"])
+        Image.fromarray(np.zeros((50, 50), np.uint8)).save(self.path("whole.png"))
+        whole = Path(self.path("whole.png")).read_bytes()
+        for broken in (b"", whole[:40], whole[:60]):
+            Path(self.path("section.png")).write_bytes(broken)
+            with self.assertRaisesRegex(plot.InputError, "section.png"):
+                panels.read_picture(self.path("section.png"))
+
+    def test_a_grey_picture_keeps_its_greys(self):
+        ramp = np.linspace(64, 191, 12).round().astype(np.uint8)   # not from black to white
+        grey = Image.fromarray(np.tile(ramp, (8, 1)))
+        kinds = {"8": grey, "16": Image.fromarray(np.tile(ramp.astype(np.uint16) * 257, (8, 1))),
+                 "alpha": grey.convert("LA"), "palette": grey.convert("P"), "rgb": grey.convert("RGB"),
+                 "1": grey.point(lambda value: 255 * (value > 127)).convert("1", dither=0)}
+        for name, picture in kinds.items():
+            picture.save(self.path("section.dat"), format="png")    # known by what it is
+            found = panels.read_picture(self.path("section.dat"))
+            self.assertIn(found.shape, ((8, 12, 3), (8, 12, 4)), name)
+            wanted = ramp / 255.0 if name != "1" else (ramp > 127).astype(float)
+            for channel in range(3):
+                np.testing.assert_allclose(found[3, :, channel], wanted, atol=0.01, err_msg=name)
+            drawn = self.frame(meta={"underlay": {"image": self.path("section.dat"),
+                                                  "corners_m": [1000.0, 200.0, 3000.0, 800.0]}},
+                               horizons=[[0, 0.0, -900.0]])
+            figure = sections.draw_figure(drawn, ["underlay"], dpi=60)
+            figure.canvas.draw()
+            pixels = np.asarray(figure.canvas.buffer_rgba())
+            across, up = figure.axes[0].transData.transform((1.0 + 2.0 * 5.5 / 12.0, -0.5))
+            pixel = pixels[pixels.shape[0] - 1 - int(up), int(across), :3]
+            np.testing.assert_allclose(pixel / 255.0, [wanted[5]] * 3, atol=0.03, err_msg=name)
 
 
 class Reading(Folder):
@@ -150,12 +184,20 @@ class Scripts(Folder):
 
     def test_a_wrong_number_of_arguments_is_answered_by_the_usage(self):
         self.assertEqual(self.fails_with(lambda _: None, []),
-                         (1, "script.py: usage: script.py DIR\n"))
+                         (2, "script.py: usage: script.py DIR\n"))
 
     def test_an_error_is_one_line(self):
         def main(_):
             raise OSError("disk\nfull")
-        self.assertEqual(self.fails_with(main, ["a"]), (1, "script.py: OSError: disk full\n"))
+        self.assertEqual(self.fails_with(main, ["a"]), (4, "script.py: OSError: disk full\n"))
+
+    def test_the_exit_status_says_what_failed(self):
+        for failure, status in ((plot.InputError("bad"), 2), (MemoryError(), 4), (KeyError("x"), 70)):
+            self.assertEqual(self.fails_with(mock.Mock(side_effect=failure), ["a"])[0], status)
+        with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(SystemExit) as end:
+            script.library("no_such_library")
+        self.assertEqual(end.exception.code, 69)
+        self.assertIn("cannot import no_such_library", said.getvalue())
 
     def test_an_interrupt_is_no_error(self):
         def main(_):
@@ -179,7 +221,11 @@ class Scripts(Folder):
                 plot.run(main, "script.py DIR [ORDER]")
                 main.assert_called_once_with(*arguments)
         self.assertEqual(self.fails_with(mock.Mock(), ["a", "b", "c"], "script.py DIR [ORDER]")[0],
-                         1)
+                         2)
+        with mock.patch.object(sys, "argv", ["script.py", "a", "b", "c"]):
+            main = mock.Mock()
+            plot.run(main, "script.py DIR [NAME]...")
+            main.assert_called_once_with("a", "b", "c")
 
     def test_an_order_is_refused_if_it_is_none(self):
         for text in ("png", "[]", '{"formats": ["png"]}'):
@@ -412,6 +458,134 @@ class Drawing(Folder):
             self.assertEqual(len(sections.draw_figure(frame, known, 20).axes), 12)
             rows = 4 if arrays else 2
             self.assertEqual(len(sheet.draw_sheet([frame, self.frame(**arrays)]).axes), 4 * rows)
+
+
+    def test_a_users_words_are_no_formulas(self):
+        space = "{http://www.w3.org/2000/svg}"
+        all_words = ("from $PROJ\\north\\line12 to $OUT", "$WORK_/lis and ${HOME}^/lis",
+                     "$\\alpha_{fault$ plane", "costs $5 and $6", "a \\$ b", "<&>")
+        draws = (lambda frame: sections.draw_figure(frame, ["kinematics"], 20),
+                 lambda frame: sheet.draw_sheet([frame]), lambda frame: sheet.draw_gallery([frame]),
+                 lambda frame: sheet.draw_multiples([frame]))
+        with mock.patch.object(sheet, "ON_SHEET", ("kinematics",)), \
+                mock.patch.object(sheet, "IN_GALLERY", ("kinematics",)):
+            for k, words in enumerate(all_words):
+                frame = self.frame(meta={"title": words, "scene": "a$b_c$"})
+                for draw in draws if k == 0 else draws[:1]:
+                    plot.save(draw(frame), self.folder, "words", plot.Order(("svg",)))
+                    tree = xml.etree.ElementTree.parse(self.path("words.svg"))
+                    text = " ".join("".join(node.itertext()) for node in tree.iter(f"{space}text"))
+                    self.assertIn(words, " ".join(text.split()))
+
+    def test_characters_that_no_font_has_are_blanks(self):
+        frame = self.frame(meta={"title": "a\x1b[31mb\u202ec\nd"})
+        plot.save(sections.draw_figure(frame, ["strain"], 20), self.folder, "x", plot.Order(("svg",)))
+        self.assertIn("a [31mb c d", Path(self.path("x.svg")).read_text(encoding="utf-8"))
+
+    def test_powers_of_ten_are_plain_text(self):
+        figure = plot.new_figure(3, 3, 40)
+        ax = figure.subplots()
+        ax.plot([1e-6, 2e3], [3.0, 8.0])
+        ax.set(xscale="log", yscale="log")
+        plot.name_powers(ax)
+        figure.draw_without_rendering()
+        labels = {text.get_text() for text in ax.get_xticklabels() + ax.get_yticklabels(which="both")}
+        self.assertLess({"10⁻⁴", "10²", "4×10⁰"}, labels)
+        self.assertFalse([label for label in labels if "$" in label])
+
+
+class Animation(Folder):
+    def film(self, name):
+        os.mkdir(self.path(name))
+        with mock.patch.object(animation, "ANIMATION_DPI", 10), \
+                mock.patch.object(animation, "SHOWN", ("strain",)):
+            animation.save_animation([self.frame()], self.path(name), plot.Order())
+        return os.listdir(self.path(name))
+
+    @unittest.skipUnless(animation.shutil.which("ffmpeg"), "no ffmpeg")
+    def test_the_name_of_a_folder_is_no_pattern(self):
+        for name in ("slip-50%", "-y", "%d 'a\"\n:é"):
+            self.assertEqual(self.film(name), ["animation-2.0km.mp4"], name)
+
+    def test_without_ffmpeg_it_is_a_gif_and_one_that_fails_is_named(self):
+        with mock.patch.object(animation.shutil, "which", lambda _: None):
+            self.assertEqual(self.film("gif"), ["animation-2.0km.gif"])
+        Path(self.path("ffmpeg")).write_text("#!/bin/sh\necho no encoder >&2\nexit 3\n")
+        os.chmod(self.path("ffmpeg"), 0o755)
+        with mock.patch.dict(os.environ, {"PATH": f"{self.folder}:{os.environ['PATH']}"}), \
+                self.assertRaisesRegex(plot.InputError, "ffmpeg fails .no encoder, exit code 3."):
+            self.film("failing")
+        self.assertEqual(os.listdir(self.path("failing")), [])
+
+
+class Surroundings(Folder):
+    """Scripts do what they do whatever the caller has set."""
+
+    def call(self, options, **changes):
+        data, out = self.path("data"), self.path("out")
+        if not os.path.isdir(data):
+            os.makedirs(data)
+            self.frame()   # in a folder of its own beside
+            for name in os.listdir(self.folder):
+                if name.startswith("tmp"):
+                    os.rename(self.path(name), os.path.join(data, "0"))
+        place = self.path("place")
+        os.makedirs(place, exist_ok=True)
+        for name in ("numpy.py", "json.py", "plot.py", "matplotlib.py", "csv.py", "script.py"):
+            Path(place, name).write_text("raise SystemExit('wrong file')\n")
+        Path(place, "matplotlibrc").write_text("text.usetex: True\naxes.formatter.use_locale: True\n"
+                                               "backend: nonsense\nfigure.facecolor: red\n")
+        program = Path(script.__file__).parent / "figures.py"
+        given = {name: value for name, value in changes.items() if value is not None}
+        with mock.patch.dict(os.environ, given):
+            for name in changes.keys() - given.keys():
+                del os.environ[name]
+            return subprocess.run(["/usr/bin/python3", *options, program, "multiples", data, out],
+                                  cwd=place, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                  check=False)
+
+    def pixels(self, folder):
+        with Image.open(self.path(folder + "/multiples.png")) as image:
+            return image.convert("RGB").tobytes()
+
+    def test_nothing_of_them_is_seen(self):
+        place = self.path("place")
+        hostile = {"PYTHONSAFEPATH": "1", "PYTHONPATH": place, "PYTHONHOME": "/nowhere",
+                   "PYTHONSTARTUP": "/nowhere", "PYTHONOPTIMIZE": "2", "PYTHONWARNINGS": "error",
+                   "PYTHONIOENCODING": "ascii:strict", "MPLBACKEND": "module://nonsense",
+                   "MATPLOTLIBRC": place, "MPLCONFIGDIR": "/dev/null/none", "LC_ALL": "de_DE.UTF-8",
+                   "HOME": None, "MPLSTYLE": "dark_background"}
+        ended = self.call(["-I", "-X", "utf8"], **hostile)
+        self.assertEqual((ended.returncode, ended.stdout), (0, ""))
+        figures.main("multiples", self.path("data"), self.path("plain"))
+        self.assertEqual(self.pixels("out"), self.pixels("plain"))
+
+    def test_called_by_hand_it_finds_its_modules(self):
+        ended = self.call([], PYTHONSAFEPATH="1", LC_ALL="C")
+        self.assertEqual((ended.returncode, ended.stdout), (0, ""))
+
+
+class Effects(Folder):
+    HEAD = "measure,term,effect,standard_error,degrees_of_freedom,p,low_95,high_95\n"
+
+    def test_what_may_be_chance_is_pale_and_bars_are_of_95_percent(self):
+        # Two and a half standard errors with one degree of freedom are nothing.
+        self.write("effects.csv", self.HEAD + "m,a.x,-0.068,0.025,1,0.224,-0.386,0.25\n"
+                                              "m,a.y,3,0.5,10,0.0001,1.9,4.1\nn,a.x,2,,,,,\n")
+        measures = effects.load(self.folder)
+        self.assertEqual([e.term for e in measures["m"]], ["a.y", "a.x"])
+        self.assertEqual([e.is_clear for e in measures["m"]], [True, False])
+        self.assertFalse(measures["n"][0].is_clear)
+        figure = plot.new_figure(4, 3, 50)
+        ax = figure.subplots()
+        effects.draw_panel(ax, "m", measures["m"], {"a.x": "x", "a.y": "y"})
+        colours = [plot.matplotlib.colors.to_hex(bar.get_facecolor()) for bar in ax.patches]
+        self.assertEqual(colours, [effects.CLEAR, effects.UNCLEAR])
+        ends = [segment[:, 0].tolist() for container in ax.containers[1::2]
+                for segment in container[2][0].get_segments()]
+        np.testing.assert_allclose(ends, [[1.9, 4.1], [-0.386, 0.25]])
+        effects.main(self.folder)
+        self.assertTrue(os.path.exists(self.path("effects.png")))
 
 
 class SmallScripts(Folder):

@@ -31,11 +31,30 @@ TEST(ReportPage, NothingOfASceneIsATag) {
     EXPECT_THAT(html, Not(HasSubstr("{{data}}")));
 }
 
-TEST(ReportPage, ASummaryThatIsNoJsonIsNone) {
+TEST(ReportPage, WhatIsDamagedIsMissingAndThePageSaysSo) {
     Scene scene;
     scene.hanging_wall.emplace();
     const ReportMoments moments;
-    EXPECT_NO_THROW(report_html({.runs = {{scene, moments, 75.0, "", "{\"cut"}}}));
+    const std::string history = "extension_m,x\n0,\n1,2\n";
+    const auto page = [&](const std::string& table, const std::string& summary, bool there = true) {
+        return ReportPage{.runs = {{scene, moments, 75.0, table, summary, "out/a/", there}}};
+    };
+    for (const char* damaged : {R"({"finished": tr)", R"({"a": 1e999})", "[]", "null", "3", "\"a\"",
+                                "", "{\"a\": \"\xff\"}", R"({"a": NaN})", "{} {}"}) {
+        const ReportPage bad = page(history, damaged);
+        const std::string html = report_html(bad);
+        EXPECT_THAT(html, HasSubstr(R"("summary":null)")) << damaged;
+        EXPECT_THAT(html, HasSubstr(R"("lacks":["out/a/summary.json is damaged)")) << damaged;
+        EXPECT_THAT(html, Not(HasSubstr("discarded>"))) << damaged;
+        EXPECT_THAT(lacks_of(bad), testing::ElementsAre(HasSubstr("summary.json is damaged")));
+    }
+    EXPECT_NO_THROW(report_html(
+        page(history, "{\"a\": " + std::string(300'000, '[') + std::string(300'000, ']') + "}")));
+    for (const char* damaged : {"", "x", "extension_m,x\n0,1\n1", "extension_m,x\n0\n"})
+        EXPECT_THAT(lacks_of(page(damaged, "{}")), testing::ElementsAre(HasSubstr("history.csv")));
+    EXPECT_THAT(lacks_of(page(history, "{}")), testing::IsEmpty());
+    EXPECT_THAT(lacks_of(page(history, "", false)), testing::IsEmpty()); // the run goes on
+    EXPECT_THAT(lacks_of(page("", "", false)), testing::IsEmpty());
 }
 
 } // namespace

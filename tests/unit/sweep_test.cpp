@@ -222,7 +222,30 @@ TEST(SweepEffects, AFailedRunDoesNotBiasThem) {
 TEST(SweepEffects, OneSeedHasNoError) {
     const auto found = effects(made_table(1, 0.8, 1));
     ASSERT_FALSE(found.empty());
-    EXPECT_FALSE(found[0].standard_error);
+    EXPECT_FALSE(found[0].standard_error || found[0].p || found[0].margin_95);
+}
+
+TEST(SweepEffects, OfTwoValuesAndTwoSeedsOneDifferenceIsLeft) {
+    // Means 2 and 4; what is left of each run about its point and seed is a quarter of 0.4.
+    const std::vector<SweepFactor> factors{{"a", {-1.0, -1.0, 1.0, 1.0}}};
+    const std::vector<std::optional<double>> values{1.0, 3.0, 3.2, 4.8};
+    const auto found = effects_on("y", factors, std::vector<std::size_t>{1, 1, 2, 2},
+                                  std::vector{1, 2, 1, 2}, values);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].effect, 2.0, 1e-12);
+    EXPECT_EQ(found[0].degrees_of_freedom, 1);
+    EXPECT_NEAR(found[0].standard_error.value(), 0.2, 1e-12);
+    // Ten standard errors, and still one of sixteen sweeps without any effect has as much.
+    EXPECT_NEAR(found[0].p.value(), 0.0634510, 1e-6);
+    EXPECT_NEAR(found[0].margin_95.value(), 2.5412410, 1e-6);
+}
+
+TEST(SweepEffects, RoundOffIsNoEffect) {
+    MadeTable t = made_table(2, 0.0, 1);
+    for (std::size_t k = 0; k < t.value.size(); ++k)
+        t.value[k] = 0.1 + (k % 3 == 0 ? 1e-17 : 0.0);
+    for (const SweepEffect& e : effects(t))
+        EXPECT_EQ(e.p, 1.0) << e.term;
 }
 
 TEST(SweepEffects, WhatCannotBeToldApartIsLeftOut) {

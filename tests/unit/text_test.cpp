@@ -34,5 +34,18 @@ TEST(Text, is_shown_without_what_a_terminal_obeys) {
     EXPECT_EQ(shown("one\ntwo"), "one\\x0atwo");
 }
 
+TEST(Text, is_cut_to_the_columns_of_a_terminal) {
+    EXPECT_EQ(cut_to("genesis 12 %", 12), "genesis 12 %");
+    EXPECT_EQ(cut_to("genesis 12 %", 11), "genesis ...");
+    EXPECT_EQ(cut_to("genesis", 3), "gen");
+    EXPECT_EQ(cut_to("genesis", 0), "");
+    EXPECT_EQ(cut_to("H\xc3\xb6he", 4), "H\xc3\xb6he");                           // a column each
+    EXPECT_EQ(cut_to("\xe5\xb1\xb1\xe5\xb1\xb1", 4), "\xe5\xb1\xb1\xe5\xb1\xb1"); // two
+    EXPECT_EQ(cut_to("\xe5\xb1\xb1\xe5\xb1\xb1", 3), "\xe5\xb1\xb1");
+    EXPECT_EQ(cut_to("\xf0\x9f\x8f\x94", 1), "");
+    EXPECT_EQ(cut_to("e\xcc\x81t\xc3\xa9", 3),
+              "e\xcc\x81t\xc3\xa9"); // an accent of its own has none
+}
+
 } // namespace
 } // namespace listric

@@ -39,13 +39,18 @@ def draw_pictures(frames: Sequence[Frame], folder: str) -> list[str]:
 
 
 def make_mp4(folder: str) -> str:
-    """Film of the folder's numbered pictures; sides must be even."""
-    path = os.path.join(folder, "animation.mp4")
-    subprocess.run(
-        ["ffmpeg", "-loglevel", "error", "-y", "-framerate", f"{1000 / FRAME_MS:g}", "-i",
-         os.path.join(folder, "%05d.png"), "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt",
-         "yuv420p", path], check=True)
-    return path
+    """Film of the folder's numbered pictures; sides must be even. ffmpeg works within the folder,
+    whose name it would take for a pattern or a protocol."""
+    made = subprocess.run(
+        ["ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-framerate", f"{1000 / FRAME_MS:g}",
+         "-i", "%05d.png", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p",
+         "animation.mp4"], cwd=folder, check=False, stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    if made.returncode:
+        said = made.stderr.decode(errors="replace").strip().splitlines() or ["it says nothing"]
+        raise InputError(f"ffmpeg fails ({said[-1]}, exit code {made.returncode}); mend it, or take "
+                         "it off PATH for an animation without it, as .gif")
+    return os.path.join(folder, "animation.mp4")
 
 
 def make_gif(pictures: Sequence[str], folder: str) -> str:

@@ -6,11 +6,12 @@ Usage: base.py RUN_DIR FIGURES_DIR ORDER
 Reads RUN_DIR/base.csv: extension_m, and of every node x_m, y_m at the start and its displacement
 ux_m, uy_m.  Writes base.png under a temporary name and renames it: vertical displacement along the
 detachment, the detachment itself with its displacement ten times too large, and the breakaway's
-uplift over extension.  On bad input: one line on stderr, exit status 1.
+uplift over extension.  On bad input: one line on stderr, exit status 2.
 """
 import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import (FAINT, InputError, colormaps, new_figure, read_order, read_table, run, save,
                   without_frame)

@@ -4,13 +4,15 @@
 Usage: effects.py DIR
 
 DIR holds effects.csv as `listric sweep` wrote it; it gets effects.png: a panel a measure, a bar a
-term, the largest first, with two standard errors.  A bar that is longer than they are is dark.
-The file is written under a temporary name and then renamed.  On bad input: one line on stderr,
-exit status 1.
+term, the largest first, with what holds the truth in 95 of 100 sweeps (Student's t).  A bar is dark
+where p < 0.05, so where that does not reach 0.  The file is written under a temporary name and then
+renamed.  On bad input: one line on stderr, exit status 2.
 """
 import os
 import sys
+from dataclasses import dataclass
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import FAINT, INK, STYLE, matplotlib, new_figure, read_rows, run, save, without_frame
 
@@ -18,17 +20,32 @@ COLUMNS = 3
 WIDTH, LABELS = 4.9, 2.3       # inches of a panel with its labels, of these alone
 BAR, AROUND = 0.21, 0.75       # inches of a bar, around the bars
 MOST_BARS = 15
+CLEAR_P = 0.05                 # chance alone gives such an effect in one of twenty sweeps
 CLEAR, UNCLEAR = "#1f6fb4", "#b9cfe3"
 
 
-def load(folder: str) -> dict[str, list[tuple[str, float, float | None]]]:
-    """By measure: term, effect, standard error; the largest effect first."""
+@dataclass(frozen=True)
+class Effect:
+    term: str
+    effect: float
+    p: float | None       # None: nothing is known of chance
+    ends: tuple[float, float] | None   # that hold the truth in 95 of 100 sweeps
+
+    @property
+    def is_clear(self) -> bool:
+        return self.p is not None and self.p < CLEAR_P
+
+
+def load(folder: str) -> dict[str, list[Effect]]:
+    """By measure; the largest effect first."""
     measures = {}
     for row in read_rows(os.path.join(folder, "effects.csv")):
-        error = float(row["standard_error"]) if row["standard_error"] else None
-        measures.setdefault(row["measure"], []).append((row["term"], float(row["effect"]), error))
+        known = bool(row.get("p"))
+        measures.setdefault(row["measure"], []).append(Effect(
+            row["term"], float(row["effect"]), float(row["p"]) if known else None,
+            (float(row["low_95"]), float(row["high_95"])) if known else None))
     for effects in measures.values():
-        effects.sort(key=lambda effect: -abs(effect[1]))
+        effects.sort(key=lambda effect: -abs(effect.effect))
     return measures
 
 
@@ -41,16 +58,16 @@ def shown_names(terms: set[str]) -> dict[str, str]:
                              for parameter in term.split(":")) for term in terms}
 
 
-def draw_panel(ax, measure: str, effects: list[tuple[str, float, float | None]],
-               names: dict[str, str]) -> None:
+def draw_panel(ax, measure: str, effects: list[Effect], names: dict[str, str]) -> None:
     shown = effects[:MOST_BARS]
-    for y, (_, effect, error) in enumerate(shown):
-        clear = error is None or abs(effect) > 2.0 * error
-        ax.barh(y, effect, color=CLEAR if clear else UNCLEAR, height=0.7)
-        if error is not None:
-            ax.errorbar(effect, y, xerr=2.0 * error, color=INK, linewidth=0.9, capsize=2)
+    for y, effect in enumerate(shown):
+        ax.barh(y, effect.effect, color=CLEAR if effect.is_clear else UNCLEAR, height=0.7)
+        if effect.ends is not None:
+            low, high = effect.ends
+            ax.errorbar(0.5 * (low + high), y, xerr=0.5 * (high - low), color=INK, linewidth=0.9,
+                        capsize=2)
     ax.axvline(0.0, color=INK, linewidth=0.8)
-    ax.set_yticks(range(len(shown)), [names[term] for term, _, _ in shown], fontsize=7)
+    ax.set_yticks(range(len(shown)), [names[effect.term] for effect in shown], fontsize=7)
     ax.set_ylim(len(shown) - 0.4, -0.6)
     left_out = len(effects) - len(shown)
     # From the panel's left edge: a measure's name may be longer than the bars' axis.
@@ -62,7 +79,7 @@ def draw_panel(ax, measure: str, effects: list[tuple[str, float, float | None]],
 
 def main(folder: str) -> None:
     measures = load(folder)
-    names = shown_names({term for effects in measures.values() for term, _, _ in effects})
+    names = shown_names({effect.term for effects in measures.values() for effect in effects})
     columns = min(COLUMNS, len(measures))
     rows = -(-len(measures) // columns)
     height = AROUND + BAR * max(min(len(e), MOST_BARS) for e in measures.values())
@@ -75,7 +92,8 @@ def main(folder: str) -> None:
             draw_panel(figure.add_axes((x / across, (y + 0.3) / up, (WIDTH - LABELS - 0.25) / across,
                                         (height - AROUND) / up)), measure, effects, names)
         figure.text(0.1 / across, 0.1 / up, "change from the least to the greatest value of a "
-                    "parameter; bars: two standard errors, from the spread between seeds",
+                    "parameter; bars: 95 %, by Student's t from the spread between seeds; dark: "
+                    f"p < {CLEAR_P:g}",
                     fontsize=7.5, color=FAINT)
         save(figure, folder, "effects")
 

@@ -14,11 +14,12 @@ Every folder in DATA_DIR is a frame (frame.py says what it holds).  KIND is
 ORDER is a JSON object: formats, in which sections and experiments are written, and what pictures
 say of their origin: software, provenance (null: of no single run).
 Every file is written under a temporary name and then renamed.  On bad input: one
-line on stderr, exit status 1.
+line on stderr, exit status 2.
 """
 import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import STYLE, InputError, Order, matplotlib, read_order, run
 

@@ -5,11 +5,12 @@ Usage: flexure.py RUN_DIR FIGURES_DIR ORDER
 
 Reads RUN_DIR/summary.json and deflection.csv (x_m; deflection_m, plate_m, perhaps layer_m, down).
 Writes flexure.png under a temporary name and renames it.  On bad input: one line on stderr, exit
-status 1.
+status 2.
 """
 import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import (FAINT, new_figure, read_json, read_order, read_table, run, save,
                   without_frame)

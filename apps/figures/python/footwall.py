@@ -8,11 +8,12 @@ Reads, in SI units,
   DATA_DIR/patches.npy  patches of elements: x, y, ux, uy of four corners, stresses xx, yy, xy
   DATA_DIR/discs.npy    x, y, radius, stratum, y at the start
 Writes footwall.png under a temporary name and renames it.  Vertical displacement is exaggerated, of
-the discs by that of the base below them.  On bad input: one line on stderr, exit status 1.
+the discs by that of the base below them.  On bad input: one line on stderr, exit status 2.
 """
 import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from frame import load_array
 from plot import (FAINT, InputError, colormaps, new_figure, read_order, read_table, run, save,

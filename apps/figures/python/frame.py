@@ -107,7 +107,15 @@ def load_meta(folder: str) -> dict:
         raise InputError(f"{path}: 'scene' is missing or not a string")
     if meta["layer_m"] <= 0 or meta["right_wall_x_m"] <= 0:
         raise InputError(f"{path}: 'layer_m' and 'right_wall_x_m' must be positive")
+    for key in ("scene", "title"):
+        if isinstance(meta.get(key), str):
+            meta[key] = printable(meta[key])
     return meta
+
+
+def printable(text: str) -> str:
+    """A text whose characters a font and an SVG file may hold; others are blanks."""
+    return "".join(letter if letter.isprintable() else " " for letter in text)
 
 
 def load_array(folder: str, name: str, columns: int | None = None, optional: bool = False,

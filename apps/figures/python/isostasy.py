@@ -5,12 +5,13 @@ Usage: isostasy.py DIR
 
 Reads DIR/isostasy.csv, a row per run: what fills the basin, nominal and fitted thickness, uplift of
 the breakaway and of plates, in m.  Writes DIR/isostasy.png under a temporary name and renames it.
-On bad input: one line on stderr, exit status 1.
+On bad input: one line on stderr, exit status 2.
 """
 import math
 import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import new_figure, read_rows, run, save, without_frame
 

@@ -6,14 +6,15 @@ Usage: laboratory.py DIR
 DIR holds what `listric laboratory` wrote (SI units): summary.json, curves.csv of the samples, and
 envelopes.csv (biaxial), profiles.csv (shear box) or faults.csv (pure shear).  It gets uniaxial.png,
 biaxial.png, shear-box.png or pure-shear.png.  The file is written under a temporary name and then
-renamed.  On bad input: one line on stderr, exit status 1.
+renamed.  On bad input: one line on stderr, exit status 2.
 """
 import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
-from plot import (FAINT, STYLE, InputError, matplotlib, new_figure, read_json, read_table, run,
-                  save)
+from plot import (FAINT, STYLE, InputError, matplotlib, name_powers, new_figure, read_json,
+                  read_table, run, save)
 
 import numpy as np
 
@@ -215,6 +216,7 @@ def draw_rates(axes, points: list[dict], standard: dict[str, float], key: str,
                       [p[measure]["sd"] for p in points], fmt=style, color=hue, markersize=4,
                       linewidth=1.1, capsize=3, label=label)
     axes.set(xscale="log", xlabel="Critical strain rate (1/s)", ylabel="Share")
+    name_powers(axes)
     axes.set_ylim(0, 1)
 
 

@@ -2,6 +2,9 @@
 
 Every panel is drawn by a function of its axes, the axes of its colour bar and the frame.
 """
+import struct
+import zlib
+
 from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section_axes, stroke,
                   swatch)
 from discs import draw_discs
@@ -86,10 +89,13 @@ def underlay_panel(ax, cax, frame: Frame) -> None:
 
 
 def read_picture(path: str) -> np.ndarray:
+    """RGB, perhaps with opacity, each from 0 to 1; a grey picture's greys are its own."""
     try:
-        return plt_image.imread(path)
-    except (OSError, ValueError, SyntaxError) as failure:
+        picture = plt_image.imread(path, format="png")   # whatever the file's name ends with
+    except (OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, struct.error,
+            zlib.error) as failure:
         raise InputError(f"{path}: cannot be read as PNG ({failure})") from failure
+    return picture if picture.ndim == 3 else np.repeat(picture[:, :, np.newaxis], 3, axis=2)
 
 
 def draw_observed(ax, frame: Frame) -> list:

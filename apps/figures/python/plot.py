@@ -1,26 +1,32 @@
-"""What all figure scripts share: Matplotlib, style, a figure, its way to a file, a script's errors.
+"""What all figure scripts share: Matplotlib, style, a figure, its way to a file.
 
-Import this module first: it says in one line which library is missing, and draws without a screen.
+Import this module first: it says in one line which library is missing, and draws without a screen
+and without the caller's settings.
 """
 import contextlib
 import csv
 import json
 import os
-import sys
-from collections.abc import Callable
+import re
 from dataclasses import dataclass
 
-try:
-    import numpy as np
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import colormaps
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
-    from matplotlib.figure import Figure
-except ImportError as failure:
-    sys.stderr.write(f"{os.path.basename(sys.argv[0])}: cannot import {failure.name or failure}\n")
-    sys.exit(1)
+from script import InputError, forget_settings, library, run
+
+forget_settings()
+np = library("numpy")
+matplotlib = library("matplotlib")
+matplotlib.use("Agg")
+library("matplotlib.figure")
+library("matplotlib.backends.backend_agg")
+from matplotlib import colormaps
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterSciNotation
+
+# Nothing that is written is a formula: a user's words may hold dollars.
+if "text.parse_math" in matplotlib.rcParams:
+    matplotlib.rcParams["text.parse_math"] = False
 
 INK, FAINT = "#1a1a1a", "#6b6b6b"
 STYLE = {
@@ -30,11 +36,20 @@ STYLE = {
 }
 # Text stays text, and equal figures are equal files.
 FILES = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "listric"}
+RAISED = str.maketrans("-−0123456789", "⁻⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 RASTER_DPI = 300   # of what is an image within PDF and SVG
 
 
-class InputError(Exception):
-    """Input that is missing or makes no sense; the message is for the user."""
+class PowersOfTen(LogFormatterSciNotation):
+    """Matplotlib's names of numbers on logarithmic axes, with characters that are raised."""
+
+    def __call__(self, x, pos=None) -> str:
+        text = super().__call__(x, pos)
+        inner = re.fullmatch(r"\$\\mathdefault\{(.*)\}\$", text)
+        if not inner:
+            return text
+        return re.sub(r"\^\{(.*?)\}", lambda power: power[1].translate(RAISED),
+                      inner[1].replace(r"\times", "×"))
 
 
 @dataclass(frozen=True)
@@ -135,6 +150,14 @@ def plain_images(figure: Figure, file_format: str):
             shape.set_antialiased(True)
 
 
+def name_powers(axes) -> None:
+    """Powers of ten on logarithmic axes without mathematics."""
+    for axis in (axes.xaxis, axes.yaxis):
+        if axis.get_scale() == "log":
+            axis.set_major_formatter(PowersOfTen())
+            axis.set_minor_formatter(PowersOfTen())
+
+
 def save(figure: Figure, folder: str, name: str, order: Order = Order()) -> str:
     """Writes folder/name in every format, each whole or not at all; returns the last one's path."""
     os.makedirs(folder, exist_ok=True)
@@ -153,20 +176,3 @@ def save(figure: Figure, folder: str, name: str, order: Order = Order()) -> str:
             if os.path.exists(temporary):
                 os.remove(temporary)
     return path
-
-
-def run(main: Callable[..., None], usage: str) -> None:
-    """Calls main with the script's arguments, as many as the usage names, without those in
-    brackets or with them; errors are one line."""
-    try:
-        words = usage.split()
-        if not len([w for w in words if w[0] != "["]) <= len(sys.argv) <= len(words):
-            raise InputError(f"usage: {usage}")
-        main(*sys.argv[1:])
-    except KeyboardInterrupt:
-        sys.exit(130)
-    except Exception as failure:  # also a full disk: one line, no traceback
-        kind = "" if isinstance(failure, InputError) else f"{type(failure).__name__}: "
-        text = " ".join(f"{kind}{failure}".split())
-        sys.stderr.write(f"{os.path.basename(sys.argv[0])}: {text}\n")
-        sys.exit(1)

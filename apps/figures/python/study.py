@@ -7,14 +7,15 @@ DIR holds study.csv and study.json as `listric study` wrote them; it gets study.
 wall time (left) and against disc-steps or unknowns (right), a row per panel, a curve per method
 and quantity.  A cross at the upper edge is a failure, a dashed line the spread between seeds.  The
 file is written under a temporary name and then renamed.  On bad input: one line on stderr, exit
-status 1.
+status 2.
 """
 import math
 import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
-from plot import FAINT, new_figure, read_json, read_rows, run, save, without_frame
+from plot import FAINT, name_powers, new_figure, read_json, read_rows, run, save, without_frame
 
 COLOURS = ("#1f6fb4", "#d7301f", "#238b45", "#6a51a3", "#d95f0e", "#525252", "#c51b8a",
            "#0f8b8d", "#8c6d31")
@@ -79,6 +80,7 @@ def draw_panel(pair, panel: str, curves: Curves, floors: dict[str, float]) -> No
         if right_end > 3 * max(left, ZERO):  # a narrow range has no decades to mark
             axes.set_xscale("log")
         axes.set_yscale("log")
+        name_powers(axes)
         axes.grid(True, which="major", lw=0.4, color="#d0d0d0")
         without_frame(axes)
     pair[1].legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))

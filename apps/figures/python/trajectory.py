@@ -11,10 +11,14 @@ import os
 import sys
 import warnings
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 warnings.simplefilter("ignore", FutureWarning)  # gsd 2.7 compares types with words
-import gsd.hoomd
-import numpy as np
+from script import library, run
+
+np = library("numpy")
+gsd = library("gsd")
+library("gsd.hoomd")
 
 Frame = getattr(gsd.hoomd, "Frame", None) or gsd.hoomd.Snapshot  # its name before gsd 2.8
 WHOLE = {"id", "stratum", "coordination", "bonds"}  # other properties are in single precision
@@ -66,4 +70,4 @@ def main(folder, file, *rocks):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    run(main, "trajectory.py DATA_DIR FILE [ROCK]...")

@@ -1,7 +1,7 @@
 // Colours of discs. Packed as the canvas has them: alpha, blue, green, red from the highest byte.
 
 const palettes = {};
-for (const [name, palette] of Object.entries(JSON.parse(document.getElementById("palettes").textContent)))
+for (const [name, palette] of Object.entries(dataOf("palettes") || {}))
   palettes[name] = Uint32Array.from({length: 256}, (_, k) =>
     packedColour(palette.rows.slice(6 * k, 6 * k + 6)));
 

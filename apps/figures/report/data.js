@@ -1,5 +1,21 @@
 // The run as apps/figures/report_moments.cpp wrote it.
 
+const $ = id => document.getElementById(id);
+
+function trouble(error) {
+  $("trouble").hidden = false;
+  $("trouble").textContent = typeof DecompressionStream === "undefined"
+    ? "This browser is too old for the page: it lacks DecompressionStream (Chrome 80, Firefox 113, Safari 16.4 have it)."
+    : `Snapshot data damaged: ${error.message || error}. Make the report anew with: listric report DIR`;
+  document.documentElement.dataset.ready = "false";
+}
+
+/** The page's data; null, and words to the reader, where they cannot be read. */
+function dataOf(id) {
+  try { return JSON.parse($(id).textContent); }
+  catch (error) { trouble(error); return null; }
+}
+
 /** Bytes of base64 text of zlib's format; damage is found by its checksum. */
 async function inflated(text) {
   const letters = atob(text);

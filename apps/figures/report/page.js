@@ -1,22 +1,13 @@
 // The page: what is shown, what is clicked, what the address says.
 
-const $ = id => document.getElementById(id);
-
 const page = {
-  data: JSON.parse($("data").textContent),
+  data: dataOf("data"),
   runs: [], sections: [],
   t: 0, mode: "strata", palette: "batlow", shown: new Set(), picked: null, opacity: 0.5,
   view: {left: 0, top: 0, scale: 1, height: 1},
 };
 
 const lengths = new Intl.NumberFormat("en", {maximumFractionDigits: 0});
-
-function trouble(error) {
-  $("trouble").hidden = false;
-  $("trouble").textContent = `Snapshot data damaged: ${error.message || error}. Make the report anew ` +
-    "with: listric report DIR";
-  document.documentElement.dataset.ready = "false";
-}
 
 /** The moment of a run beside the one that the slider is at. */
 function momentOf(run) { return run === page.runs[0] ? page.t : run.nearest(page.runs[0].moments[page.t].extension_m); }
@@ -386,7 +377,15 @@ function addWords() {
     "CITATION.cff of the program. Colours: batlow, Crameri (2021), doi 10.5281/zenodo.5501399.";
 }
 
+/** Says what the page lacks. */
+function say(lack) {
+  $("lacks").hidden = false;
+  $("lacks").textContent = `${$("lacks").textContent || "This page is not whole: "}${$("lacks").textContent ? "; " : ""}${lack}`;
+}
+
 async function start() {
+  $("trouble").hidden = true;
+  (page.data.lacks || []).forEach(say);
   page.runs = page.data.runs.map(head => new Run(head));
   if (page.runs[0].moments.length === 0) throw new Error("there is no snapshot yet");
   const view = readAddress();
@@ -411,7 +410,8 @@ async function start() {
   if (page.data.underlay) {
     page.underlay = new Image();
     page.underlay.src = page.data.underlay.image;
-    await page.underlay.decode();
+    try { await page.underlay.decode(); }
+    catch { say("the browser cannot show the picture below the section"); page.data.underlay = page.underlay = null; }
   }
   await Promise.all(page.runs.map(run => run.load(["present", "x_m", "depth_m", "radius_m", "stratum", "rock"])));
   addLayers();
@@ -423,4 +423,4 @@ async function start() {
   if (page.data.live) setTimeout(() => location.reload(), 10000);
 }
 
-start().catch(trouble);
+if (page.data) start().catch(trouble);

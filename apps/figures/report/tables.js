@@ -56,7 +56,7 @@ function drawMeasures(table, runs, definitions) {
   table.textContent = "";
   const numbers = runs.map(run => numbersOf(run.head.summary));
   const names = [...new Set(numbers.flatMap(Object.keys))];
-  if (names.length === 0) return void (table.textContent = "The run has not ended yet.");
+  if (names.length === 0) return void (table.textContent = page.data.lacks.length ? "They are missing: see above." : "The run has not ended yet.");
   head(table, runs.length > 1 ? ["measure", "A", "B", "B − A"] : ["measure", "value"]);
   const body = table.appendChild(document.createElement("tbody"));
   for (const name of names) {

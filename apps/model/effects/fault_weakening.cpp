@@ -110,17 +110,21 @@ std::string explain(const Scene& scene, EffectList) {
                        p.circle_diameters * diameter);
 }
 
-/// Share of weak discs, and how far weakening has changed the volume of rock.
+/// Share of weak discs, and how far weakening has changed the volume of rock. The latter is over
+/// the hanging wall's area at the start, of which nothing is told once there is more sediment.
 EffectMeasures measure(const Observation& now) {
     const dem::ConstDiscColumns d = dem::disc_columns(now.state);
-    const double volume =
-        dem::hanging_wall_area(*now.scene.hanging_wall, now.parts.base.surfaces.front().chain);
-    return {.numbers = {
-                {"weak_fraction", static_cast<double>(std::ranges::count(d.material, dem::weak)) /
-                                      static_cast<double>(d.x.size())},
-                {"volume_error_fraction",
-                 std::abs(dem::weakened_volume_change(now.state, now.parts.base)) / volume},
-            }};
+    NamedNumbers numbers;
+    add(numbers, "weak_fraction",
+        static_cast<double>(std::ranges::count(d.material, dem::weak)) /
+            static_cast<double>(d.x.size()));
+    const dem::Ledger& ledger = now.state.ledger;
+    if (ledger.deposited - ledger.removed <= ledger.initial)
+        add(numbers, "volume_error_fraction",
+            std::abs(dem::weakened_volume_change(now.state, now.parts.base)) /
+                dem::hanging_wall_area(*now.scene.hanging_wall,
+                                       now.parts.base.surfaces.front().chain));
+    return {.numbers = std::move(numbers)};
 }
 
 std::vector<FigureLayer> draw(const Observation& now) {

@@ -1,0 +1,197 @@
+"""Figures and the page do not depend on who calls, nor on names; what fails says what it was.
+
+    LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest figures_test
+"""
+
+import fcntl
+import json
+import os
+import pty
+import re
+import shutil
+import struct
+import subprocess
+import tempfile
+import termios
+import unittest
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from program import PROGRAM
+
+DESCRIPTION = r"from $PROJ\north\line12 to $OUT"
+SCENE = f"""
+description = '{DESCRIPTION}'
+[hanging_wall]
+length_m = 6000.0
+thickness_m = 2000.0
+mean_radius_m = 130.0
+[detachment]
+start_dip_deg = 60.0
+segments = [{{arc = {{radius_m = 4000.0, end_dip_deg = 0.0}}}}, {{line = {{length_m = 9000.0}}}}]
+[extension]
+distance_m = 100.0
+speed_m_per_s = 4.0
+ramp_s = 2.0
+[gravity]
+[output]
+interval_m = 50.0
+figures_at_m = []
+"""
+
+
+class Figures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        (cls.folder / "scene.toml").write_text(SCENE)
+        ended = cls.listric("run", "scene.toml", "--no-report", "--threads", "1", "--output", "out",
+                            LISTRIC_PYTHON="/bin/false")   # draws later
+        assert ended.returncode == 0, ended.stdout
+
+    @classmethod
+    def listric(cls, *words, place=None, **settings):
+        environment = {**os.environ, "XDG_CACHE_HOME": str(cls.folder / "cache"), **settings}
+        return subprocess.run([PROGRAM, *words], cwd=place or cls.folder, env=environment, text=True,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              check=False)
+
+    def copy(self, name):
+        shutil.copytree(self.folder / "out", self.folder / name)
+        return self.folder / name
+
+    def picture(self, name, **options):
+        ramp = Image.fromarray(np.tile(np.linspace(64, 191, 60).astype(np.uint8), (20, 1)))
+        ramp.save(self.folder / name, **options)
+        return self.folder / name
+
+    def test_they_do_not_depend_on_the_caller(self):
+        place = self.folder / "place"
+        place.mkdir()
+        for name in ("numpy.py", "json.py", "plot.py", "matplotlib.py"):
+            (place / name).write_text("raise SystemExit('wrong file')\n")
+        (place / "matplotlibrc").write_text("text.usetex: True\nbackend: nonsense\n")
+        self.picture("grey.png")
+        hostile = {"PYTHONSAFEPATH": "1", "PYTHONPATH": str(place), "PYTHONHOME": "/nowhere",
+                   "PYTHONOPTIMIZE": "2", "PYTHONWARNINGS": "error", "PYTHONIOENCODING": "ascii",
+                   "MPLBACKEND": "nonsense", "MATPLOTLIBRC": str(place), "MPLCONFIGDIR": "/dev/null/x",
+                   "LC_ALL": "de_DE.UTF-8", "HOME": "/nowhere"}
+        ended = self.listric("figures", "../out", "--underlay", "../grey.png", "--corners",
+                             "0,0,6000,2000", "--format", "svg", place=place, **hostile)
+        self.assertEqual((ended.returncode, ended.stdout), (0, ""))
+        figures = self.folder / "out/figures"
+        self.assertIn(DESCRIPTION, (figures / "strata-0.1km.svg").read_text())
+        self.assertTrue((figures / "underlay-0.1km.svg").is_file())
+
+    def test_an_animation_is_made_whatever_its_folder_is_called(self):
+        ended = self.listric("figures", self.copy("slip-50% 'a' é"), "--animation")
+        self.assertEqual((ended.returncode, ended.stdout), (0, ""))
+        made = [file.suffix for file in (self.folder / "slip-50% 'a' é/figures").iterdir()]
+        self.assertIn(made, ([".mp4"], [".gif"]))
+
+    def test_what_fails_is_named(self):
+        python = self.folder / "python"
+        cases = (("exit 1", 2, "needs Python with numpy and matplotlib"),
+                 ('[ "$4" = -c ] && exit 0; echo "figures.py: cannot import numpy: broken" >&2; exit 69',
+                  2, "cannot import numpy: broken"),
+                 ('[ "$4" = -c ] && exit 0; echo "figures.py: OSError: No space left" >&2; exit 4',
+                  4, "No space left"),
+                 ('[ "$4" = -c ] && exit 0; kill -9 $$', 4, "was ended by signal 9"),
+                 ('[ "$4" = -c ] && exit 0; echo Traceback >&2; exit 1', 70, "exit code 1: Traceback"))
+        for script, code, words in cases:
+            python.write_text(f"#!/bin/sh\n{script}\n")
+            python.chmod(0o755)
+            ended = self.listric("figures", "out", LISTRIC_PYTHON=str(python))
+            self.assertEqual(ended.returncode, code, ended.stdout)
+            self.assertIn(words, ended.stdout)
+            self.assertEqual("needs Python with" in ended.stdout, code == 2, ended.stdout)
+        ended = self.listric("figures", "out", LISTRIC_PYTHON="/no/such/python")
+        self.assertEqual(ended.returncode, 2)
+        self.assertIn("LISTRIC_PYTHON", ended.stdout)
+
+    def test_a_picture_that_is_none_is_refused(self):
+        whole = self.picture("whole.png").read_bytes()
+        (self.folder / "cut.png").write_bytes(whole[:-20])
+        (self.folder / "empty.png").write_bytes(b"")
+        (self.folder / "bomb.png").write_bytes(
+            whole[:16] + struct.pack(">II", 2**31 - 1, 2**31 - 1) + whole[24:])
+        self.picture("photo.png", format="jpeg")
+        self.picture("scan.png", format="tiff")
+        for name, words in (("cut.png", "is a PNG that is damaged or cut off"), ("empty.png", "is empty"),
+                            ("bomb.png", "100 million"), ("photo.png", "is a JPEG"),
+                            ("scan.png", "is a TIFF"), ("none.png", "no such file"), (".", "no such file")):
+            for call in (("figures", "out"), ("report", "out", "--output", "no.html")):
+                ended = self.listric(*call, "--underlay", name, "--corners", "0,0,6000,2000")
+                self.assertEqual(ended.returncode, 2, ended.stdout)
+                self.assertRegex(ended.stdout, f"--underlay .*{re.escape(name)}.*{words}")
+        for corners, words in (("0,0,6000", "3 numbers"), ("6000,0,0,2000", "x1 = 0 must be greater"),
+                               ("0,0,6000,-2000", "these are heights"), ("0,0,nan,1", "nan is no place"),
+                               ("0,0,inf,1", "inf is no place"), ("0,5,9,5", "z1 = 5 must be greater"),
+                               ("0,0,1e300,1", "no place in a section")):
+            ended = self.listric("figures", "out", "--underlay", "whole.png", f"--corners={corners}")
+            self.assertEqual(ended.returncode, 2, ended.stdout)
+            self.assertIn(words, ended.stdout)
+        self.assertFalse((self.folder / "no.html").exists())
+
+    def test_a_page_that_cannot_be_whole_says_so(self):
+        run = self.copy("damaged")
+        for damaged in ('{"finished": tr', '{"finished": true, "x": 1e999}', "[]", ""):
+            (run / "summary.json").write_text(damaged)
+            ended = self.listric("report", run)
+            self.assertEqual(ended.returncode, 4, damaged)
+            self.assertIn("the page is not whole: ", ended.stdout)
+            self.assertIn("summary.json is damaged", ended.stdout)
+            page = (run / "report.html").read_text()
+            data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL)[1])
+            self.assertIsNone(data["runs"][0]["summary"])
+            self.assertIn("summary.json is damaged", data["lacks"][0])
+        (run / "summary.json").unlink()
+        ended = self.listric("report", run)
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        with open(run / "history.csv", "a", encoding="utf-8") as file:
+            file.write("150.0,")
+        ended = self.listric("report", run)
+        self.assertEqual(ended.returncode, 4, ended.stdout)
+        self.assertIn("history.csv is missing or damaged", ended.stdout)
+
+    def said_on_a_terminal(self, columns, **settings):
+        """What a run writes to a terminal of that width."""
+        leader, follower = pty.openpty()
+        fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+        environment = {**os.environ, "XDG_CACHE_HOME": str(self.folder / "cache"),
+                       "LISTRIC_PYTHON": "/bin/false", **settings}
+        run = subprocess.Popen([PROGRAM, "run", "scene.toml", "--no-report", "--threads", "1", "--output",
+                                f"wide-{columns}-{settings['TERM']}"], cwd=self.folder, env=environment,
+                               stdout=subprocess.DEVNULL, stderr=follower)
+        os.close(follower)
+        said = b""
+        while True:
+            try:
+                part = os.read(leader, 65536)
+            except OSError:
+                break
+            if not part:
+                break
+            said += part
+        os.close(leader)
+        self.assertEqual(run.wait(), 0, said)
+        return said.decode()
+
+    def test_progress_fits_the_terminal(self):
+        for columns, settings in ((40, {"TERM": "xterm"}), (0, {"TERM": "xterm", "COLUMNS": "30"})):
+            said = self.said_on_a_terminal(columns, **settings)
+            lines = re.findall("\r\x1b\\[K([^\r\n\x1b]*)(?=\r\x1b)", said)   # rewritten, so progress
+            lines = [line for line in lines if line]
+            self.assertTrue(lines, said)
+            for line in lines:
+                self.assertLess(len(line), columns or 30, line)
+        said = self.said_on_a_terminal(40, TERM="dumb")
+        self.assertNotIn("\x1b", said)
+        self.assertNotRegex(said, "\r[^\r\n]")   # the terminal itself writes \r\n
+
+
+if __name__ == "__main__":
+    unittest.main()
