@@ -1,14 +1,14 @@
-# What Debian asks of a package beside what an installation has (lintian): run by cpack on the folder of
-# each component.
+# What Debian asks of packages beside what an installation has (lintian): run by cpack before it packs
+# the folder of each component.
 
-file(GLOB_RECURSE pages ${CPACK_TEMPORARY_DIRECTORY}/*/share/man/*.1)
-file(GLOB_RECURSE changelogs ${CPACK_TEMPORARY_DIRECTORY}/*/share/doc/listric/CHANGELOG.md)
-foreach(file ${changelogs})
-  cmake_path(GET file PARENT_PATH folder)
-  file(RENAME ${file} ${folder}/changelog)
-  file(RENAME ${folder}/LICENSE ${folder}/copyright)
-  list(APPEND pages ${folder}/changelog)
+foreach(component ${CPACK_COMPONENTS_ALL})
+  string(TOUPPER ${component} upper)
+  set(share ${CPACK_TEMPORARY_DIRECTORY}/${component}/usr/share)
+  set(documents ${share}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+  file(MAKE_DIRECTORY ${documents})
+  file(REMOVE ${documents}/LICENSE ${documents}/CHANGELOG.md)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/../LICENSE ${documents}/copyright COPYONLY)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/../CHANGELOG.md ${documents}/changelog COPYONLY)
+  file(GLOB pages ${share}/man/man1/*.1)
+  execute_process(COMMAND gzip -n -9 -f ${documents}/changelog ${pages} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
-if(pages)
-  execute_process(COMMAND gzip -n -9 -f ${pages} COMMAND_ERROR_IS_FATAL ANY)
-endif()

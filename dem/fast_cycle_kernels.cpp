@@ -57,8 +57,8 @@ namespace v4 {
 
 #endif
 
-Kernels choose_kernels([[maybe_unused]] Cycle level, bool bonded, bool frictional, DampedAgainst motion,
-                       bool has_ghosts) {
+Kernels choose_kernels([[maybe_unused]] Cycle level, bool bonded, bool frictional,
+                       DampedAgainst motion, bool has_ghosts) {
 #if defined __x86_64__
     if (level == Cycle::v4)
         return v4::choose_kernels(bonded, frictional, motion, has_ghosts);

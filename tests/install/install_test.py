@@ -109,7 +109,8 @@ class Installed(unittest.TestCase):
         (folder / "mine.cpp").write_text("#include <listric/dem.hpp>\n")
         hidden = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON"
                   for name in ("fmt", "tomlplusplus", "nlohmann_json", "pugixml", "ZLIB", "PkgConfig")]
-        call("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}", *hidden)
+        call("cmake", "-G", "Ninja", "-S", folder, "-B", folder / "build",
+             f"-DCMAKE_PREFIX_PATH={self.prefix}", *hidden)
         call("cmake", "--build", folder / "build")
 
     def test_a_project_builds_the_sources_with_its_own(self):

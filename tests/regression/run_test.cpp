@@ -115,7 +115,8 @@ void expect_same_run(const fs::path& run, const fs::path& other) {
     EXPECT_EQ(contents(run / "history.csv"), contents(other / "history.csv"));
     EXPECT_EQ(contents(run / "scene.toml"), contents(other / "scene.toml"));
     const Snapshot last = read_snapshot(list_snapshots(run).back());
-    EXPECT_EQ(fmt::format("{:016x}", run_hash(last)), summary(other)["state_hash"]);
+    EXPECT_EQ(summary(other)["state_hash"].get<std::string>(),
+              fmt::format("{:016x}", run_hash(last)));
 }
 
 /// A file under its final name is whole, whenever the program was stopped.
