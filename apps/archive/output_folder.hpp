@@ -23,7 +23,8 @@ private:
 /// What becomes of a run that is in the output folder already.
 enum class ExistingRun { refused, resumed, replaced };
 
-/// Refuses a folder that holds something else than what is asked for, before any work is done.
+/// Refuses a folder that holds something else than what is asked for, or what would be lost there,
+/// before any work is done.
 /// True if the run to resume has reached the extension `target` (m), its end, already.
 /// Throws UsageError.
 bool check_output(const Scene& scene, const std::filesystem::path& output, ExistingRun existing,

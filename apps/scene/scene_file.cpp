@@ -115,14 +115,19 @@ public:
                 fail({*node, fmt::format("materials.{}", source.key)}, error.what());
             throw;
         }
+        files_.push_back(file);
         return rocks_.emplace(source.key, read_material(file)).first->second;
     }
+
+    /// That have been read.
+    const std::vector<fs::path>& files() const { return files_; }
 
 private:
     const toml::node* table_;
     fs::path folder_;
     std::map<std::string, FileName, std::less<>> names_;
     std::map<std::string, RockMaterial, std::less<>> rocks_;
+    std::vector<fs::path> files_;
 };
 
 /// Puts what the material files say where the scene file's tables will then be read.
@@ -175,6 +180,7 @@ void read_files(Scene& scene, const SceneTable& table, const toml::table& docume
         std::error_code error;
         if (!fs::is_regular_file(file, error))
             fail(entry, fmt::format("{}: no such file", file));
+        scene.files.emplace_back(file);
         parameter.read(scene, file, [&](const std::string& at, const std::string& message) {
             fail(entry_at(document, at), message);
         });
@@ -207,12 +213,15 @@ void take_observed(Scene& scene, const SceneTable& table, const toml::table& doc
     const toml::table& given = *node->as_table();
     ObservedSource source;
     read_source(table, given, &source);
+    const auto read = [&](const char* parameter, const std::string& name) {
+        const std::string file = existing(entry_at(document, parameter), name, folder);
+        scene.files.emplace_back(file);
+        return read_picked_lines(file);
+    };
     if (given.contains("horizons"))
-        scene.observed->horizons = read_picked_lines(
-            existing(entry_at(document, "observed.horizons"), source.horizons, folder));
+        scene.observed->horizons = read("observed.horizons", source.horizons);
     if (given.contains("faults"))
-        scene.observed->faults = read_picked_lines(
-            existing(entry_at(document, "observed.faults"), source.faults, folder));
+        scene.observed->faults = read("observed.faults", source.faults);
 }
 
 /// Fits the detachment to a picked fault, if the document names one; hanging_wall.thickness_m is
@@ -242,6 +251,7 @@ void take_picked_fault(Scene& scene, const SceneTable& table, const toml::table&
     const Entry entry =
         entry_at(document, given.contains("csv") ? "detachment.csv" : "detachment.svg");
     const std::string file = existing(entry, source.svg.empty() ? source.csv : source.svg, folder);
+    scene.files.emplace_back(file);
     scene.picked_fault =
         fit_detachment(*scene.detachment, read_fault(source, file), source.tolerance);
     if (scene.hanging_wall)
@@ -327,6 +337,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     drop_effects(scene, request.without, all);
     check_scene(scene, document, effects);
     check_rocks(scene, rocks, document);
+    scene.files.push_back(path);
+    scene.files.insert(scene.files.end(), rocks.files().begin(), rocks.files().end());
     return scene;
 }
 
