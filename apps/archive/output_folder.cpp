@@ -141,6 +141,12 @@ bool check_output(const Scene& scene, const fs::path& output, ExistingRun existi
     return finished;
 }
 
+void require_no_run(const fs::path& output) {
+    if (!list_snapshots(output).empty())
+        throw UsageError(output.string() + " holds a run, whose summary.json would be replaced; "
+                                           "--output writes elsewhere");
+}
+
 void prepare_output(const Scene& scene, const fs::path& output, ExistingRun existing) {
     std::error_code error;
     if (existing == ExistingRun::replaced) {

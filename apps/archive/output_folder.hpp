@@ -30,6 +30,10 @@ enum class ExistingRun { refused, resumed, replaced };
 bool check_output(const Scene& scene, const std::filesystem::path& output, ExistingRun existing,
                   double target);
 
+/// Refuses a folder that holds a run, for other work whose files would replace the run's. Throws
+/// UsageError.
+void require_no_run(const std::filesystem::path& output);
+
 /// Makes the output folder ready for this run: removes the run that it replaces, and what a session
 /// that was killed has left half done. Throws StorageError if nothing can be written there.
 void prepare_output(const Scene& scene, const std::filesystem::path& output, ExistingRun existing);

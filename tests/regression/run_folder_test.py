@@ -270,6 +270,10 @@ class RunFolders(unittest.TestCase):
             self.assertRefused(ended, run / name, "--output")
             self.assertEqual((run / name).read_text(), "mine")
             (run / name).unlink()
+        summary = (self.whole / "summary.json").read_bytes()
+        self.assertRefused(self.call("laboratory", "uniaxial", "mat18-b", "--output", self.whole),
+                           self.whole, "holds a run")
+        self.assertEqual((self.whole / "summary.json").read_bytes(), summary)
 
     def test_the_scene_that_is_read_stays(self):
         run = self.folder / "own"
