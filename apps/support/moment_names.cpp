@@ -111,10 +111,14 @@ std::optional<double> MomentNames::window_end(std::string_view metres) const {
         return std::nullopt;
     const auto decimals = static_cast<int>(metres.size() - metres.find('.') - 1);
     const double half_a_unit = 0.5 * std::pow(10.0, -decimals) * (1.0 + 1e-6);
-    const auto end = std::ranges::lower_bound(ends_, *named - half_a_unit);
-    if (end == ends_.end() || *end > *named + half_a_unit)
-        return std::nullopt;
-    return *end;
+    // The nearest one: without its last zeros a name is coarser than the windows.
+    const auto next = std::ranges::lower_bound(ends_, *named);
+    std::optional<double> nearest;
+    for (const auto end : {next == ends_.begin() ? next : next - 1, next})
+        if (end != ends_.end() && std::abs(*end - *named) <= half_a_unit &&
+            (!nearest || std::abs(*end - *named) < std::abs(*nearest - *named)))
+            nearest = *end;
+    return nearest;
 }
 
 std::optional<double> extension_of(std::string_view metres) {
