@@ -3,6 +3,7 @@
 #include "apps/archive/setting.hpp"
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/horizons.hpp"
+#include "apps/support/fineness.hpp"
 #include "dem/base_place.hpp"
 #include "dem/monitor.hpp"
 
@@ -24,12 +25,16 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double rounded(double metres) { return std::round(1e3 * metres) / 1e3; }
+/// To a millimetre, in small models less.
+Point rounded(const ExportedMoment& at, Point p) {
+    const double steps = 1e3 * fineness(at.now.state.mean_radius); // in a metre
+    return {std::round(steps * p.x) / steps, std::round(steps * p.y) / steps};
+}
 
-std::vector<Point> rounded(const Polyline& points) {
+std::vector<Point> rounded(const ExportedMoment& at, const Polyline& points) {
     std::vector<Point> result;
     for (const Point p : points)
-        result.push_back({rounded(p.x), rounded(p.y)});
+        result.push_back(rounded(at, p));
     return result;
 }
 
@@ -56,7 +61,8 @@ Polyline points_of(const Chain& chain, double right, double spacing) {
     return points;
 }
 
-Line fault_line(const FaultReport& report, std::size_t k, const std::set<int>& strata) {
+Line fault_line(const ExportedMoment& at, std::size_t k, const std::set<int>& strata) {
+    const FaultReport& report = at.faults;
     const Fault& f = report.faults[k];
     const std::string main = k == report.main_antithetic  ? "antithetic"
                              : k == report.main_synthetic ? "synthetic"
@@ -66,7 +72,7 @@ Line fault_line(const FaultReport& report, std::size_t k, const std::set<int>& s
                f.trace.length(), f.dip, f.rate, f.born_at, f.dip_at_birth, f.traced_since,
                f.footwall_turn, f.width, f.curvature, f.foot.x, -f.foot.y,
                f.pre_rift_throw.value_or(none)},
-              rounded(f.trace.points),
+              rounded(at, f.trace.points),
               {}};
     for (const int stratum : strata) {
         const auto found = f.throws.find(stratum);
@@ -91,7 +97,7 @@ LineTable horizons_table(const ExportedMoment& at) {
         for (const Polyline& piece : h.pieces)
             table.lines.push_back(
                 {{name, static_cast<double>(h.stratum), h.deposited_at.value_or(none), start_depth},
-                 rounded(piece)});
+                 rounded(at, piece)});
     }
     return table;
 }
@@ -112,7 +118,7 @@ LineTable faults_table(const ExportedMoment& at) {
     for (const int stratum : strata)
         table.columns.push_back(fmt::format("throw_{}_m", stratum));
     for (std::size_t k = 0; k < report.faults.size(); ++k)
-        table.lines.push_back(fault_line(report, k, strata));
+        table.lines.push_back(fault_line(at, k, strata));
     return table;
 }
 
@@ -121,7 +127,7 @@ LineTable reference_surfaces_table(const ExportedMoment& at) {
     const Setting setting = setting_of(at);
     LineTable table{"surfaces", "", {"name"}};
     const auto add = [&](const std::string& name, const Polyline& points) {
-        table.lines.push_back({{name}, rounded(points)});
+        table.lines.push_back({{name}, rounded(at, points)});
     };
     const double right = at.now.right_end();
     const Chain floor = standing_base(at.now.parts.base, state).surfaces.front().chain;
@@ -144,7 +150,7 @@ LineTable reference_surfaces_table(const ExportedMoment& at) {
 LineTable surfaces_table(const ExportedMoment& at) {
     LineTable table = reference_surfaces_table(at);
     for (const Polyline& piece : free_surface(setting_of(at), at.now.parts.base, at.now.state))
-        table.lines.push_back({{"free surface"}, rounded(piece)});
+        table.lines.push_back({{"free surface"}, rounded(at, piece)});
     return table;
 }
 
@@ -155,8 +161,7 @@ LineTable base_table(const ExportedMoment& at) {
         return table;
     Line line{{"detachment"}};
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
-        line.points.push_back(
-            {rounded(nodes.x[k] + nodes.ux[k]), rounded(nodes.y[k] + nodes.uy[k])});
+        line.points.push_back(rounded(at, {nodes.x[k] + nodes.ux[k], nodes.y[k] + nodes.uy[k]}));
         line.at_points.insert(line.at_points.end(),
                               {nodes.x[k], -nodes.y[k], nodes.ux[k], -nodes.uy[k]});
     }
@@ -230,7 +235,7 @@ LineTable discs_table(const ExportedMoment& at) {
             std::get<std::string>(table.lines.back().values.front()) != rock_names()[rock[i]])
             table.lines.push_back({{rock_names()[rock[i]]}});
         Line& line = table.lines.back();
-        line.points.push_back({rounded(d.x[i]), rounded(d.y[i])});
+        line.points.push_back(rounded(at, {d.x[i], d.y[i]}));
         for (const DiscColumn& column : columns)
             line.at_points.push_back(column.values[i]);
     }

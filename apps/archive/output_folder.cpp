@@ -1,18 +1,23 @@
 #include "apps/archive/output_folder.hpp"
 
+#include "apps/archive/run_files.hpp"
+#include "apps/archive/run_folder.hpp"
 #include "apps/archive/scene_lines.hpp"
+#include "apps/archive/snapshot.hpp"
 #include "apps/archive/summary.hpp"
+#include "apps/scene/effect.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
+#include <map>
 #include <string>
-#include <string_view>
 #include <sys/file.h>
 #include <unistd.h>
 #include <vector>
@@ -38,75 +43,80 @@ namespace {
 
 bool holds_run(const fs::path& output) {
     std::error_code error;
-    return fs::exists(output / "scene.toml", error) || fs::exists(output / "summary.json", error);
+    return fs::exists(output / "scene.toml", error) || fs::exists(output / "summary.json", error) ||
+           !list_snapshots(output).empty();
 }
 
-/// Removes the files of a folder for which `ours` is true of the name.
-template <class Ours> void remove_files(const fs::path& folder, Ours&& ours) {
+void remove_all(const std::vector<fs::path>& paths) {
     std::error_code error;
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-        if (ours(entry.path().filename().string()))
-            found.push_back(entry.path());
-    for (const fs::path& path : found)
+    for (const fs::path& path : paths)
         fs::remove_all(path, error);
-}
-
-/// What a session that was killed left half done.
-void remove_remains(const fs::path& output) {
-    const auto half_written = [](const std::string& name) {
-        // name.PID.part, as write_text and write_snapshot make them
-        const std::size_t end = name.size() >= 5 && name.ends_with(".part") ? name.size() - 5 : 0;
-        const std::size_t dot = end ? name.rfind('.', end - 1) : name.npos;
-        return dot != name.npos && dot > 0 && end > dot + 1 &&
-               std::ranges::all_of(name.substr(dot + 1, end - dot - 1),
-                                   [](char c) { return c >= '0' && c <= '9'; });
-    };
-    for (const fs::path& folder : {output, output / "snapshots", output / "paraview"})
-        remove_files(folder, half_written);
-    remove_files(output / "figures", [](const std::string& name) {
-        return name.starts_with(".data-") || (name.starts_with(".") && name.ends_with(".tmp"));
-    });
-}
-
-/// Removes a run's own files, and nothing else that may be in the folder.
-void remove_run(const fs::path& output) {
-    const auto ends = [](const char* ending) {
-        return [ending](const std::string& name) { return name.ends_with(ending); };
-    };
-    remove_files(output / "snapshots", ends(".h5"));
-    remove_files(output / "paraview", ends(".vtp"));
-    remove_files(output / "paraview", ends(".vtu"));
-    for (const char* ending : {"km.png", "km.pdf", "km.svg", "km.gif", "km.mp4"})
-        remove_files(output / "figures", ends(ending));
-    for (const char* ending : {"m.csv", "m.geojson", "m.gmt", "discs.gsd"})
-        remove_files(output / "export", ends(ending));
-    std::error_code error;
-    for (const char* file :
-         {"summary.json", "history.csv", "report.html", "status.json", "paraview.pvd",
-          "paraview.py", "log.txt", "scene.toml", "deflection.csv", "base.csv", "footwall.csv",
-          "footwall.pvd", "footwall.vtu"})
-        fs::remove(output / file, error);
-    for (const std::string name : {"base", "footwall", "flexure"})
-        for (const char* ending : {".png", ".pdf", ".svg"})
-            fs::remove(output / "figures" / (name + ending), error);
 }
 
 /// A resumed run must be the same run; comments may have changed with the program, and whether
 /// there is a report is nothing of the run.
-void check_same_scene(const Scene& scene, const fs::path& file) {
-    const std::string before = read_text_if_there(file);
-    if (before.empty())
+/// @param text  of the scene that a file of the run's folder holds
+void require_same_scene(const std::map<std::string, std::string>& now, const std::string& text,
+                        const fs::path& file) {
+    const auto differs = scene_difference(scene_values(text), now);
+    if (!differs)
         return;
-    const std::vector<std::string> then = scene_lines(before), now = scene_lines(to_toml(scene));
-    const auto [a, b] = std::ranges::mismatch(then, now);
-    if (a == then.end() && b == now.end())
+    throw UsageError(fmt::format(
+        "{}: the run to resume has other parameters: {} = {} there, {} in this call; resume it "
+        "with "
+        "the parameters that it began with, start anew with --force, or elsewhere with --output",
+        file.string(), shown(differs->parameter), shown(differs->one), shown(differs->other)));
+}
+
+/// All that a resumed run would take for its own must be of this scene.
+/// @param finished  nothing is left to do: its newest snapshot speaks for the others
+void require_own_run(const Scene& scene, const fs::path& output, bool finished) {
+    const std::map<std::string, std::string> now = scene_values(to_toml(scene));
+    const fs::path file = output / "scene.toml";
+    if (const std::string before = read_text_if_there(file); !before.empty())
+        require_same_scene(now, before, file);
+    std::vector<fs::path> snapshots = list_snapshots(output);
+    if (finished && !snapshots.empty())
+        snapshots.erase(snapshots.begin(), snapshots.end() - 1);
+    for (const fs::path& snapshot : snapshots) {
+        std::string holds;
+        try {
+            holds = read_run_record(snapshot).scene;
+        } catch (const StorageError&) {
+            continue; // damaged: it is passed over, and said, when the run is resumed
+        }
+        require_same_scene(now, holds, snapshot);
+    }
+}
+
+/// What is read must not be written over, nor removed with the run that is replaced.
+void keep_what_is_read(const Scene& scene, const fs::path& output, ExistingRun existing) {
+    std::error_code error;
+    for (const fs::path& file : scene.files) {
+        const bool is_scene = fs::equivalent(output / "scene.toml", file, error) && !error;
+        if (is_scene && existing == ExistingRun::resumed && !list_snapshots(output).empty())
+            continue; // they are compared
+        if (is_scene && scene_lines(read_text_if_there(file)) == scene_lines(to_toml(scene)))
+            continue; // it stays as it is
+        if (would_be_lost(output, file, existing == ExistingRun::replaced))
+            throw UsageError(fmt::format(
+                "{}: is read by this call, and a run in {} would write over it or remove it; "
+                "--output writes elsewhere",
+                shown(file.string()), shown(output.string())));
+    }
+}
+
+/// Nor what somebody else has put there. Where a run is, files of these names are that run's,
+/// damaged ones included.
+void keep_what_is_there(const Scene& scene, const fs::path& output) {
+    if (!list_snapshots(output).empty())
         return;
-    throw UsageError(fmt::format("{}: the run to resume has other parameters: it has \"{}\", this "
-                                 "call \"{}\"; resume it with "
-                                 "the parameters that it began with, or start anew with --force",
-                                 file.string(), a == then.end() ? "" : *a,
-                                 b == now.end() ? "" : *b));
+    const bool with_base = scene.flexure || has_effect(scene, "elastic_base");
+    const bool with_series = scene.output.series == SeriesFormat::paraview;
+    if (const auto file = file_in_the_way(output, with_base, with_series))
+        throw UsageError(fmt::format("{}: is no file of a run, and one in {} would write over it; "
+                                     "--output writes elsewhere",
+                                     file->string(), output.string()));
 }
 
 } // namespace
@@ -114,29 +124,46 @@ void check_same_scene(const Scene& scene, const fs::path& file) {
 bool check_output(const Scene& scene, const fs::path& output, ExistingRun existing, double target) {
     const fs::path summary = output / "summary.json";
     std::error_code error;
-    if (!holds_run(output) || existing == ExistingRun::replaced)
-        return false;
-    if (existing == ExistingRun::refused)
+    keep_what_is_read(scene, output, existing);
+    if (existing == ExistingRun::refused && holds_run(output))
         throw UsageError(output.string() + " holds " +
                          (fs::exists(summary, error) ? "a finished run" : "an unfinished run") +
                          ": --resume continues it, --force replaces it, --output writes elsewhere");
-    check_same_scene(scene, output / "scene.toml");
+    if (existing != ExistingRun::resumed || !holds_run(output)) {
+        keep_what_is_there(scene, output);
+        return false;
+    }
     const auto reached = summary_extension(summary);
-    if (scene.flexure)
-        return reached.has_value();
-    return reached && *reached >= target - 0.5;
+    const double near = std::max(0.005 * scene.output.interval,
+                                 scene.hanging_wall ? 1e-3 * scene.hanging_wall->mean_radius : 0.0);
+    const bool finished = reached && (scene.flexure || *reached >= target - near);
+    require_own_run(scene, output, finished);
+    return finished;
+}
+
+void require_no_run(const fs::path& output) {
+    if (!list_snapshots(output).empty())
+        throw UsageError(output.string() + " holds a run, whose summary.json would be replaced; "
+                                           "--output writes elsewhere");
 }
 
 void prepare_output(const Scene& scene, const fs::path& output, ExistingRun existing) {
     std::error_code error;
-    if (existing == ExistingRun::replaced && holds_run(output))
-        remove_run(output);
+    if (existing == ExistingRun::replaced) {
+        std::vector<fs::path> files = run_files(output);
+        std::erase_if(files, [&](const fs::path& file) { // the one that is read, and says the same
+            return file == output / "scene.toml" &&
+                   scene_lines(read_text_if_there(file)) == scene_lines(to_toml(scene));
+        });
+        remove_all(files);
+    }
     fs::create_directories(scene.flexure ? output : output / "snapshots", error);
     if (error)
         throw StorageError(output.string() + ": cannot make the output folder: " + error.message());
-    remove_remains(output);
-    write_text(output / ".write-test", "x");
-    fs::remove(output / ".write-test", error);
+    remove_all(remains(output));
+    const fs::path test = output / ".listric-write-test";
+    write_text(test, "x");
+    fs::remove(test, error);
     fs::remove(output / "summary.json", error); // of a run that now goes on
 }
 

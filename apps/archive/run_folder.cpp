@@ -1,11 +1,18 @@
 #include "apps/archive/run_folder.hpp"
 
+#include "apps/archive/run_files.hpp"
+#include "apps/archive/scene_lines.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
+#include "apps/scene/scene_file.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+#include "apps/support/text.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
+#include <utility>
 
 namespace listric::archive {
 
@@ -17,25 +24,68 @@ std::vector<fs::path> list_snapshots(const fs::path& output) {
     std::vector<fs::path> snapshots;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(output / "snapshots", error))
-        if (entry.path().extension() == ".h5")
+        if (moment_of_snapshot(entry.path().filename().string()) && entry.is_regular_file(error))
             snapshots.push_back(entry.path());
-    // By extension: longer names are further.
-    std::ranges::sort(snapshots, {},
-                      [](const fs::path& p) { return std::pair(p.native().size(), p.native()); });
+    std::ranges::sort(snapshots, {}, [](const fs::path& path) {
+        return std::pair(snapshot_extension(path), path.native().size());
+    });
     return snapshots;
 }
 
 double snapshot_extension(const fs::path& path) {
-    return std::strtod(path.filename().c_str() + std::strlen("extension-"), nullptr);
+    const auto moment = moment_of_snapshot(path.filename().string());
+    return moment ? *extension_of(*moment) : 0.0;
+}
+
+std::vector<double> window_ends(const Table& history) {
+    if (!history.has("extension_m"))
+        return {};
+    const auto extensions = history.get<double>("extension_m");
+    return {extensions.begin(), extensions.end()};
+}
+
+RunMoments run_moments(const fs::path& output) {
+    RunMoments moments{list_snapshots(output), {}, {}, {}};
+    std::vector<fs::path>& paths = moments.snapshots;
+    for (std::size_t k = paths.size(); k-- > 0 && moments.scene.empty();)
+        try {
+            RunRecord record = read_run_record(paths[k]);
+            moments.window_ends = window_ends(record.history);
+            moments.scene = std::move(record.scene);
+            moments.history = std::move(record.history);
+            const MomentNames names(1.0, moments.window_ends);
+            std::size_t older = 0;
+            std::erase_if(paths, [&](const fs::path& path) {
+                const auto moment = moment_of_snapshot(path.filename().string());
+                return older++ < k && !names.window_end(*moment);
+            });
+        } catch (const StorageError&) {
+            continue; // whoever reads it says so
+        }
+    return moments;
+}
+
+void require_same_run(const fs::path& snapshot, const std::string& holds,
+                      const std::string& scene) {
+    if (scene.empty() || scene == holds)
+        return;
+    const auto differs =
+        scene_difference(scene_values(holds), scene_values(scene), SceneScope::results);
+    if (!differs)
+        return;
+    throw UsageError(fmt::format("{}: another run has made it: {} = {} there, {} in the rest of "
+                                 "the folder; take it away, or what it was copied over",
+                                 snapshot.string(), shown(differs->parameter), shown(differs->one),
+                                 shown(differs->other)));
 }
 
 namespace {
 
-std::vector<fs::path> some_snapshots(const fs::path& output) {
-    std::vector<fs::path> snapshots = list_snapshots(output);
-    if (snapshots.empty())
+RunMoments some_moments(const fs::path& output) {
+    RunMoments moments = run_moments(output);
+    if (moments.snapshots.empty())
         throw StorageError(output.string() + ": no snapshots; is this a run's folder?");
-    return snapshots;
+    return moments;
 }
 
 } // namespace
@@ -58,15 +108,22 @@ void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> event
 }
 
 RunFolder::RunFolder(const fs::path& folder, const Scene& of)
-    : output(folder), scene(of), parts(make_parts(scene)), snapshots(some_snapshots(folder)) {}
+    : output(folder), moments(some_moments(folder)), snapshots(moments.snapshots), scene(of),
+      parts(make_parts(scene)), names(scene.output.interval, moments.window_ends) {}
 
-RunFolder::RunFolder(const fs::path& folder) : output(folder), snapshots(some_snapshots(folder)) {
-    scene = load_scene({.scene = (output / "scene.toml").string()});
+RunFolder::RunFolder(const fs::path& folder)
+    : output(folder), moments(some_moments(folder)), snapshots(moments.snapshots) {
+    const fs::path file = output / "scene.toml";
+    if (const std::string text = read_text_if_there(file); !text.empty())
+        require_same_run(file, text, moments.scene);
+    scene = load_scene({.scene = file.string()});
     parts = make_parts(scene);
+    names = MomentNames(scene.output.interval, moments.window_ends);
 }
 
 Moment RunFolder::read(const fs::path& path) const {
     Snapshot snapshot = read_snapshot(path);
+    require_same_run(path, snapshot.record.scene, moments.scene);
     Moment moment{{}, make_events(scene, parts)};
     hand_over(snapshot, moment.events);
     moment.state = std::move(snapshot.state);

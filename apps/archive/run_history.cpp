@@ -10,10 +10,12 @@ namespace listric::archive {
 
 using namespace measures;
 
-RunHistory::RunHistory(std::span<const std::filesystem::path> snapshots) {
+RunHistory::RunHistory(std::span<const std::filesystem::path> snapshots, const std::string& scene) {
     for (const std::filesystem::path& path : snapshots) {
         try {
-            add(DiscPlaces(read_snapshot(path).state));
+            const Snapshot snapshot = read_snapshot(path);
+            require_same_run(path, snapshot.record.scene, scene);
+            add(DiscPlaces(snapshot.state));
         } catch (const StorageError&) {
             continue;
         }

@@ -1,6 +1,7 @@
 #include "apps/archive/scene_lines.hpp"
 
 #include <sstream>
+#include <utility>
 
 namespace listric::archive {
 
@@ -35,6 +36,48 @@ std::vector<std::string> scene_lines(std::string_view text) {
             !said.empty() && !said.starts_with("report = "))
             lines.emplace_back(said);
     return lines;
+}
+
+std::map<std::string, std::string> scene_values(std::string_view text) {
+    std::map<std::string, std::string> values;
+    std::string table;
+    std::string* last = nullptr;
+    for (const std::string& line : scene_lines(text)) {
+        const std::size_t equals = line.find(" = ");
+        if (line.starts_with('[') && line.ends_with(']') && line.find(',') == line.npos) {
+            table = line.substr(1, line.size() - 2) + ".";
+            last = nullptr;
+            values[line] = "a table";
+        } else if (equals != line.npos && line.front() != ' ' && line.front() != '{') {
+            last = &values[table + line.substr(0, equals)];
+            *last = line.substr(equals + 3);
+        } else if (last) { // a value of several lines
+            *last += " " + line;
+        }
+    }
+    return values;
+}
+
+std::optional<SceneDifference> scene_difference(const std::map<std::string, std::string>& one,
+                                                const std::map<std::string, std::string>& other,
+                                                SceneScope scope) {
+    const auto is_compared = [&](const std::string& parameter) {
+        return scope == SceneScope::all || parameter == "output.interval_m" ||
+               !(parameter == "name" || parameter == "description" ||
+                 parameter.starts_with("output."));
+    };
+    const auto value_in = [](const std::map<std::string, std::string>& values,
+                             const std::string& parameter) {
+        const auto found = values.find(parameter);
+        return found == values.end() ? std::string("nothing") : found->second;
+    };
+    for (const auto& [parameter, value] : one)
+        if (is_compared(parameter) && value_in(other, parameter) != value)
+            return SceneDifference{parameter, value, value_in(other, parameter)};
+    for (const auto& [parameter, value] : other)
+        if (is_compared(parameter) && !one.contains(parameter))
+            return SceneDifference{parameter, "nothing", value};
+    return std::nullopt;
 }
 
 } // namespace listric::archive

@@ -1,13 +1,34 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace listric::archive {
 
-/// What a scene's text says of a run: its lines without comments, without empty ones and without
-/// whether there is a report, which is nothing of the run.
+/// What a scene's text says: its lines without comments, empty lines, and whether there is a
+/// report, which is nothing of the run.
 std::vector<std::string> scene_lines(std::string_view text);
+
+/// The same by parameter, "table.key"; a table stands there, too, as "[table]".
+std::map<std::string, std::string> scene_values(std::string_view text);
+
+/// A parameter in which two scenes differ; nothing: it is not there.
+struct SceneDifference {
+    std::string parameter, one, other;
+};
+
+/// What a comparison of scenes looks at.
+enum class SceneScope {
+    all,
+    results ///< not at names and descriptions, and of the output at the interval alone
+};
+
+/// The first parameter, by name, in which two scenes differ; none if they are the same.
+std::optional<SceneDifference> scene_difference(const std::map<std::string, std::string>& one,
+                                                const std::map<std::string, std::string>& other,
+                                                SceneScope scope = SceneScope::all);
 
 } // namespace listric::archive

@@ -255,14 +255,31 @@ void check_format(const std::string& found, const std::string& writer) {
                                      number > format ? "a newer program" : "that version"));
 }
 
-/// HDF5 must not see a damaged file, for it reads beyond what is damaged: the checksum comes first.
-Snapshot read_verified(const fs::path& path) {
+/// Calls read(file). HDF5 must not see a damaged file, for it reads beyond what is damaged: the
+/// checksum comes first.
+template <class Read> auto read_verified(const fs::path& path, Read&& read) {
     const bool verified = verify_checksum(path);
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
                       "cannot be opened as HDF5");
     check_format(read_text_attribute(file, "format"), read_text_attribute(file, "version"));
     if (!verified)
         throw StorageError("is damaged (it lacks its checksum)");
+    return read(file);
+}
+
+/// The same with what was thrown naming the file.
+template <class Read> auto read_file(const fs::path& path, Read&& read) {
+    silence_hdf5();
+    try {
+        return read_verified(path, read);
+    } catch (const UsageError& error) {
+        throw UsageError(path.string() + ": " + error.what());
+    } catch (const std::exception& error) {
+        throw StorageError(path.string() + ": " + error.what());
+    }
+}
+
+Snapshot read_all(hid_t file) {
     Snapshot snapshot;
     snapshot.state = read_state(file);
     read_memories(file, snapshot);
@@ -284,16 +301,9 @@ void write_snapshot(const fs::path& path, const State& state,
     write_bytes(path, bytes);
 }
 
-Snapshot read_snapshot(const fs::path& path) {
-    silence_hdf5();
-    try {
-        return read_verified(path);
-    } catch (const UsageError& error) {
-        throw UsageError(path.string() + ": " + error.what());
-    } catch (const std::exception& error) {
-        throw StorageError(path.string() + ": " + error.what());
-    }
-}
+Snapshot read_snapshot(const fs::path& path) { return read_file(path, read_all); }
+
+RunRecord read_run_record(const fs::path& path) { return read_file(path, read_record); }
 
 std::uint64_t run_hash(const State& state, std::span<const std::unique_ptr<Event>> events) {
     return hash(state, events);

@@ -38,6 +38,9 @@ void write_snapshot(const std::filesystem::path& path, const dem::State& state,
 /// of another format: a run is then gone on with by the version that wrote it.
 Snapshot read_snapshot(const std::filesystem::path& path);
 
+/// What the run had carried along, without its state. Throws as read_snapshot.
+RunRecord read_run_record(const std::filesystem::path& path);
+
 /// Hash of the state and of what the events remember: equal for equal runs.
 std::uint64_t run_hash(const dem::State& state,
                        std::span<const std::unique_ptr<dem::Event>> events);

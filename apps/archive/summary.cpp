@@ -1,6 +1,7 @@
 #include "apps/archive/summary.hpp"
 
 #include "apps/archive/traced_faults.hpp"
+#include "apps/support/fineness.hpp"
 
 #include <fmt/format.h>
 
@@ -105,13 +106,14 @@ Json bonded_list(const std::vector<BondedLayer>& layers) {
     return list(rows);
 }
 
-Json fault_object(const Fault& f) {
+/// @param steps  in a metre, of the trace's points
+Json fault_object(const Fault& f, double steps) {
     Json throws = Json::object();
     for (const auto& [stratum, value] : f.throws)
         throws[fmt::format("{}", stratum)] = value;
     Json points = Json::array();
     for (Point p : f.trace.points)
-        points.push_back({std::round(p.x), std::round(-p.y)});
+        points.push_back({std::round(steps * p.x) / steps, std::round(-steps * p.y) / steps});
     Json json = trace_object(f.trace, f.dip, f.normal);
     json.update({{"attitude", f.synthetic ? "synthetic" : "antithetic"},
                  {"rate_mm_per_a", f.rate},
@@ -131,7 +133,7 @@ Json fault_object(const Fault& f) {
 }
 
 /// The faults, and what they have in common.
-void add_faults(Json& json, const FaultReport& report) {
+void add_faults(Json& json, const FaultReport& report, double steps) {
     put(json, "fault_width_diameters", report.width);
     put(json, "antithetic_foot_x_m", report.antithetic_foot);
     if (report.main_antithetic)
@@ -141,7 +143,7 @@ void add_faults(Json& json, const FaultReport& report) {
     put(json, "sediment_weak_off_fault_fraction", report.sediment_weak_off_fault_fraction);
     Json& faults = json["faults"] = Json::array();
     for (const Fault& f : report.faults)
-        faults.push_back(fault_object(f));
+        faults.push_back(fault_object(f, steps));
 }
 
 /// Picked horizons; those that are compared with nothing say why.
@@ -208,7 +210,7 @@ std::string summary_json(const SummaryContent& content) {
         json[name] = list(objects);
     if (!content.observed.empty())
         json["observed"] = observed_list(content.observed);
-    add_faults(json, content.faults);
+    add_faults(json, content.faults, fineness(content.state.mean_radius));
     return json.dump(2) + "\n";
 }
 

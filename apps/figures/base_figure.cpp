@@ -4,6 +4,9 @@
 #include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/model/footwall_coupling.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+#include "apps/support/moment_names.hpp"
 #include "apps/support/npy.hpp"
 #include "apps/support/python.hpp"
 
@@ -21,6 +24,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* base_header = "extension_m,x_m,y_m,ux_m,uy_m\n";
+constexpr const char* uplift_header = "extension_m,x_m,uplift_m\n";
+
+/// Writes a table of the run, but not over a file of somebody's that has its name.
+void write_table(const fs::path& file, const std::string& header, const std::string& table) {
+    const std::string there = read_text_if_there(file);
+    if (!there.empty() && !there.starts_with(header))
+        throw UsageError(file.string() + ": is no table of a run, which would be written there; "
+                                         "move it or give it another name");
+    write_text(file, table);
+}
+
 /// Beyond this x the picture ends, m, left of the breakaway and right of the wall.
 constexpr double beside = 100e3;
 
@@ -37,10 +52,11 @@ std::vector<fs::path> shown(const std::vector<fs::path>& snapshots) {
 }
 
 /// Uplift of the footwall's surface, then of the detachment.
-std::string uplift_rows(const State& state, const fem::Field& field) {
+std::string uplift_rows(const State& state, const fem::Field& field, int decimals) {
     std::string rows;
     const auto add = [&](double x, double uplift) {
-        rows += fmt::format("{:.2f},{:.2f},{:.4f}\n", state.clock.extension, x, uplift);
+        rows += fmt::format("{:.{}f},{:.{}f},{:.{}f}\n", state.clock.extension, decimals, x,
+                            decimals, uplift, decimals + 2);
     };
     for (std::size_t k = 0; k < field.place.size(); ++k)
         if (std::abs(field.place[k].y) < 1e-3 && field.place[k].x < 0.0 &&
@@ -79,31 +95,34 @@ void export_section(const State& state, const std::vector<fem::StressPatch>& pat
 void export_footwall(const RunFolder& run, const fs::path& folder) {
     std::vector<std::unique_ptr<Event>> events;
     FootwallCoupling coupling(run.scene, run.parts, events);
-    std::string table = "extension_m,x_m,uplift_m\n";
+    const int decimals = decimals_for(run.scene.output.interval);
+    std::string table = uplift_header;
     const std::vector<fs::path> moments = shown(run.snapshots);
     for (const fs::path& path : moments) {
         Snapshot snapshot = read_snapshot(path);
         hand_over(snapshot, events);
         const RecoveredField field = coupling.recover(snapshot.state);
-        table += uplift_rows(snapshot.state, field.field());
+        table += uplift_rows(snapshot.state, field.field(), decimals);
         if (path == moments.back())
             export_section(snapshot.state, field.stress(), folder);
     }
-    write_text(run.output / "footwall.csv", table);
+    write_table(run.output / "footwall.csv", uplift_header, table);
 }
 
 } // namespace
 
 void draw_base(const RunFolder& run, const PictureOrder& order) {
-    std::string table = "extension_m,x_m,y_m,ux_m,uy_m\n";
+    const int decimals = decimals_for(run.scene.output.interval);
+    std::string table = base_header;
     for (const fs::path& path : run.snapshots) {
         const State state = read_snapshot(path).state;
         const ConstBaseNodeColumns nodes = base_node_columns(state);
         for (std::size_t k = 0; k < nodes.x.size(); ++k)
-            table += fmt::format("{:.2f},{:.2f},{:.2f},{:.4f},{:.4f}\n", state.clock.extension,
-                                 nodes.x[k], nodes.y[k], nodes.ux[k], nodes.uy[k]);
+            table += fmt::format("{1:.{0}f},{2:.{0}f},{3:.{0}f},{5:.{4}f},{6:.{4}f}\n", decimals,
+                                 state.clock.extension, nodes.x[k], nodes.y[k], decimals + 2,
+                                 nodes.ux[k], nodes.uy[k]);
     }
-    write_text(run.output / "base.csv", table);
+    write_table(run.output / "base.csv", base_header, table);
     const fs::path folder = fs::absolute(run.output), figures = folder / "figures";
     run_drawing_script("base.py", {folder.string(), figures.string(), order.text()});
     if (!has_effect(run.scene, "elastic_base"))

@@ -65,8 +65,8 @@ void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
     const RunFolder run = open_run(output);
     const PictureOrder order{formats, provenance_of_run(output, run.scene)};
     const std::vector<fs::path> chosen = chosen_snapshots(run);
-    FigureFrames frames(output / "figures", underlay, order);
-    const RunHistory history(run.snapshots);
+    FigureFrames frames(output / "figures", underlay, order, run.names);
+    const RunHistory history(run);
     bool base_moves = false;
     for (const fs::path& path : chosen) {
         const Moment moment = run.read(path);
@@ -84,8 +84,8 @@ void draw_experiment(const RunFolder& run, const RunHistory& history) {
     const std::vector<fs::path> chosen = chosen_snapshots(run);
     if (chosen.size() < 2)
         return;
-    FigureFrames frames(run.output / "figures", std::nullopt,
-                        {.provenance = provenance(run.scene)});
+    FigureFrames frames(run.output / "figures", std::nullopt, {.provenance = provenance(run.scene)},
+                        run.names);
     for (const fs::path& path : chosen)
         add_frame(frames, run, run.read(path), history);
     frames.draw("experiment");
@@ -93,7 +93,7 @@ void draw_experiment(const RunFolder& run, const RunHistory& history) {
 
 void animate_run(const fs::path& output) {
     const RunFolder run = open_run(output);
-    FigureFrames frames(output / "figures");
+    FigureFrames frames(output / "figures", std::nullopt, {}, run.names);
     // The window before shows where the faults are; their history is not drawn.
     RunHistory window;
     for (const fs::path& path : run.snapshots) {

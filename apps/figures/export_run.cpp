@@ -104,7 +104,7 @@ std::vector<fs::path> export_run(const ExportRequest& request) {
                          ": no snapshots to export; is this a run's folder?");
     const RunFolder run(request.output);
     const std::vector<fs::path> moments = chosen(run, request.extensions);
-    const RunHistory history = kind.needs_faults ? RunHistory(run.snapshots) : RunHistory();
+    const RunHistory history = kind.needs_faults ? RunHistory(run) : RunHistory();
     const fs::path folder = request.output / "export";
     make_folder(folder);
     std::vector<fs::path> files;

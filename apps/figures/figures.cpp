@@ -17,11 +17,12 @@ using namespace measures;
 namespace fs = std::filesystem;
 
 FigureFrames::FigureFrames(const fs::path& folder, std::optional<Underlay> underlay,
-                           PictureOrder order)
-    : folder_(folder), underlay_(std::move(underlay)), order_(std::move(order)), data_(folder) {}
+                           PictureOrder order, std::optional<MomentNames> names)
+    : folder_(folder), underlay_(std::move(underlay)), order_(std::move(order)),
+      names_(std::move(names)), data_(folder) {}
 
 void FigureFrames::add(const Observation& now, const FaultReport& faults) {
-    write_frame(now, faults, data_.path / fmt::format("{:06d}", frames_++), underlay_);
+    write_frame(now, faults, data_.path / fmt::format("{:06d}", frames_++), underlay_, names_);
 }
 
 void FigureFrames::draw(const std::string& kind) const {
@@ -30,12 +31,13 @@ void FigureFrames::draw(const std::string& kind) const {
 }
 
 std::future<std::string> draw_figures(const Observation& now, const FaultReport& faults,
-                                      const fs::path& folder) {
+                                      const fs::path& folder, const MomentNames& names) {
     std::unique_ptr<FigureFrames> frames;
     std::string problem;
     try {
         frames = std::make_unique<FigureFrames>(
-            folder, std::nullopt, PictureOrder{.provenance = archive::provenance(now.scene)});
+            folder, std::nullopt, PictureOrder{.provenance = archive::provenance(now.scene)},
+            names);
         frames->add(now, faults);
     } catch (const std::exception& error) {
         problem = error.what();

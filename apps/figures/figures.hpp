@@ -17,7 +17,8 @@ namespace listric {
 /// beside what follows. Gives an empty string, or why it could not: pictures are worth a warning,
 /// not the run.
 std::future<std::string> draw_figures(const Observation& now, const measures::FaultReport& faults,
-                                      const std::filesystem::path& folder);
+                                      const std::filesystem::path& folder,
+                                      const MomentNames& names);
 
 /// Pictures of several moments of a run: the arrays that the drawing script reads, in a folder that
 /// vanishes with this object.
@@ -25,8 +26,10 @@ class FigureFrames {
 public:
     /// @param folder  where the pictures go
     /// @param underlay  that sections are drawn over, if there is one
+    /// @param names  of the run's moments; none: all are ends of windows
     explicit FigureFrames(const std::filesystem::path& folder,
-                          std::optional<Underlay> underlay = std::nullopt, PictureOrder order = {});
+                          std::optional<Underlay> underlay = std::nullopt, PictureOrder order = {},
+                          std::optional<MomentNames> names = std::nullopt);
 
     /// Throws StorageError.
     void add(const Observation& now, const measures::FaultReport& faults);
@@ -41,6 +44,7 @@ private:
     std::filesystem::path folder_;
     std::optional<Underlay> underlay_;
     PictureOrder order_;
+    std::optional<MomentNames> names_;
     TemporaryFolder data_;
     int frames_ = 0;
 };

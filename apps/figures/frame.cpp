@@ -219,7 +219,7 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
 } // namespace
 
 void write_frame(const Observation& now, const FaultReport& faults, const fs::path& folder,
-                 const std::optional<Underlay>& underlay) {
+                 const std::optional<Underlay>& underlay, const std::optional<MomentNames>& names) {
     const FrameWriter writer(folder);
     write_discs(writer, now.state);
     writer.array("discs_shear_strain", window_strain(now));
@@ -249,6 +249,9 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
             for (const FigureLayer& layer : part.effect->draw(now))
                 writer.array(layer.name, layer.rows, layer.columns);
     nlohmann::json frame = frame_json(now, m);
+    const double extension = now.state.clock.extension;
+    frame["extension_km"] = names.value_or(MomentNames(now.scene.output.interval, {&extension, 1}))
+                                .kilometres(extension);
     // Picks are of the section as it is at the end of extension.
     const bool observed =
         now.scene.observed && now.state.clock.extension >= 0.999 * now.scene.extension.distance;

@@ -2,6 +2,7 @@
 
 #include "apps/measures/fault.hpp"
 #include "apps/scene/effect.hpp"
+#include "apps/support/moment_names.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -17,8 +18,10 @@ struct Underlay {
 /// Writes the arrays of one moment, which apps/figures/python/frame.py describes, those of its
 /// effects, and frame.json into a folder of their own. Throws StorageError.
 /// @param underlay  that the section is drawn over, if there is one
+/// @param names  of the run's moments; none: this one is the end of a window
 void write_frame(const Observation& now, const measures::FaultReport& faults,
                  const std::filesystem::path& folder,
-                 const std::optional<Underlay>& underlay = std::nullopt);
+                 const std::optional<Underlay>& underlay = std::nullopt,
+                 const std::optional<MomentNames>& names = std::nullopt);
 
 } // namespace listric

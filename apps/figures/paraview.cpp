@@ -14,12 +14,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace listric {
@@ -203,35 +203,26 @@ std::string base_file(const State& state, const RigidBase& given) {
     return file.text();
 }
 
-/// Moment and part that a file's name tells; none if the file is not of the series.
-struct SeriesFile {
-    double extension = 0.0; ///< m
-    std::size_t part = 0;
-    std::string name;
-
-    auto operator<=>(const SeriesFile&) const = default;
-};
-
-std::optional<SeriesFile> series_file(const std::string& name) {
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-        SeriesFile file{0.0, part, name};
-        const char* const begin = name.data() + std::min(name.size(), parts[part].size() + 1);
-        const auto [end, error] = std::from_chars(begin, name.data() + name.size(), file.extension);
-        if (error == std::errc() && name.starts_with(fmt::format("{}-", parts[part])) &&
-            std::string_view(end) == "m.vtp")
-            return file;
-    }
-    return {};
-}
-
-/// Of all moments in output/paraview. @param extension_rate  m/a
-void write_series(const fs::path& output, double extension_rate) {
+/// Of all moments in output/paraview that are ends of windows, and of the present.
+/// @param extension_rate  m/a
+void write_series(const fs::path& output, const MomentNames& names, double now,
+                  double extension_rate) {
+    const std::string present = names.metres(now);
+    std::set<std::tuple<double, std::size_t, std::string>> files; // in the series' order
     std::error_code error;
-    std::vector<SeriesFile> files;
-    for (const auto& entry : fs::directory_iterator(output / "paraview", error))
-        if (const auto file = series_file(entry.path().filename().string()))
-            files.push_back(*file);
-    std::ranges::sort(files);
+    for (const auto& entry : fs::directory_iterator(output / "paraview", error)) {
+        const std::string name = entry.path().filename().string();
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            const std::string begin = fmt::format("{}-", parts[part]);
+            if (!name.starts_with(begin) || !name.ends_with("m.vtp"))
+                continue;
+            const std::string moment = name.substr(begin.size(), name.size() - begin.size() - 5);
+            const std::optional<double> end =
+                moment == present ? std::optional(now) : names.window_end(moment);
+            if (end)
+                files.emplace(*end, part, name);
+        }
+    }
     std::string series = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
                          "<Collection>\n";
     // ParaView names a block after `name`; it goes by the order of the lines, not by `part`.
@@ -245,15 +236,15 @@ void write_series(const fs::path& output, double extension_rate) {
 } // namespace
 
 void write_paraview(const fs::path& output, const State& state, const RigidBase& base,
-                    double extension_rate) {
+                    const MomentNames& names, double extension_rate) {
     const fs::path folder = output / "paraview";
     std::error_code error;
     fs::create_directories(folder, error);
-    const std::string moment = fmt::format("{:08.2f}m.vtp", state.clock.extension);
+    const std::string moment = names.metres(state.clock.extension) + "m.vtp";
     write_text(folder / ("discs-" + moment), discs_file(state, base));
     write_text(folder / ("contacts-" + moment), contacts_file(state));
     write_text(folder / ("base-" + moment), base_file(state, base));
-    write_series(output, extension_rate);
+    write_series(output, names, state.clock.extension, extension_rate);
     copy_view(output);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/support/moment_names.hpp"
 #include "dem/base.hpp"
 #include "dem/state.hpp"
 
@@ -10,10 +11,12 @@ namespace listric {
 /// Writes one moment as VTK PolyData into output/paraview: discs (points: radius, material,
 /// stratum, start depth, rotation, velocity, stress, coordination, bonds), contacts (lines: bonded,
 /// normal and shear force, compression positive) and base (lines). The series output/paraview.pvd
-/// holds all moments there, with time in Ma; docs/paraview.md tells how to look at it.
+/// holds those that are there of this moment and the ends of windows, with time in Ma;
+/// docs/paraview.md tells how to look at it.
+/// @param names  of the run's moments
 /// @param extension_rate  m/a. Throws StorageError.
 void write_paraview(const std::filesystem::path& output, const dem::State& state,
-                    const dem::RigidBase& base, double extension_rate);
+                    const dem::RigidBase& base, const MomentNames& names, double extension_rate);
 
 /// Writes output/paraview.py, which opens the series there in ParaView. Throws StorageError.
 void copy_view(const std::filesystem::path& output);

@@ -9,6 +9,7 @@
 #include "apps/measures/rock_behaviour.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/deflate.hpp"
+#include "apps/support/fineness.hpp"
 #include "dem/contacts.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/monitor.hpp"
@@ -56,7 +57,7 @@ std::map<std::string, Scale> scales(double mean_radius) {
             {"radius_m", {mean_radius / 1024.0}},
             {"start_x_m", length},
             {"start_depth_m", length},
-            {"start_extension_m", {1.0}},
+            {"start_extension_m", {1.0 / fineness(mean_radius)}},
             {"window_strain", strain},
             {"total_strain", strain},
             {"mean_stress_pa", stress},
@@ -87,18 +88,21 @@ std::string packed(std::span<const std::int32_t> differences) {
 
 json finite(double value) { return std::isfinite(value) ? json(value) : json(); }
 
-/// To a decimetre.
-json short_length(double metres) { return std::round(10.0 * metres) / 10.0; }
+/// To a tenth.
+json short_number(double value, double steps = 10.0) { return std::round(steps * value) / steps; }
 
-json points_of(std::span<const Point> points) {
+/// Steps in a metre that the points of lines are told by: decimetres, in small models less.
+double steps_of(const Observation& now) { return 10.0 * fineness(now.state.mean_radius); }
+
+json points_of(std::span<const Point> points, double steps) {
     json list = json::array();
     for (const Point p : points)
-        list.push_back({short_length(p.x), short_length(-p.y)});
+        list.push_back({short_number(p.x, steps), short_number(-p.y, steps)});
     return list;
 }
 
 /// Rows of a table as objects by its columns, each with its "points".
-json lines_of(const LineTable& table) {
+json lines_of(const LineTable& table, double steps) {
     json lines = json::array();
     for (const Line& line : table.lines) {
         json row;
@@ -106,11 +110,11 @@ json lines_of(const LineTable& table) {
             row[table.columns[c]] = std::holds_alternative<double>(line.values[c])
                                         ? finite(std::get<double>(line.values[c]))
                                         : json(std::get<std::string>(line.values[c]));
-        row["points"] = points_of(line.points);
+        row["points"] = points_of(line.points, steps);
         for (std::size_t c = 0; c < table.point_columns.size(); ++c) {
             json& list = row[table.point_columns[c]] = json::array();
             for (std::size_t k = c; k < line.at_points.size(); k += table.point_columns.size())
-                list.push_back(short_length(line.at_points[k]));
+                list.push_back(short_number(line.at_points[k], steps));
         }
         lines.push_back(std::move(row));
     }
@@ -131,7 +135,7 @@ std::string stream(const std::string& name, std::vector<std::int32_t> now,
 
 /// Faults that have not been followed back are without what is known of their past.
 json faults_of(const ExportedMoment& at, bool followed) {
-    json faults = lines_of(faults_table(at));
+    json faults = lines_of(faults_table(at), steps_of(at.now));
     if (!followed)
         for (json& fault : faults)
             for (const char* past :
@@ -146,8 +150,8 @@ json predictions_of(const Observation& now) {
     if (!tops)
         return json::array();
     return {{{"name", fmt::format("inclined shear, {:.0f} degrees", tops->angle)},
-             {"points", points_of(tops->inclined_shear)}},
-            {{"name", "normals stay normal"}, {"points", points_of(tops->normals)}}};
+             {"points", points_of(tops->inclined_shear, steps_of(now))}},
+            {{"name", "normals stay normal"}, {"points", points_of(tops->normals, steps_of(now))}}};
 }
 
 /// Corners (m) and change of largest shear stress (MPa) of the patches near the section, as they
@@ -163,7 +167,7 @@ json footwall_of(std::span<const fem::StressPatch> patches, double right) {
             corners.push_back(std::round(patch.corner[k].x + patch.displacement[k].x));
             corners.push_back(-std::round(patch.corner[k].y + patch.displacement[k].y));
         }
-        shear.push_back(short_length(1e-6 * hypotenuse(0.5 * (patch.xx - patch.yy), patch.xy)));
+        shear.push_back(short_number(1e-6 * hypotenuse(0.5 * (patch.xx - patch.yy), patch.xy)));
     }
     return {{"corners", std::move(corners)}, {"shear_mpa", std::move(shear)}};
 }
@@ -175,10 +179,10 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
     const ExportedMoment at{now, faults};
     json lines{{"followed", followed},
                {"faults", faults_of(at, followed)},
-               {"surfaces", lines_of(reference_surfaces_table(at))},
-               {"base", lines_of(base_table(at))}};
+               {"surfaces", lines_of(reference_surfaces_table(at), steps_of(now))},
+               {"base", lines_of(base_table(at), steps_of(now))}};
     if (followed) {
-        lines["horizons"] = lines_of(horizons_table(at));
+        lines["horizons"] = lines_of(horizons_table(at), steps_of(now));
         lines["predictions"] = predictions_of(now);
     }
     if (!footwall.empty())

@@ -56,7 +56,7 @@ ReadRun open_run(const fs::path& output) {
     if (list_snapshots(output).empty())
         throw UsageError(output.string() + ": no snapshots to report on; is this a run's folder?");
     RunFolder folder(output);
-    RunHistory history(folder.snapshots);
+    RunHistory history(folder);
     return {std::move(folder), std::move(history)};
 }
 
@@ -67,7 +67,7 @@ ReportPage page_of(const std::vector<ReadRun>& runs, const Reduction& reduction,
     for (const ReadRun& run : runs) {
         const fs::path& folder = run.folder.output;
         page.runs.push_back({run.folder.scene, run.moments, run.mean_radius,
-                             read_text_if_there(folder / "history.csv"),
+                             to_csv(run.folder.moments.history),
                              read_text_if_there(folder / "summary.json"), (folder / "").string(),
                              fs::exists(folder / "summary.json", error)});
     }
@@ -114,7 +114,7 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
         return {folder.scene, folder.parts, moment.state, moment.events};
     };
     const auto is_drawn = [&](const fs::path& path) {
-        return path == folder.snapshots.back() ||
+        return (choice.ends_there && path == folder.snapshots.back()) ||
                is_drawn_at(folder.scene, snapshot_extension(path));
     };
     FootwallReader footwall(folder);

@@ -22,11 +22,12 @@ struct ReportRequest {
 };
 
 /// Which snapshots of a folder are added: every n-th, those of the figures and the last. Faults are
-/// followed back at these two, or everywhere. None after there are more than so many bytes.
+/// followed back at these, or everywhere. None after there are more than so many bytes.
 struct MomentChoice {
     int every = 1;
     bool every_line = false;
     double most_bytes = 1e300;
+    bool ends_there = true; ///< the last is the run's end; else the run goes on
 };
 
 /// Adds snapshots of a folder. Returns the mean radius, m. Throws StorageError.

@@ -1,5 +1,6 @@
 #include "apps/laboratory/calibration.hpp"
 
+#include "apps/archive/output_folder.hpp"
 #include "apps/laboratory/calibration_fit.hpp"
 #include "apps/laboratory/envelope.hpp"
 #include "apps/support/error.hpp"
@@ -132,6 +133,11 @@ void run_calibration(const CalibrationRequest& request) {
     if (fs::exists(history) && !request.resume)
         throw UsageError(output.string() +
                          " holds a calibration: --resume continues it, --output writes elsewhere");
+    archive::require_no_run(output);
+    const fs::path material = output / (request.name + ".toml");
+    if (!request.resume && fs::exists(material))
+        throw UsageError(material.string() + ": is there already, and would be written over; "
+                                             "--output writes elsewhere");
 
     Laboratory lab;
     lab.sample = compression_sample(static_cast<std::size_t>(request.discs));
@@ -144,7 +150,6 @@ void run_calibration(const CalibrationRequest& request) {
     Rocks rocks = find_rocks(c, request.name);
     const Json summary = validate(c, rocks, request);
 
-    const fs::path material = output / (request.name + ".toml");
     if (rocks.weak)
         write_text(output / (rocks.weak->name + ".toml"), to_toml(*rocks.weak));
     write_text(material, to_toml(rocks.sound));

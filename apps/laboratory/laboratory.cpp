@@ -1,5 +1,6 @@
 #include "apps/laboratory/laboratory.hpp"
 
+#include "apps/archive/output_folder.hpp"
 #include "apps/laboratory/report.hpp"
 #include "apps/laboratory/slab_sweep.hpp"
 #include "apps/laboratory/tests.hpp"
@@ -145,8 +146,14 @@ void run_laboratory(const LaboratoryRequest& request) {
     const fs::path output = request.output.empty()
                                 ? fs::path("out") / (request.test + "-" + rock.name)
                                 : request.output;
+    archive::require_no_run(output);
     make_folder(output);
-    write_text(output / "material.toml", to_toml(rock));
+    const fs::path copy = output / "material.toml";
+    std::error_code error;
+    if (fs::equivalent(materials.find(request.material), copy, error) && !error)
+        throw UsageError(copy.string() + ": is read by this call, which would write over it; "
+                                         "--output writes elsewhere");
+    write_text(copy, to_toml(rock));
     Laboratory lab = make_laboratory(request, test);
     Log log(request.quiet);
     lab.report = [&](std::string_view stage, std::size_t done, std::size_t all) {

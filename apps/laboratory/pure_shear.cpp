@@ -128,7 +128,7 @@ StretchedSlab stretch_slab(const Scene& scene, RunOptions options) {
     slab.strain_top10_cumulative = summary.value("strain_top10_cumulative", 0.0);
     slab.weak_fraction = summary.value("weak_fraction", 0.0);
     slab.unbalanced_ratio = summary.value("unbalanced_ratio_mean", 0.0);
-    const auto snapshots = list_snapshots(options.output);
+    const auto snapshots = run_moments(options.output).snapshots;
     std::vector<DiscPlaces> states;
     for (const auto& path : snapshots)
         states.emplace_back(read_snapshot(path).state);

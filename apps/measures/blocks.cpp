@@ -83,7 +83,7 @@ double turning_ends(const Chain& detachment) {
     double at = 0.0, end = 0.0;
     Point before = detachment.front().start_tangent;
     for (const Segment& s : detachment) {
-        if (std::hypot(s.start_tangent.x - before.x, s.start_tangent.y - before.y) > corner)
+        if (hypotenuse(s.start_tangent.x - before.x, s.start_tangent.y - before.y) > corner)
             end = at;
         at += s.length;
         if (std::abs(s.curvature) > straight)

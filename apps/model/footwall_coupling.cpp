@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace listric {
@@ -74,8 +73,6 @@ std::optional<std::string> beyond_elasticity(const fem::Guard& guard, double ext
         100.0 * strain, guard.rotation * 180.0 / pi, extension, 100.0 * strain_allowed,
         rotation_allowed * 180.0 / pi);
 }
-
-std::string moment_name(double extension) { return fmt::format("footwall-{:08.2f}m", extension); }
 
 } // namespace
 
@@ -162,18 +159,24 @@ FootwallCoupling::WindowEnd FootwallCoupling::end_window(State& state, const Rig
     return end;
 }
 
-void FootwallCoupling::write(const fs::path& output, const RecoveredField& field) const {
+void FootwallCoupling::write(const fs::path& output, const RecoveredField& field,
+                             const MomentNames& names) const {
     const fs::path folder = output / "paraview";
     std::error_code error;
     fs::create_directories(folder, error);
-    const std::string name = moment_name(field.extension());
-    field.current().write(folder.string(), name);
+    const std::string begin = "footwall-", end = "m.vtu", present = names.metres(field.extension());
+    field.current().write(folder.string(), begin + present + "m");
     std::vector<std::pair<double, std::string>> moments;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const std::string file = entry.path().filename().string();
-        if (file.starts_with("footwall-") && file.ends_with("m.vtu"))
-            moments.emplace_back(std::strtod(file.c_str() + 9, nullptr) / extension_rate_ / 1e6,
-                                 "paraview/" + file);
+        if (!file.starts_with(begin) || !file.ends_with(end))
+            continue;
+        const std::string moment =
+            file.substr(begin.size(), file.size() - begin.size() - end.size());
+        const std::optional<double> extension =
+            moment == present ? std::optional(field.extension()) : names.window_end(moment);
+        if (extension)
+            moments.emplace_back(*extension / extension_rate_ / 1e6, "paraview/" + file);
     }
     std::ranges::sort(moments);
     try {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/scene/effect.hpp"
+#include "apps/support/moment_names.hpp"
 #include "coupling/elastic_base.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "dem/base.hpp"
@@ -86,8 +87,9 @@ public:
     RecoveredField recover(const dem::State& state);
 
     /// Writes the field below the discs for ParaView: a file per moment in `output`/paraview and
-    /// footwall.pvd. Throws StorageError.
-    void write(const std::filesystem::path& output, const RecoveredField& field) const;
+    /// footwall.pvd, which has this moment and the ends of windows. Throws StorageError.
+    void write(const std::filesystem::path& output, const RecoveredField& field,
+               const MomentNames& names) const;
 
 private:
     friend RecoveredField;

@@ -11,6 +11,7 @@
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/memory.hpp"
+#include "apps/support/moment_names.hpp"
 #include "apps/support/version.hpp"
 #include "dem/shared_loop.hpp"
 
@@ -39,7 +40,8 @@ RunOutcome run_session(const Scene& scene, const RunOptions& options, Log& log) 
         session.finish();
         return RunOutcome::finished;
     } catch (const Interrupted&) {
-        log.say(fmt::format("stopped at {:.2f} m of extension; {}", session.extension(),
+        log.say(fmt::format("stopped at {} of extension; {}",
+                            length_text(session.extension(), scene.output.interval),
                             resume_hint(options.output)));
         return RunOutcome::interrupted;
     }

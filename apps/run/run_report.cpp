@@ -25,13 +25,12 @@ void RunReport::attempt(const std::function<void()>& work) {
     }
 }
 
-void RunReport::read_moments_until(double extension, const RunHistory& history) {
+void RunReport::read_moments(const std::vector<std::filesystem::path>& window_ends,
+                             const RunHistory& history) {
     attempt([&] {
         RunFolder folder(output_, scene_);
-        std::erase_if(folder.snapshots, [&](const std::filesystem::path& path) {
-            return snapshot_extension(path) > extension + 0.01; // names have two digits
-        });
-        mean_radius_ = add_moments(moments_, folder, history, lines_);
+        folder.snapshots = window_ends;
+        mean_radius_ = add_moments(moments_, folder, history, lines_, {.ends_there = false});
     });
 }
 

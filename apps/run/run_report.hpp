@@ -27,8 +27,9 @@ public:
     /// Whether it has a moment, with faults that have been followed back if that is asked.
     bool has(double extension, bool followed) const { return moments_.has(extension, followed); }
 
-    /// The moments of a run that goes on, up to an extension, m.
-    void read_moments_until(double extension, const archive::RunHistory& history);
+    /// The moments of a run that goes on, at the ends of its windows.
+    void read_moments(const std::vector<std::filesystem::path>& window_ends,
+                      const archive::RunHistory& history);
 
     /// Adds a moment, or other lines to the last one.
     /// @param history  up to that moment

@@ -2,7 +2,9 @@
 
 #include "apps/archive/examine.hpp"
 #include "apps/archive/provenance.hpp"
+#include "apps/archive/run_files.hpp"
 #include "apps/archive/run_folder.hpp"
+#include "apps/archive/scene_lines.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/archive/summary.hpp"
 #include "apps/figures/base_figure.hpp"
@@ -11,8 +13,10 @@
 #include "apps/figures/paraview.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
+#include "apps/run/passed_moments.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "apps/support/file.hpp"
 #include "coupling/strong_scheme.hpp"
 #include "dem/contacts.hpp"
 #include "dem/events/strain.hpp"
@@ -39,8 +43,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path snapshot_path(const fs::path& output, double extension) {
-    return output / "snapshots" / fmt::format("extension-{:08.2f}m.h5", extension);
+fs::path snapshot_path(const fs::path& output, const MomentNames& names, double extension) {
+    return output / "snapshots" / snapshot_name(names.metres(extension));
 }
 
 /// Gives a base that is driven the nodes that it moves by.
@@ -85,6 +89,11 @@ void Session::make_cycles_by(BaseResponse* response) {
             [on_ranks](State& state) { on_ranks->collect(state); });
     else if (response)
         simulation_.respond_by(*response);
+}
+
+/// By the windows that have ended.
+MomentNames Session::names() const {
+    return {scene_.output.interval, window_ends(record_.history)};
 }
 
 int Session::ranks() const { return options_.on_ranks ? options_.on_ranks->ranks() : 1; }
@@ -133,10 +142,9 @@ bool Session::resume() {
             for (const auto& [part, seconds] : record_.seconds_by_part)
                 seconds_before_ += seconds;
             kept_ = *path;
-            history_ = RunHistory(std::span(snapshots.begin(), path.base()));
-            report_.read_moments_until(extension(), history_);
-            log_.say(fmt::format("resuming at {:.2f} m of extension from {}", extension(),
-                                 path->string()));
+            restore_files();
+            log_.say(fmt::format("resuming at {} of extension from {}",
+                                 length_text(extension(), scene_.output.interval), path->string()));
             return true;
         } catch (const StorageError& error) {
             log_.say(std::string("warning: skipped: ") + error.what());
@@ -145,9 +153,35 @@ bool Session::resume() {
     return false;
 }
 
+/// Puts in place what the folder of a run that goes on must have, though its last session was
+/// killed in between.
+void Session::restore_files() {
+    const fs::path& output = options_.output;
+    const MomentNames moments = names();
+    const std::vector<fs::path> ended = ended_windows(output, moments, extension());
+    history_ = RunHistory(ended);
+    report_.read_moments(ended, history_);
+    keep_scene();
+    write_text(output / "history.csv", to_csv(record_.history));
+    if (scene_.output.series == SeriesFormat::paraview)
+        write_paraview(output, simulation_.state(), simulation_.base(), moments,
+                       scene_.extension.rate);
+    if (is_drawn_at(scene_, extension()) && moments.is_window_end(extension()))
+        save_field();
+    if (options_.figures)
+        figures_ = draw_missing(output, scene_, moments, ended, history_);
+}
+
+/// Writes scene.toml, unless it is there and says the same.
+void Session::keep_scene() const {
+    const fs::path file = options_.output / "scene.toml";
+    if (scene_lines(read_text_if_there(file)) != scene_lines(record_.scene))
+        write_text(file, record_.scene);
+}
+
 void Session::begin() {
     record_.scene = to_toml(scene_);
-    write_text(options_.output / "scene.toml", record_.scene);
+    keep_scene();
     CycleSpeed speed =
         measure_speed(estimated_discs(scene_), options_.threads, 0.1, parts_.accounts_energy);
     speed.team *= ranks();
@@ -191,10 +225,9 @@ State Session::settled_on_base(State state) {
 }
 
 void Session::extend() {
-    const double window = scene_.output.interval;
     const double tolerance = simulation_.tolerance();
     const double steps_before = record_.disc_steps;
-    double next_window = (std::floor((extension() + tolerance) / window) + 1.0) * window;
+    double next_window = next_window_end();
     write_status("extension");
     while (extension() < target() - tolerance) {
         if (options_.stop.requested()) {
@@ -210,9 +243,19 @@ void Session::extend() {
                               });
         if (extension() < next_window - tolerance)
             continue;
-        next_window += window;
+        next_window = next_window_end();
         end_window();
     }
+}
+
+/// The first multiple of the interval that has not been reached; windows shorter than a cycle are
+/// passed over. Windows are counted, not summed up, so that a resumed run has the same ends.
+double Session::next_window_end() const {
+    const double window = scene_.output.interval, tolerance = simulation_.tolerance();
+    double count = std::floor((extension() + tolerance) / window);
+    while (extension() >= count * window - tolerance)
+        count += 1.0;
+    return count * window;
 }
 
 void Session::end_window() {
@@ -235,11 +278,10 @@ void Session::end_window() {
 void Session::report_progress(const Simulation& simulation) {
     const double share = std::max(1e-3, extension() / target());
     const double cycling = std::max(1e-9, record_.seconds_by_part["cycle"]);
-    log_.progress(
-        fmt::format("cycle {}  extension {:.2f} of {:.2f} km  {:.1f} M disc-steps/s  {} left",
-                    simulation.state().clock.cycle, extension() / 1e3, target() / 1e3,
-                    record_.disc_steps / cycling / 1e6,
-                    rough_duration(wall_seconds() / share * (1.0 - share))));
+    log_.progress(fmt::format("cycle {}  extension {}  {:.1f} M disc-steps/s  {} left",
+                              simulation.state().clock.cycle, way_text(extension(), target()),
+                              record_.disc_steps / cycling / 1e6,
+                              rough_duration(wall_seconds() / share * (1.0 - share))));
 }
 
 Observation Session::now() const {
@@ -297,14 +339,19 @@ void Session::append_history() {
 }
 
 void Session::save() {
-    report_window();
+    const MomentNames moments = names();
+    const bool ends_window = moments.is_window_end(extension());
+    if (ends_window)
+        report_window();
     const Stopwatch watch(record_.seconds_by_part["output"]);
     const State& state = simulation_.state();
-    kept_ = snapshot_path(options_.output, extension());
+    kept_ = snapshot_path(options_.output, moments, extension());
     write_snapshot(kept_, state, simulation_.events(), record_);
-    history_.add(DiscPlaces(state));
+    remove_passed_stops(options_.output, moments, extension());
+    if (ends_window)
+        history_.add(DiscPlaces(state));
     if (scene_.output.series == SeriesFormat::paraview)
-        write_paraview(options_.output, state, simulation_.base(), scene_.extension.rate);
+        write_paraview(options_.output, state, simulation_.base(), moments, scene_.extension.rate);
 }
 
 /// What the report shows of this moment; faults are followed back where they are known.
@@ -337,7 +384,7 @@ void Session::save_field() {
     if (!footwall_ || scene_.output.series != SeriesFormat::paraview)
         return;
     const Stopwatch watch(record_.seconds_by_part["output"]);
-    footwall_->write(options_.output, footwall_->recover(simulation_.state()));
+    footwall_->write(options_.output, footwall_->recover(simulation_.state()), names());
 }
 
 void Session::draw() {
@@ -346,7 +393,7 @@ void Session::draw() {
     const FaultReport& faults = faults_now();
     const Stopwatch watch(record_.seconds_by_part["figures"]);
     drawn_at_ = extension();
-    figures_.push_back(draw_figures(now(), faults, options_.output / "figures"));
+    figures_.push_back(draw_figures(now(), faults, options_.output / "figures", names()));
 }
 
 /// The moments of the experiment on one sheet. Returns what is wrong.
@@ -420,8 +467,9 @@ void Session::finish() {
     if (drawn_at_ != extension())
         draw();
     const FaultReport& faults = faults_now();
-    if (kept_ != snapshot_path(output, extension()))
+    if (kept_ != snapshot_path(output, names(), extension()))
         save();
+    remove_passed_stops(output, names(), extension());
     report_window();
     check_base(); // before the sheet, which solves for the base: that is for one thread at a time
     if (options_.figures)
@@ -452,7 +500,7 @@ void Session::finish() {
     write_text(output / "summary.json", summary);
     report_.write(to_csv(record_.history), summary);
     write_status("finished");
-    log_.say(fmt::format("done: {:.2f} km of extension in {}, figures in {}", extension() / 1e3,
+    log_.say(fmt::format("done: {} of extension in {}, figures in {}", length_text(extension()),
                          rough_duration(wall_seconds()), (output / "figures").string()));
 }
 

@@ -10,6 +10,7 @@
 #include "apps/run/run_report.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/moment_names.hpp"
 #include "dem/simulation.hpp"
 
 #include <filesystem>
@@ -51,6 +52,9 @@ private:
     double target() const;
     double wall_seconds() const;
     int ranks() const;
+    MomentNames names() const;
+    void restore_files();
+    void keep_scene() const;
 
     void report_progress(const dem::Simulation& simulation);
     Observation now() const;
@@ -61,6 +65,7 @@ private:
     compare_with_observed(const measures::FaultReport& faults);
     void warn_of_haste(const measures::Measures& measures);
     void append_history();
+    double next_window_end() const;
     void end_window();
     void save();
     void save_field();
@@ -80,7 +85,7 @@ private:
     std::unique_ptr<FootwallCoupling> footwall_; ///< none: the base does not respond
     BaseDriver driver_;                          ///< without a response: nothing drives it
     archive::RunRecord record_;
-    archive::RunHistory history_; ///< moments that have been saved
+    archive::RunHistory history_; ///< ends of windows that have been saved
     NamedNumbers base_check_;     ///< of the base solved once more
     SteadyClock::time_point started_ = SteadyClock::now();
     double seconds_before_ = 0.0; ///< wall time of the sessions that this one resumes

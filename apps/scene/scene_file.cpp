@@ -116,14 +116,19 @@ public:
                 fail({*node, fmt::format("materials.{}", source.key)}, error.what());
             throw;
         }
+        files_.push_back(file);
         return rocks_.emplace(source.key, read_material(file)).first->second;
     }
+
+    /// That have been read.
+    const std::vector<fs::path>& files() const { return files_; }
 
 private:
     const toml::node* table_;
     fs::path folder_;
     std::map<std::string, FileName, std::less<>> names_;
     std::map<std::string, RockMaterial, std::less<>> rocks_;
+    std::vector<fs::path> files_;
 };
 
 /// Puts what the material files say where the scene file's tables will then be read.
@@ -176,6 +181,7 @@ void read_files(Scene& scene, const SceneTable& table, const toml::table& docume
         std::error_code error;
         if (!fs::is_regular_file(file, error))
             fail(entry, fmt::format("{}: no such file", file));
+        scene.files.emplace_back(file);
         parameter.read(scene, file, [&](const std::string& at, const std::string& message) {
             fail(entry_at(document, at), message);
         });
@@ -215,7 +221,9 @@ void take_observed(Scene& scene, const SceneTable& table, const toml::table& doc
         if (!given.contains(key))
             return;
         const Entry entry = entry_at(document, fmt::format("{}.{}", table.name, key));
-        const PickedFile picked = read_picked_lines(existing(entry, name, folder), shift);
+        const std::string file = existing(entry, name, folder);
+        scene.files.emplace_back(file);
+        const PickedFile picked = read_picked_lines(file, shift);
         lines = picked.lines;
         check_picks(scene, picked, kind, shift);
     };
@@ -250,6 +258,7 @@ double take_picked_fault(Scene& scene, const SceneTable& table, const toml::tabl
     const Entry entry =
         entry_at(document, given.contains("csv") ? "detachment.csv" : "detachment.svg");
     const std::string file = existing(entry, source.svg.empty() ? source.csv : source.svg, folder);
+    scene.files.emplace_back(file);
     scene.picked_fault =
         fit_detachment(*scene.detachment, read_fault(source, file), source.tolerance);
     if (scene.hanging_wall)
@@ -337,6 +346,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     check_scene(scene, document, effects);
     check_rocks(scene, rocks, document);
     take_observed(scene, table_named("observed"), document, path.parent_path(), shift);
+    scene.files.push_back(path);
+    scene.files.insert(scene.files.end(), rocks.files().begin(), rocks.files().end());
     return scene;
 }
 

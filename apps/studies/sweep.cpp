@@ -213,7 +213,8 @@ private:
 
     /// The last state of every point, by its first seed that is finished.
     void draw_sheet(const std::vector<SweepRow>& rows) {
-        FigureFrames figure(output_);
+        const TemporaryFolder place(output_); // a picture of that name may be somebody's
+        FigureFrames figure(place.path);
         std::size_t last = 0, drawn = 0;
         for (const SweepRow& row : rows) {
             if (row.failed() || row.run == last || drawn == most_on_sheet)
@@ -225,14 +226,14 @@ private:
             const Moment moment = folder.read(folder.snapshots.back());
             figure.add({folder.scene, folder.parts, moment.state, moment.events},
                        report_faults(make_setting(folder.scene, folder.parts), folder.parts.base,
-                                     moment.state, RunHistory(folder.snapshots)));
+                                     moment.state, RunHistory(folder)));
             ++drawn;
         }
         if (drawn == 0)
             return;
         try {
             figure.draw("multiples");
-            fs::rename(output_ / "multiples.png", output_ / "sheet.png");
+            fs::rename(place.path / "multiples.png", output_ / "sheet.png");
         } catch (const std::exception& error) {
             log_.say(std::string("warning: no sheet.png: ") + error.what());
         }

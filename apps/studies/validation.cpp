@@ -243,7 +243,8 @@ private:
             return;
         request_.stop.check();
         log_.say(fmt::format("drawing {}", file.string()));
-        FigureFrames figure(findings_.beside);
+        const TemporaryFolder place(findings_.beside); // a picture of that name may be somebody's
+        FigureFrames figure(place.path);
         for (const Frame& frame : frames) {
             RunFolder folder(folder_of(findings_.plan.run(frame.run), frame.seed));
             const fs::path path =
@@ -255,10 +256,10 @@ private:
                 fmt::format("{}, seed {}, {}", frame.run, frame.seed, extension_text(frame.at));
             figure.add({folder.scene, folder.parts, moment.state, moment.events},
                        report_faults(make_setting(folder.scene, folder.parts), folder.parts.base,
-                                     moment.state, RunHistory(folder.snapshots)));
+                                     moment.state, RunHistory(folder)));
         }
         figure.draw("gallery");
-        fs::rename(findings_.beside / "gallery.png", file);
+        fs::rename(place.path / "gallery.png", file);
     }
 
     const ValidationRequest& request_;

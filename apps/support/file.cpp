@@ -69,7 +69,7 @@ void make_folder(const fs::path& folder) {
 
 TemporaryFolder::TemporaryFolder(const fs::path& where) {
     fs::create_directories(where);
-    std::string pattern = (where / ".data-XXXXXX").string();
+    std::string pattern = (where / ".listric-XXXXXX").string();
     if (!mkdtemp(pattern.data()))
         throw StorageError("cannot make a folder in " + where.string());
     path = pattern;

@@ -18,7 +18,7 @@ FRAME_MS, LAST_FRAME_MS = 250, 2000
 
 def save_animation(frames: Sequence[Frame], folder: str, _: Order) -> None:
     """animation-<extension>km.mp4 with ffmpeg, else .gif"""
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".data-") as temporary:
+    with tempfile.TemporaryDirectory(dir=folder, prefix=".listric-") as temporary:
         pictures = draw_pictures(frames, temporary)
         path = make_mp4(temporary) if shutil.which("ffmpeg") else make_gif(pictures, temporary)
         name = f"animation-{extension_text(frames[-1])}km" + os.path.splitext(path)[1]

@@ -23,9 +23,11 @@ def panel_size(frame: Frame) -> tuple[float, float]:
 
 
 def extension_text(frame: Frame) -> str:
-    """Extension in km: one decimal, two when one is not enough."""
+    """Extension in km: as the program says, with as many decimals as tell the run's moments apart;
+    else one decimal, two when one is not enough."""
     value = frame.extension
-    return f"{value:.1f}" if abs(value * 10 - round(value * 10)) < 0.05 else f"{value:.2f}"
+    plain = f"{value:.1f}" if abs(value * 10 - round(value * 10)) < 0.05 else f"{value:.2f}"
+    return str(frame.meta.get("extension_km", plain))
 
 
 def footer(frame: Frame) -> list[str]:

@@ -1,23 +1,27 @@
 """A run's folder."""
 
 import json
+import re
 import tomllib
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
-from .errors import Named, RunError
+from .errors import Named, RunError, UnknownName
 from .snapshot import Snapshot
 from .table import Table, read_csv
 
+# As the program names them; what is named otherwise is somebody else's.
+_SNAPSHOT = re.compile(r"extension-(?:[0-9]{5}|[1-9][0-9]{5,})\.[0-9]{2,}m\.h5")
+
 
 class Run:
-    """The folder that `listric run` writes. Opening it lists the snapshots; each thing is read when it
-    is first asked for.
+    """The folder that `listric run` writes. Opening it reads nothing; each thing is read when it is
+    first asked for.
 
     folder     path
-    snapshots  tuple of Snapshot, by extension
+    snapshots  tuple of Snapshot, by extension: the ends of windows, and the newest
     """
 
     def __init__(self, folder):
@@ -27,13 +31,15 @@ class Run:
             why = "holds no run (no scene.toml)" if self.folder.is_dir() else "no such folder"
             raise RunError(f"{folder}: {why}; a run's folder is what `listric run` writes, such as "
                            "out/lis1")
-        # By extension: longer names are further.
-        found = sorted((self.folder / "snapshots").glob("extension-*m.h5"),
-                       key=lambda path: (len(path.name), path.name))
-        self.snapshots = tuple(map(Snapshot, found))
-
     def __repr__(self) -> str:
         return f"<run {self.folder}: {len(self.snapshots)} snapshots>"
+
+    @cached_property
+    def snapshots(self) -> tuple[Snapshot, ...]:
+        """Throws RunError if other runs have made some of them."""
+        found = [Snapshot(path) for path in (self.folder / "snapshots").glob("extension-*m.h5")
+                 if _SNAPSHOT.fullmatch(path.name) and path.is_file()]
+        return _moments(sorted(found, key=lambda one: (one.named_extension_m, len(one.path.name))))
 
     def at(self, extension_m: float) -> Snapshot:
         """The snapshot nearest to an extension, m. Throws RunError if there is none at all."""
@@ -87,3 +93,36 @@ class Run:
             raise RunError(f"{self.folder}: has no snapshots; only runs of discs write some: run the "
                            "scene again if they have been removed")
         return self.snapshots
+
+
+def _moments(found: list[Snapshot]) -> tuple[Snapshot, ...]:
+    """Without those at which the run was stopped and has gone on since; the newest one that can be
+    read says which these are."""
+    for newest in reversed(found):
+        try:
+            ends = np.asarray(newest.table("run/history")["extension_m"])
+            scene = newest.scene
+        except (RunError, UnknownName):
+            continue
+        older = found[:found.index(newest)]
+        for one in older:
+            _require_scene(one, scene, newest)
+        return tuple(one for one in found if one not in older or _is_end(one, ends))
+    return tuple(found)
+
+
+def _is_end(snapshot: Snapshot, ends: np.ndarray) -> bool:
+    decimals = len(snapshot.path.name.removesuffix("m.h5").split(".")[1])
+    return bool(np.any(np.abs(ends - snapshot.named_extension_m) <= 0.5000005 * 10.0 ** -decimals))
+
+
+def _require_scene(snapshot: Snapshot, scene: dict, newest: Snapshot) -> None:
+    try:
+        found = snapshot.scene
+    except RunError:
+        return  # damaged: whoever reads it is told
+    for name in sorted(scene.keys() | found.keys()):
+        if found.get(name) != scene.get(name):
+            raise RunError(f"{snapshot.path}: another run has made it: {name} = {found.get(name)} "
+                           f"there, {scene.get(name)} in {newest.path.name}; take it away, or what "
+                           "it was copied over")

@@ -1,5 +1,6 @@
 """One moment of a run: the program's whole state in an HDF5 file."""
 
+import tomllib
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -63,7 +64,7 @@ class Snapshot:
 
     @property
     def named_extension_m(self) -> float:
-        """The same by the file's name, rounded to a centimetre; the file is not opened."""
+        """The same by the file's name, to its decimals; the file is not opened."""
         return float(self.path.stem.removeprefix("extension-").removesuffix("m"))
 
     @property
@@ -73,6 +74,22 @@ class Snapshot:
             return Named({name: value.item() for name, value in file.attrs.items()
                           if isinstance(value, np.generic) and not isinstance(value, np.bytes_)},
                          str(self.path))
+
+    @property
+    def scene(self) -> dict:
+        """The parameters that determine the run, as the snapshot holds them: {"table.key": value}."""
+        with self._open() as file:
+            run = file["run"]
+            text = run["scene"][()] if "scene" in run else run.attrs["scene"]
+            document = tomllib.loads(_text(text))
+        flat = {}
+        for name, value in document.items():
+            if isinstance(value, dict):
+                flat.update({f"{name}.{key}": one for key, one in value.items()})
+            else:
+                flat[name] = value
+        return {name: value for name, value in flat.items() if name not in ("name", "description")
+                and (not name.startswith("output.") or name == "output.interval_m")}
 
     def table(self, name: str) -> Table:
         """Any table of the file by its path: "discs" or, what an effect remembers, "events/NAME".

@@ -1,0 +1,248 @@
+#include "apps/archive/run_files.hpp"
+
+#include "apps/support/moment_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace listric::archive {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// When a run writes a file that is not of a moment.
+enum class Written { always, with_base, with_series, after_failures };
+
+/// A file of a run's folder whose name others might give theirs, and what only a run's has.
+struct TopFile {
+    std::string_view name, mark;
+    Written written;
+};
+
+constexpr TopFile top_files[] = {
+    {"scene.toml", "# All parameters in force.", Written::always},
+    {"summary.json", "\"finished\"", Written::always},
+    {"history.csv", "extension_m,cycle,", Written::always},
+    {"status.json", "\"phase\"", Written::always},
+    {"report.html", "<title>Listric</title>", Written::always},
+    {"log.txt", "listric ", Written::always},
+    {"failure.json", "\"exit_code\"", Written::after_failures},
+    {"paraview.pvd", "file=\"paraview/", Written::with_series},
+    {"paraview.py", "Opens the run in whose folder it lies", Written::with_series},
+    {"deflection.csv", "x_m,deflection_m,", Written::with_base},
+    {"base.csv", "extension_m,x_m,y_m,ux_m,uy_m", Written::with_base},
+    {"footwall.csv", "extension_m,x_m,uplift_m", Written::with_base},
+    {"footwall.pvd", "footwall", Written::with_base},
+    {"footwall.vtu", "<VTKFile", Written::with_base},
+};
+
+constexpr std::string_view section_pictures[] = {"strata",   "bonds",    "behaviour",
+                                                 "strain",   "sediment", "kinematics",
+                                                 "overview", "underlay", "experiment"};
+constexpr std::string_view base_pictures[] = {"base", "footwall", "flexure"};
+constexpr std::string_view picture_endings[] = {".png", ".pdf", ".svg"};
+constexpr std::string_view film_endings[] = {".mp4", ".gif"};
+constexpr std::string_view line_exports[] = {"horizons", "faults", "surfaces", "base"};
+constexpr std::string_view line_endings[] = {".csv", ".geojson", ".gmt"};
+constexpr std::string_view series_parts[] = {"discs", "contacts", "base"};
+
+/// What is left of a text between a beginning and an end; none if it has them not.
+std::optional<std::string_view> between(std::string_view text, std::string_view begin,
+                                        std::string_view end) {
+    if (text.size() < begin.size() + end.size() || !text.starts_with(begin) || !text.ends_with(end))
+        return std::nullopt;
+    return text.substr(begin.size(), text.size() - begin.size() - end.size());
+}
+
+bool is_moment(std::optional<std::string_view> metres) { return metres && extension_of(*metres); }
+
+bool is_series_file(std::string_view name) {
+    return is_moment(between(name, "footwall-", "m.vtu")) ||
+           std::ranges::any_of(series_parts, [&](std::string_view part) {
+               return is_moment(between(name, fmt::format("{}-", part), "m.vtp"));
+           });
+}
+
+bool is_export(std::string_view name) {
+    const auto is_of = [&](std::string_view kind, std::string_view ending) {
+        return is_moment(
+            between(name, fmt::format("{}-extension-", kind), fmt::format("m{}", ending)));
+    };
+    return name == "discs.gsd" || is_of("discs", ".csv") ||
+           std::ranges::any_of(line_exports, [&](std::string_view kind) {
+               return std::ranges::any_of(
+                   line_endings, [&](std::string_view ending) { return is_of(kind, ending); });
+           });
+}
+
+/// Of a section at a moment.
+bool is_section_picture(std::string_view name) {
+    const auto is_of = [&](std::string_view kind, std::string_view ending) {
+        const auto km = between(name, fmt::format("{}-", kind), fmt::format("km{}", ending));
+        return km && is_kilometres(*km);
+    };
+    const auto has_kind = [&](std::string_view kind) {
+        return std::ranges::any_of(picture_endings,
+                                   [&](std::string_view ending) { return is_of(kind, ending); });
+    };
+    return std::ranges::any_of(section_pictures, has_kind) ||
+           std::ranges::any_of(film_endings,
+                               [&](std::string_view ending) { return is_of("animation", ending); });
+}
+
+bool is_base_picture(std::string_view name) {
+    return std::ranges::any_of(base_pictures, [&](std::string_view kind) {
+        return std::ranges::any_of(picture_endings, [&](std::string_view ending) {
+            return name == fmt::format("{}{}", kind, ending);
+        });
+    });
+}
+
+/// Whether a text occurs in the first so many bytes of a file.
+bool holds(const fs::path& file, std::string_view mark, std::size_t bytes) {
+    std::ifstream in(file, std::ios::binary);
+    std::string text(bytes, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(bytes));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    return text.empty() || text.find(mark) != text.npos;
+}
+
+bool is_file(const fs::path& path) {
+    std::error_code error;
+    return fs::is_regular_file(path, error);
+}
+
+/// A file or the link to one; never a folder.
+bool is_own_top_file(const fs::path& path, const TopFile& top) {
+    return is_file(path) && holds(path, top.mark, 4096);
+}
+
+/// Files in a folder, or links to such, whose names are as asked for.
+template <class Ours>
+void collect(const fs::path& folder, Ours&& ours, std::vector<fs::path>& found) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (ours(name) && is_file(entry.path()))
+            found.push_back(entry.path());
+    }
+}
+
+/// NAME of NAME.PID.part, as write_bytes makes it.
+std::string_view written_in_part(std::string_view name) {
+    if (!name.ends_with(".part"))
+        return {};
+    name.remove_suffix(5);
+    const std::size_t dot = name.rfind('.');
+    const bool is_numbered =
+        dot != name.npos && dot + 1 < name.size() &&
+        std::ranges::all_of(name.substr(dot + 1), [](char c) { return c >= '0' && c <= '9'; });
+    return is_numbered ? name.substr(0, dot) : std::string_view();
+}
+
+bool is_snapshot_name(std::string_view name) { return moment_of_snapshot(name).has_value(); }
+
+bool is_top_name(std::string_view name) {
+    return std::ranges::find(top_files, name, &TopFile::name) != std::end(top_files);
+}
+
+/// NAME of .NAME-PID.tmp, as the drawing scripts make it, is a picture's without its ending.
+bool is_half_drawn(std::string_view name) {
+    const auto stem = between(name, ".", ".tmp");
+    const std::size_t dash = stem ? stem->rfind('-') : std::string_view::npos;
+    if (dash == std::string_view::npos || dash + 1 == stem->size() ||
+        !std::ranges::all_of(stem->substr(dash + 1), [](char c) { return c >= '0' && c <= '9'; }))
+        return false;
+    const std::string picture = fmt::format("{}.png", stem->substr(0, dash));
+    return is_section_picture(picture) || is_base_picture(picture);
+}
+
+} // namespace
+
+std::optional<std::string> moment_of_snapshot(std::string_view name) {
+    const auto moment = between(name, "extension-", "m.h5");
+    return is_moment(moment) ? std::optional<std::string>(*moment) : std::nullopt;
+}
+
+std::string snapshot_name(std::string_view moment) {
+    return fmt::format("extension-{}m.h5", moment);
+}
+
+std::vector<fs::path> run_files(const fs::path& output) {
+    std::vector<fs::path> files;
+    collect(output / "snapshots", is_snapshot_name, files);
+    collect(output / "paraview", is_series_file, files);
+    collect(output / "figures", is_section_picture, files);
+    collect(output / "export", is_export, files);
+    collect(
+        output / "figures",
+        [&](std::string_view name) {
+            return is_base_picture(name) && holds(output / "figures" / name, "Listric ", 1 << 24);
+        },
+        files);
+    for (const TopFile& top : top_files)
+        if (is_own_top_file(output / top.name, top))
+            files.push_back(output / top.name);
+    return files;
+}
+
+std::vector<fs::path> remains(const fs::path& output) {
+    std::vector<fs::path> found;
+    const auto parts = [&](const fs::path& folder, auto&& ours) {
+        collect(
+            folder, [&](std::string_view name) { return ours(written_in_part(name)); }, found);
+    };
+    parts(output, is_top_name);
+    parts(output / "snapshots", is_snapshot_name);
+    parts(output / "paraview", is_series_file);
+    parts(output / "export", is_export);
+    collect(output / "figures", is_half_drawn, found);
+    std::error_code error;
+    for (const char* folder : {"figures", "export"})
+        for (const auto& entry : fs::directory_iterator(output / folder, error))
+            if (entry.path().filename().string().starts_with(".listric-") &&
+                entry.symlink_status(error).type() == fs::file_type::directory)
+                found.push_back(entry.path());
+    return found;
+}
+
+std::vector<fs::path> files_of_moment(const fs::path& output, const std::string& metres,
+                                      const std::string& kilometres) {
+    std::vector<fs::path> files;
+    for (const std::string_view part : series_parts)
+        files.push_back(output / "paraview" / fmt::format("{}-{}m.vtp", part, metres));
+    files.push_back(output / "paraview" / fmt::format("footwall-{}m.vtu", metres));
+    for (const std::string_view kind : section_pictures)
+        files.push_back(output / "figures" / fmt::format("{}-{}km.png", kind, kilometres));
+    std::erase_if(files, [](const fs::path& file) { return !is_file(file); });
+    return files;
+}
+
+std::optional<fs::path> file_in_the_way(const fs::path& output, bool with_base, bool with_series) {
+    for (const TopFile& top : top_files) {
+        const bool is_written = top.written == Written::always ||
+                                (top.written == Written::with_base && with_base) ||
+                                (top.written == Written::with_series && with_series);
+        const fs::path file = output / top.name;
+        if (is_written && is_file(file) && !is_own_top_file(file, top))
+            return file;
+    }
+    return std::nullopt;
+}
+
+bool would_be_lost(const fs::path& output, const fs::path& file, bool replaced) {
+    std::error_code error;
+    const auto is_it = [&](const fs::path& other) {
+        return !fs::is_symlink(other, error) && fs::equivalent(other, file, error) && !error;
+    };
+    for (const TopFile& top : top_files)
+        if (is_it(output / top.name))
+            return true;
+    return replaced && std::ranges::any_of(run_files(output), is_it);
+}
+
+} // namespace listric::archive

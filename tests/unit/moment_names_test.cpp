@@ -1,0 +1,79 @@
+// What moments are called in names of files: as ever in basins, told apart in small models.
+
+#include "apps/support/moment_names.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace listric {
+namespace {
+
+TEST(MomentNames, OfABasinHaveTwoDecimals) {
+    const std::vector<double> ends{0.0, 499.98, 1000.004, 12345.6789, 123456.789};
+    const MomentNames names(500.0, ends);
+    EXPECT_EQ(names.metres(0.0), "00000.00");
+    EXPECT_EQ(names.metres(499.98), "00499.98");
+    EXPECT_EQ(names.metres(1000.004), "01000.00");
+    EXPECT_EQ(names.metres(12345.6789), "12345.68");
+    EXPECT_EQ(names.metres(123456.789), "123456.79");
+    EXPECT_EQ(names.kilometres(0.0), "0.0");
+    EXPECT_EQ(names.kilometres(499.98), "0.5");
+    EXPECT_EQ(names.kilometres(12345.6789), "12.35");
+}
+
+TEST(MomentNames, OfASmallModelTellItsMomentsApart) {
+    const std::vector<double> ends{0.0, 0.0040002, 0.0079998, 0.012, 0.0160001, 0.02};
+    const MomentNames names(0.004, ends);
+    std::set<std::string> metres, kilometres;
+    for (const double end : ends) {
+        metres.insert(names.metres(end));
+        kilometres.insert(names.kilometres(end));
+        EXPECT_EQ(names.window_end(names.metres(end)), end);
+    }
+    EXPECT_EQ(metres.size(), ends.size());
+    EXPECT_EQ(kilometres.size(), ends.size());
+    EXPECT_EQ(names.metres(0.0), "00000.00");
+    EXPECT_EQ(names.metres(0.02), "00000.02");
+    EXPECT_EQ(names.metres(0.0040002), "00000.004");
+}
+
+TEST(MomentNames, OfAStopAreNotThoseOfAWindow) {
+    const std::vector<double> ends{0.0, 99.9981, 199.9999};
+    const MomentNames names(100.0, ends);
+    EXPECT_EQ(names.metres(120.04), "00120.04");
+    for (const double stop : {99.996, 99.9981 + 1e-9, 100.0, 100.001, 200.0, 299.999, 1e-7}) {
+        const std::string name = names.metres(stop);
+        EXPECT_FALSE(names.window_end(name)) << name;
+        EXPECT_NE(name, "00300.00");
+        EXPECT_NEAR(*extension_of(name), stop, 0.01);
+    }
+    EXPECT_EQ(names.kilometres(120.0), "0.12");
+    EXPECT_NE(names.kilometres(203.0), names.kilometres(199.9999));
+    EXPECT_NE(names.kilometres(297.0), "0.3"); // which comes
+}
+
+TEST(MomentNames, AreReadStrictly) {
+    EXPECT_EQ(extension_of("00100.02"), 100.02);
+    EXPECT_EQ(extension_of("123456.0001"), 123456.0001);
+    for (const char* other : {"100.02", "00100", "00100.0", "000100.02", "00100.02m", "-0100.02",
+                              "1e100.00", " 0100.02", "00100.0x", ""})
+        EXPECT_FALSE(extension_of(other)) << other;
+    EXPECT_TRUE(is_kilometres("0.00002") && is_kilometres("12.35"));
+    EXPECT_FALSE(is_kilometres("25") || is_kilometres("01.5") || is_kilometres(".5") ||
+                 is_kilometres("1.5.2"));
+}
+
+TEST(MomentNames, LengthsAreToldInTheirUnit) {
+    EXPECT_EQ(way_text(520.0, 10e3), "0.52 of 10.00 km");
+    EXPECT_EQ(way_text(0.0105, 0.04), "10.50 of 40.00 mm");
+    EXPECT_EQ(length_text(2500.0), "2.50 km");
+    EXPECT_EQ(length_text(100.016, 100.0), "100.02 m");
+    EXPECT_EQ(length_text(0.0113, 0.004), "0.011 m");
+}
+
+} // namespace
+} // namespace listric

@@ -1,0 +1,103 @@
+// Which files of a folder are a run's, and in what scenes differ.
+
+#include "apps/archive/run_files.hpp"
+#include "apps/archive/scene_lines.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace listric::archive {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::UnorderedElementsAreArray;
+
+class RunFiles : public testing::Test {
+protected:
+    ~RunFiles() override { fs::remove_all(folder); }
+
+    void write(const std::vector<std::string>& names) const {
+        for (const std::string& name : names) {
+            fs::create_directories((folder / name).parent_path());
+            std::ofstream(folder / name) << "a file";
+        }
+    }
+
+    std::vector<std::string> names(const std::vector<fs::path>& files) const {
+        std::vector<std::string> result;
+        for (const fs::path& file : files)
+            result.push_back(file.lexically_relative(folder).string());
+        return result;
+    }
+
+    fs::path folder = fs::path(testing::TempDir()) / ("listric-files-" + std::to_string(getpid()));
+};
+
+TEST_F(RunFiles, HaveNamesAsTheProgramMakesThem) {
+    const std::vector<std::string> ours = {
+        "snapshots/extension-00000.00m.h5",
+        "snapshots/extension-100000.01m.h5",
+        "snapshots/extension-00000.0045m.h5",
+        "paraview/discs-00100.02m.vtp",
+        "paraview/footwall-00100.02m.vtu",
+        "figures/strata-0.0km.png",
+        "figures/experiment-10.0km.svg",
+        "figures/animation-2.5km.mp4",
+        "export/horizons-extension-00100.02m.geojson",
+        "export/discs-extension-00100.02m.csv",
+        "export/discs.gsd",
+    };
+    write(ours);
+    write({"snapshots/._extension-00000.00m.h5", "snapshots/extension-0m.h5",
+           "snapshots/extension-00000.00m.h5.bak", "snapshots/extension-000000.00m.h5",
+           "snapshots/mine.h5", "paraview/discs-00100m.vtp", "paraview/discs-00100.02m.vtu",
+           "figures/strata-25km.png", "figures/my-1.5km.png", "figures/strata-1.5km.gif",
+           "figures/base.png", "export/discs-extension-00100.02m.gmt", "export/wells-m.geojson",
+           "extension-00000.00m.h5", "base.csv", "scene.toml", "history.csv"});
+    fs::create_directories(folder / "snapshots/extension-00200.00m.h5");
+    EXPECT_THAT(names(run_files(folder)), UnorderedElementsAreArray(ours));
+}
+
+TEST_F(RunFiles, HalfWrittenOnesAreOnlyOurs) {
+    const std::vector<std::string> ours = {"history.csv.123.part",
+                                           "snapshots/extension-00100.02m.h5.9.part",
+                                           "paraview/base-00100.02m.vtp.9.part",
+                                           "figures/.strata-1.5km-123.tmp", "figures/.base-7.tmp"};
+    write(ours);
+    write({"thesis.2024.part", "history.csv.part", "snapshots/mine.h5.9.part", "figures/.map-1.tmp",
+           "figures/.data-backup/a", "figures/history.csv.1.part"});
+    EXPECT_THAT(names(remains(folder)), UnorderedElementsAreArray(ours));
+}
+
+TEST(SceneDifference, NamesTableParameterAndValues) {
+    const auto a =
+        scene_values("seed = 1  # of all\n[gravity]\n[bonds]\nlist = [\n    {a = 1},\n]\n"
+                     "[output]\ninterval_m = 5\nreport = true\nseries = \"none\"\n");
+    const auto with = [](std::string text) { return scene_values(text); };
+    EXPECT_FALSE(scene_difference(a, a));
+    const auto b = scene_difference(
+        a, with("seed = 1\n[gravity]\n[bonds]\nlist = [\n    {a = 2},\n]\n[output]\n"
+                "interval_m = 5\nseries = \"none\"\n"));
+    ASSERT_TRUE(b);
+    EXPECT_EQ(b->parameter, "bonds.list");
+    EXPECT_EQ(b->other, "[     {a = 2}, ]");
+    const auto c = scene_difference(
+        a, with("seed = 1\n[bonds]\nlist = [\n    {a = 1},\n]\n[output]\ninterval_m = 5\n"
+                "series = \"none\"\n"));
+    ASSERT_TRUE(c);
+    EXPECT_EQ(c->parameter, "[gravity]");
+    const auto d = with("seed = 1\nname = \"b\"\n[gravity]\n[bonds]\nlist = [\n    {a = 1},\n]\n"
+                        "[output]\ninterval_m = 5\nseries = \"paraview\"\n");
+    EXPECT_TRUE(scene_difference(a, d));
+    EXPECT_FALSE(scene_difference(a, d, SceneScope::results));
+}
+
+} // namespace
+} // namespace listric::archive
