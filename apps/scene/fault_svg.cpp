@@ -165,6 +165,35 @@ double check_agreement(const ReferencePoints& points, Scale x, Scale depth, doub
     return largest;
 }
 
+/// Points with sharp corners made round by as much as the tolerance lets them: what is drawn with a
+/// ruler is not meant to be a kink that no disc can follow.
+/// @param off  largest distance from the corner, m
+std::vector<Vector2d> rounded(const std::vector<Vector2d>& points, double off) {
+    constexpr double sharp = 15.0 * pi / 180.0, reversed = 170.0 * pi / 180.0;
+    constexpr int steps = 4;
+    std::vector<Vector2d> round;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Vector2d in = k > 0 ? Vector2d(points[k] - points[k - 1]) : Vector2d(0.0, 0.0);
+        const Vector2d out =
+            k + 1 < points.size() ? Vector2d(points[k + 1] - points[k]) : Vector2d(0.0, 0.0);
+        const double turn = std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
+        if (in.norm() == 0.0 || out.norm() == 0.0 || turn < sharp || turn > reversed) {
+            round.push_back(points[k]);
+            continue;
+        }
+        const double radius = off / (1.0 / std::cos(0.5 * turn) - 1.0);
+        const double reach =
+            std::min({radius * std::tan(0.5 * turn), 0.5 * in.norm(), 0.5 * out.norm()});
+        const Vector2d begin = points[k] - reach * in.normalized();
+        const Vector2d centre_way = (out.normalized() - in.normalized()).normalized();
+        const Vector2d centre = points[k] + reach / std::sin(0.5 * turn) * centre_way;
+        const double way = in.x() * out.y() - in.y() * out.x() > 0.0 ? 1.0 : -1.0;
+        for (int j = 0; j <= steps; ++j)
+            round.push_back(centre + Eigen::Rotation2Dd(way * turn * j / steps) * (begin - centre));
+    }
+    return round;
+}
+
 } // namespace
 
 FaultPoints read_fault_svg(const FaultSource& source, const std::filesystem::path& file) {
@@ -195,7 +224,9 @@ FaultPoints read_fault_svg(const FaultSource& source, const std::filesystem::pat
         refuse(where, "has coordinates that are not finite");
     const double step = extents_of(in_section).size().norm() / steps_of_a_path;
     const std::size_t most = std::max<std::size_t>(1, most_nodes / in_section.pieces.size() - 1);
-    for (const Vector2d& p : flattened(in_section, flatness * source.tolerance, step, most)) {
+    const std::vector<Vector2d> points =
+        flattened(in_section, flatness * source.tolerance, step, most);
+    for (const Vector2d& p : rounded(points, 0.25 * source.tolerance)) {
         fault.points.push_back({p.x(), -p.y()});
         fault.drawing_points.push_back(
             {(p.x() - x.offset) / x.scale, (p.y() - depth.offset) / depth.scale});

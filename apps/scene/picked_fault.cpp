@@ -2,6 +2,7 @@
 
 #include "apps/scene/fault_fit.hpp"
 #include "apps/scene/fault_svg.hpp"
+#include "apps/scene/kept_fit.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
@@ -191,7 +192,7 @@ FaultPoints read_fault(const FaultSource& source, const std::filesystem::path& f
 PickedFault fit_detachment(DetachmentParameters& detachment, const FaultPoints& fault,
                            double tolerance) {
     check_points(fault, tolerance);
-    const FaultFit fit = fit_fault(fault.points, tolerance);
+    const FaultFit fit = fit_or_recall_fault(fault.points, tolerance);
     if (!fit.flat)
         refuse(place_of(fault, fault.points.size() - 1),
                fmt::format("ends with a dip of {:.1f} degrees, but a detachment ends flat (within "
