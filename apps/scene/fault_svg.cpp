@@ -7,6 +7,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
+#include "dem/units.hpp"
 
 #include <fmt/format.h>
 
