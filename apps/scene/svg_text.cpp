@@ -53,6 +53,13 @@ std::string_view SvgText::word() {
     return text_.substr(begin, at_ - begin);
 }
 
+std::string_view SvgText::unit() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && is_letter(text_[at_]))
+        ++at_;
+    return text_.substr(begin, at_ - begin);
+}
+
 bool SvgText::takes(char mark) {
     skip_blanks();
     if (at_ == text_.size() || text_[at_] != mark)

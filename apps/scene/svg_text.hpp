@@ -21,6 +21,9 @@ public:
     /// The letters, digits and hyphens that are next; may be empty.
     std::string_view word();
 
+    /// The letters that stand right after a number; may be none.
+    std::string_view unit();
+
     /// Takes a mark, if it is next.
     bool takes(char mark);
 

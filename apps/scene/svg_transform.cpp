@@ -47,7 +47,7 @@ public:
             if (text_.at_end())
                 text_.refuse(fmt::format("{}( is not closed", shown(function_)));
             const double value = text_.number();
-            all_.push_back({value, text_.takes('%') ? "%" : text_.word()});
+            all_.push_back({value, text_.takes('%') ? "%" : text_.unit()});
         }
     }
 
@@ -216,7 +216,7 @@ double svg_length(std::string_view length, std::optional<double> whole, const st
             text.refuse(fmt::format("{} of a drawing without viewBox or size", length));
         return 0.01 * value * *whole;
     }
-    const std::string_view unit = text.word();
+    const std::string_view unit = text.unit();
     if (text.at_end() && unit.empty())
         return value;
     if (text.at_end())

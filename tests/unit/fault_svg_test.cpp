@@ -118,7 +118,7 @@ TEST_F(Drawing, WhatIsNotReadIsNamed) {
                 HasSubstr("not finite"));
     EXPECT_THAT(complaint(path("", "M60 40 60 40")), HasSubstr("at one place"));
     EXPECT_THAT(complaint(path("", "M60 40H700H710")), HasSubstr("the fault is flat"));
-    for (const char* wrong : {"M60,,40 7 7", "M60 40 +-7 7", "M60 40 inf 7", "M 60 40 L 1e999 7"})
+    for (const char* wrong : {"M60,,40 7 7", "M60 40 +-7 7", "M60 40 L inf 7", "M 60 40 L 1e999 7"})
         EXPECT_THAT(complaint(path("", wrong)), HasSubstr("number")) << wrong;
 }
 
