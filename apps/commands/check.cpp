@@ -67,9 +67,11 @@ std::string check_scene_file(const std::string& file, const toml::table& documen
         return fmt::format("{} tables, no discs, a few seconds{}", tables, warnings_of(scene));
     if (const auto oversize = oversize_of(scene, program_effects(), machine_memory()))
         refuse_scene(request, oversize->parameter, oversize->message);
-    return fmt::format("{} tables, {} discs, {}{}", tables,
-                       about(static_cast<double>(estimated_discs(scene))),
-                       duration(times.seconds(scene)), warnings_of(scene));
+    return fmt::format(
+        "{} tables, {} discs, {}{}{}", tables, about(static_cast<double>(estimated_discs(scene))),
+        duration(times.seconds(scene)),
+        scene.picked_fault ? "; " + describe(*scene.picked_fault, *scene.detachment) : "",
+        warnings_of(scene));
 }
 
 std::string check_sweep(const fs::path& file, Times& times) {

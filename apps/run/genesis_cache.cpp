@@ -3,6 +3,7 @@
 #include "apps/archive/snapshot.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "apps/support/cache_folder.hpp"
 #include "apps/support/version.hpp"
 #include "dem/genesis.hpp"
 #include "dem/hash.hpp"
@@ -12,7 +13,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <fcntl.h>
 #include <optional>
 #include <string_view>
@@ -98,12 +98,7 @@ fs::path genesis_cache_path(const Scene& scene, const ModelParts& parts) {
     key = fnv1a(fmt::format("{}", stable_time_step(1.0, parts.materials, 0.0, 1.0)), key);
     for (const std::string_view text : {source_hash, compiler, build_flags, instruction_set})
         key = fnv1a(text, key);
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    const fs::path folder = cache && *cache ? fs::path(cache)
-                            : home && *home ? fs::path(home) / ".cache"
-                                            : fs::temp_directory_path();
-    return folder / "listric" / fmt::format("genesis-{:016x}.h5", key);
+    return cache_folder() / fmt::format("genesis-{:016x}.h5", key);
 }
 
 State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, Log& log,

@@ -1,5 +1,7 @@
 #include "apps/scene/fault_fit.hpp"
 
+#include "apps/support/log.hpp"
+#include "apps/support/stopwatch.hpp"
 #include "dem/units.hpp"
 
 #include <Eigen/Dense>
@@ -232,8 +234,9 @@ private:
         return *best;
     }
 
-    Fitted refined(Fitted fitted, bool flat_end) const {
+    Fitted refined(Fitted fitted, bool flat_end) {
         while (fitted.pieces.length.size() < most_pieces) {
+            tell_that_it_takes_long();
             const auto [point, off] = worst(fitted);
             if (off <= close_enough * tolerance_)
                 break;
@@ -273,7 +276,18 @@ private:
         return good ? best : std::nullopt;
     }
 
+    /// Once; a fault that bends much takes a few seconds.
+    void tell_that_it_takes_long() {
+        if (told_ || seconds_since(since_) < 2.0)
+            return;
+        warn("arcs and lines are fitted to the picked fault, which takes some seconds the first "
+             "time");
+        told_ = true;
+    }
+
     double tolerance_, reach_ = 0.0;
+    bool told_ = false;
+    SteadyClock::time_point since_ = SteadyClock::now();
     std::vector<Point> points_;
     std::vector<double> places_; ///< along the fault, m
 };
@@ -309,17 +323,22 @@ FaultFit as_segments(const Pieces& pieces, std::span<const Point> points, double
     for (std::size_t k = 0; k < pieces.length.size(); ++k)
         fit.segments.push_back(segment_of(pieces, k));
     fit.segments.push_back(straight(length));
+    measure_misfit(fit, points);
+    return fit;
+}
+
+} // namespace
+
+void measure_misfit(FaultFit& fit, std::span<const Point> points) {
     const Chain chain =
         detachment_chain({.start_dip = fit.start_dip, .segments = fit.segments}, 0.0);
+    fit.misfit = 0.0;
     for (std::size_t k = 0; k < points.size(); ++k)
         if (const double off = distance_from(chain, points[k]); off > fit.misfit) {
             fit.misfit = off;
             fit.worst = k;
         }
-    return fit;
 }
-
-} // namespace
 
 FaultFit fit_fault(std::span<const Point> points, double tolerance) {
     Fit fit(points, tolerance);

@@ -25,6 +25,9 @@ struct FaultFit {
 /// @param tolerance  m
 FaultFit fit_fault(std::span<const dem::Point> points, double tolerance);
 
+/// Puts in the largest distance of a point from the segments, and the point.
+void measure_misfit(FaultFit& fit, std::span<const dem::Point> points);
+
 /// Distance of a point from a detachment that begins at (0, 0), m.
 double distance_from(const dem::Chain& detachment, dem::Point point);
 

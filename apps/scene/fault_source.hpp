@@ -19,10 +19,19 @@ struct FaultSource {
     double tolerance = 50.0;                       ///< of the fit, m
 };
 
+/// How a drawing lies in the section.
+struct DrawingPlace {
+    double misfit = 0.0;       ///< largest distance of an svg_points from where it should be, m
+    double exaggeration = 1.0; ///< vertical, as drawn
+};
+
 /// Points of a fault and where each of them is written.
 struct FaultPoints {
-    std::vector<dem::Point> points; ///< m, y up
-    std::vector<std::string> where; ///< "file:line"
+    std::vector<dem::Point> points;         ///< m, y up
+    std::vector<std::string> where;         ///< "file:line" of each; of a drawing one for all
+    bool drawn = false;                     ///< lines between the points are the fault, too
+    std::vector<dem::Point> drawing_points; ///< units of the drawing
+    DrawingPlace place;                     ///< of a drawing
 };
 
 } // namespace listric

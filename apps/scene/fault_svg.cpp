@@ -1,18 +1,19 @@
 #include "apps/scene/fault_svg.hpp"
 
+#include "apps/scene/svg_element.hpp"
+#include "apps/scene/svg_path.hpp"
+#include "apps/scene/svg_place.hpp"
+#include "apps/scene/svg_transform.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
 #include "dem/units.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <pugixml.hpp>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
-#include <optional>
+#include <fstream>
 
 namespace listric {
 
@@ -21,241 +22,102 @@ using namespace dem;
 namespace {
 
 using Eigen::Vector2d;
-using Affine = Eigen::Affine2d;
+using ReferencePoints = std::vector<std::array<double, 4>>;
 
-constexpr int steps_of_a_curve = 64; ///< points on each Bezier curve and elliptic arc
+constexpr std::size_t most_nodes = 20'000;
+constexpr double flatness = 0.05; ///< of the tolerance: how far a curve may be from its points
+constexpr double steps_of_a_path = 60.0; ///< at least: the fit must see straight lines, too
+constexpr double least_share = 0.01;     ///< of the path's size that svg_points must span
 
-/// Numbers and command letters of an attribute, one after the other.
-class Tokens {
-public:
-    Tokens(std::string_view text, std::string where) : text_(text), where_(std::move(where)) {}
-
-    /// The next letter, if one is next.
-    std::optional<char> letter() {
-        skip();
-        if (at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_])))
-            return text_[at_++];
-        return std::nullopt;
-    }
-    bool at_end() {
-        skip();
-        return at_ == text_.size();
-    }
-    double number() {
-        skip();
-        if (at_ < text_.size() && text_[at_] == '+')
-            ++at_;
-        double value = 0.0;
-        const auto [end, error] =
-            std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-        if (error != std::errc{} || !std::isfinite(value))
-            refuse(fmt::format("a number is missing at character {}", at_ + 1));
-        at_ = static_cast<std::size_t>(end - text_.data());
-        return value;
-    }
-    /// A flag of an elliptic arc, which needs nothing between it and what follows.
-    bool flag() {
-        skip();
-        if (at_ == text_.size() || (text_[at_] != '0' && text_[at_] != '1'))
-            refuse(fmt::format("a flag, 0 or 1, is missing at character {}", at_ + 1));
-        return text_[at_++] == '1';
-    }
-    std::string word_before_bracket() {
-        skip();
-        const std::size_t end = text_.find('(', at_);
-        if (end == text_.npos)
-            refuse("has a transformation without brackets");
-        std::string word(text_.substr(at_, end - at_));
-        at_ = end + 1;
-        return word;
-    }
-    std::vector<double> numbers_to_bracket() {
-        std::vector<double> all;
-        for (skip(); at_ < text_.size() && text_[at_] != ')'; skip())
-            all.push_back(number());
-        at_ = std::min(text_.size(), at_ + 1);
-        return all;
-    }
-    [[noreturn]] void refuse(const std::string& what) const {
-        throw SceneError(fmt::format("{}: {}", where_, what));
-    }
-
-private:
-    void skip() {
-        while (at_ < text_.size() &&
-               (std::isspace(static_cast<unsigned char>(text_[at_])) || text_[at_] == ','))
-            ++at_;
-    }
-
-    std::string_view text_;
-    std::string where_;
-    std::size_t at_ = 0;
-};
-
-/// SVG 1.1, section 7.6.
-Affine transformation(const char* attribute, const std::string& where) {
-    Affine all = Affine::Identity();
-    for (Tokens tokens(attribute, where); !tokens.at_end();) {
-        std::string word = tokens.word_before_bracket();
-        word.erase(word.find_last_not_of(' ') + 1);
-        const std::vector<double> v = tokens.numbers_to_bracket();
-        Affine one = Affine::Identity();
-        if (word == "matrix" && v.size() == 6)
-            one.matrix() << v[0], v[2], v[4], v[1], v[3], v[5], 0.0, 0.0, 1.0;
-        else if (word == "translate" && (v.size() == 1 || v.size() == 2))
-            one.translate(Vector2d(v[0], v.size() == 2 ? v[1] : 0.0));
-        else if (word == "scale" && (v.size() == 1 || v.size() == 2))
-            one.scale(Vector2d(v[0], v.size() == 2 ? v[1] : v[0]));
-        else if (word == "rotate" && v.size() == 1)
-            one.rotate(v[0] * pi / 180.0);
-        else
-            tokens.refuse(fmt::format("the transformation {}({}) is not understood, allowed: "
-                                      "matrix, translate, scale, rotate(angle)",
-                                      word, fmt::join(v, " ")));
-        all = all * one;
-    }
-    return all;
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+    throw SceneError(fmt::format("{}: {}", where, what));
 }
 
-/// Points along a path's data (SVG 1.1, section 8.3).
-class PathReader {
-public:
-    PathReader(const char* data, const std::string& where) : tokens_(data, where) {}
+void load(pugi::xml_document& document, const std::filesystem::path& file) {
+    constexpr std::uintmax_t largest = 1'000'000'000; // bytes
+    std::error_code error;
+    const std::string where = shown(file.string());
+    if (const auto size = std::filesystem::file_size(file, error); !error && size > largest)
+        refuse(where,
+               fmt::format("has {} bytes, allowed for a drawing: at most {}", size, largest));
+    std::array<char, 2> head{};
+    std::ifstream(file, std::ios::binary).read(head.data(), head.size());
+    if (head[0] == '\x1f' && head[1] == '\x8b')
+        refuse(where, "is compressed (.svgz); save it as plain SVG");
+    const pugi::xml_parse_result parsed = document.load_file(file.c_str());
+    if (!parsed)
+        refuse(where, fmt::format("cannot be read as SVG: {} at byte {}", parsed.description(),
+                                  parsed.offset));
+}
 
-    std::vector<Vector2d> read() {
-        char command = 0;
-        while (!tokens_.at_end()) {
-            if (const auto letter = tokens_.letter())
-                command = *letter;
-            else if (command == 0)
-                tokens_.refuse("the path does not begin with a command");
-            else if (command == 'M' || command == 'm')
-                command = command == 'M' ? 'L' : 'l'; // further pairs are lines
-            carry_out(command);
-        }
-        return std::move(points_);
-    }
+SvgPath path_of(pugi::xml_node line, const std::string& where) {
+    const std::string_view kind = svg_name(line);
+    const auto attribute = [&](const char* key) {
+        const std::string_view text = line.attribute(key).value();
+        if (text.find('&') != text.npos)
+            refuse(where, fmt::format("{} has an entity, {}, which is not read", key,
+                                      shown(text.substr(text.find('&'), 20))));
+        return text;
+    };
+    if (kind == "path")
+        return read_svg_path(attribute("d"), where, most_nodes - 1);
+    if (kind == "polyline")
+        return read_svg_polyline(attribute("points"), where, most_nodes - 1);
+    const auto place = [&](const char* key) {
+        const std::string_view text = attribute(key);
+        return text.empty() ? 0.0 : svg_length(text, std::nullopt, where);
+    };
+    return {{place("x1"), place("y1")}, {{.end = {place("x2"), place("y2")}}}};
+}
 
-private:
-    void carry_out(char command) {
-        relative_ = std::islower(static_cast<unsigned char>(command)) != 0;
-        char curve = 0; // whose control point the next smooth one mirrors
-        switch (std::toupper(static_cast<unsigned char>(command))) {
-        case 'M':
-            if (!points_.empty())
-                tokens_.refuse("the path has a second part; join the two, or name another path");
-            points_.push_back(point());
-            break;
-        case 'L':
-            points_.push_back(point());
-            break;
-        case 'H':
-            points_.push_back({(relative_ ? here().x() : 0.0) + tokens_.number(), here().y()});
-            break;
-        case 'V':
-            points_.push_back({here().x(), (relative_ ? here().y() : 0.0) + tokens_.number()});
-            break;
-        case 'C':
-        case 'S': {
-            curve = 'C';
-            const Vector2d first =
-                std::toupper(static_cast<unsigned char>(command)) == 'C' ? point() : mirrored('C');
-            const Vector2d second = point();
-            cubic(first, second, point());
-            control_ = second;
-            break;
-        }
-        case 'Q':
-        case 'T': {
-            curve = 'Q';
-            const Vector2d middle =
-                std::toupper(static_cast<unsigned char>(command)) == 'Q' ? point() : mirrored('Q');
-            const Vector2d end = point();
-            cubic(here() + 2.0 / 3.0 * (middle - here()), end + 2.0 / 3.0 * (middle - end), end);
-            control_ = middle;
-            break;
-        }
-        case 'A':
-            elliptic();
-            break;
-        case 'Z':
-            tokens_.refuse("the path is closed, but a fault is open; break it at the breakaway");
-        default:
-            tokens_.refuse(fmt::format("the path has an unknown command {}", command));
-        }
-        last_curve_ = curve;
-    }
-
-    Vector2d here() const { return points_.empty() ? Vector2d(0.0, 0.0) : points_.back(); }
-    Vector2d point() {
-        const double x = tokens_.number(), y = tokens_.number();
-        return (relative_ ? here() : Vector2d(0.0, 0.0)) + Vector2d(x, y);
-    }
-    Vector2d mirrored(char curve) const {
-        return last_curve_ == curve ? Vector2d(2.0 * here() - control_) : here();
-    }
-
-    void cubic(const Vector2d& b, const Vector2d& c, const Vector2d& d) {
-        const Vector2d a = here();
-        for (int k = 1; k <= steps_of_a_curve; ++k) {
-            const double t = static_cast<double>(k) / steps_of_a_curve, s = 1.0 - t;
-            points_.push_back(s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c +
-                              t * t * t * d);
-        }
-    }
-
-    /// SVG 1.1, appendix F.6.5: from end points to centre.
-    void elliptic() {
-        double rx = std::abs(tokens_.number()), ry = std::abs(tokens_.number());
-        const Eigen::Rotation2Dd axes(tokens_.number() * pi / 180.0);
-        const bool large = tokens_.flag(), sweep = tokens_.flag();
-        const Vector2d from = here(), to = point();
-        if (rx == 0.0 || ry == 0.0 || from == to) {
-            points_.push_back(to);
-            return;
-        }
-        const Vector2d half = axes.inverse() * Vector2d(0.5 * (from - to));
-        const auto needed = [&] {
-            return half.x() * half.x() / (rx * rx) + half.y() * half.y() / (ry * ry);
+/// In coordinates to which an affine transformation leads.
+SvgPath moved(SvgPath path, const Eigen::Affine2d& to) {
+    path.start = to * path.start;
+    for (SvgPiece& piece : path.pieces) {
+        const bool is_arc = piece.kind == SvgPiece::Kind::arc; // its axes are no places
+        const auto place_or_axis = [&](const Vector2d& p) {
+            return is_arc ? Vector2d(to.linear() * p) : Vector2d(to * p);
         };
-        if (const double enlarge = std::sqrt(std::max(1.0, needed())); enlarge > 1.0) {
-            rx *= enlarge;
-            ry *= enlarge;
-        }
-        const double size =
-            std::sqrt(std::max(0.0, 1.0 / needed() - 1.0)) * (large == sweep ? -1.0 : 1.0);
-        const Vector2d centre(size * rx * half.y() / ry, -size * ry * half.x() / rx);
-        const auto angle = [&](const Vector2d& p) {
-            return std::atan2((p.y() - centre.y()) / ry, (p.x() - centre.x()) / rx);
-        };
-        const double begin = angle(half);
-        double turn = angle(-half) - begin;
-        if (sweep && turn < 0.0)
-            turn += 2.0 * pi;
-        else if (!sweep && turn > 0.0)
-            turn -= 2.0 * pi;
-        for (int k = 1; k <= steps_of_a_curve; ++k) {
-            const double a = begin + turn * k / steps_of_a_curve;
-            const Vector2d local(rx * std::cos(a), ry * std::sin(a));
-            points_.push_back(0.5 * (from + to) + axes * Vector2d(centre + local));
-        }
+        piece.end = to * piece.end;
+        piece.first = place_or_axis(piece.first);
+        piece.second = place_or_axis(piece.second);
+        piece.centre = to * piece.centre;
     }
+    return path;
+}
 
-    Tokens tokens_;
-    std::vector<Vector2d> points_;
-    Vector2d control_{0.0, 0.0};
-    char last_curve_ = 0;
-    bool relative_ = false;
+bool is_finite(const SvgPath& path) {
+    return path.start.allFinite() && std::ranges::all_of(path.pieces, [](const SvgPiece& p) {
+               return p.end.allFinite() && p.first.allFinite() && p.second.allFinite() &&
+                      p.centre.allFinite() && std::isfinite(p.begin) && std::isfinite(p.turn);
+           });
+}
+
+struct Extents {
+    Vector2d low, high;
+    Vector2d size() const { return high - low; }
 };
+
+/// Of the ends of a path's pieces.
+Extents extents_of(const SvgPath& path) {
+    Extents e{path.start, path.start};
+    for (const SvgPiece& piece : path.pieces) {
+        e.low = e.low.cwiseMin(piece.end);
+        e.high = e.high.cwiseMax(piece.end);
+    }
+    return e;
+}
 
 /// Metres along one direction by drawing units: value = offset + scale * units.
 struct Scale {
     double offset = 0.0, scale = 0.0;
+    double operator()(double units) const { return offset + scale * units; }
 };
 
 /// Least squares through the reference points.
-Scale scale_of(const std::vector<std::array<double, 4>>& points, std::size_t from, std::size_t to,
-               const char* direction, const std::string& where) {
+/// @param extent  of the path in this direction, units
+Scale scale_of(const ReferencePoints& points, std::size_t from, std::size_t to,
+               const char* direction, double extent, const std::string& where) {
     double mean_from = 0.0, mean_to = 0.0, square = 0.0, product = 0.0;
     const auto count = static_cast<double>(points.size());
     for (const auto& p : points) {
@@ -267,51 +129,109 @@ Scale scale_of(const std::vector<std::array<double, 4>>& points, std::size_t fro
         product += (p[from] - mean_from) * (p[to] - mean_to);
     }
     if (points.size() < 2 || !(square > 0.0) || product == 0.0)
-        throw SceneError(fmt::format("{}: svg_points must have two points that differ {}, "
-                                     "[[px, py, x_m, depth_m], ...]",
-                                     where, direction));
+        refuse(where, fmt::format("svg_points must have two points that differ {}, "
+                                  "[[px, py, x_m, depth_m], ...]",
+                                  direction));
+    const auto [low, high] =
+        std::ranges::minmax(points, {}, [from](const std::array<double, 4>& p) { return p[from]; });
+    if (high[from] - low[from] < least_share * extent)
+        refuse(where, fmt::format("svg_points are within {} units {}, of {:.0f} that the path has; "
+                                  "take points further apart",
+                                  text(high[from] - low[from]), direction, extent));
     const double scale = product / square;
     return {mean_to - scale * mean_from, scale};
+}
+
+/// The places of reference points agree as far as the fault need be known.
+double check_agreement(const ReferencePoints& points, Scale x, Scale depth, double tolerance,
+                       const std::string& where) {
+    double largest = 0.0;
+    std::size_t worst = 0;
+    const auto off = [&](std::size_t k) {
+        const auto& p = points[k];
+        return Point{x(p[0]) - p[2], depth(p[1]) - p[3]};
+    };
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (const double distance = norm(off(k)); distance > largest) {
+            largest = distance;
+            worst = k;
+        }
+    if (!(largest <= tolerance))
+        refuse(where,
+               fmt::format("svg_points do not agree: the {} is {:.0f} m off ({:.0f} m across, "
+                           "{:.0f} m in depth) where all are placed as well as can be, allowed: "
+                           "tolerance_m = {}; correct the one that is wrong",
+                           ordinal(worst + 1), largest, std::abs(off(worst).x),
+                           std::abs(off(worst).y), text(tolerance)));
+    return largest;
+}
+
+/// Points with sharp corners made round by as much as the tolerance lets them: what is drawn with a
+/// ruler is not meant to be a kink that no disc can follow.
+/// @param off  largest distance from the corner, m
+std::vector<Vector2d> rounded(const std::vector<Vector2d>& points, double off) {
+    constexpr double sharp = 15.0 * pi / 180.0, reversed = 170.0 * pi / 180.0;
+    constexpr int steps = 4;
+    std::vector<Vector2d> round;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Vector2d in = k > 0 ? Vector2d(points[k] - points[k - 1]) : Vector2d(0.0, 0.0);
+        const Vector2d out =
+            k + 1 < points.size() ? Vector2d(points[k + 1] - points[k]) : Vector2d(0.0, 0.0);
+        const double turn = std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
+        if (in.norm() == 0.0 || out.norm() == 0.0 || turn < sharp || turn > reversed) {
+            round.push_back(points[k]);
+            continue;
+        }
+        const double radius = off / (1.0 / std::cos(0.5 * turn) - 1.0);
+        const double reach =
+            std::min({radius * std::tan(0.5 * turn), 0.5 * in.norm(), 0.5 * out.norm()});
+        const Vector2d begin = points[k] - reach * in.normalized();
+        const Vector2d centre_way = (out.normalized() - in.normalized()).normalized();
+        const Vector2d centre = points[k] + reach / std::sin(0.5 * turn) * centre_way;
+        const double way = in.x() * out.y() - in.y() * out.x() > 0.0 ? 1.0 : -1.0;
+        for (int j = 0; j <= steps; ++j)
+            round.push_back(centre + Eigen::Rotation2Dd(way * turn * j / steps) * (begin - centre));
+    }
+    return round;
 }
 
 } // namespace
 
 FaultPoints read_fault_svg(const FaultSource& source, const std::filesystem::path& file) {
     pugi::xml_document document;
-    const pugi::xml_parse_result parsed = document.load_file(file.c_str());
-    if (!parsed)
-        throw SceneError(fmt::format("{}: cannot be read as SVG: {} at byte {}", file.string(),
-                                     parsed.description(), parsed.offset));
-    std::vector<std::string> ids;
-    pugi::xml_node path;
-    const auto look = [&](const auto& self, pugi::xml_node node) -> void {
-        for (pugi::xml_node child : node.children()) {
-            if (std::string_view(child.name()) == "path") {
-                ids.emplace_back(child.attribute("id").value());
-                if (ids.back() == source.svg_path && !path)
-                    path = child;
-            }
-            self(self, child);
-        }
-    };
-    look(look, document);
-    const std::string where = fmt::format("{}: path {}", file.string(), source.svg_path);
-    if (!path)
-        throw SceneError(fmt::format("{}: has no path with the id svg_path = \"{}\"; its paths: {}",
-                                     file.string(), source.svg_path, fmt::join(ids, ", ")));
-    Affine placed = Affine::Identity();
-    for (pugi::xml_node node = path; node; node = node.parent())
-        placed = transformation(node.attribute("transform").value(), where) * placed;
-    const Scale x = scale_of(source.svg_points, 0, 2, "across", where);
-    const Scale depth = scale_of(source.svg_points, 1, 3, "in depth", where);
+    load(document, file);
+    const std::string name = shown(file.string());
+    const pugi::xml_node line = find_svg_line(document, source.svg_path, name);
+    const std::string where =
+        fmt::format("{}: {} {}", name, svg_name(line), shown(source.svg_path));
+    const SvgPath drawn = moved(path_of(line, where), place_in_drawing(line, where));
+    if (!is_finite(drawn))
+        refuse(where, "has coordinates that are not finite");
+    const Extents extents = extents_of(drawn);
+    if (!(extents.size().norm() > 0.0))
+        refuse(where, "has all its points at one place");
+    const ReferencePoints& references = source.svg_points;
+    const Scale x = scale_of(references, 0, 2, "across", extents.size().x(), where);
+    const Scale depth = scale_of(references, 1, 3, "in depth", extents.size().y(), where);
     FaultPoints fault;
-    for (const Vector2d& drawn : PathReader(path.attribute("d").value(), where).read()) {
-        const Vector2d p = placed * drawn;
-        fault.points.push_back({x.offset + x.scale * p.x(), -(depth.offset + depth.scale * p.y())});
-        fault.where.push_back(where);
+    fault.drawn = true;
+    fault.where = {where};
+    fault.place = {check_agreement(references, x, depth, source.tolerance, where),
+                   std::abs(depth.scale) > 0.0 ? std::abs(x.scale / depth.scale) : 1.0};
+    Eigen::Affine2d section = Eigen::Affine2d::Identity();
+    section.matrix() << x.scale, 0.0, x.offset, 0.0, depth.scale, depth.offset, 0.0, 0.0, 1.0;
+    const SvgPath in_section = moved(drawn, section);
+    if (!is_finite(in_section))
+        refuse(where, "has coordinates that are not finite");
+    const double step = extents_of(in_section).size().norm() / steps_of_a_path;
+    const std::size_t most = std::max<std::size_t>(1, most_nodes / in_section.pieces.size() - 1);
+    const std::vector<Vector2d> points =
+        flattened(in_section, flatness * source.tolerance, step, most);
+    for (const Vector2d& p : rounded(points, 0.25 * source.tolerance)) {
+        fault.points.push_back({p.x(), -p.y()});
+        fault.drawing_points.push_back(
+            {(p.x() - x.offset) / x.scale, (p.y() - depth.offset) / depth.scale});
     }
-    if (fault.points.empty())
-        throw SceneError(where + ": has no points");
     return fault;
 }
 

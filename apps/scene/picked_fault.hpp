@@ -4,6 +4,7 @@
 #include "dem/detachment.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace listric {
 
 /// The points that a detachment was fitted to.
 struct PickedFault {
-    std::vector<double> x, depth; ///< m
-    double misfit = 0.0;          ///< largest distance from the detachment, m
+    std::vector<double> x, depth;      ///< m
+    double misfit = 0.0;               ///< largest distance from the detachment, m
+    std::optional<DrawingPlace> drawn; ///< where a drawing was read, which scene.toml does not tell
 };
 
 /// Reads the points of a file, shifted. Throws SceneError.
@@ -23,7 +25,8 @@ FaultPoints read_fault(const FaultSource& source, const std::filesystem::path& f
 PickedFault fit_detachment(dem::DetachmentParameters& detachment, const FaultPoints& fault,
                            double tolerance);
 
-/// "detachment: 2 arcs and lines through 47 points, at most 3.2 m off"
+/// "detachment: 2 arcs and lines through 47 points, at most 3.2 m off (at x = 1200 m), 1.1 m in the
+/// root mean square"
 std::string describe(const PickedFault& picked, const dem::DetachmentParameters& detachment);
 
 /// What is wrong with a detachment that turns more sharply than discs of a mean radius, m, can

@@ -24,6 +24,17 @@ std::string text(double number) {
     return text;
 }
 
+std::string ordinal(std::size_t number) {
+    constexpr std::array<const char*, 11> words{"zeroth", "first", "second", "third",
+                                                "fourth", "fifth", "sixth",  "seventh",
+                                                "eighth", "ninth", "tenth"};
+    if (number < words.size())
+        return words[number];
+    constexpr std::array<const char*, 4> endings{"th", "st", "nd", "rd"};
+    const std::size_t last = number / 10 % 10 == 1 ? 0 : number % 10;
+    return fmt::format("{}{}", number, endings[last < endings.size() ? last : 0]);
+}
+
 namespace {
 
 std::string lower(std::string_view text) {

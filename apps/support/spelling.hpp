@@ -11,6 +11,9 @@ namespace listric {
 /// The shortest text that reads back as the same number.
 std::string text(double number);
 
+/// "second", "11th"
+std::string ordinal(std::size_t number);
+
 /// The candidate that a misspelt name most probably means, if any is close.
 std::optional<std::string_view> nearest(std::string_view name,
                                         std::span<const std::string_view> candidates);
