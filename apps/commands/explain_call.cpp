@@ -2,6 +2,7 @@
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/text.hpp"
 
 #include <iostream>
 #include <memory>
@@ -22,7 +23,7 @@ ExitCode explain(const ExplainCall& call) {
     else if (call.scene.scene.empty())
         throw UsageError("explain: a scene is needed, or --parameters");
     else
-        std::cout << explain(load_scene(call.scene), call.threads, program_effects());
+        std::cout << shown_lines(explain(load_scene(call.scene), call.threads, program_effects()));
     return ExitCode::done;
 }
 
