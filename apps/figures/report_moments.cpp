@@ -9,6 +9,7 @@
 #include "apps/measures/rock_behaviour.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/deflate.hpp"
+#include "apps/support/json_text.hpp"
 #include "dem/contacts.hpp"
 #include "dem/monitor.hpp"
 #include "dem/power_cell.hpp"
@@ -185,7 +186,7 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
         if (part.effect->draw)
             for (const FigureLayer& layer : part.effect->draw(now))
                 lines["layers"][layer.name] = {{"columns", layer.columns}, {"rows", layer.rows}};
-    const std::string text = lines.dump();
+    const std::string text = to_text(lines);
     const auto* const bytes = reinterpret_cast<const unsigned char*>(text.data());
     return {base64(deflated({bytes, text.size()}, compression)), followed};
 }
@@ -194,7 +195,7 @@ std::string report_scales(double mean_radius) {
     json list;
     for (const auto& [name, scale] : scales(mean_radius))
         list[name] = {{"step", scale.step}, {"root", scale.root}};
-    return list.dump();
+    return to_text(list);
 }
 
 /// Which of the bonds of the moment before are left, in their order, and the new ones: the lower
