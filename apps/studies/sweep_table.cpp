@@ -1,5 +1,6 @@
 #include "apps/studies/sweep_table.hpp"
 
+#include "apps/studies/table_cell.hpp"
 #include "apps/support/error.hpp"
 
 #include <fmt/format.h>
@@ -82,11 +83,12 @@ std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoi
             if (cells[k] != points[row.run - 1][k - 2].text)
                 refuse();
         row.outcome = cells[before];
-        row.exit_code = std::atoi(cells[before + 1].c_str());
+        row.exit_code =
+            static_cast<int>(std::clamp(number_in(cells[before + 1], file), -1.0, 255.0));
         row.state_hash = cells[before + 2];
         for (std::size_t k = before + 3; k < all; ++k)
             row.measures.push_back(cells[k].empty() ? std::nullopt
-                                                    : std::optional(std::atof(cells[k].c_str())));
+                                                    : std::optional(number_in(cells[k], file)));
         rows.push_back(std::move(row));
     }
     return rows;

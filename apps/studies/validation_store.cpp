@@ -1,5 +1,6 @@
 #include "apps/studies/validation_store.hpp"
 
+#include "apps/studies/table_cell.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 
@@ -40,8 +41,8 @@ MeasureStore read_store(const std::filesystem::path& file) {
         if (cells.size() != names.size() || cells.size() < 4)
             throw StorageError(file.string() + ": a line has another number of columns than the "
                                                "first; --remeasure writes it anew");
-        MeasuredNumbers& m =
-            store[{cells[0], std::atoi(cells[1].c_str()), std::atof(cells[2].c_str())}];
+        MeasuredNumbers& m = store[{cells[0], static_cast<int>(number_in(cells[1], file)),
+                                    number_in(cells[2], file)}];
         m.hash = cells[3];
         for (std::size_t k = 4; k < cells.size(); ++k)
             if (names[k] == "made_by")
@@ -49,7 +50,7 @@ MeasureStore read_store(const std::filesystem::path& file) {
             else if (names[k] == "measured_by")
                 m.measured_by = cells[k];
             else if (!cells[k].empty())
-                m.numbers[names[k]] = std::atof(cells[k].c_str());
+                m.numbers[names[k]] = number_in(cells[k], file);
     }
     return store;
 }
