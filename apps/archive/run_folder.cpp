@@ -61,7 +61,7 @@ RunFolder::RunFolder(const fs::path& folder, const Scene& of)
     : output(folder), scene(of), parts(make_parts(scene)), snapshots(some_snapshots(folder)) {}
 
 RunFolder::RunFolder(const fs::path& folder) : output(folder), snapshots(some_snapshots(folder)) {
-    scene = load_scene({.scene = (output / "scene.toml").string()});
+    scene = load_scene({.scene = (output / "scene.toml").string(), .is_record = true});
     parts = make_parts(scene);
 }
 

@@ -325,7 +325,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     scene.name = path.stem().string();
     refuse_former_keys(document, effects);
     begin_scene(scene, document, all);
-    check_name(scene, document, path);
+    if (!request.is_record)
+        check_name(scene, document, path);
     set_accuracy(scene);
     Rocks rocks(document, effects, path.parent_path());
     take_rocks(scene, rocks, effects);

@@ -166,7 +166,7 @@ private:
         const fs::path file = folder_of(run, seed) / "scene.toml";
         Scene then;
         try {
-            then = load_scene({.scene = file.string()});
+            then = load_scene({.scene = file.string(), .is_record = true});
         } catch (const SceneError&) {
             return;
         }

@@ -220,6 +220,13 @@ class Names(TextTest):
         for scene in ("...toml", "fine.toml"):
             self.assertEqual(self.call("check", scene).code, 0)
 
+    def test_runs_of_before_have_any_name(self):
+        self.assertEqual(self.run_small("--output", "out").code, 0)
+        scene = self.folder / "out/scene.toml"
+        scene.write_text(scene.read_text().replace('name = "small"', 'name = "a/b"'))
+        done = self.call("export", "surfaces", "out")
+        self.assertEqual(done.code, 0, done.err)
+
     def test_names_of_plans(self):
         run = '[[run]]\nname = "{}"\nscene = "small.toml"\nat_m = [0.0]\n'
         experiment = '[[experiment]]\nname = "x"\nruns = "one"\n'
