@@ -2,8 +2,10 @@
 
 #include "fem/blocks.hpp"
 
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
@@ -143,6 +145,9 @@ std::unique_ptr<Footwall> make_footwall(const FootwallRequest& request) {
 
 void write_series(const std::string& pvd, std::span<const std::pair<double, std::string>> moments) {
     const std::string temporary = pvd + "." + std::to_string(getpid()) + ".part";
+    std::error_code error;
+    std::filesystem::remove(temporary, error); // a link of this name would be written through
+    errno = 0;
     std::ofstream out(temporary);
     out.precision(17);
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
@@ -152,12 +157,13 @@ void write_series(const std::string& pvd, std::span<const std::pair<double, std:
             << "\"/>\n";
     out << "</Collection>\n</VTKFile>\n";
     out.close();
-    std::error_code error;
+    error.clear();
     if (out)
         std::filesystem::rename(temporary, pvd, error);
     if (!out || error) {
+        const std::string cause = error ? error.message() : std::strerror(errno ? errno : EIO);
         std::filesystem::remove(temporary, error);
-        refuse("cannot write " + pvd);
+        refuse("cannot write " + pvd + ": " + cause);
     }
 }
 

@@ -4,10 +4,12 @@
 #include "dem/hash.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace listric::archive {
@@ -28,14 +30,15 @@ std::uint64_t checksum(std::span<const std::byte> bytes) {
 }
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
     std::error_code error;
-    const auto size = std::filesystem::file_size(path, error);
-    if (error || !in)
-        throw StorageError("cannot be read");
+    const auto size = std::filesystem::file_size(path, error); // of plain files alone
+    if (error)
+        throw StorageError("cannot be read: " + error.message());
+    errno = 0;
+    std::ifstream in(path, std::ios::binary);
     std::vector<std::byte> bytes(size);
     if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-        throw StorageError("cannot be read");
+        throw StorageError(std::string("cannot be read: ") + std::strerror(errno ? errno : EIO));
     return bytes;
 }
 

@@ -13,9 +13,25 @@ namespace listric::archive {
 
 using namespace dem;
 
-Handle::Handle(hid_t id, herr_t (*close)(hid_t), const char* what) : id_(id), close_(close) {
+namespace {
+
+/// What could not be done, and why: the innermost entry of HDF5's stack of errors.
+[[noreturn]] void fail(const std::string& what) {
+    std::string cause;
+    const auto take = [](unsigned depth, const H5E_error2_t* error, void* into) -> herr_t {
+        if (depth == 0 && error->desc)
+            *static_cast<std::string*>(into) = error->desc;
+        return 0;
+    };
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take, &cause);
+    throw StorageError(what + (cause.empty() ? "" : " (HDF5: " + cause + ")"));
+}
+
+} // namespace
+
+Handle::Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
     if (id < 0)
-        throw StorageError(what);
+        fail(what);
 }
 
 Handle::~Handle() {
@@ -23,18 +39,18 @@ Handle::~Handle() {
         close_(id_);
 }
 
-void check(herr_t status, const char* what) {
+void check(herr_t status, const std::string& what) {
     if (status < 0)
-        throw StorageError(what);
+        fail(what);
 }
 
 Handle create_group(hid_t parent, const std::string& name) {
     return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-            "group"};
+            "cannot make the group " + name};
 }
 
 Handle open_group(hid_t parent, const std::string& name) {
-    return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, "missing group"};
+    return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, "lacks the group " + name};
 }
 
 std::vector<std::string> names_in(hid_t group) {
@@ -43,7 +59,8 @@ std::vector<std::string> names_in(hid_t group) {
         static_cast<std::vector<std::string>*>(into)->push_back(name);
         return 0;
     };
-    check(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "listing");
+    check(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names),
+          "cannot list a group");
     return names;
 }
 
@@ -62,40 +79,77 @@ template <class T> hid_t hdf5_type() {
         return H5T_NATIVE_UINT8;
 }
 
-} // namespace
-
-void write_text_attribute(hid_t object, const char* name, const std::string& text) {
-    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "type");
-    check(H5Tset_size(type, std::max<std::size_t>(text.size(), 1)), "string size");
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "dataspace");
-    const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose, "attribute");
-    std::string padded = text.empty() ? std::string(1, '\0') : text;
-    check(H5Awrite(attribute, type, padded.data()), "writing an attribute");
+/// The type of a text; HDF5 has none of no length.
+Handle text_type(std::size_t size) {
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, std::max<std::size_t>(size, 1));
+    return {type, H5Tclose, "cannot make a type"};
 }
 
-std::string read_text_attribute(hid_t object, const char* name) {
-    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, "missing attribute");
-    const Handle type(H5Aget_type(attribute), H5Tclose, "type");
-    std::string text(H5Tget_size(type), '\0');
-    check(H5Aread(attribute, type, text.data()), "reading an attribute");
+std::string without_padding(std::string text) {
     while (!text.empty() && text.back() == '\0')
         text.pop_back();
     return text;
 }
 
+Handle single() { return {H5Screate(H5S_SCALAR), H5Sclose, "cannot make a dataspace"}; }
+
+Handle create_attribute(hid_t object, const char* name, hid_t type) {
+    return {H5Acreate2(object, name, type, single(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+            std::string("cannot make the attribute ") + name};
+}
+
+Handle open_attribute(hid_t object, const char* name) {
+    return {H5Aopen(object, name, H5P_DEFAULT), H5Aclose,
+            std::string("lacks the attribute ") + name};
+}
+
+} // namespace
+
+void write_text(hid_t group, const char* name, const std::string& text) {
+    const Handle type = text_type(text.size()), space = single();
+    check(H5Tset_cset(type, H5T_CSET_UTF8), "cannot make a type");
+    const Handle set(H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                     H5Dclose, std::string("cannot make the text ") + name);
+    check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()),
+          std::string("cannot write the text ") + name);
+}
+
+std::string read_text(hid_t group, const char* name) {
+    const Handle set(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose,
+                     std::string("lacks the text ") + name);
+    const Handle type(H5Dget_type(set), H5Tclose, std::string("has no type of ") + name);
+    std::string text(H5Tget_size(type), '\0');
+    check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()),
+          std::string("cannot read the text ") + name);
+    return without_padding(std::move(text));
+}
+
+void write_text_attribute(hid_t object, const char* name, const std::string& text) {
+    const Handle type = text_type(text.size()), attribute = create_attribute(object, name, type);
+    check(H5Awrite(attribute, type, text.c_str()),
+          std::string("cannot write the attribute ") + name);
+}
+
+std::string read_text_attribute(hid_t object, const char* name) {
+    const Handle attribute = open_attribute(object, name);
+    const Handle type(H5Aget_type(attribute), H5Tclose, std::string("has no type of ") + name);
+    std::string text(H5Tget_size(type), '\0');
+    check(H5Aread(attribute, type, text.data()), std::string("cannot read the attribute ") + name);
+    return without_padding(std::move(text));
+}
+
 template <class T> void write_number(hid_t object, const char* name, T value) {
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "dataspace");
-    const Handle attribute(
-        H5Acreate2(object, name, hdf5_type<T>(), space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-        "attribute");
-    check(H5Awrite(attribute, hdf5_type<T>(), &value), "writing an attribute");
+    const Handle attribute = create_attribute(object, name, hdf5_type<T>());
+    check(H5Awrite(attribute, hdf5_type<T>(), &value),
+          std::string("cannot write the attribute ") + name);
 }
 
 template <class T> T read_number(hid_t object, const char* name) {
-    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, "missing attribute");
+    const Handle attribute = open_attribute(object, name);
     T value{};
-    check(H5Aread(attribute, hdf5_type<T>(), &value), "reading an attribute");
+    check(H5Aread(attribute, hdf5_type<T>(), &value),
+          std::string("cannot read the attribute ") + name);
     return value;
 }
 
@@ -110,7 +164,8 @@ std::vector<std::string> attributes_of(hid_t object) {
         static_cast<std::vector<std::string>*>(into)->push_back(name);
         return 0;
     };
-    check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "listing");
+    check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names),
+          "cannot list attributes");
     return names;
 }
 
@@ -121,18 +176,19 @@ void write_column(hid_t group, const Column& column, std::size_t position) {
         [&](const auto& values) {
             using T = typename std::decay_t<decltype(values)>::value_type;
             const hsize_t size = values.size();
-            const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "dataspace");
-            const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "properties");
+            const std::string what = "cannot write the column " + column.name;
+            const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, what);
+            const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
             if (size >= 1024) {
-                check(H5Pset_chunk(properties, 1, &size), "chunk");
-                check(H5Pset_shuffle(properties), "shuffle");
-                check(H5Pset_deflate(properties, 1), "deflate");
+                check(H5Pset_chunk(properties, 1, &size), what);
+                check(H5Pset_shuffle(properties), what);
+                check(H5Pset_deflate(properties, 1), what);
             }
             const Handle set(H5Dcreate2(group, column.name.c_str(), hdf5_type<T>(), space,
                                         H5P_DEFAULT, properties, H5P_DEFAULT),
-                             H5Dclose, "dataset");
+                             H5Dclose, what);
             check(H5Dwrite(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-                  "writing a column");
+                  what);
             write_text_attribute(set, "unit", column.unit);
             write_number(set, "initial", std::get<T>(column.initial));
             if (!column.begins_as.empty())
@@ -145,7 +201,7 @@ void write_column(hid_t group, const Column& column, std::size_t position) {
 template <class T> Column read_values(hid_t set, const std::string& name, std::size_t size) {
     std::vector<T> values(size);
     check(H5Dread(set, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-          "reading a column");
+          "cannot read the column " + name);
     return {name, read_text_attribute(set, "unit"), std::move(values),
             read_number<T>(set, "initial"),
             H5Aexists(set, "begins_as") > 0 ? read_text_attribute(set, "begins_as") : ""};
@@ -163,9 +219,10 @@ Table read_table(hid_t parent, const std::string& name) {
     const Handle group = open_group(parent, name);
     std::map<std::int64_t, Column> columns;
     for (const std::string& column : names_in(group)) {
-        const Handle set(H5Dopen2(group, column.c_str(), H5P_DEFAULT), H5Dclose, "dataset");
-        const Handle space(H5Dget_space(set), H5Sclose, "dataspace");
-        const Handle type(H5Dget_type(set), H5Tclose, "type");
+        const std::string what = "cannot read the column " + column;
+        const Handle set(H5Dopen2(group, column.c_str(), H5P_DEFAULT), H5Dclose, what);
+        const Handle space(H5Dget_space(set), H5Sclose, what);
+        const Handle type(H5Dget_type(set), H5Tclose, what);
         const auto size = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
         const auto is = [&](hid_t candidate) { return H5Tequal(type, candidate) > 0; };
         Column read = is(H5T_NATIVE_DOUBLE)  ? read_values<double>(set, column, size)

@@ -14,8 +14,8 @@ namespace listric::archive {
 /// An HDF5 identifier that closes itself.
 class Handle {
 public:
-    /// @param what  what the error says if `id` is not valid
-    Handle(hid_t id, herr_t (*close)(hid_t), const char* what);
+    /// @param what  what could not be done, if `id` is not valid
+    Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what);
     ~Handle();
     Handle(const Handle&) = delete;
     Handle& operator=(const Handle&) = delete;
@@ -26,7 +26,8 @@ private:
     herr_t (*close_)(hid_t);
 };
 
-void check(herr_t status, const char* what);
+/// @param what  what could not be done, if `status` says so
+void check(herr_t status, const std::string& what);
 
 Handle create_group(hid_t parent, const std::string& name);
 Handle open_group(hid_t parent, const std::string& name);
@@ -34,7 +35,11 @@ Handle open_group(hid_t parent, const std::string& name);
 /// Names of what is in a group, sorted.
 std::vector<std::string> names_in(hid_t group);
 
-/// A text as an attribute: at most 64 kB.
+/// A text of any length as a dataset.
+void write_text(hid_t group, const char* name, const std::string& text);
+std::string read_text(hid_t group, const char* name);
+
+/// A short text as an attribute: HDF5 has room for 64 kB in an object's attributes.
 void write_text_attribute(hid_t object, const char* name, const std::string& text);
 std::string read_text_attribute(hid_t object, const char* name);
 

@@ -1,12 +1,37 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "apps/support/json_text.hpp"
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+// JSON that a call has left for later ones. Anybody may have changed it since, so nothing here
+// trusts its shape: what is damaged or of another kind is as if it were not there.
 
 namespace listric {
 
-/// Reads a JSON file that a call has left. Throws StorageError if it is missing or damaged.
-nlohmann::json read_json(const std::filesystem::path& file);
+using JsonObject = nlohmann::ordered_json;
+
+/// JSON of any shape; discarded if the text is none, or nested so deeply that nobody can have
+/// meant it.
+JsonObject parse_json(std::string_view text);
+
+/// The object in a file; an empty one if there is none.
+JsonObject object_in(const std::filesystem::path& file);
+
+/// The same. Throws StorageError where there is none.
+JsonObject read_object(const std::filesystem::path& file);
+
+/// Members by type. Nothing where `object` is none, or has no such member of that type.
+std::string text_at(const JsonObject& object, const char* key);
+std::optional<double> number_at(const JsonObject& object, const char* key);
+double need_number(const JsonObject& object, const char* key); ///< throws StorageError
+bool is_true_at(const JsonObject& object, const char* key);
+JsonObject object_at(const JsonObject& object, const char* key);
+
+/// Writes an object, indented. Throws StorageError.
+void write_object(const std::filesystem::path& file, const JsonObject& object);
 
 } // namespace listric

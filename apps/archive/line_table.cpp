@@ -1,5 +1,7 @@
 #include "apps/archive/line_table.hpp"
 
+#include "apps/support/json_text.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,12 +18,14 @@ std::string number(double value, std::string_view none) {
     return std::isfinite(value) ? fmt::format("{}", value + 0.0) : std::string(none); // not -0
 }
 
-/// @param quote  around words
-std::string word(const LineValue& value, std::string_view quote, std::string_view none) {
+std::string word(const LineValue& value, std::string_view none) {
     if (const auto* text = std::get_if<std::string>(&value))
-        return fmt::format("{0}{1}{0}", quote, *text);
+        return *text;
     return number(std::get<double>(value), none);
 }
+
+/// A text of JSON.
+std::string quoted(const std::string& text) { return to_text(nlohmann::json(text)); }
 
 /// Calls visit(point, its own numbers) for each point of a line.
 template <class Visit>
@@ -34,16 +38,18 @@ void for_each_point(const LineTable& table, const Line& line, Visit&& visit) {
 /// {"name": value, ...} with lists of the points' own numbers.
 std::string properties(const LineTable& table, const Line& line) {
     std::vector<std::string> items;
-    for (std::size_t k = 0; k < table.columns.size(); ++k)
-        items.push_back(
-            fmt::format("\"{}\": {}", table.columns[k], word(line.values[k], "\"", "null")));
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+        const auto* text = std::get_if<std::string>(&line.values[k]);
+        items.push_back(fmt::format("{}: {}", quoted(table.columns[k]),
+                                    text ? quoted(*text) : word(line.values[k], "null")));
+    }
     for (std::size_t k = 0; k < table.point_columns.size(); ++k) {
         std::vector<std::string> numbers;
         for_each_point(table, line, [&](dem::Point, std::span<const double> own) {
             numbers.push_back(number(own[k], "null"));
         });
         items.push_back(
-            fmt::format("\"{}\": [{}]", table.point_columns[k], fmt::join(numbers, ", ")));
+            fmt::format("{}: [{}]", quoted(table.point_columns[k]), fmt::join(numbers, ", ")));
     }
     return fmt::format("{{{}}}", fmt::join(items, ", "));
 }
@@ -59,7 +65,7 @@ std::string to_csv(const LineTable& table) {
         const Line& line = table.lines[n];
         std::string head = fmt::format("{}", n);
         for (const LineValue& value : line.values)
-            head += fmt::format(",{}", word(value, "", ""));
+            head += fmt::format(",{}", word(value, ""));
         for_each_point(table, line, [&](dem::Point p, std::span<const double> own) {
             text += fmt::format("{},{},{}", head, number(p.x, ""), number(-p.y, ""));
             for (const double value : own)
@@ -81,9 +87,9 @@ std::string to_geojson(const LineTable& table) {
                         "\"LineString\", \"coordinates\": [{}]}}}}",
                         properties(table, line), fmt::join(places, ", ")));
     }
-    return fmt::format("{{\"type\": \"FeatureCollection\", \"name\": \"{}\", "
+    return fmt::format("{{\"type\": \"FeatureCollection\", \"name\": {}, "
                        "\"features\": [\n{}\n]}}\n",
-                       table.name, fmt::join(features, ",\n"));
+                       quoted(table.name), fmt::join(features, ",\n"));
 }
 
 std::string to_gmt(const LineTable& table) {
@@ -94,12 +100,12 @@ std::string to_gmt(const LineTable& table) {
     for (const Line& line : table.lines) {
         std::string level, words;
         for (std::size_t k = 1; k < table.columns.size(); ++k) {
-            const std::string value = word(line.values[k], "", "NaN");
+            const std::string value = word(line.values[k], "NaN");
             if (table.columns[k] == table.level)
                 level = fmt::format(" -Z{}", value);
             words += fmt::format(" {}={}", table.columns[k], value);
         }
-        text += fmt::format(">{} -L\"{}\"{}\n", level, word(line.values.front(), "", ""), words);
+        text += fmt::format(">{} -L\"{}\"{}\n", level, word(line.values.front(), ""), words);
         for_each_point(table, line, [&](dem::Point p, std::span<const double> own) {
             text += fmt::format("{}\t{}", number(p.x, "NaN"), number(-p.y, "NaN"));
             for (const double value : own)

@@ -27,7 +27,10 @@ namespace listric::archive {
 namespace fs = std::filesystem;
 
 FolderLock::FolderLock(const fs::path& output)
-    : file_(open((output / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    : file_(open((output / ".lock").c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)) {
+    if (file_ < 0 && (errno == EISDIR || errno == ELOOP))
+        throw UsageError((output / ".lock").string() +
+                         ": is a folder or a link, but keeps other runs out as a file; remove it");
     if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(file_);
         throw UsageError(output.string() + ": another run is writing there");

@@ -1,5 +1,6 @@
 #include "apps/archive/provenance.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/scene_lines.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/version.hpp"
@@ -7,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <string>
 
 namespace listric::archive {
@@ -44,11 +44,9 @@ Json provenance(const Scene& scene) {
 }
 
 Json provenance_of_run(const std::filesystem::path& output, const Scene& scene) {
-    std::ifstream in(output / "summary.json");
-    const Json summary = Json::parse(in, nullptr, false);
-    if (summary.is_object() && summary.contains("provenance"))
-        return summary["provenance"];
-    Json json;
+    Json json = object_at(object_in(output / "summary.json"), "provenance");
+    if (!json.empty())
+        return json;
     add_scene(json, scene);
     return json;
 }

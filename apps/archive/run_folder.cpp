@@ -116,7 +116,7 @@ RunFolder::RunFolder(const fs::path& folder)
     const fs::path file = output / "scene.toml";
     if (const std::string text = read_text_if_there(file); !text.empty())
         require_same_run(file, text, moments.scene);
-    scene = load_scene({.scene = file.string()});
+    scene = load_scene({.scene = file.string(), .is_record = true});
     parts = make_parts(scene);
     names = MomentNames(scene.output.interval, moments.window_ends);
 }

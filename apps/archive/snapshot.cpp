@@ -24,7 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int format = 5; // raised when a file of before no longer has all that a state needs
+// Raised when a file can no longer be read by a program of before, or no longer has all that a
+// state needs. 6: the scene is a text of its own; as an attribute of format 5 it had room for 64
+// kB.
+constexpr int format = 6;
+constexpr int oldest_format = 5; // that is read, too
 constexpr std::string_view kind = "listric snapshot ";
 
 /// The state's numbers by name; used to write and to read.
@@ -195,7 +199,7 @@ void read_memories(hid_t file, Snapshot& snapshot) {
 
 void write_record(hid_t file, const RunRecord& record) {
     const Handle run = create_group(file, "run");
-    write_text_attribute(run, "scene", record.scene); // a few kB
+    write_text(run, "scene", record.scene);
     for_each_run_number(record, writes_numbers(run));
     write_table(create_group(run, "history"), record.history);
     const Handle parts = create_group(run, "seconds_by_part");
@@ -206,7 +210,8 @@ void write_record(hid_t file, const RunRecord& record) {
 RunRecord read_record(hid_t file) {
     RunRecord record;
     const Handle run = open_group(file, "run");
-    record.scene = read_text_attribute(run, "scene");
+    record.scene = H5Aexists(run, "scene") > 0 ? read_text_attribute(run, "scene") // format 5
+                                               : read_text(run, "scene");
     for_each_run_number(record, reads_numbers(run));
     record.history = read_table(run, "history");
     const Handle parts = open_group(run, "seconds_by_part");
@@ -220,10 +225,10 @@ RunRecord read_record(hid_t file) {
 std::vector<std::byte> file_image(const State& state,
                                   std::span<const std::unique_ptr<Event>> events,
                                   const RunRecord& record) {
-    const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "properties");
-    check(H5Pset_fapl_core(in_memory, 1 << 20, false), "core driver");
-    const Handle file(H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose,
-                      "cannot create the file");
+    const char* const what = "cannot make the file in memory";
+    const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+    check(H5Pset_fapl_core(in_memory, 1 << 20, false), what);
+    const Handle file(H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose, what);
     write_text_attribute(file, "format", std::string(kind) + std::to_string(format));
     write_text_attribute(file, "version", std::string(version));
     write_state(file, state);
@@ -231,11 +236,11 @@ std::vector<std::byte> file_image(const State& state,
     write_record(file, record);
     const std::uint64_t h = content_hash(content_of(state, events, record));
     write_number(file, "content_hash", static_cast<std::int64_t>(h));
-    check(H5Fflush(file, H5F_SCOPE_LOCAL), "flushing");
+    check(H5Fflush(file, H5F_SCOPE_LOCAL), what);
     const ssize_t size = H5Fget_file_image(file, nullptr, 0);
     std::vector<std::byte> image(size > 0 ? static_cast<std::size_t>(size) : 0);
     if (size <= 0 || H5Fget_file_image(file, image.data(), image.size()) < 0)
-        throw StorageError("no file image");
+        throw StorageError(what);
     return image;
 }
 
@@ -248,10 +253,10 @@ void check_format(const std::string& found, const std::string& writer) {
         std::from_chars(found.data() + kind.size(), found.data() + found.size(), number);
     if (number == 0)
         throw StorageError("is not a snapshot");
-    if (number != format)
+    if (number < oldest_format || number > format)
         throw UsageError(fmt::format("is of format {}, written by version {}, and this program "
-                                     "({}) reads format {}; go on with {}",
-                                     number, writer, version, format,
+                                     "({}) reads formats {} and {}; go on with {}",
+                                     number, writer, version, oldest_format, format,
                                      number > format ? "a newer program" : "that version"));
 }
 
@@ -296,7 +301,12 @@ Snapshot read_all(hid_t file) {
 void write_snapshot(const fs::path& path, const State& state,
                     std::span<const std::unique_ptr<Event>> events, const RunRecord& record) {
     silence_hdf5();
-    std::vector<std::byte> bytes = file_image(state, events, record);
+    std::vector<std::byte> bytes;
+    try {
+        bytes = file_image(state, events, record);
+    } catch (const StorageError& error) {
+        throw StorageError(path.string() + ": " + error.what());
+    }
     append_checksum(bytes); // behind the end of the HDF5 file, where HDF5 does not look
     write_bytes(path, bytes);
 }

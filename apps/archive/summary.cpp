@@ -1,5 +1,6 @@
 #include "apps/archive/summary.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/traced_faults.hpp"
 #include "apps/support/fineness.hpp"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <map>
 
@@ -211,16 +211,12 @@ std::string summary_json(const SummaryContent& content) {
     if (!content.observed.empty())
         json["observed"] = observed_list(content.observed);
     add_faults(json, content.faults, fineness(content.state.mean_radius));
-    return json.dump(2) + "\n";
+    return to_text(json, 2) + "\n";
 }
 
 std::optional<double> summary_extension(const std::filesystem::path& summary) {
-    std::ifstream in(summary);
-    const auto json = nlohmann::json::parse(in, nullptr, false);
-    if (!json.is_object() || !json.value("finished", false) || !json.contains("extension_m") ||
-        !json["extension_m"].is_number())
-        return std::nullopt;
-    return json["extension_m"].get<double>();
+    const JsonObject json = object_in(summary);
+    return is_true_at(json, "finished") ? number_at(json, "extension_m") : std::nullopt;
 }
 
 } // namespace listric::archive

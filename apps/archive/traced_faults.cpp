@@ -1,6 +1,6 @@
 #include "apps/archive/traced_faults.hpp"
 
-#include <nlohmann/json.hpp>
+#include "apps/support/json_text.hpp"
 
 #include <cmath>
 
@@ -32,7 +32,7 @@ std::string to_json(std::span<const TracedFault> faults) {
         fault["points_m"] = std::move(points);
         list.push_back(std::move(fault));
     }
-    return list.dump(2) + "\n";
+    return to_text(list, 2) + "\n";
 }
 
 } // namespace listric::archive

@@ -6,6 +6,7 @@
 #include "apps/scene/material_file.hpp"
 #include "apps/studies/sweep_plan.hpp"
 #include "apps/studies/validation_plan.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
@@ -134,7 +135,7 @@ ExitCode report(const std::string& name, Times& times) {
                                 ending.message.starts_with(file.string() + ":");
         line = tells_file ? ending.message : fmt::format("{}: {}", name, ending.message);
     }
-    std::cout << line << std::endl;
+    std::cout << shown(line) << std::endl;
     return ending.code;
 }
 

@@ -3,6 +3,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/text.hpp"
 
 #include <iostream>
 #include <memory>
@@ -24,7 +25,7 @@ ExitCode explain(const ExplainCall& call) {
         throw UsageError("explain: a scene is needed, or --parameters");
     else {
         const Scene scene = load_scene(call.scene);
-        std::cout << explain(scene, call.threads, program_effects());
+        std::cout << shown_lines(explain(scene, call.threads, program_effects()));
         for (const std::string& warning : scene.warnings)
             warn(warning);
     }

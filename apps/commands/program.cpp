@@ -6,6 +6,7 @@
 #include "apps/support/log.hpp"
 #include "apps/support/number.hpp"
 #include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
 #include "apps/support/version.hpp"
 #include "dem/cycle_choice.hpp"
 
@@ -86,7 +87,18 @@ void read_numbers_alike(CLI::App& app) {
                 option->check(number);
 }
 
+/// Refuses a word that is no UTF-8: names of files and texts end in scenes, summaries and figures.
+void require_sound(const std::vector<std::string>& words) {
+    for (const std::string& word : words)
+        if (const auto place = unsound_byte(word))
+            throw UsageError(
+                fmt::format("{}: {}; give texts in UTF-8, and rename files and folders "
+                            "whose names are not (convmv does)",
+                            shown(word), objection_to_byte(word, *place)));
+}
+
 ExitCode dispatch(int argc, char** argv) {
+    require_sound({argv + std::min(argc, 1), argv + argc});
     CLI::App app{"listric: a numerical sandbox for halfgrabens", "listric"};
     app.set_version_flag("--version", std::string(version));
     app.require_subcommand(1);

@@ -1,4 +1,5 @@
 #include "apps/commands/command.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@ namespace listric {
 Command add_scenes(CLI::App& program) {
     return {program.add_subcommand("scenes", "List the scenes"), [] {
                 for (const auto& [name, description] : list_scenes())
-                    std::cout << fmt::format("{:<12} {}\n", name, description);
+                    std::cout << fmt::format("{:<12} {}\n", shown(name), shown(description));
                 return ExitCode::done;
             }};
 }

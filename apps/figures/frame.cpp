@@ -10,6 +10,7 @@
 #include "apps/measures/rock_behaviour.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/json_text.hpp"
 #include "apps/support/npy.hpp"
 #include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
@@ -59,7 +60,7 @@ public:
     }
 
     void json(const nlohmann::json& frame) const {
-        write_text(folder_ / "frame.json", frame.dump(1));
+        write_text(folder_ / "frame.json", to_text(frame, 1));
     }
 
 private:

@@ -1,14 +1,14 @@
 #include "apps/figures/picture_order.hpp"
 
+#include "apps/support/json_text.hpp"
 #include "apps/support/version.hpp"
 
 namespace listric {
 
 std::string PictureOrder::text() const {
-    return nlohmann::ordered_json{{"formats", formats},
-                                  {"software", "Listric " + std::string(version)},
-                                  {"provenance", provenance}}
-        .dump();
+    return to_text(nlohmann::ordered_json{{"formats", formats},
+                                          {"software", "Listric " + std::string(version)},
+                                          {"provenance", provenance}});
 }
 
 } // namespace listric

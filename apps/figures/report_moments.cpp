@@ -10,6 +10,7 @@
 #include "apps/support/base64.hpp"
 #include "apps/support/deflate.hpp"
 #include "apps/support/fineness.hpp"
+#include "apps/support/json_text.hpp"
 #include "dem/contacts.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/monitor.hpp"
@@ -191,7 +192,7 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
         if (part.effect->draw)
             for (const FigureLayer& layer : part.effect->draw(now))
                 lines["layers"][layer.name] = {{"columns", layer.columns}, {"rows", layer.rows}};
-    const std::string text = lines.dump();
+    const std::string text = to_text(lines);
     const auto* const bytes = reinterpret_cast<const unsigned char*>(text.data());
     return {base64(deflated({bytes, text.size()}, compression)), followed};
 }
@@ -200,7 +201,7 @@ std::string report_scales(double mean_radius) {
     json list;
     for (const auto& [name, scale] : scales(mean_radius))
         list[name] = {{"step", scale.step}, {"root", scale.root}};
-    return list.dump();
+    return to_text(list);
 }
 
 /// Which of the bonds of the moment before are left, in their order, and the new ones: the lower

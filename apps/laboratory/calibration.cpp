@@ -1,10 +1,12 @@
 #include "apps/laboratory/calibration.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/output_folder.hpp"
 #include "apps/laboratory/calibration_fit.hpp"
 #include "apps/laboratory/envelope.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
@@ -125,6 +127,9 @@ Json validate(Calibration& c, Rocks& rocks, const CalibrationRequest& request) {
 
 void run_calibration(const CalibrationRequest& request) {
     request.targets.check();
+    if (const std::string why = objection_to_name(request.name); !why.empty())
+        throw UsageError(fmt::format("--name \"{}\": {}, allowed: the name of one file",
+                                     shown(request.name), why));
     check_sample(request.discs, request.seed, request.seeds);
     const fs::path output =
         request.output.empty() ? fs::path("out") / ("calibrate-" + request.name) : request.output;
@@ -153,7 +158,7 @@ void run_calibration(const CalibrationRequest& request) {
     if (rocks.weak)
         write_text(output / (rocks.weak->name + ".toml"), to_toml(*rocks.weak));
     write_text(material, to_toml(rocks.sound));
-    write_text(output / "summary.json", summary.dump(2) + "\n");
+    write_object(output / "summary.json", summary);
     for (const std::string& miss : c.misses)
         std::cout << "not reached: " << miss << '\n';
     std::cout << "written: " << material.string() << '\n';

@@ -1,5 +1,6 @@
 #include "apps/laboratory/calibration_fit.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/laboratory/envelope.hpp"
 #include "apps/laboratory/gauss_newton.hpp"
 #include "apps/support/error.hpp"
@@ -9,8 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <fstream>
 
 namespace listric {
 
@@ -38,6 +39,16 @@ nlohmann::json key(const Laboratory& lab, const RockMaterial& rock, bool strengt
     return k;
 }
 
+/// Whether an entry of a file is as CalibrationHistory writes it.
+bool is_measurement(const JsonObject& entry) {
+    if (!entry.is_object() || !entry.contains("what") || !entry.contains("of") ||
+        !entry.contains("result"))
+        return false;
+    const JsonObject& result = entry["result"];
+    return result.is_array() &&
+           std::ranges::all_of(result, [](const JsonObject& value) { return value.is_number(); });
+}
+
 } // namespace
 
 const std::vector<double> Calibration::confining = {25e6, 100e6, 200e6};
@@ -45,27 +56,31 @@ const std::vector<double> Calibration::normal = {50e6, 200e6};
 
 CalibrationHistory::CalibrationHistory(std::filesystem::path file, bool resume)
     : file_(std::move(file)) {
-    std::ifstream in(file_);
-    if (resume && in) {
-        entries_ = nlohmann::json::parse(in, nullptr, false);
-        if (!entries_.is_array())
-            throw StorageError(file_.string() + ": not the history of a calibration");
-    }
+    std::error_code error;
+    if (!resume || !std::filesystem::exists(file_, error))
+        return;
+    const JsonObject found = parse_json(read_text(file_));
+    if (!found.is_array() || !std::ranges::all_of(found, is_measurement))
+        throw StorageError(file_.string() + ": is not the history of a calibration; without it "
+                                            "the measurements are made anew");
+    entries_ = nlohmann::json(found); // which compares objects whatever their keys' order
 }
 
 std::vector<double> CalibrationHistory::measure(const std::string& what, const nlohmann::json& key,
+                                                std::size_t count,
                                                 const std::function<std::vector<double>()>& work) {
     for (const nlohmann::json& entry : entries_)
-        if (entry["what"] == what && entry["of"] == key)
+        if (entry["what"] == what && entry["of"] == key && entry["result"].size() == count)
             return entry["result"].get<std::vector<double>>();
-    const std::vector<double> result = work();
+    std::vector<double> result = work();
+    assert(result.size() == count);
     entries_.push_back({{"what", what}, {"of", key}, {"result", result}});
-    write_text(file_, entries_.dump(1) + "\n");
+    write_text(file_, to_text(entries_, 1) + "\n");
     return result;
 }
 
 Calibration::PlaneStrain Calibration::elastic(const RockMaterial& rock) {
-    const auto r = history.measure("elasticity", key(lab, rock, false), [&] {
+    const auto r = history.measure("elasticity", key(lab, rock, false), 2, [&] {
         const auto curves = lab.uniaxial(rock, lab.make_samples(rock.material));
         std::vector<double> e, nu;
         for (const auto& curve : curves) {
@@ -82,7 +97,7 @@ Calibration::PlaneStrain Calibration::elastic(const RockMaterial& rock) {
 }
 
 std::vector<double> Calibration::strength(const RockMaterial& rock) {
-    const auto r = history.measure("strength", key(lab, rock, true), [&] {
+    const auto r = history.measure("strength", key(lab, rock, true), confining.size(), [&] {
         const auto curves = lab.biaxial(rock, lab.make_samples(rock.material), confining);
         std::vector<double> means;
         for (const auto& by_seed : curves) {
@@ -102,7 +117,7 @@ std::vector<double> Calibration::strength(const RockMaterial& rock) {
 std::vector<double> Calibration::bulk_friction(const RockMaterial& weak, const RockMaterial& vice) {
     nlohmann::json k = key(lab, weak, false);
     k["vice"] = key(lab, vice, true);
-    const auto r = history.measure("bulk friction", k, [&] {
+    const auto r = history.measure("bulk friction", k, normal.size(), [&] {
         Laboratory box = lab;
         box.sample = shear_box_sample(lab.sample.discs);
         const auto sheared =

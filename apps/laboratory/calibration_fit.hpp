@@ -20,7 +20,9 @@ public:
     /// Throws StorageError if the file to resume from is no history.
     CalibrationHistory(std::filesystem::path file, bool resume);
 
+    /// @param count  of the numbers that the work gives
     std::vector<double> measure(const std::string& what, const nlohmann::json& key,
+                                std::size_t count,
                                 const std::function<std::vector<double>()>& work);
 
     std::size_t size() const { return entries_.size(); }

@@ -1,5 +1,6 @@
 #include "apps/laboratory/laboratory.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/output_folder.hpp"
 #include "apps/laboratory/report.hpp"
 #include "apps/laboratory/slab_sweep.hpp"
@@ -166,7 +167,7 @@ void run_laboratory(const LaboratoryRequest& request) {
                       {"floaters", request.floaters}, {"set", changes}};
     carry_out(report, request, test);
     report.summary["wall_s"] = seconds_since(started);
-    write_text(output / "summary.json", report.summary.dump(2) + "\n");
+    write_object(output / "summary.json", report.summary);
     draw_or_warn("laboratory.py", {std::filesystem::absolute(output).string()});
 }
 

@@ -122,12 +122,13 @@ StretchedSlab stretch_slab(const Scene& scene, RunOptions options) {
     options.report = false;
     if (run_scene(scene, options) != RunOutcome::finished)
         throw Interrupted{};
-    const auto summary = read_json(options.output / "summary.json");
+    const JsonObject summary = read_object(options.output / "summary.json");
+    const auto number = [&](const char* key) { return number_at(summary, key).value_or(0.0); };
     StretchedSlab slab;
-    slab.strain_top10 = summary.value("strain_top10", 0.0);
-    slab.strain_top10_cumulative = summary.value("strain_top10_cumulative", 0.0);
-    slab.weak_fraction = summary.value("weak_fraction", 0.0);
-    slab.unbalanced_ratio = summary.value("unbalanced_ratio_mean", 0.0);
+    slab.strain_top10 = number("strain_top10");
+    slab.strain_top10_cumulative = number("strain_top10_cumulative");
+    slab.weak_fraction = number("weak_fraction");
+    slab.unbalanced_ratio = number("unbalanced_ratio_mean");
     const auto snapshots = run_moments(options.output).snapshots;
     std::vector<DiscPlaces> states;
     for (const auto& path : snapshots)

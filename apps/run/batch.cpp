@@ -1,6 +1,7 @@
 #include "apps/run/batch.hpp"
 
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/provenance.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/file.hpp"
@@ -31,25 +32,53 @@ namespace fs = std::filesystem;
 
 fs::path failure_of(const BatchRun& run) { return run.options.output / "failure.json"; }
 
+/// What a run has failed in before.
+struct Failure {
+    BatchEnding ending;
+    std::string scene_hash; ///< of the scene that failed
+};
+
+/// None if it has not failed, or a file says so that is none of ours.
+std::optional<Failure> read_failure(const BatchRun& run) {
+    const JsonObject file = object_in(failure_of(run));
+    const auto code = number_at(file, "exit_code");
+    const std::string reason = text_at(file, "reason"), scene_hash = text_at(file, "scene_hash");
+    if (!code || reason.empty() || scene_hash.empty())
+        return std::nullopt;
+    return Failure{{static_cast<int>(std::clamp(*code, 0.0, 255.0)), reason}, scene_hash};
+}
+
+std::string hash_of(const Scene& scene) {
+    return fmt::format("{:016x}", archive::scene_hash(scene));
+}
+
+/// Whether numerics have failed in that: there is no use in making such a run again.
+bool is_final(const Failure& failure) {
+    return failure.ending.exit_code == static_cast<int>(ExitCode::numerics_failed);
+}
+
 /// How a run ended before, if there is no use in making it again.
 std::optional<BatchEnding> known_ending(const BatchRun& run) {
-    std::error_code error;
-    if (!fs::exists(failure_of(run), error))
-        return std::nullopt;
-    const auto failure = read_json(failure_of(run));
-    if (failure.value("exit_code", 0) == static_cast<int>(ExitCode::numerics_failed))
-        return BatchEnding{failure.at("exit_code"), failure.value("reason", "")};
-    fs::remove(failure_of(run), error);
+    const auto failure = read_failure(run);
+    if (failure && is_final(*failure) && failure->scene_hash == hash_of(run.scene))
+        return failure->ending;
     return std::nullopt;
 }
 
 /// Makes a run; leaves what went wrong in its folder. Returns the process' exit code.
 int make(const BatchRun& run) {
     Ending ending{ExitCode::done, ""};
+    const std::string scene_hash = hash_of(run.scene);
     try {
-        fs::create_directories(run.options.output);
+        make_folder(run.options.output);
         RunOptions options = run.options;
-        options.resume = true;
+        // What failed with other parameters is of no use to these; what is finished with others is
+        // somebody's, and refused.
+        const auto failure = read_failure(run);
+        options.force = failure && is_final(*failure) && failure->scene_hash != scene_hash;
+        options.resume = !options.force;
+        std::error_code ignored;
+        fs::remove(failure_of(run), ignored);
         if (run_scene(run.scene, options) == RunOutcome::interrupted)
             ending.code = ExitCode::interrupted;
     } catch (...) {
@@ -59,8 +88,8 @@ int make(const BatchRun& run) {
     if (!ending.message.empty()) {
         const std::string reason = ending.message.substr(0, ending.message.find('\n'));
         try {
-            const nlohmann::ordered_json failure = {{"exit_code", code}, {"reason", reason}};
-            write_text(failure_of(run), failure.dump(2) + "\n");
+            write_object(failure_of(run),
+                         {{"exit_code", code}, {"reason", reason}, {"scene_hash", scene_hash}});
         } catch (const StorageError&) {
             // the exit code says it
         }
@@ -123,15 +152,14 @@ private:
 
 BatchEnding ending_of_process(const BatchRun& run, int exit_code) {
     BatchEnding ending{exit_code};
-    std::error_code error;
     if (exit_code == 0)
         return ending;
     if (exit_code == static_cast<int>(ExitCode::interrupted))
         ending.reason = "interrupted";
     else if (exit_code > 128)
         ending.reason = fmt::format("ended by signal {}", exit_code - 128);
-    else if (fs::exists(failure_of(run), error))
-        ending.reason = read_json(failure_of(run)).value("reason", "");
+    else if (const auto failure = read_failure(run))
+        ending.reason = failure->ending.reason;
     if (ending.reason.empty())
         ending.reason = fmt::format("ended with exit code {}", exit_code);
     return ending;

@@ -25,9 +25,9 @@ struct BatchEnding {
 
 /// Makes runs, each in a process of its own, `jobs` at a time, so that what ends one does not end
 /// the others. What is finished is not made again; nor is what numerics have failed in, which
-/// failure.json in its folder says: without that file it is. Throws Interrupted, once the runs
-/// under way have saved, and StorageError. The same call goes on from there; if this process is
-/// killed the runs save and stop, too (Linux).
+/// failure.json in its folder says of the same scene: without that file, or of another scene, it
+/// is. Throws Interrupted, once the runs under way have saved, and StorageError. The same call goes
+/// on from there; if this process is killed the runs save and stop, too (Linux).
 std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, int jobs, Log& log,
                                    StopToken stop);
 

@@ -2,6 +2,7 @@
 
 #include "apps/support/error.hpp"
 #include "apps/support/memory.hpp"
+#include "apps/support/text.hpp"
 #include "dem/cycle.hpp"
 #include "fem/footwall.hpp"
 
@@ -74,7 +75,7 @@ Ending ending_of(const std::exception_ptr& exception) {
 void tell(const Ending& ending) {
     if (ending.message.empty())
         return;
-    const std::string text = fmt::format("listric: {}\n", ending.message);
+    const std::string text = fmt::format("listric: {}\n", shown_lines(ending.message));
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }

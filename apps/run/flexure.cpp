@@ -1,5 +1,6 @@
 #include "apps/run/flexure.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/figures/flexure_figure.hpp"
 #include "apps/figures/paraview.hpp"
@@ -334,7 +335,7 @@ void bend_base(const Scene& scene, int threads, const fs::path& output,
         json["time_by_part_s"] = {{"base", solving},
                                   {"figures", drawing},
                                   {"other", std::max(0.0, all - solving - drawing)}};
-        write_text(output / "summary.json", json.dump(2) + "\n");
+        write_object(output / "summary.json", json);
     };
     write_summary(0.0); // the picture's legend reads it
     const auto drawing = SteadyClock::now();

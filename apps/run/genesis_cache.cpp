@@ -4,6 +4,8 @@
 #include "apps/model/model.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/cache_folder.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/version.hpp"
 #include "dem/genesis.hpp"
 #include "dem/hash.hpp"
@@ -15,6 +17,8 @@
 #include <cstdint>
 #include <fcntl.h>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <sys/file.h>
 #include <system_error>
@@ -30,26 +34,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<State> recall(const fs::path& cache, const std::vector<Material>& materials,
-                            Log& log) {
+/// All that a hanging wall depends on, as text: it is kept with it.
+std::string asked_for(const Scene& scene, const ModelParts& parts) {
+    // The time step is that of the stiffest material, also of those that discs become later.
+    return fmt::format("{}\n# {} {} {} {} {}\n", to_toml(genesis_of(scene)),
+                       stable_time_step(1.0, parts.materials, 0.0, 1.0), source_hash, compiler,
+                       build_flags, instruction_set);
+}
+
+/// What was kept in a file, if that is what is asked for: of the name alone nothing is believed.
+std::optional<State> recall(const fs::path& cache, const std::string& asked,
+                            const std::vector<Material>& materials, Log& log) {
     std::error_code ignored;
     if (!fs::exists(cache, ignored))
         return std::nullopt;
     try {
-        State state = read_snapshot(cache).state;
-        state.materials = materials;
+        Snapshot kept = read_snapshot(cache);
+        if (kept.record.scene != asked)
+            throw StorageError(cache.string() + ": is of another one");
+        kept.state.materials = materials;
         log.say("hanging wall: kept from an earlier run, " + cache.string());
-        return state;
-    } catch (const StorageError& error) {
+        return std::move(kept.state);
+    } catch (const std::runtime_error& error) {
         log.say(std::string("warning: the kept hanging wall is made anew: ") + error.what());
         return std::nullopt;
     }
 }
 
-void keep(const State& state, const fs::path& cache, Log& log) {
+void keep(const State& state, const fs::path& cache, const std::string& asked, Log& log) {
     try {
-        fs::create_directories(cache.parent_path());
-        write_snapshot(cache, state, {}, {});
+        make_folder(cache.parent_path());
+        RunRecord record;
+        record.scene = asked;
+        write_snapshot(cache, state, {}, record);
     } catch (const std::exception& error) {
         log.say(std::string("warning: the hanging wall cannot be kept for later runs: ") +
                 error.what());
@@ -64,7 +81,8 @@ public:
     MakingLock(const fs::path& cache, Log& log, StopToken stop) {
         std::error_code ignored;
         fs::create_directories(cache.parent_path(), ignored);
-        file_ = open((cache.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        file_ = open((cache.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC,
+                     0666);
         while (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             if (!has_waited_)
                 log.say("hanging wall: another run makes it");
@@ -90,26 +108,8 @@ private:
     bool has_waited_ = false;
 };
 
-} // namespace
-
-fs::path genesis_cache_path(const Scene& scene, const ModelParts& parts) {
-    std::uint64_t key = fnv1a(to_toml(genesis_of(scene)));
-    // The time step is that of the stiffest material, also of those that discs become later.
-    key = fnv1a(fmt::format("{}", stable_time_step(1.0, parts.materials, 0.0, 1.0)), key);
-    for (const std::string_view text : {source_hash, compiler, build_flags, instruction_set})
-        key = fnv1a(text, key);
-    return cache_folder() / fmt::format("genesis-{:016x}.h5", key);
-}
-
-State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, Log& log,
-                                  StopToken stop, int threads) {
-    const fs::path cache = genesis_cache_path(scene, parts);
-    if (auto state = recall(cache, parts.materials, log))
-        return std::move(*state);
-    const MakingLock lock(cache, log, stop);
-    if (lock.has_waited())
-        if (auto state = recall(cache, parts.materials, log))
-            return std::move(*state);
+State make_anew(const Scene& scene, const ModelParts& parts, Log& log, const StopToken& stop,
+                int threads) {
     // The hanging wall comes to rest on a base that does too, so its mean motion is none.
     const GenesisRequest request{
         .hanging_wall = *scene.hanging_wall,
@@ -122,12 +122,39 @@ State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, L
         .skin = scene.cycle.skin,
         .seed = scene.seed,
         .execution = {.threads = threads}};
-    State state = make_hanging_wall(request, [&](std::string_view stage, double share) {
+    return make_hanging_wall(request, [&](std::string_view stage, double share) {
         if (stop.requested())
             throw Interrupted{};
         log.progress(fmt::format("hanging wall: {} ({:.0f} %)", stage, 100.0 * share));
     });
-    keep(state, cache, log);
+}
+
+} // namespace
+
+fs::path genesis_cache_path(const Scene& scene, const ModelParts& parts) {
+    const fs::path folder = cache_folder();
+    if (folder.empty())
+        return {};
+    return folder / fmt::format("genesis-{:016x}.h5", fnv1a(asked_for(scene, parts)));
+}
+
+State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, Log& log,
+                                  StopToken stop, int threads) {
+    const fs::path cache = genesis_cache_path(scene, parts);
+    if (cache.empty()) {
+        log.say("warning: the hanging wall cannot be kept for later runs: HOME is not set, and "
+                "there is no folder for temporary files; XDG_CACHE_HOME may name one");
+        return make_anew(scene, parts, log, stop, threads);
+    }
+    const std::string asked = asked_for(scene, parts);
+    if (auto state = recall(cache, asked, parts.materials, log))
+        return std::move(*state);
+    const MakingLock lock(cache, log, stop);
+    if (lock.has_waited())
+        if (auto state = recall(cache, asked, parts.materials, log))
+            return std::move(*state);
+    State state = make_anew(scene, parts, log, stop, threads);
+    keep(state, cache, asked, log);
     return state;
 }
 

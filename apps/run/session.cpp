@@ -1,6 +1,7 @@
 #include "apps/run/session.hpp"
 
 #include "apps/archive/examine.hpp"
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/archive/run_files.hpp"
 #include "apps/archive/run_folder.hpp"
@@ -373,10 +374,11 @@ void Session::write_status(const std::string& phase) const {
     const double left = phase == "finished" ? 0.0
                         : extension() > 0.0 ? std::max(0.0, wall_seconds() / share * (1.0 - share))
                                             : record_.predicted_seconds;
-    write_text(options_.output / "status.json",
-               fmt::format("{{\n \"phase\": \"{}\",\n \"extension_m\": {},\n \"of_m\": {},\n "
-                           "\"seconds_left\": {:.0f}\n}}\n",
-                           phase, extension(), target(), left));
+    write_object(options_.output / "status.json",
+                 {{"phase", phase},
+                  {"extension_m", extension()},
+                  {"of_m", target()},
+                  {"seconds_left", static_cast<std::int64_t>(left + 0.5)}});
 }
 
 /// The field below the discs: at the figures' moments, for a file of it is larger than the discs'.

@@ -3,6 +3,7 @@
 #include "apps/scene/pieces.hpp"
 #include "apps/scene/toml.hpp"
 #include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,9 @@ RockMaterial read_material(const std::filesystem::path& file,
         set(document, change, "--set " + change);
     RockMaterial rock;
     rock.name = file.stem().string();
+    if (const std::string why = objection_to_name(rock.name); !why.empty())
+        fail(fmt::format("{}:1: the file's name {}, and is the material's; rename the file",
+                         file.string(), why));
     rock.material.bondable = false;
     bool has_material = false;
     for (const auto& [key, node] : document) {

@@ -146,9 +146,27 @@ void check_needs(const Scene& scene, const toml::table& document, EffectList eff
         }
 }
 
+/// That picked points have both coordinates: files have them, but a scene.toml may be edited.
+void check_picks(const Scene& scene, const toml::table& document) {
+    const auto check = [&](const char* path, std::size_t x, std::size_t depth) {
+        if (x != depth)
+            fail(entry_at(document, path),
+                 fmt::format("has points of {} x_m and {} depth_m, needs as many", x, depth));
+    };
+    if (scene.picked_fault)
+        check("picked_fault", scene.picked_fault->x.size(), scene.picked_fault->depth.size());
+    if (!scene.observed)
+        return;
+    for (const PickedLine& line : scene.observed->horizons)
+        check("observed.horizon_lines", line.x.size(), line.depth.size());
+    for (const PickedLine& line : scene.observed->faults)
+        check("observed.fault_lines", line.x.size(), line.depth.size());
+}
+
 } // namespace
 
 void check_scene(const Scene& scene, const toml::table& document, EffectList effects) {
+    check_picks(scene, document);
     if (scene.flexure) {
         check_flexure(scene, document);
     } else {

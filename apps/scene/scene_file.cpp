@@ -6,6 +6,7 @@
 #include "apps/scene/scene_checks.hpp"
 #include "apps/scene/tables.hpp"
 #include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -172,9 +173,9 @@ void read_files(Scene& scene, const SceneTable& table, const toml::table& docume
         if (!node)
             continue;
         const Entry entry{*node, path};
-        if (!node->is_string())
-            fail_type(entry, "string");
-        const std::string& name = node->as_string()->get();
+        FileName given;
+        read(entry, file_name(parameter.key, parameter.doc), &given);
+        const std::string& name = given.file;
         if (name.empty())
             continue;
         const std::string file = located(name, node, folder);
@@ -305,6 +306,20 @@ void begin_scene(Scene& scene, const toml::table& document, const std::vector<Sc
             table.add(table, scene);
 }
 
+/// Results go into a folder of the scene's name, so it must be one.
+void check_name(const Scene& scene, const toml::table& document, const fs::path& file) {
+    const std::string why = objection_to_name(scene.name);
+    if (why.empty())
+        return;
+    constexpr const char* allowed = "allowed: the name of one folder, such as \"basin-1\"; "
+                                    "--output writes elsewhere";
+    if (const toml::node* node = document.get("name"))
+        fail({*node, "name"}, fmt::format("\"{}\" {}, {}", scene.name, why, allowed));
+    fail(fmt::format("{}:1: name: the file's own, \"{}\", {}, {}; add name = \"...\" or rename the "
+                     "file",
+                     file.string(), scene.name, why, allowed));
+}
+
 void set_accuracy(Scene& scene) {
     const AccuracyLevel& level =
         *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
@@ -328,6 +343,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     scene.name = path.stem().string();
     refuse_former_keys(document, effects);
     begin_scene(scene, document, all);
+    if (!request.is_record)
+        check_name(scene, document, path);
     set_accuracy(scene);
     Rocks rocks(document, effects, path.parent_path());
     take_rocks(scene, rocks, effects);

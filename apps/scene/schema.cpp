@@ -4,9 +4,9 @@
 #include "apps/scene/pieces.hpp"
 #include "apps/scene/tables.hpp"
 #include "apps/scene/toml.hpp"
+#include "apps/support/json_text.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -200,7 +200,7 @@ void allow_sources(Json& detachment) {
 std::string finished(const char* title, const Json& schema) {
     Json document{{"$schema", "http://json-schema.org/draft-04/schema#"}, {"title", title}};
     document.update(schema);
-    return document.dump(1) + "\n";
+    return to_text(document, 1) + "\n";
 }
 
 } // namespace
@@ -209,6 +209,10 @@ std::string scene_schema(EffectList effects) {
     Scene scene;
     Json schema = table_of("", top_level(), &scene);
     Json& properties = schema["properties"];
+    // As objection_to_name() has it.
+    properties["name"].update({{"pattern", "^[^/\\x00-\\x1f\\x7f-\\x9f]+$"},
+                               {"maxLength", 200},
+                               {"not", {{"enum", {".", ".."}}}}});
     properties["materials"] = materials_schema(effects);
     for (const SceneTable& table : scene_tables(effects)) {
         const void* part = table.add(table, scene);

@@ -331,7 +331,7 @@ const std::vector<Parameter>& top_level() {
         std::vector<std::string_view> levels;
         std::ranges::transform(accuracy_levels(), std::back_inserter(levels), &AccuracyLevel::name);
         return std::vector<Parameter>{
-            {"name", at<&Scene::name>, "", {}, "", "of results; default: the file's name"},
+            {"name", at<&Scene::name>, "", {}, "", "of results' folder; default: the file's name"},
             {"description", at<&Scene::description>, "", {}, "", "what the scene shows, in a line"},
             {"accuracy",
              one_of<&Scene::accuracy>(levels),

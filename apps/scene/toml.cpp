@@ -3,6 +3,7 @@
 #include "apps/scene/pieces.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +20,7 @@ using namespace dem;
 
 void fail(std::string message) {
     std::ranges::replace(message, '\n', ' ');
-    throw SceneError(message);
+    throw SceneError(shown(message)); // it may repeat what somebody wrote
 }
 
 namespace {
@@ -97,7 +98,10 @@ const toml::array& array(const Entry& entry, const Parameter& parameter) {
 const std::string& string(const Entry& entry, const Parameter& parameter) {
     if (!entry.node.is_string())
         fail_type(entry, type_of(parameter));
-    return entry.node.as_string()->get();
+    const std::string& text = entry.node.as_string()->get();
+    if (const auto place = unsound_byte(text)) // "\u0000" is TOML
+        fail(entry, fmt::format("\"{}\" {}", text, objection_to_byte(text, *place)));
+    return text;
 }
 
 dem::DetachmentSegment read_segment(const Entry& entry);

@@ -1,6 +1,7 @@
 #include "apps/studies/bench.hpp"
 
 #include "apps/support/error.hpp"
+#include "apps/support/json_text.hpp"
 #include "apps/support/memory.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "dem/contacts.hpp"
@@ -153,7 +154,7 @@ std::string bench(const BenchRequest& request) {
                                          {"steps", request.steps},
                                          {"disc_steps_per_s", disc_steps / wall_seconds},
                                          {"disc_steps_per_cpu_s", disc_steps / cpu_seconds}};
-    return json.dump();
+    return to_text(json);
 }
 
 } // namespace listric

@@ -1,6 +1,7 @@
 #include "apps/studies/plan_file.hpp"
 
 #include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
@@ -33,6 +34,18 @@ void read_values(const Entry& entry, const std::vector<Parameter>& parameters, v
 void need(const Entry& entry, const char* key, bool present) {
     if (!present)
         fail(entry, fmt::format("needs {}", key));
+}
+
+void need_name(const Entry& entry, const char* key, const std::string& name) {
+    need(entry, key, !name.empty());
+    std::string why = objection_to_name(name);
+    if (why.empty() && name.find_first_of(",\"") != name.npos)
+        why = "has a comma or a quotation mark, which does not fit into a table";
+    if (why.empty())
+        return;
+    const toml::node* node = entry.node.as_table()->get(key);
+    fail({node ? *node : entry.node, entry.path.empty() ? key : entry.path + "." + key},
+         fmt::format("\"{}\" {}, allowed: the name of one file or folder", name, why));
 }
 
 std::vector<Entry> tables(const Entry& parent, const char* key) {

@@ -20,6 +20,9 @@ void read_values(const Entry& entry, const std::vector<Parameter>& parameters, v
 /// Refuses a table whose key is not `present`. Throws SceneError.
 void need(const Entry& entry, const char* key, bool present);
 
+/// Refuses a text that is no name of a folder, and makes columns of a table. Throws SceneError.
+void need_name(const Entry& entry, const char* key, const std::string& name);
+
 /// The tables of the array `key`, if it is there, and their paths. Throws SceneError.
 std::vector<Entry> tables(const Entry& parent, const char* key);
 

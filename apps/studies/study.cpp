@@ -1,5 +1,6 @@
 #include "apps/studies/study.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
@@ -92,7 +93,7 @@ void run_study(StudyRequest request) {
         {"build_flags", build_flags}, {"threads", request.threads}, {"seeds", request.seeds},
     };
     write_text(request.output / "study.csv", to_csv(result));
-    write_text(request.output / "study.json", json.dump(2) + "\n");
+    write_object(request.output / "study.json", json);
     print(result);
     draw_or_warn("study.py", {std::filesystem::absolute(request.output).string()});
 }

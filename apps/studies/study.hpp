@@ -100,12 +100,12 @@ struct SeededRun {
 };
 
 /// The summaries of runs, which are made unless they are there; none where the numerics failed.
-std::vector<std::optional<nlohmann::json>> summaries_of_runs(const StudyRequest& request,
-                                                             std::span<const SeededRun> wanted);
+std::vector<std::optional<nlohmann::ordered_json>>
+summaries_of_runs(const StudyRequest& request, std::span<const SeededRun> wanted);
 
 /// The summary of one.
-std::optional<nlohmann::json> summary_of_run(const StudyRequest& request, const StudyRun& run,
-                                             std::int64_t seed);
+std::optional<nlohmann::ordered_json> summary_of_run(const StudyRequest& request,
+                                                     const StudyRun& run, std::int64_t seed);
 
 /// What errors are measured in.
 struct StudyQuantity {

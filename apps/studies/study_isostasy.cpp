@@ -1,5 +1,6 @@
 // How the flank rises with the elastic thickness of the footwall.
 
+#include "apps/archive/json_file.hpp"
 #include "apps/studies/study.hpp"
 
 #include "apps/archive/run_folder.hpp"
@@ -14,7 +15,6 @@
 #include "fem/plate.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -104,11 +104,11 @@ fem::Plate plate_of(const Scene& scene, double thickness) {
 struct IsostasyRun {
     const Fill& fill;
     std::int64_t seed;
-    nlohmann::json summary;
+    JsonObject summary;
     fem::Plate plate;
     LastWindow last;
 
-    double value(const char* name) const { return summary.at(name).get<double>(); }
+    double value(const char* name) const { return need_number(summary, name); }
 
     /// The plate's deflection under the loads as they are spread, where the breakaway is, m.
     double at_breakaway(fem::PlateKind kind) const {
@@ -127,10 +127,10 @@ struct IsostasyRun {
             "{:.3f},{:.0f},{:.3f},{:.3g},{:.3g}\n",
             fill.name, plate.thickness, seed, value("footwall_uplift_m"),
             value("base_deflection_max_m"), value("net_wall_load_n_per_m"),
-            value("net_wall_load_error"), summary.value(water_load, 0.0), at_breakaway(continuous),
-            at_breakaway(broken), local_compensation(plate, last.loads), end.thickness, end.misfit,
-            whole.thickness, whole.misfit, value("strong_rock_strain_max"),
-            value("relaxed_rock_strain_max"));
+            value("net_wall_load_error"), number_at(summary, water_load.c_str()).value_or(0.0),
+            at_breakaway(continuous), at_breakaway(broken), local_compensation(plate, last.loads),
+            end.thickness, end.misfit, whole.thickness, whole.misfit,
+            value("strong_rock_strain_max"), value("relaxed_rock_strain_max"));
     }
 
     StudyPoint point() const {

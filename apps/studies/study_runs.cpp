@@ -22,7 +22,7 @@ using namespace dem;
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = JsonObject;
 using Values = std::vector<double>; ///< one number, or the coordinates of a place
 
 constexpr double graben_from = 12e3; ///< x beyond which a depocentre is the collapse graben's, m
@@ -30,24 +30,25 @@ constexpr double graben_from = 12e3; ///< x beyond which a depocentre is the col
 /// A quantity of a finished run; nothing where it has no meaning.
 std::optional<Values> value_of(const Json& summary, const std::string& quantity) {
     if (quantity == "cutoff")
-        return Values{summary.at("cutoff_x_m"), summary.at("cutoff_z_m")};
+        return Values{need_number(summary, "cutoff_x_m"), need_number(summary, "cutoff_z_m")};
     if (quantity == "depocentre") {
         const auto found = summary.find("depocentres");
         if (found == summary.end())
             return std::nullopt;
-        const Json* best = nullptr;
-        for (const Json& place : *found)
-            if (place.at("x_m") > graben_from &&
-                (!best || place.at("prominence_m") > best->at("prominence_m")))
-                best = &place;
-        if (!best)
-            return std::nullopt;
-        return Values{best->at("x_m"), best->at("thickness_m")};
+        std::optional<Values> best;
+        double most = 0.0;
+        for (const Json& place : *found) {
+            const double x = need_number(place, "x_m"),
+                         prominence = need_number(place, "prominence_m");
+            if (x > graben_from && (!best || prominence > most)) {
+                best = Values{x, need_number(place, "thickness_m")};
+                most = prominence;
+            }
+        }
+        return best;
     }
-    const auto found = summary.find(quantity);
-    if (found == summary.end())
-        return std::nullopt;
-    return Values{found->get<double>()};
+    const auto number = number_at(summary, quantity.c_str());
+    return number ? std::optional(Values{*number}) : std::nullopt;
 }
 
 double distance(const Values& a, const Values& b) {
@@ -79,9 +80,10 @@ void add_costs(const std::vector<std::optional<Json>>& seeds, StudyPoint& point)
     double counted = 0.0;
     for (const auto& summary : seeds)
         if (summary) {
-            const double wall = summary->at("wall_s");
-            point.wall += wall - summary->at("time_by_part_s").value("figures", 0.0);
-            point.disc_steps += wall * summary->at("disc_steps_per_s").get<double>();
+            const double wall = need_number(*summary, "wall_s");
+            point.wall +=
+                wall - number_at(object_at(*summary, "time_by_part_s"), "figures").value_or(0.0);
+            point.disc_steps += wall * need_number(*summary, "disc_steps_per_s");
             counted += 1.0;
         }
     point.wall /= std::max(1.0, counted);
@@ -146,7 +148,7 @@ std::vector<std::optional<Json>> summaries_of_runs(const StudyRequest& request,
             continue;
         }
         require_finished(runs[k], endings[k]);
-        summaries.emplace_back(read_json(runs[k].options.output / "summary.json"));
+        summaries.emplace_back(read_object(runs[k].options.output / "summary.json"));
     }
     return summaries;
 }

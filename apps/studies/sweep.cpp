@@ -35,7 +35,7 @@ constexpr std::size_t most_on_sheet = 100;
 
 /// The measures of a finished run, none where it has no such number.
 std::vector<std::optional<double>> measures_of(const SweepPlan& plan, const fs::path& folder,
-                                               const nlohmann::json& summary) {
+                                               const JsonObject& summary) {
     std::set<double> extensions;
     for (const SweepMeasure& measure : plan.measures)
         if (measure.at)
@@ -47,9 +47,7 @@ std::vector<std::optional<double>> measures_of(const SweepPlan& plan, const fs::
     for (const SweepMeasure& measure : plan.measures) {
         values.emplace_back();
         if (!measure.at) {
-            const auto found = summary.find(measure.name);
-            if (found != summary.end() && found->is_number())
-                values.back() = found->get<double>();
+            values.back() = number_at(summary, measure.name.c_str());
             continue;
         }
         for (const auto& [extension, numbers] : earlier)
@@ -139,8 +137,8 @@ private:
                 rows[k].measures.resize(plan_.measures.size());
                 continue;
             }
-            const nlohmann::json summary = read_json(rows[k].folder / "summary.json");
-            rows[k].state_hash = summary.value("state_hash", "");
+            const JsonObject summary = read_object(rows[k].folder / "summary.json");
+            rows[k].state_hash = text_at(summary, "state_hash");
             rows[k].measures = measures_of(plan_, rows[k].folder, summary);
         }
         return rows;

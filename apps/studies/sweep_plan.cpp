@@ -4,6 +4,7 @@
 #include "apps/scene/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/number.hpp"
+#include "apps/support/text.hpp"
 #include "dem/random.hpp"
 
 #include <fmt/format.h>
@@ -52,8 +53,10 @@ const std::vector<Parameter>& plan_parameters() {
 
 SweepValue value_of(const Entry& entry) {
     if (const auto* word = entry.node.as_string()) {
-        if (word->get().find_first_of(",\"\n") != std::string::npos)
-            fail(entry, "a comma, a quotation mark or a line's end does not fit into a table");
+        if (word->get().find_first_of(",\"") != std::string::npos ||
+            shown(word->get()) != word->get())
+            fail(entry,
+                 "a comma, a quotation mark or a control character does not fit into a table");
         return {word->get(), quoted(word->get()), std::nullopt};
     }
     if (const auto* yes = entry.node.as_boolean()) {
@@ -135,7 +138,8 @@ SweepMeasure read_measure(const Entry& entry) {
         fail_type(entry, "the name of a measure, NAME or NAME@METRES");
     SweepMeasure measure{text->get(), text->get(), std::nullopt};
     const std::size_t sign = measure.text.find('@');
-    if (measure.text.empty() || measure.text.find_first_of(", \"\n") != std::string::npos)
+    if (measure.text.empty() || measure.text.find_first_of(", \"") != std::string::npos ||
+        shown(measure.text) != measure.text)
         fail(entry, "is no name of a measure (docs/measures.md)");
     if (sign == std::string::npos)
         return measure;
@@ -191,6 +195,8 @@ SweepPlan load_sweep_plan(const std::filesystem::path& file) {
     read_values(top, plan_parameters(), &text, {"measures", "vary"});
     SweepPlan& plan = text.plan;
     plan.name = file.stem().string();
+    if (const std::string why = objection_to_name("sweep-" + plan.name); !why.empty())
+        fail(fmt::format("{}:1: the plan's file name {}; rename it", file.string(), why));
     plan.set = words(text.set);
     plan.without = words(text.without);
     need(top, "scene", !plan.scene.empty());

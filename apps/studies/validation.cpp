@@ -1,6 +1,8 @@
 #include "apps/studies/validation.hpp"
 
 #include "apps/archive/examine.hpp"
+#include "apps/archive/json_file.hpp"
+#include "apps/archive/provenance.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/figures/figures.hpp"
@@ -10,6 +12,7 @@
 #include "apps/studies/validation_plan.hpp"
 #include "apps/studies/validation_report.hpp"
 #include "apps/studies/validation_store.hpp"
+#include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/resources.hpp"
@@ -18,11 +21,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 
 namespace listric {
@@ -42,19 +43,19 @@ struct FinishedRun {
 
 /// Throws UsageError if the folder has a run of another accuracy or seed.
 FinishedRun finished_run(const fs::path& folder, const std::string& accuracy, int seed) {
-    std::ifstream in(folder / "summary.json");
-    const auto json = nlohmann::json::parse(in, nullptr, false);
-    if (!json.is_object() || !json.value("finished", false))
+    const JsonObject json = object_in(folder / "summary.json");
+    if (!is_true_at(json, "finished"))
         return {};
-    const std::string has = json.value("accuracy", "");
-    if (has != accuracy || json.value("seed", -1) != seed)
+    const std::string has = text_at(json, "accuracy");
+    const double has_seed = number_at(json, "seed").value_or(-1.0);
+    if (has != accuracy || has_seed != seed)
         throw UsageError(fmt::format("{}: a run at {} with seed {}, but {} with seed {} is wanted; "
                                      "--runs may name another folder",
-                                     folder.string(), has, json.value("seed", -1), accuracy, seed));
-    const auto from = json.value("provenance", nlohmann::json::object());
-    const std::string commit = from.value("commit", "");
-    return {json.value("state_hash", ""),
-            from.value("version", "") + (commit.empty() ? "" : "+" + commit)};
+                                     folder.string(), has, has_seed, accuracy, seed));
+    const JsonObject from = object_at(json, "provenance");
+    const std::string commit = text_at(from, "commit");
+    return {text_at(json, "state_hash"),
+            text_at(from, "version") + (commit.empty() ? "" : "+" + commit)};
 }
 
 fs::path document_of(const ValidationRequest& request, const fs::path& runs) {
@@ -149,6 +150,34 @@ private:
         return finished_run(folder_of(run, seed), accuracy_of(run), seed);
     }
 
+    Scene scene_of(const ValidationRun& run, int seed) const {
+        SceneRequest scene;
+        scene.scene = run.scene;
+        scene.set = run.set;
+        scene.without = run.without;
+        scene.accuracy = accuracy_of(run);
+        scene.seed = seed;
+        return load_scene(scene);
+    }
+
+    /// Refuses a finished run that was made by another plan. A scene that this program cannot read
+    /// any more says nothing.
+    void check_scene_of(const ValidationRun& run, int seed) const {
+        const fs::path file = folder_of(run, seed) / "scene.toml";
+        Scene then;
+        try {
+            then = load_scene({.scene = file.string(), .is_record = true});
+        } catch (const SceneError&) {
+            return;
+        }
+        Scene now = scene_of(run, seed);
+        then.description = now.description;
+        if (scene_hash(then) != scene_hash(now))
+            throw UsageError(fmt::format("{}: a run with other parameters than the plan has; "
+                                         "--runs may name another folder",
+                                         file.string()));
+    }
+
     /// Makes the runs that are not there.
     void make_missing(const std::set<std::string>& names) {
         std::vector<BatchRun> runs;
@@ -157,19 +186,13 @@ private:
             for (int seed : findings_.seeds_of(run)) {
                 if (!finished(run, seed).hash.empty())
                     continue;
-                SceneRequest scene;
-                scene.scene = run.scene;
-                scene.set = run.set;
-                scene.without = run.without;
-                scene.accuracy = accuracy_of(run);
-                scene.seed = seed;
                 RunOptions options;
                 options.output = folder_of(run, seed);
                 options.threads = request_.threads;
                 options.quiet = request_.jobs > 1;
                 options.report = false;
                 options.stop = request_.stop;
-                runs.push_back({run_name(run.name, seed), load_scene(scene), std::move(options)});
+                runs.push_back({run_name(run.name, seed), scene_of(run, seed), std::move(options)});
             }
         }
         const std::vector<BatchEnding> endings =
@@ -185,6 +208,7 @@ private:
             const auto [hash, made_by] = finished(run, seed);
             if (hash.empty())
                 continue;
+            check_scene_of(run, seed);
             findings_.finished.insert(run_name(run.name, seed));
             const bool anew = request_.remeasure && !renewed_.contains(run.name);
             const bool known = !anew && std::ranges::all_of(run.at, [&](double at) {

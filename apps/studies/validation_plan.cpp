@@ -44,7 +44,7 @@ ValidationRun read_run(const Entry& entry) {
     ValidationRun& run = text.run;
     run.set = words(text.set);
     run.without = words(text.without);
-    need(entry, "name", !run.name.empty());
+    need_name(entry, "name", run.name);
     need(entry, "scene", !run.scene.empty());
     need(entry, "at_m", !run.at.empty());
     return run;
@@ -88,7 +88,7 @@ ValidationPicture read_picture(const Entry& entry) {
                 {{"name", at<&ValidationPicture::name>, "", {}, "", "of the file"},
                  {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}},
                 &picture, {"rows"});
-    need(entry, "name", !picture.name.empty());
+    need_name(entry, "name", picture.name);
     for (const Entry& item : tables(entry, "rows")) {
         using Row = ValidationPicture::Row;
         Row row;

@@ -2,30 +2,64 @@
 
 #include "apps/support/error.hpp"
 
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
-#include <iterator>
+#include <optional>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 namespace listric {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// A new file beside `path` to be written, NAME.NUMBER.part, and its name. What has such a name
+/// already is somebody's, be it a link to what must not be overwritten: then another number is
+/// taken. Throws StorageError.
+std::pair<int, fs::path> open_part(const fs::path& path) {
+    constexpr int most_tries = 1000;
+    for (int k = 0; k < most_tries; ++k) {
+        const std::string number = std::to_string(getpid()) + (k == 0 ? "" : std::to_string(k));
+        fs::path part = path.string() + "." + number + ".part";
+        const int file =
+            open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file >= 0)
+            return {file, std::move(part)};
+        if (errno != EEXIST)
+            break;
+    }
+    throw StorageError(path.string() + ": cannot write: " + std::strerror(errno));
+}
+
+/// All of a file; nothing of what is not there or no file.
+std::optional<std::string> text_of(const fs::path& path) {
+    errno = 0;
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+        return std::nullopt;
+    std::string text;
+    std::array<char, 1 << 16> part; // read() does not throw where the disk fails, an iterator does
+    while (in.read(part.data(), part.size()) || in.gcount() > 0)
+        text.append(part.data(), static_cast<std::size_t>(in.gcount()));
+    return in.bad() ? std::nullopt : std::optional(std::move(text));
+}
+
+} // namespace
+
 void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
-    const fs::path temporary = path.string() + "." + std::to_string(getpid()) + ".part";
-    const auto fail = [&] {
+    const auto [file, temporary] = open_part(path);
+    const auto fail = [&, &temporary = temporary] {
         const int cause = errno;
         std::error_code ignored;
         fs::remove(temporary, ignored);
         throw StorageError(path.string() + ": cannot write: " + std::strerror(cause));
     };
-    const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0)
-        fail();
     bool good = true;
     while (good && !bytes.empty()) {
         const ssize_t written = write(file, bytes.data(), bytes.size());
@@ -49,29 +83,34 @@ void write_text(const fs::path& path, std::string_view text) {
 }
 
 std::string read_text(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-        throw StorageError(path.string() + ": cannot be read");
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::error_code error;
+    if (fs::is_directory(path, error))
+        throw StorageError(path.string() + ": cannot be read: it is a folder");
+    if (auto text = text_of(path))
+        return std::move(*text);
+    throw StorageError(path.string() + ": cannot be read: " + std::strerror(errno ? errno : EIO));
 }
 
 std::string read_text_if_there(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) // a pipe would wait for who never writes
+        return "";
+    return text_of(path).value_or("");
 }
 
 void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
-        throw StorageError(folder.string() + ": " + error.message());
+        throw StorageError(folder.string() + ": cannot make the folder: " + error.message());
 }
 
 TemporaryFolder::TemporaryFolder(const fs::path& where) {
-    fs::create_directories(where);
+    make_folder(where);
     std::string pattern = (where / ".listric-XXXXXX").string();
     if (!mkdtemp(pattern.data()))
-        throw StorageError("cannot make a folder in " + where.string());
+        throw StorageError(where.string() +
+                           ": cannot make a folder in it: " + std::strerror(errno));
     path = pattern;
 }
 

@@ -46,14 +46,19 @@ std::string rough_duration(double seconds) {
 }
 
 void warn(std::string_view message) {
-    const std::string text = fmt::format("listric: warning: {}\n", message);
+    const std::string text = fmt::format("listric: warning: {}\n", shown_lines(message));
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }
 
 Log::Log(const std::filesystem::path& file, bool quiet)
     : quiet_(quiet), terminal_(rewrites_lines()) {
-    if (!file.empty())
+    std::error_code error;
+    const auto status = std::filesystem::symlink_status(file, error);
+    // A link may lead to a file of somebody's, and a pipe may wait for ever.
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        warn(fmt::format("{}: is no plain file; nothing is logged there", shown(file.string())));
+    else if (!file.empty())
         file_.open(file, std::ios::app);
 }
 
@@ -62,8 +67,9 @@ Log::~Log() {
         tell(clear_line);
 }
 
-void Log::say(std::string_view message) {
+void Log::say(std::string_view text) {
     const std::lock_guard lock(mutex_);
+    const std::string message = shown_lines(text);
     if (file_.is_open())
         file_ << message << std::endl;
     if (!quiet_)
@@ -81,7 +87,7 @@ void Log::progress(std::string_view line) {
     if (terminal_) // the last column stays free: some wrap a line that ends in it
         tell(fmt::format("{}{}", clear_line, cut_to(shown(line), terminal_width() - 1)));
     else
-        tell(fmt::format("{}\n", line));
+        tell(shown(line) + "\n");
     shows_progress_ = terminal_;
 }
 

@@ -3,7 +3,9 @@
 #include "apps/support/error.hpp"
 
 #include <cassert>
+#include <cerrno>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -26,6 +28,7 @@ void write_npy(const std::filesystem::path& path, std::span<const T> values,
                          "', 'fortran_order': False, 'shape': (" + shape + "), }";
     header.resize((header.size() + 11 + 63) / 64 * 64 - 11, ' ');
     header += '\n';
+    errno = 0;
     std::ofstream out(path, std::ios::binary);
     out.write("\x93NUMPY\x01\x00", 8);
     out.put(static_cast<char>(header.size() & 0xff));
@@ -34,7 +37,8 @@ void write_npy(const std::filesystem::path& path, std::span<const T> values,
     out.write(reinterpret_cast<const char*>(values.data()),
               static_cast<std::streamsize>(values.size_bytes()));
     if (!out.flush())
-        throw StorageError(path.string() + ": cannot be written");
+        throw StorageError(path.string() +
+                           ": cannot be written: " + std::strerror(errno ? errno : EIO));
 }
 
 } // namespace listric

@@ -123,4 +123,36 @@ std::string cut_to(std::string_view text, std::size_t columns) {
     return std::string(text);
 }
 
+std::string shown_lines(std::string_view text) {
+    std::string safe;
+    for (std::size_t begin = 0, end; begin <= text.size(); begin = end + 1) {
+        end = std::min(text.find('\n', begin), text.size());
+        safe += shown(text.substr(begin, end - begin));
+        if (end < text.size())
+            safe += '\n';
+    }
+    return safe;
+}
+
+std::string objection_to_byte(std::string_view text, std::size_t place) {
+    return text[place] == '\0' ? "has a NUL byte"
+                               : fmt::format("byte 0x{:02x} is not UTF-8", byte_at(text, place));
+}
+
+std::string objection_to_name(std::string_view name) {
+    constexpr std::size_t longest = 200; // bytes; file systems have 255, and others add to it
+    if (name.empty())
+        return "is empty";
+    if (name == "." || name == "..")
+        return "means a folder";
+    if (name.find('/') != name.npos)
+        return "has a /";
+    if (shown(name) != name)
+        return unsound_byte(name) ? objection_to_byte(name, *unsound_byte(name))
+                                  : "has a control character";
+    if (name.size() > longest)
+        return fmt::format("has {} bytes, at most {} fit", name.size(), longest);
+    return "";
+}
+
 } // namespace listric

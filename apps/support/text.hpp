@@ -22,4 +22,14 @@ std::string shown_start(std::string_view text, std::size_t most = 60);
 /// terminal; "..." for what is cut off, where there is room for that.
 std::string cut_to(std::string_view text, std::size_t columns);
 
+/// The same of a text of several lines, whose ends stay.
+std::string shown_lines(std::string_view text);
+
+/// What is wrong at a byte that unsound_byte() found: "has a NUL byte", "byte 0xf6 is not UTF-8".
+std::string objection_to_byte(std::string_view text, std::size_t place);
+
+/// Why a text cannot be the name of one file or folder ("has a /"); empty if it can. Names of
+/// folders are made of what scenes and plans say, and these travel between people.
+std::string objection_to_name(std::string_view name);
+
 } // namespace listric

@@ -699,7 +699,7 @@ TEST_F(SceneTest, TomlErrorsHaveLineAndColumn) {
     EXPECT_THAT(error("seed = 1\n[hanging_wall\n"), StartsWith("scene.toml:2:14: "));
     EXPECT_THAT(error("seed = 1\nseed = 2\n"), StartsWith("scene.toml:2:8: "));
     EXPECT_THAT(error("description = \"\xff\"\n"),
-                AllOf(StartsWith("scene.toml:1:15: "), HasSubstr("utf-8")));
+                AllOf(StartsWith("scene.toml:1:16: byte 0xff"), HasSubstr("UTF-8")));
 }
 
 TEST_F(SceneTest, UnknownScenes) {

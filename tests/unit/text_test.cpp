@@ -47,5 +47,22 @@ TEST(Text, is_cut_to_the_columns_of_a_terminal) {
               "e\xcc\x81t\xc3\xa9"); // an accent of its own has none
 }
 
+TEST(Text, LinesKeepTheirEnds) {
+    EXPECT_EQ(shown_lines("a\nb\x1b\n"), "a\nb\\x1b\n");
+    EXPECT_EQ(shown_lines(""), "");
+    EXPECT_EQ(shown_lines("\n"), "\n");
+}
+
+TEST(Text, NamesOfOneFolder) {
+    for (const std::string name : {"lis1", "Höhe (2), Süd", ".hidden", "...", "-rf", "a\\b", " "})
+        EXPECT_EQ(objection_to_name(name), "") << name;
+    EXPECT_EQ(objection_to_name(std::string(200, 'x')), "");
+    for (const std::string& name :
+         {std::string(), std::string("."), std::string(".."), std::string("a/b"), std::string("/"),
+          std::string("a\0b", 3), std::string("a\nb"), std::string("\x1b[m"), std::string("\xe4"),
+          std::string("\xc2\x85"), std::string(201, 'x')})
+        EXPECT_NE(objection_to_name(name), "") << name;
+}
+
 } // namespace
 } // namespace listric

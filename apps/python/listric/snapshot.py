@@ -17,7 +17,8 @@ except ImportError as error:
     raise ImportError("listric reads snapshots with h5py: install the package python3-h5py, or "
                       "`pip install h5py`") from error
 
-FORMAT = 5  # of the snapshots that this package reads
+FORMAT = 6  # of the snapshots that the program writes
+_OLDEST = 5  # that is read, too: its scene is an attribute, which is nothing that is asked for here
 _KIND = "listric snapshot "
 _END = b"listric checksum"  # in front of the last eight bytes of a whole file
 
@@ -166,11 +167,11 @@ def _check_end(path: Path) -> None:
 
 def _check_format(file, path: Path) -> None:
     found = _text(file.attrs.get("format", b""))
-    if found != f"{_KIND}{FORMAT}":
+    if found not in (f"{_KIND}{number}" for number in range(_OLDEST, FORMAT + 1)):
         version = _text(file.attrs.get("version", b"unknown"))
         raise RunError(f"{path}: is of format {found.removeprefix(_KIND) or 'unknown'}, written by "
-                       f"version {version}, and this package reads format {FORMAT}; take the package "
-                       "of that version")
+                       f"version {version}, and this package reads formats {_OLDEST} and {FORMAT}; "
+                       "take the package of that version")
 
 
 def _tables(file) -> list[str]:
