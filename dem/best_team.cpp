@@ -6,10 +6,10 @@ namespace listric::dem {
 
 namespace {
 
-constexpr double window = 0.05;      ///< s, some slices of the system's scheduler
-constexpr double crowded_from = 0.1; ///< share of a team's time that it waits in
-constexpr double faster = 1.03;      ///< than noise
-constexpr double slower = 0.8;       ///< another program has begun
+constexpr double longest_window = 0.05; ///< s, some slices of the system's scheduler
+constexpr double crowded_from = 0.1;    ///< share of a team's time that it waits in
+constexpr double faster = 1.03;         ///< than noise
+constexpr double slower = 0.8;          ///< another program has begun
 /// Windows between trials. A trial of two threads against another program loses a quarter of a
 /// window, one of one thread on a quiet machine half of it.
 constexpr int least_patience = 8, most_patience = 64;
@@ -20,8 +20,9 @@ void BestTeam::report(double work, double seconds, double asleep) {
     work_ += work;
     seconds_ += seconds;
     asleep_ += asleep;
-    if (seconds_ < window)
+    if (seconds_ < window_)
         return;
+    window_ = std::min(longest_window, 2.0 * window_);
     const double speed = work_ / seconds_;
     const bool crowded = asleep_ > crowded_from * seconds_ * size();
     work_ = seconds_ = asleep_ = 0.0;
@@ -34,7 +35,7 @@ void BestTeam::report(double work, double seconds, double asleep) {
         begin_trial(crowded);
 }
 
-double BestTeam::piece() const { return speed_ > 0.0 ? 0.4 * window * speed_ : 2e6; }
+double BestTeam::piece() const { return speed_ > 0.0 ? 0.4 * window_ * speed_ : 2e5; }
 
 void BestTeam::end_trial(double speed) {
     if (speed > faster * speed_) {

@@ -31,8 +31,9 @@ CLI::Option* add_threads(CLI::App& command, int& threads) {
             std::from_chars(text.data(), text.data() + text.size(), wanted);
             // What is no number, or out of range, is refused next.
             if (const int most = all_threads(); wanted > most && wanted <= most_threads) {
-                warn(fmt::format("--threads {}: here this program may use {} core{}, so {} thread{}",
-                                 text, most, most == 1 ? "" : "s", most, most == 1 ? "" : "s"));
+                warn(
+                    fmt::format("--threads {}: here this program may use {} core{}, so {} thread{}",
+                                text, most, most == 1 ? "" : "s", most, most == 1 ? "" : "s"));
                 text = std::to_string(most);
             }
             return std::string();

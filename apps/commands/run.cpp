@@ -95,13 +95,12 @@ ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
     if (ranks.mine() != 0)
         ignore_signals(); // the root stops for all
     report_begin(ranks.mine());
-    const ExitCode code =
-        exit_code_of(run_on_ranks(ranks, {[&] { return load_scene(call.scene); },
-                                          [&](const Scene& scene, bool is_root) {
-                                              if (is_root)
-                                                  check_scene(call, scene, true);
-                                              return options_of(call, true);
-                                          }}));
+    const ExitCode code = exit_code_of(run_on_ranks(ranks, {[&] { return load_scene(call.scene); },
+                                                            [&](const Scene& scene, bool is_root) {
+                                                                if (is_root)
+                                                                    check_scene(call, scene, true);
+                                                                return options_of(call, true);
+                                                            }}));
     report_end(ranks.mine(), static_cast<int>(code));
     return code;
 }

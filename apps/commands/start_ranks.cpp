@@ -104,8 +104,9 @@ ExitCode end_of(int code, int count, const RankReports& ranks, const fs::path& o
         return tell_of_end(ExitCode::interrupted, "mpirun was interrupted", output);
     return tell_of_end(code_after(signal),
                        fmt::format("{} was ended by signal {} ({})",
-                                   ranks.lost() ? fmt::format("process {} of {}", *ranks.lost(), count)
-                                                : "a process that mpirun started",
+                                   ranks.lost()
+                                       ? fmt::format("process {} of {}", *ranks.lost(), count)
+                                       : "a process that mpirun started",
                                    signal, strsignal(signal)),
                        output);
 }

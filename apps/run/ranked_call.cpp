@@ -46,8 +46,8 @@ std::string place_of(const fs::path& output) {
 /// A value as a message has room for it, from a little before where it differs from another.
 std::string excerpt(std::string_view value, std::string_view other) {
     constexpr std::size_t before = 12, most = 60;
-    const auto same = static_cast<std::size_t>(
-        std::ranges::mismatch(value, other).in1 - value.begin());
+    const auto same =
+        static_cast<std::size_t>(std::ranges::mismatch(value, other).in1 - value.begin());
     if (value.size() <= most)
         return shown(value);
     const std::size_t begin = same > before + 10 ? same - before : 0;
