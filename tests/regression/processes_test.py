@@ -27,9 +27,11 @@ interval_m = 20.0
 figures_at_m = []
 series = "none"
 """
-PLAN = """scene = "scene.toml"
-[vary]
-"gravity.acceleration_m_per_s2" = [9.0, 10.0]
+PLAN = """scene = "./scene.toml"
+measures = ["strain_top10"]
+[[vary]]
+parameter = "detachment.friction"
+values = [0.1, 0.5]
 """
 LONGEST = 60.0  # s
 
@@ -93,19 +95,19 @@ class Signals(Processes):
                 self.assertEqual(run.returncode, 130)
 
     def test_runs_of_a_sweep_that_was_started_with_nohup(self):
-        sweep = self.begin(("sweep", "plan.toml", "--output", "out", "--jobs", "2"), "out/*/snapshots/*.h5",
+        sweep = self.begin(("sweep", "plan.toml", "--output", "out", "--jobs", "2"), "out/runs/*/snapshots/*.h5",
                            ignored=(signal.SIGHUP,))
         sweep.send_signal(signal.SIGHUP)
-        count = len(list(self.folder.glob("out/*/snapshots/*.h5")))
+        count = len(list(self.folder.glob("out/runs/*/snapshots/*.h5")))
         self.wait_for(lambda: sweep.poll() is not None
-                      or len(list(self.folder.glob("out/*/snapshots/*.h5"))) > count + 3)
+                      or len(list(self.folder.glob("out/runs/*/snapshots/*.h5"))) > count + 3)
         self.assertIsNone(sweep.poll())
         sweep.send_signal(signal.SIGTERM)
         sweep.communicate(timeout=LONGEST)
         self.assertEqual(sweep.returncode, 130)
 
     def test_runs_of_a_sweep_end_with_it_where_sigterm_is_ignored(self):
-        sweep = self.begin(("sweep", "plan.toml", "--output", "out", "--jobs", "2"), "out/*/snapshots/*.h5",
+        sweep = self.begin(("sweep", "plan.toml", "--output", "out", "--jobs", "2"), "out/runs/*/snapshots/*.h5",
                            ignored=(signal.SIGTERM,))
         runs = subprocess.run(["pgrep", "-P", str(sweep.pid)], stdout=subprocess.PIPE, text=True).stdout.split()
         self.assertEqual(len(runs), 2)
