@@ -94,7 +94,6 @@ ExitCode exit_code_of(RunOutcome outcome) {
 ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
     if (ranks.mine() != 0)
         ignore_signals(); // the root stops for all
-    report_begin(ranks.mine());
     const ExitCode code = exit_code_of(run_on_ranks(ranks, {[&] { return load_scene(call.scene); },
                                                             [&](const Scene& scene, bool is_root) {
                                                                 if (is_root)
@@ -127,6 +126,7 @@ ExitCode run(RunCall& call) {
                                      "mpirun or srun the program starts them itself",
                                      *asked, launch.count));
     if (launch.count > 1 || call.ranks == "all") {
+        report_begin(launch.mine);
         const auto ranks = join_ranks(launch);
         if (ranks->count() > 1)
             return run_part(call, *ranks);

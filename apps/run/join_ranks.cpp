@@ -108,6 +108,14 @@ void let_root_tell(int argc, const char* const* argv) {
 }
 
 std::unique_ptr<dem::Ranks> join_ranks(const Launch& launch) {
+    // MPI would end the process for it, with words about its own.
+    const std::string folder = text_of("PMIX_SERVER_TMPDIR");
+    std::error_code error;
+    if (!folder.empty() && !fs::exists(folder, error))
+        throw UsageError(fmt::format("the environment is of an mpirun that has ended "
+                                     "(PMIX_SERVER_TMPDIR={} is gone): start the processes with "
+                                     "another, or --ranks=1 makes the run in one",
+                                     shown(folder)));
     std::unique_ptr<dem::Ranks> ranks(load_plugin(launch)());
     if (ranks->count() < launch.count)
         throw UsageError(fmt::format(

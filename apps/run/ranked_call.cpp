@@ -40,7 +40,8 @@ std::string place_of(const fs::path& output) {
     char machine[256] = "";
     gethostname(machine, sizeof machine - 1);
     std::error_code error;
-    return fmt::format("{} on {}", fs::weakly_canonical(output, error).string(), machine);
+    return fmt::format("{} on {}", fs::weakly_canonical(fs::absolute(output), error).string(),
+                       machine);
 }
 
 /// A value as a message has room for it, from a little before where it differs from another.
