@@ -86,6 +86,7 @@ ExitCode dispatch(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) {
             refuse_unknown_words(app, {argv + 1, argv + argc});
+            exit_on_signals(); // mpirun's, once the root has told
             let_root_tell(argc, argv);
         }
         return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_call; // help and version, too
@@ -128,6 +129,7 @@ int program(int argc, char** argv) {
         try {
             return call_and_print(argc, argv);
         } catch (...) {
+            exit_on_signals(); // mpirun's, once the root has told
             let_root_tell(argc, argv);
             throw;
         }
