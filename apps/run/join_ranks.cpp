@@ -104,7 +104,7 @@ void let_root_tell(int argc, const char* const* argv) {
     } catch (const UsageError&) {
         // the number that it has cannot be relied on
     }
-    std::this_thread::sleep_for(std::chrono::seconds(1));
+    std::this_thread::sleep_for(std::chrono::seconds(2));
 }
 
 std::unique_ptr<dem::Ranks> join_ranks(const Launch& launch) {
