@@ -12,7 +12,8 @@ public:
     int most() const { return most_; }
     int size() const { return trial_ > 0 ? trial_ : size_; }
 
-    /// Work of some 20 ms, a good time between reports.
+    /// Work of some 20 ms, a good time between reports; of less at the beginning, so that a team
+    /// that is too large for what the machine has free is not one for long.
     double piece() const;
 
     /// What a team of that size has done, in so many seconds, and how long its threads were asleep
@@ -25,6 +26,7 @@ private:
 
     int most_, size_;
     int trial_ = 0;                                    ///< the size that is tried; 0: none
+    double window_ = 0.004;                            ///< that is looked at, s
     double speed_ = 0.0;                               ///< of size_, in its last window
     int patience_ = 1;                                 ///< windows from trial to trial
     int since_trial_ = 0;                              ///< windows

@@ -2,6 +2,7 @@
 
 #include "dem/pause.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -11,7 +12,8 @@ namespace listric::dem {
 
 /// Meeting point of a fixed number of threads. A cycle lasts about 0.1 ms and being woken takes as
 /// long, so waiting spins for about that time; then it sleeps, or else two threads on a shared
-/// machine would keep each other from the core that they wait for.
+/// machine would keep each other from the core that they wait for. Where spinning is in vain again
+/// and again there are fewer cores than threads: then they sleep almost at once.
 class Barrier {
 public:
     explicit Barrier(int threads) : threads_(threads) {}
@@ -26,11 +28,17 @@ public:
             round_.notify_all();
             return;
         }
-        for (int spins = 0; spins < 8000; ++spins) {
-            if (round_.load(std::memory_order_acquire) != round)
+        const int patience = patience_.load(std::memory_order_relaxed);
+        for (int spins = 0; spins < patience; ++spins) {
+            if (round_.load(std::memory_order_acquire) != round) {
+                if (patience < most_patience)
+                    patience_.store(std::min(most_patience, 2 * patience),
+                                    std::memory_order_relaxed);
                 return;
+            }
             pause();
         }
+        patience_.store(std::max(least_patience, patience / 2), std::memory_order_relaxed);
         const auto before = std::chrono::steady_clock::now();
         round_.wait(round, std::memory_order_acquire);
         asleep_ += std::chrono::nanoseconds(std::chrono::steady_clock::now() - before).count();
@@ -40,7 +48,10 @@ public:
     double asleep() const { return 1e-9 * static_cast<double>(asleep_.load()); }
 
 private:
+    static constexpr int least_patience = 125, most_patience = 8000; ///< pauses
+
     const int threads_;
+    std::atomic<int> patience_ = most_patience; ///< written only where a thread has slept
     alignas(64) std::atomic<int> arrived_ = 0;
     alignas(64) std::atomic<unsigned> round_ = 0;
     std::atomic<std::int64_t> asleep_ = 0; ///< ns

@@ -42,16 +42,27 @@ std::string find_plugin() {
                                                               : LISTRIC_FEM_PLUGIN;
 }
 
+/// What brings the plug-in: an installed program has its files beside it.
+std::string cure() {
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    const auto files = program.parent_path().parent_path() / "share/listric";
+    const std::string libraries = "libdeal.ii-dev petsc-dev libopenmpi-dev openmpi-bin gmsh";
+    return std::filesystem::is_directory(files, error)
+               ? "install the package listric-elastic-base, or " + libraries +
+                     " where you build it yourself, and build again"
+               : "install " + libraries + " and build again";
+}
+
 MakeFootwall load_plugin() {
     const std::string file = find_plugin();
     // Threads of the linear algebra would fight with those of the discs.
     setenv("OPENBLAS_NUM_THREADS", "1", 0);
     void* library = file.empty() ? nullptr : dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library) {
-        const char* reason = file.empty() ? "it was not built" : dlerror();
-        refuse(std::string("the plug-in for elastic bases cannot be loaded (") + reason +
-               "); install libdeal.ii-dev petsc-dev libopenmpi-dev openmpi-bin gmsh "
-               "(Debian 12) and build again");
+        const char* reason = file.empty() ? "it is not there" : dlerror();
+        refuse(std::string("the plug-in for elastic bases cannot be loaded (") + reason + "); " +
+               cure());
     }
     const auto entry = reinterpret_cast<MakeFootwall>(dlsym(library, LISTRIC_FEM_ENTRY));
     if (!entry)

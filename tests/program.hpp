@@ -37,6 +37,9 @@ public:
         if (id_ == 0) {
             redirect("stdout", STDOUT_FILENO);
             redirect("stderr", STDERR_FILENO);
+            // Where tests run in the background nobody hears of what they send.
+            for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
+                std::signal(signal, SIG_DFL);
             if (prepare)
                 prepare();
             execv(arguments[0], arguments.data());

@@ -39,12 +39,13 @@ Command add_validate(CLI::App& program);
 
 // Options that several calls share.
 
-/// Cores of this machine.
+/// Cores that this process may use.
 int all_threads();
 
 /// Names of the accuracy levels.
 std::vector<std::string> accuracy_names();
 
+/// --threads; more than all_threads() are told and not started.
 CLI::Option* add_threads(CLI::App& command, int& threads);
 
 /// An option that may be given several times, with one word each time.

@@ -2,16 +2,18 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/scene/accuracy.hpp"
+#include "apps/support/cores.hpp"
+#include "apps/support/log.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <thread>
+#include <charconv>
+#include <string>
 
 namespace listric {
 
-int all_threads() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+int all_threads() { return usable_cores(); }
 
 std::vector<std::string> accuracy_names() {
     std::vector<std::string> names;
@@ -21,8 +23,25 @@ std::vector<std::string> accuracy_names() {
 }
 
 CLI::Option* add_threads(CLI::App& command, int& threads) {
+    constexpr int most_threads = 1024;
+    // Threads wait for each other: without a core each they only wait longer.
+    const CLI::Validator no_more_than_cores(
+        [](std::string& text) {
+            int wanted = 0;
+            std::from_chars(text.data(), text.data() + text.size(), wanted);
+            // What is no number, or out of range, is refused next.
+            if (const int most = all_threads(); wanted > most && wanted <= most_threads) {
+                warn(
+                    fmt::format("--threads {}: here this program may use {} core{}, so {} thread{}",
+                                text, most, most == 1 ? "" : "s", most, most == 1 ? "" : "s"));
+                text = std::to_string(most);
+            }
+            return std::string();
+        },
+        "");
     return command.add_option("--threads", threads, "Processor cores to use")
-        ->check(CLI::Range(1, 1024));
+        ->check(CLI::Range(1, most_threads))
+        ->transform(no_more_than_cores);
 }
 
 void add_words(CLI::App& command, const char* option, std::vector<std::string>& words,

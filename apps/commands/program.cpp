@@ -2,6 +2,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
+#include "apps/run/join_ranks.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/number.hpp"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <fcntl.h>
 #include <iostream>
+#include <poll.h>
 #include <unistd.h>
 
 namespace listric {
@@ -113,15 +115,30 @@ ExitCode dispatch(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0)
+        if (error.get_exit_code() != 0) {
             refuse_unknown_words(app, {argv + 1, argv + argc});
-        return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_call;
+            exit_on_signals(); // mpirun's, once the root has told
+            let_root_tell(argc, argv);
+        }
+        return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_call; // help and version, too
     }
     const auto called = std::ranges::find_if(
         commands, [](const Command& command) { return command.parser->parsed(); });
     require_cycle();
-    const ExitCode code = call_or_advise(*called);
-    if (!std::cout.flush())
+    return call_or_advise(*called);
+}
+
+/// Whether whoever read the standard output has left.
+bool reader_has_left() {
+    pollfd look{STDOUT_FILENO, 0, 0};
+    return poll(&look, 1, 0) == 1 && (look.revents & POLLERR) != 0;
+}
+
+/// The call, and what it has printed. A reader that has enough, such as `head`, is no error: it
+/// decides how much it reads, and a script that stops at errors (pipefail) goes on.
+ExitCode call_and_print(int argc, char** argv) {
+    const ExitCode code = dispatch(argc, argv);
+    if (!std::cout.flush() && !reader_has_left())
         throw StorageError("standard output cannot be written");
     return code;
 }
@@ -139,7 +156,15 @@ int program(int argc, char** argv) {
     keep_standard_files_open();
     guard_threads();
     exit_on_signals();
-    return run_guarded([&] { return dispatch(argc, argv); });
+    return run_guarded([&] {
+        try {
+            return call_and_print(argc, argv);
+        } catch (...) {
+            exit_on_signals(); // mpirun's, once the root has told
+            let_root_tell(argc, argv);
+            throw;
+        }
+    });
 }
 
 } // namespace listric

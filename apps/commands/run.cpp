@@ -5,6 +5,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/run/join_ranks.hpp"
 #include "apps/run/oversize.hpp"
+#include "apps/run/rank_reports.hpp"
 #include "apps/run/ranked_run.hpp"
 #include "apps/support/number.hpp"
 #include "apps/support/text.hpp"
@@ -13,10 +14,13 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 namespace listric {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -26,7 +30,7 @@ struct RunCall {
     std::optional<std::string> until;
     std::string output;
     CLI::Option* threads = nullptr;
-    std::string ranks = "1";
+    std::string ranks; ///< --ranks; empty: not given
     bool force_size = false;
     bool no_report = false;
 };
@@ -46,12 +50,13 @@ double parse_length(const std::string& text) {
     return metres;
 }
 
-/// A number of processes; 0 for "all": as many as were started together.
-int parse_ranks(const std::string& text) {
+/// A number of processes; none for "all", as many as were started together, and where there is
+/// none.
+std::optional<int> parse_ranks(const std::string& text) {
     int count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    if (text == "all")
-        return 0;
+    if (text.empty() || text == "all")
+        return std::nullopt;
     if (error != std::errc() || end != text.data() + text.size() || count < 1)
         throw UsageError(fmt::format("--ranks={}: a number of processes, such as 2", text));
     return count;
@@ -68,12 +73,17 @@ void check_scene(const RunCall& call, const Scene& scene, bool on_ranks) {
         refuse_scene(call.scene, objection->path, objection->message);
 }
 
+fs::path output_of(const RunCall& call) {
+    return call.output.empty() ? "out" / scenes.find(call.scene.scene).stem()
+                               : fs::path(call.output);
+}
+
 /// What was asked for; on ranks a process has one thread unless it is told otherwise.
-RunOptions options_of(const RunCall& call, const Scene& scene, bool on_ranks) {
+RunOptions options_of(const RunCall& call, bool on_ranks) {
     RunOptions options = call.options;
     if (on_ranks && call.threads->count() == 0)
         options.threads = 1;
-    options.output = call.output.empty() ? "out/" + scene.name : call.output;
+    options.output = output_of(call);
     options.report = !call.no_report;
     return options;
 }
@@ -86,45 +96,44 @@ ExitCode exit_code_of(RunOutcome outcome) {
 ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
     if (ranks.mine() != 0)
         ignore_signals(); // the root stops for all
-    return exit_code_of(run_on_ranks(ranks, {[&] { return load_scene(call.scene); },
-                                             [&](const Scene& scene, bool is_root) {
-                                                 if (is_root)
-                                                     check_scene(call, scene, true);
-                                                 return options_of(call, scene, true);
-                                             }}));
+    const ExitCode code = exit_code_of(run_on_ranks(ranks, {[&] { return load_scene(call.scene); },
+                                                            [&](const Scene& scene, bool is_root) {
+                                                                if (is_root)
+                                                                    check_scene(call, scene, true);
+                                                                return options_of(call, true);
+                                                            }}));
+    report_end(ranks.mine(), static_cast<int>(code));
+    return code;
+}
+
+/// The run in this process alone.
+ExitCode run_alone(const RunCall& call) {
+    const Scene scene = load_scene(call.scene);
+    check_scene(call, scene, false);
+    return exit_code_of(run_scene(scene, options_of(call, false)));
 }
 
 ExitCode run(RunCall& call) {
     if (call.until)
         call.options.until = parse_length(*call.until);
     call.options.stop = stop_on_signals();
+    const std::optional<int> asked = parse_ranks(call.ranks);
+    if (asked == 1) // whatever the environment says
+        return run_alone(call);
     const Launch launch = read_launch();
-    const int ranks_asked = parse_ranks(call.ranks);
-    if (ranks_asked > 1 && launch.count == 1)
-        return start_ranks(ranks_asked);
-    if (ranks_asked > 1 && ranks_asked != launch.count)
+    if (asked && launch.count == 1)
+        return start_ranks(*asked, output_of(call));
+    if (asked && *asked != launch.count)
         throw UsageError(fmt::format("--ranks={}: {} processes were started together; without "
                                      "mpirun or srun the program starts them itself",
-                                     ranks_asked, launch.count));
-    if (launch.count > 1 || ranks_asked == 0) {
+                                     *asked, launch.count));
+    if (launch.count > 1 || call.ranks == "all") {
+        report_begin(launch.mine);
         const auto ranks = join_ranks(launch);
         if (ranks->count() > 1)
             return run_part(call, *ranks);
     }
-    const Scene scene = load_scene(call.scene);
-    check_scene(call, scene, false);
-    return exit_code_of(run_scene(scene, options_of(call, scene, false)));
-}
-
-/// All processes of a run would say the same.
-ExitCode run_and_tell_once(RunCall& call) {
-    try {
-        return run(call);
-    } catch (...) {
-        if (read_launch().mine == 0)
-            throw;
-        return ending_of(std::current_exception()).code;
-    }
+    return run_alone(call);
 }
 
 } // namespace
@@ -137,8 +146,9 @@ Command add_run(CLI::App& program) {
     call->threads = add_threads(*command, call->options.threads);
     command
         ->add_flag("--ranks{all}", call->ranks,
-                   "--ranks=N: made by N processes, which mpirun starts; without a number: by "
-                   "those that were started, though the environment does not say so")
+                   "--ranks=N: made by N processes, which mpirun starts; 1: by this one, whatever "
+                   "the environment says; without a number: by those that were started, though "
+                   "the environment does not say so")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     command->add_flag("--plain", call->options.plain, "The scalar cycle: same bits, slower");
     command->add_option("--output", call->output, "Folder of results (default: out/SCENE)");
@@ -150,7 +160,7 @@ Command add_run(CLI::App& program) {
                       "Write report.html after every window; an open page follows");
     command->add_flag("--no-report", call->no_report, "Write no report.html");
     command->add_flag("--quiet", call->options.quiet, "No progress");
-    return {command, [call] { return run_and_tell_once(*call); }};
+    return {command, [call] { return run(*call); }};
 }
 
 } // namespace listric

@@ -4,7 +4,9 @@
 
 namespace listric {
 
-// How a call answers SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGUSR1, which mpirun and SLURM hand on.
+// How a call answers SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGUSR1, which mpirun and SLURM hand on,
+// and SIGUSR2, by which processes of the program ask each other. What of the first four was ignored
+// when the program was started stays ignored: nohup, and a shell's background, are meant.
 // Whichever it is, SIGPIPE and SIGXFSZ are ignored: whoever read the progress may leave, and a file
 // that may not grow is told as one that cannot be written.
 
@@ -18,7 +20,7 @@ StopToken stop_on_signals();
 /// They are for another process to answer, which tells this one.
 void ignore_signals();
 
-/// Another process is asked to stop, by SIGUSR1; also if it has been requested before.
+/// Another process is asked to stop; also if it has been requested before.
 void hand_on_signals(int process);
 
 } // namespace listric

@@ -1,18 +1,28 @@
 #include "apps/commands/start_ranks.hpp"
 
+#include "apps/archive/run_folder.hpp"
 #include "apps/commands/signals.hpp"
+#include "apps/run/hints.hpp"
+#include "apps/run/rank_reports.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/process.hpp"
+#include "apps/support/resources.hpp"
 
 #include <fmt/format.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <unistd.h>
 #include <vector>
 
 namespace listric {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -28,25 +38,94 @@ std::vector<std::string> words_of_call() {
     return words;
 }
 
-} // namespace
+/// What another mpirun has left in the environment would mislead this one. It adds nothing to our
+/// messages: its option for that has gone with Open MPI 5, these variables trouble neither.
+void prepare_environment() {
+    std::vector<std::string> names;
+    const bool has_been_started = std::getenv("PMIX_RANK") || std::getenv("OMPI_COMM_WORLD_RANK");
+    for (char** entry = environ; has_been_started && *entry; ++entry) {
+        const std::string_view variable(*entry);
+        for (const std::string_view begin :
+             {"OMPI_COMM_WORLD_", "OMPI_APP_CTX_", "OMPI_UNIVERSE_SIZE", "OMPI_MCA_orte_",
+              "OMPI_MCA_ess", "OMPI_MCA_pmix", "PMIX_", "PMI_"})
+            if (variable.starts_with(begin))
+                names.emplace_back(variable.substr(0, variable.find('=')));
+    }
+    for (const std::string& name : names)
+        unsetenv(name.c_str());
+    setenv("OMPI_MCA_orte_execute_quiet", "1", 1);
+    setenv("PRTE_MCA_prte_execute_quiet", "1", 1);
+}
 
-ExitCode start_ranks(int count) {
-    std::vector<std::string> words = words_of_call();
-    words[0] = std::filesystem::read_symlink("/proc/self/exe").string();
-    const std::vector<std::string> mpirun{"mpirun", "-q", "-n", std::to_string(count)};
-    words.insert(words.begin(), mpirun.begin(), mpirun.end());
-    const int code = run_program(words, hand_on_signals);
+ExitCode code_after(int signal) {
+    switch (signal) {
+    case SIGSEGV:
+    case SIGABRT:
+    case SIGFPE:
+    case SIGILL:
+        return ExitCode::internal_error;
+    case SIGBUS: // memory that ranks share had no place
+        return ExitCode::storage_failed;
+    default:
+        return ExitCode::interrupted;
+    }
+}
+
+/// Says what has ended the run, and how it goes on.
+ExitCode tell_of_end(ExitCode code, const std::string& what, const fs::path& output) {
+    const bool has_snapshot = !archive::list_snapshots(output).empty();
+    tell({code, fmt::format("{}; all processes of the run have ended; {}", what,
+                            has_snapshot ? resume_hint(output) : "nothing was saved before")});
+    return code;
+}
+
+ExitCode end_of(int code, int count, const RankReports& ranks, const fs::path& output) {
+    const int signal = code - 128;
     if (code < 0)
         throw MemoryError("no process can be started for mpirun");
     if (code == 127)
-        throw UsageError("--ranks: there is no mpirun; install openmpi-bin (Debian 12)");
-    if (code == 1) // mpirun's own
+        throw UsageError(fmt::format("--ranks: there is no mpirun; install the package {}",
+                                     is_installed() ? "listric-ranks" : "openmpi-bin"));
+    // mpirun's own codes: of its options, and of what it cannot do, or has been told to end.
+    const bool is_of_mpirun = code == 1 || code == 213;
+    if (is_of_mpirun && !ranks.any())
         throw UsageError(fmt::format(
             "--ranks={0}: mpirun does not start {0} processes here; more than a machine has cores: "
             "mpirun --oversubscribe -n {0} listric run ...",
             count));
     // A process that is asked to stop before it listens is ended by that.
-    return code == 128 + SIGUSR1 ? ExitCode::interrupted : static_cast<ExitCode>(code);
+    if (signal == request_to_stop)
+        return ExitCode::interrupted;
+    if (!is_of_mpirun && signal <= 0)
+        return static_cast<ExitCode>(code);
+    if (const auto told = ranks.root_code(); told && *told != 0)
+        return static_cast<ExitCode>(*told);
+    if (is_of_mpirun)
+        return tell_of_end(ExitCode::interrupted, "mpirun was interrupted", output);
+    return tell_of_end(code_after(signal),
+                       fmt::format("{} was ended by signal {} ({})",
+                                   ranks.lost()
+                                       ? fmt::format("process {} of {}", *ranks.lost(), count)
+                                       : "a process that mpirun started",
+                                   signal, strsignal(signal)),
+                       output);
+}
+
+} // namespace
+
+ExitCode start_ranks(int count, const fs::path& output) {
+    std::vector<std::string> words = words_of_call();
+    words[0] = fs::read_symlink("/proc/self/exe").string();
+    const std::vector<std::string> mpirun{"mpirun", "-n", std::to_string(count)};
+    words.insert(words.begin(), mpirun.begin(), mpirun.end());
+    prepare_environment();
+    RankReports ranks;
+    const int process = begin_program(words);
+    if (process > 0) {
+        hand_on_signals(process);
+        ranks.listen_until_end_of(process);
+    }
+    return end_of(end_of_program(process), count, ranks, output);
 }
 
 } // namespace listric

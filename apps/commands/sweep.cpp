@@ -4,6 +4,7 @@
 #include "apps/commands/signals.hpp"
 #include "apps/support/error.hpp"
 
+#include <algorithm>
 #include <memory>
 
 namespace listric {
@@ -25,11 +26,12 @@ SweepTask parse_task(const std::string& text) {
 Command add_sweep(CLI::App& program) {
     const auto request = std::make_shared<SweepRequest>();
     const auto task = std::make_shared<std::string>();
-    request->jobs = all_threads();
     CLI::App* command =
         program.add_subcommand("sweep", "Runs of a plan, a table of their measures, and effects");
     command->add_option("PLAN", request->plan, "TOML file (docs/sweeps.md)")->required();
-    command->add_option("--jobs", request->jobs, "Runs at a time")->check(CLI::Range(1, 1024));
+    const CLI::Option* jobs =
+        command->add_option("--jobs", request->jobs, "Runs at a time (cores over threads)")
+            ->check(CLI::Range(1, 1024));
     add_threads(*command, request->threads);
     command->add_option("--output", request->output, "Folder of results (out/sweep-PLAN)");
     command->add_option("--task", *task, "Part i/n of the runs, for job arrays");
@@ -37,7 +39,9 @@ Command add_sweep(CLI::App& program) {
         ->expected(1, 100'000);
     command->add_flag("--quiet", request->quiet, "No progress");
     return {command,
-            [request, task] {
+            [request, task, jobs] {
+                if (jobs->count() == 0)
+                    request->jobs = std::max(1, all_threads() / request->threads);
                 if (!task->empty())
                     request->task = parse_task(*task);
                 if (request->task && !request->merge.empty())

@@ -122,14 +122,14 @@ public:
             return;
         }
 #if defined __linux__
-        prctl(PR_SET_PDEATHSIG, SIGTERM);
+        prctl(PR_SET_PDEATHSIG, request_to_stop);
 #endif
         _exit(getppid() == parent ? make(run) : static_cast<int>(ExitCode::interrupted));
     }
 
     void stop() const {
         for (const auto& [process, run] : runs_)
-            kill(process, SIGTERM);
+            kill(process, request_to_stop);
     }
 
     /// Calls ended(run, exit code) for those that have ended.

@@ -1,15 +1,21 @@
 #include "apps/run/join_ranks.hpp"
 
 #include "apps/support/error.hpp"
+#include "apps/support/resources.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <dlfcn.h>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
 
 #ifndef LISTRIC_RANKS_PLUGIN
 #define LISTRIC_RANKS_PLUGIN ""
@@ -23,13 +29,17 @@ namespace {
 
 using JoinRanks = dem::Ranks* (*)();
 
-/// A whole number of the environment; -1 if there is none.
-int number_of(const char* name) {
+std::string text_of(const char* name) {
     const char* text = std::getenv(name);
+    return text ? text : "";
+}
+
+/// A whole number; -1 if it is none.
+int number_of(const std::string& text) {
     int number = -1;
-    return text && std::from_chars(text, text + std::strlen(text), number).ec == std::errc()
-               ? number
-               : -1;
+    const char* const end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stopped == end ? number : -1;
 }
 
 /// The environment's LISTRIC_RANKS_PLUGIN, else what is installed beside the program, else what was
@@ -52,9 +62,11 @@ JoinRanks load_plugin(const Launch& launch) {
     if (!library)
         throw UsageError(fmt::format(
             "{} processes were started together, but the plug-in for runs over MPI cannot be "
-            "loaded ({}); install libopenmpi-dev openmpi-bin petsc-dev (Debian 12) and build "
-            "again, or start one",
-            launch.count, file.empty() ? "it was not built" : dlerror()));
+            "loaded ({}); {}, or start one, by --ranks=1",
+            launch.count, file.empty() ? "it is not there" : dlerror(),
+            is_installed() ? "install the package listric-ranks, or libopenmpi-dev openmpi-bin "
+                             "petsc-dev where you build it yourself, and build again"
+                           : "install libopenmpi-dev openmpi-bin petsc-dev and build again"));
     const auto join = reinterpret_cast<JoinRanks>(dlsym(library, LISTRIC_RANKS_ENTRY));
     if (!join)
         throw UsageError(file + ": is no plug-in for runs over MPI of this build; build again");
@@ -68,18 +80,47 @@ Launch read_launch() {
     constexpr const char* names[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
                                         {"PMI_SIZE", "PMI_RANK"},
                                         {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
-    for (const auto& [count, mine] : names)
-        if (number_of(count) > 0 && number_of(mine) >= 0)
-            return {number_of(count), number_of(mine)};
+    for (const auto& [count, mine] : names) {
+        const std::string all = text_of(count), own = text_of(mine);
+        if (all.empty() || own.empty())
+            continue;
+        const Launch launch{number_of(all), number_of(own)};
+        if (launch.mine < 0 || launch.mine >= launch.count)
+            throw UsageError(fmt::format("the environment has {}={} and {}={}, which no mpirun or "
+                                         "srun says; unset them, or --ranks=1 for one process",
+                                         count, shown(all), mine, shown(own)));
+        return launch;
+    }
     return {};
 }
 
+void let_root_tell(int argc, const char* const* argv) {
+    const std::vector<std::string_view> words(argv, argv + argc);
+    if (words.size() < 2 || words[1] != "run" || std::ranges::count(words, "--ranks=1") > 0)
+        return;
+    try {
+        if (read_launch().mine == 0)
+            return;
+    } catch (const UsageError&) {
+        // the number that it has cannot be relied on
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+}
+
 std::unique_ptr<dem::Ranks> join_ranks(const Launch& launch) {
+    // MPI would end the process for it, with words about its own.
+    const std::string folder = text_of("PMIX_SERVER_TMPDIR");
+    std::error_code error;
+    if (!folder.empty() && !fs::exists(folder, error))
+        throw UsageError(fmt::format("the environment is of an mpirun that has ended "
+                                     "(PMIX_SERVER_TMPDIR={} is gone): start the processes with "
+                                     "another, or --ranks=1 makes the run in one",
+                                     shown(folder)));
     std::unique_ptr<dem::Ranks> ranks(load_plugin(launch)());
     if (ranks->count() < launch.count)
         throw UsageError(fmt::format(
             "{} processes were started together, of which MPI knows {}; start them with mpirun, or "
-            "with srun --mpi=pmix where SLURM has it",
+            "with srun --mpi=pmix where SLURM has it; --ranks=1 makes the run in one process",
             launch.count, ranks->count()));
     return ranks;
 }

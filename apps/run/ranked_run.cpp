@@ -2,14 +2,21 @@
 
 #include "apps/model/model.hpp"
 #include "apps/run/exit_code.hpp"
+#include "apps/run/rank_reports.hpp"
+#include "apps/run/ranked_call.hpp"
 #include "apps/run/run.hpp"
-#include "apps/support/error.hpp"
 #include "dem/ranked_cycles.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace listric {
 
@@ -17,40 +24,88 @@ using namespace dem;
 
 namespace {
 
-/// Whether all ranks are as well as this one says that it is.
-bool all_are_well(Ranks& ranks, bool well) {
-    std::array<std::uint64_t, 1> failed{well ? 0u : 1u};
-    ranks.greatest(failed);
-    return failed[0] == 0;
+/// Tells how it ends, and ends all ranks.
+[[noreturn]] void end_all(Ranks& ranks, const Ending& ending) {
+    tell(ending);
+    report_end(ranks.mine(), static_cast<int>(ending.code));
+    ranks.abort(static_cast<int>(ending.code));
+    std::_Exit(static_cast<int>(ending.code));
 }
 
-/// The scene, once all processes have read it.
-Scene agreed_scene(Ranks& ranks, const RankedRun& run) {
-    std::optional<Scene> scene;
-    std::exception_ptr problem;
-    try {
-        scene = run.read_scene();
-    } catch (...) {
-        problem = std::current_exception();
-    }
-    if (all_are_well(ranks, scene.has_value()))
-        return std::move(*scene);
-    if (problem)
-        std::rethrow_exception(problem);
-    throw UsageError("not all processes can read the scene; do their machines see the same files?");
-}
-
-/// Tells what has been thrown, and ends all ranks. What is wrong with the call the root tells, too:
+/// Ends all ranks for what has been thrown here. What is wrong with the call the root tells, too:
 /// the others wait for that, or for the next that it has to say.
-[[noreturn]] void end_all(Ranks& ranks) {
-    const Ending ending = ending_of(std::current_exception());
+[[noreturn]] void end_all(Ranks& ranks, const std::exception_ptr& thrown) {
+    const Ending ending = ending_of(thrown);
     if (ranks.mine() != 0 && ending.code == ExitCode::bad_call) {
         Bytes next;
         ranks.broadcast(next);
     }
-    tell(ending);
-    ranks.abort(static_cast<int>(ending.code));
-    std::_Exit(static_cast<int>(ending.code));
+    end_all(ranks, ending);
+}
+
+/// What keeps a process from the run, as a letter.
+Bytes packed(const Ending& ending) {
+    Bytes letter(1 + ending.message.size(), static_cast<std::byte>(ending.code));
+    std::ranges::copy(std::as_bytes(std::span(ending.message)), letter.begin() + 1);
+    return letter;
+}
+
+Ending unpacked_ending(const Bytes& letter) {
+    Ending ending{static_cast<ExitCode>(letter.at(0)), ""};
+    for (auto byte = letter.begin() + 1; byte != letter.end(); ++byte)
+        ending.message += static_cast<char>(*byte);
+    return ending;
+}
+
+/// Ends all ranks if anything keeps one from the run, or if one was called otherwise than the root:
+/// with one message, the root's. What is said here must not change from version to version, or else
+/// two of them would wait for each other.
+/// @param problem  of this one; its call is empty then
+void agree(Ranks& ranks, const std::vector<CallPart>& call, const Ending& problem) {
+    // Programs that know nothing of this (to f005c7a) take anything but 0 for a process that cannot
+    // read its scene. They say so, and end all, where the root speaks next.
+    std::array<std::uint64_t, 1> met{2};
+    ranks.greatest(met);
+    Bytes of_root = ranks.mine() == 0 ? packed(call) : Bytes();
+    ranks.broadcast(of_root);
+    const std::vector<CallPart> wanted = unpacked_call(of_root);
+    Ending mine = problem;
+    if (mine.code == ExitCode::done && !wanted.empty())
+        if (const auto difference = first_difference(wanted, call))
+            mine = {ExitCode::bad_call, *difference + "; all processes of a run need the same, "
+                                                      "--ranks=1 makes one of each"};
+    std::optional<Ending> first;
+    ranks.gather(packed(mine), [&](int rank, const Bytes& letter) {
+        Ending ending = unpacked_ending(letter);
+        if (first || ending.code == ExitCode::done)
+            return;
+        if (rank != 0)
+            ending.message = fmt::format("process {} {}", rank, ending.message);
+        first = ending;
+    });
+    if (first)
+        end_all(ranks, *first);
+    Bytes go_on; // which never comes if that was the end
+    ranks.broadcast(go_on);
+}
+
+/// What all processes are to do, once they agree.
+std::pair<Scene, RunOptions> agreed_call(Ranks& ranks, const RankedRun& run) {
+    std::optional<Scene> scene;
+    RunOptions options;
+    std::vector<CallPart> call;
+    Ending problem{ExitCode::done, ""};
+    try {
+        scene = run.read_scene();
+        options = run.prepare(*scene, ranks.mine() == 0);
+        call = call_of(*scene, options);
+    } catch (...) {
+        problem = ending_of(std::current_exception());
+        if (ranks.mine() != 0)
+            problem.message = "cannot begin: " + problem.message;
+    }
+    agree(ranks, call, problem);
+    return {std::move(*scene), std::move(options)};
 }
 
 } // namespace
@@ -67,8 +122,8 @@ std::optional<Objection> objection_to_ranks(const Scene& scene) {
 
 RunOutcome run_on_ranks(Ranks& ranks, const RankedRun& run) {
     try {
-        const Scene scene = agreed_scene(ranks, run);
-        RunOptions options = run.prepare(scene, ranks.mine() == 0);
+        const auto [scene, given] = agreed_call(ranks, run);
+        RunOptions options = given;
         const ModelParts parts = make_parts(scene);
         RankedCycles cycles(ranks, parts.base, parts.physics,
                             {options.threads, options.plain ? Cycle::plain : best_cycle()});
@@ -78,11 +133,11 @@ RunOutcome run_on_ranks(Ranks& ranks, const RankedRun& run) {
                 return run_scene(scene, options);
             cycles.serve();
             return RunOutcome::finished;
-        } catch (...) {
-            end_all(ranks); // before the end of `cycles`, which speaks to the others
+        } catch (...) { // before the end of `cycles`, which speaks to the others
+            end_all(ranks, std::current_exception());
         }
     } catch (...) {
-        end_all(ranks);
+        end_all(ranks, std::current_exception());
     }
 }
 

@@ -97,10 +97,10 @@ std::optional<FaultFit> recalled(std::string_view text, std::span<const Point> p
 
 FaultFit fit_or_recall_fault(std::span<const Point> points, double tolerance) {
     constexpr double long_time = 0.05; // s; what is quicker is not worth a file
-    fs::path file;
+    fs::path file = cache_folder();
     try {
-        file =
-            cache_folder() / fmt::format("fault-{:016x}.txt", fnv1a(origin_of(points, tolerance)));
+        if (!file.empty())
+            file /= fmt::format("fault-{:016x}.txt", fnv1a(origin_of(points, tolerance)));
         if (const auto fit = recalled(read_text_if_there(file), points, tolerance))
             return *fit;
     } catch (const std::exception&) { // as if there were no file

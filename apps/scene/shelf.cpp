@@ -1,6 +1,7 @@
 #include "apps/scene/shelf.hpp"
 
 #include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
@@ -82,6 +83,9 @@ std::string objection_to_bytes(const fs::path& path, std::string_view text, std:
 } // namespace
 
 toml::table Shelf::read(const fs::path& path) const {
+    if (is_pipe_or_device(path))
+        fail(fmt::format("{}: is no regular file (a pipe or a device); needs a {}, saved in a file",
+                         path.string(), kind));
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::string text;

@@ -1,6 +1,7 @@
 #include "apps/studies/bench.hpp"
 
 #include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
 #include "apps/support/memory.hpp"
 #include "apps/support/stopwatch.hpp"
@@ -61,6 +62,8 @@ Packing make_packing(std::size_t discs, double width, double normal_stiffness,
 }
 
 Packing read_packing(const std::filesystem::path& path) {
+    if (is_pipe_or_device(path))
+        throw UsageError(path.string() + ": is no regular file (a pipe or a device)");
     std::ifstream in(path);
     if (!in)
         throw UsageError(path.string() + ": cannot be read");

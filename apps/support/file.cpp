@@ -82,6 +82,12 @@ void write_text(const fs::path& path, std::string_view text) {
     write_bytes(path, std::as_bytes(std::span(text)));
 }
 
+bool is_pipe_or_device(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
 std::string read_text(const fs::path& path) {
     std::error_code error;
     if (fs::is_directory(path, error))

@@ -15,6 +15,10 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 /// The same with text.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
+/// Whether a name is there but of no regular file, nor of a folder: of a pipe or a device, which
+/// may never end, or never begin.
+bool is_pipe_or_device(const std::filesystem::path& path);
+
 /// All of a file. Throws StorageError.
 std::string read_text(const std::filesystem::path& path);
 

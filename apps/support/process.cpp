@@ -1,9 +1,15 @@
 #include "apps/support/process.hpp"
 
+#include "apps/support/stop.hpp"
+
 #include <cerrno>
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#if defined __linux__
+#include <sys/prctl.h>
+#endif
 
 namespace listric {
 
@@ -22,31 +28,44 @@ std::vector<char*> pointers(const std::vector<std::string>& words) {
     return arguments;
 }
 
-/// Exit code of a child that has ended; -1 of none.
-int await(pid_t child) {
-    int status = 0;
-    while (child >= 0 && waitpid(child, &status, 0) < 0)
-        if (errno != EINTR)
-            return -1;
-    if (child < 0)
-        return -1;
-    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+/// The parent must not have ended before this could be asked for.
+void stop_with(pid_t parent) {
+#if defined __linux__
+    prctl(PR_SET_PDEATHSIG, request_to_stop);
+#endif
+    if (getppid() != parent)
+        _exit(127);
+}
+
+pid_t begin(const std::vector<std::string>& words, bool stops_with_parent) {
+    const std::vector<char*> arguments = pointers(words);
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    if (child != 0)
+        return child;
+    setpgid(0, 0); // a terminal sends Ctrl-C to a group
+    if (stops_with_parent)
+        stop_with(parent);
+    execvp(arguments[0], arguments.data());
+    _exit(127);
 }
 
 } // namespace
 
-int run_program(const std::vector<std::string>& words,
-                const std::function<void(int process)>& begun) {
-    const std::vector<char*> arguments = pointers(words);
-    const pid_t child = fork();
-    if (child == 0) {
-        setpgid(0, 0); // a terminal sends Ctrl-C to a group
-        execvp(arguments[0], arguments.data());
-        _exit(127);
-    }
-    if (child > 0 && begun)
-        begun(child);
-    return await(child);
+int run_program(const std::vector<std::string>& words) {
+    return end_of_program(begin(words, false));
+}
+
+int begin_program(const std::vector<std::string>& words) { return begin(words, true); }
+
+int end_of_program(int process) {
+    int status = 0;
+    if (process < 0)
+        return -1;
+    while (waitpid(process, &status, 0) < 0)
+        if (errno != EINTR)
+            return -1;
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
 SilentEnd run_silently(const std::vector<std::string>& words) {
@@ -78,7 +97,7 @@ SilentEnd run_silently(const std::vector<std::string>& words) {
             end.said.erase(0, end.said.size() - most_said);
     }
     close(ends[0]);
-    end.code = await(child);
+    end.code = end_of_program(child);
     return end;
 }
 

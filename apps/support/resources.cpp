@@ -7,13 +7,26 @@ namespace listric {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Beside the folder of the executable.
+fs::path installed_folder() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    return program.parent_path().parent_path() / "share/listric";
+}
+
+} // namespace
+
+bool is_installed() {
+    std::error_code error;
+    return fs::is_directory(installed_folder(), error);
+}
+
 fs::path resource_folder() {
     if (const char* share = std::getenv("LISTRIC_SHARE"); share && *share)
         return share;
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    const fs::path installed = program.parent_path().parent_path() / "share/listric";
-    return fs::is_directory(installed, error) ? installed : fs::path(LISTRIC_SOURCE_DIR) / "apps";
+    return is_installed() ? installed_folder() : fs::path(LISTRIC_SOURCE_DIR) / "apps";
 }
 
 } // namespace listric

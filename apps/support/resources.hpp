@@ -9,4 +9,7 @@ namespace listric {
 /// it was built from.
 std::filesystem::path resource_folder();
 
+/// Whether the executable is an installed one, with its files beside it.
+bool is_installed();
+
 } // namespace listric

@@ -3,8 +3,12 @@
 #include "apps/support/error.hpp"
 
 #include <atomic>
+#include <csignal>
 
 namespace listric {
+
+/// The signal by which processes of the program ask each other to stop.
+inline constexpr int request_to_stop = SIGUSR2;
 
 /// Tells work that takes long whether somebody has asked for its end. Without a flag nobody can.
 /// The flag must outlive the token; a signal handler may set it.

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <sched.h>
+#include <thread>
 
 namespace listric::dem {
 
@@ -129,14 +131,19 @@ void Mailboxes::connect(std::span<const std::size_t> sent, std::span<const std::
 }
 
 void Mailboxes::await(std::byte* place, std::uint64_t stamp) const {
-    constexpr int awake = 1000; // pauses, some 20 us, before others may have the core
+    // Pauses, some 20 us, before others may have the core; then some 0.2 ms of offering it, after
+    // which the rank that is waited for has none: sleepers do not keep it from one.
+    constexpr int awake = 1000, offers = 200;
     for (int waited = 0; stamp_of(place).load(std::memory_order_acquire) != stamp; ++waited) {
         pause();
         if (waited < awake)
             continue;
         int any = 0; // what MPI has under way goes on meanwhile
         MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &any, MPI_STATUS_IGNORE);
-        sched_yield();
+        if (waited < awake + offers)
+            sched_yield();
+        else
+            std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
 }
 

@@ -24,7 +24,7 @@ RANKS = {f"dem/ranks/{name}" for name in ("mailboxes", "mpi_ranks", "require")}
 RANKS_LIBRARIES = ("mpi.h", "petscsys.h")
 
 # Headers that are neither ours nor of the C++ standard, whose names have no dot and no slash.
-SYSTEM = ("dlfcn.h", "fcntl.h", "sched.h", "sys/", "unistd.h", "immintrin.h")
+SYSTEM = ("dlfcn.h", "fcntl.h", "poll.h", "sched.h", "sys/", "unistd.h", "immintrin.h")
 ELEMENT_LIBRARIES = ("deal.II/", "petsc")
 FOREIGN = {
     "dem": ("immintrin.h", "sched.h", "sys/mman.h"),  # vectors, cores, large pages

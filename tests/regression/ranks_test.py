@@ -18,7 +18,10 @@ from program import PROGRAM, SOURCES
 # What an MPI that has started this process says to its own would confuse another; root may start one.
 ENVIRONMENT = {name: value for name, value in os.environ.items()
                if not name.startswith(("OMPI_", "PMIX_", "PMI_"))}
-ENVIRONMENT |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+# mpirun says nothing of its own: of Open MPI 4, and 5.
+ENVIRONMENT |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                "OMPI_MCA_orte_execute_quiet": "1", "PRTE_MCA_prte_execute_quiet": "1"}
+MPIRUN = ["/usr/bin/mpirun", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
 LONGEST = 60.0  # s, until a run that something has ended is gone
 LONG = "4km"  # takes seconds on any machine, so that what ends a run comes before its end
 needs_finite_elements = unittest.skipIf(os.environ.get("LISTRIC_FEM") == "0",
@@ -26,8 +29,7 @@ needs_finite_elements = unittest.skipIf(os.environ.get("LISTRIC_FEM") == "0",
 
 
 def command(ranks, output, *words):
-    start = ["/usr/bin/mpirun", "-q", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1", "-n", str(ranks)]
-    return [*(start if ranks else []), PROGRAM, "run", *words, "--accuracy", "draft", "--output", output,
+    return [*([*MPIRUN, "-n", str(ranks)] if ranks else []), PROGRAM, "run", *words, "--accuracy", "draft", "--output", output,
             "--quiet", "--no-report"]
 
 
@@ -74,11 +76,39 @@ class Ranks(unittest.TestCase):
         ended = self.run_on(2, "out", *words)
         self.assertEndsWith(ended.returncode, ended.stdout, 2, message)
 
-    def begin(self, ranks, output, *words):
+    def run_each(self, first, second, scene="lis1", folders=(".", "."), programs=(PROGRAM, PROGRAM), output=None):
+        """Two processes with words of their own."""
+        script = self.folder / "each.sh"
+        output = output or self.folder / "out"
+        script.write_text(f"""case $OMPI_COMM_WORLD_RANK in
+            0) cd {folders[0]}; program={programs[0]}; words='{first}';;
+            *) cd {folders[1]}; program={programs[1]}; words='{second}';;
+            esac
+            exec $program run {scene} --accuracy draft --until 4m --output {output} $words""")
+        return subprocess.run([*MPIRUN, "-n", "2", "sh", script], cwd=self.folder,
+                              env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              timeout=LONGEST)
+
+    def ranks_of(self, output):
+        """Numbers of the processes that mpirun has started, the root's first."""
+        listed = subprocess.run(["pgrep", "-f", f"^{PROGRAM} run .*{self.folder / output} "],
+                                stdout=subprocess.PIPE, text=True)
+        parents = {int(number): Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[1]
+                   for number in listed.stdout.split()}
+        return [number for number, parent in parents.items()
+                if Path(f"/proc/{parent}/comm").read_text().strip() in ("mpirun", "prterun", "prted", "orted")]
+
+    def assertGone(self):
+        end = time.monotonic() + 10.0
+        while processes_of(self.folder) and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(processes_of(self.folder), [])
+
+    def begin(self, ranks, output, *words, **other):
         """A run that has begun to extend."""
         run = subprocess.Popen(command(ranks, self.folder / output, *words), env=self.environment,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                               start_new_session=True)
+                               start_new_session=True, **other)
         self.addCleanup(run.stdout.close)
         self.addCleanup(run.kill)
         first = self.folder / output / "snapshots"
@@ -181,6 +211,92 @@ class Ends(Ranks):
         for number in ("0", "-1", "two", "2.5"):
             ended = self.run_on(0, "run", "lis1", f"--ranks={number}")
             self.assertEndsWith(ended.returncode, ended.stdout, 2, f"--ranks={number}: a number of processes")
+
+    def test_processes_that_were_called_differently(self):
+        for change, message in (("--set detachment.friction=0.1", "another scene: detachment.friction 0.1 there, "),
+                                ("--set gravity.acceleration_m_per_s2=1.62", "gravity.acceleration_m_per_s2 1.62 there"),
+                                ("--seed 7", "seed 7 there, 1 here"),
+                                ("--without fault_weakening", "[fault_weakening]"),
+                                ("--until 50m", "another target: --until 50m there, 4m here"),
+                                ("--output elsewhere", "another output: --output "),
+                                ("--resume", "--resume yes there, no here"),
+                                ("--set compacton.x=1", "process 1 cannot begin: "),
+                                ("--bogus", "no option --bogus")):
+            with self.subTest(change):
+                ended = self.run_each("", change)
+                self.assertEndsWith(ended.returncode, ended.stdout, 2, message)
+                self.assertFalse((self.folder / "out").exists(), "work has begun")
+
+    def test_one_scene_of_two_contents(self):
+        """As of machines that do not see the same files."""
+        (self.folder / "own").mkdir()
+        text = (SOURCES / "apps/scenes/lis1.toml").read_text()
+        (self.folder / "scene.toml").write_text(text)
+        (self.folder / "own/scene.toml").write_text(text + "\n[energy]\n")
+        ended = self.run_each("", "", scene="scene.toml", folders=(".", "own"))
+        self.assertEndsWith(ended.returncode, ended.stdout, 2, "[energy] there, none here")
+        (self.folder / "own/scene.toml").write_text(text)
+        ended = self.run_each("", "", scene="scene.toml", folders=(".", "own"), output="relative")
+        self.assertEndsWith(ended.returncode, ended.stdout, 2, "another output: --output ")
+
+    def test_another_program(self):
+        other = self.folder / "other"
+        version = subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE, text=True).stdout.strip().encode()
+        program = Path(PROGRAM).read_bytes()
+        self.assertIn(version, program)
+        other.write_bytes(program.replace(version, version[:-1] + b"#"))
+        other.chmod(0o755)
+        self.environment["LISTRIC_SHARE"] = str(SOURCES / "apps")
+        ended = self.run_each("", "", programs=(PROGRAM, other))
+        self.assertEndsWith(ended.returncode, ended.stdout, 2, "process 1 is another program: version ")
+
+    def test_what_processes_may_differ_in(self):
+        ended = self.run_each("--plain --threads 1", "--quiet --no-report")
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+
+    def test_an_environment_that_mpirun_has_left(self):
+        stale = subprocess.run(["/usr/bin/mpirun", "-n", "1", "env", "-0"], env=self.environment,
+                               stdout=subprocess.PIPE, check=True).stdout.decode()
+        left = dict(entry.split("=", 1) for entry in stale.split("\0") if "=" in entry)
+        self.environment |= left | {"OMPI_COMM_WORLD_SIZE": "2"}
+        ended = self.run_on(0, "run", "lis1", "--until", "0m")
+        self.assertEndsWith(ended.returncode, ended.stdout, 2, "an mpirun that has ended")
+        self.assertIn("--ranks=1", ended.stdout)
+        self.assertEqual(self.summary(0, "one", "lis1", "--until", "0m", "--ranks=1")["ranks"], 1)
+        self.environment["OMPI_COMM_WORLD_SIZE"] = "1"
+        self.assertEqual(self.summary(0, "two", "lis1", "--until", "0m", "--ranks=2")["ranks"], 2)
+
+    def test_a_starter_that_is_killed(self):
+        run = self.begin(0, "run", "lis1", "--until", LONG, "--ranks=2")
+        run.kill()
+        run.wait()
+        self.assertGone()
+        self.assertEqual(json.loads((self.folder / "run/status.json").read_text())["phase"], "stopped")
+
+    def test_a_process_that_the_starter_loses(self):
+        run = self.begin(0, "run", "lis1", "--until", LONG, "--ranks=2")
+        os.kill(self.ranks_of("run")[-1], signal.SIGKILL)
+        said, _ = run.communicate(timeout=LONGEST)
+        self.assertEqual(run.returncode, 130)
+        self.assertRegex(said, "^listric: process [01] of 2 was ended by signal 9 .*; resume with: .* --resume\n$")
+        self.assertGone()
+
+    def test_mpirun_is_interrupted_itself(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            run = self.begin(0, f"run-{number}", "lis1", "--until", LONG, "--ranks=2")
+            mpirun = subprocess.run(["pgrep", "-P", str(run.pid), "mpirun"], stdout=subprocess.PIPE, text=True).stdout
+            os.kill(int(mpirun), number)
+            said, _ = run.communicate(timeout=LONGEST)
+            self.assertEqual(run.returncode, 130, said)
+            self.assertNotIn("does not start", said)
+            self.assertGone()
+
+    def test_nohup(self):
+        run = self.begin(0, "run", "lis1", "--until", "1km", "--ranks=2",
+                         preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        os.killpg(run.pid, signal.SIGHUP)
+        said, _ = run.communicate(timeout=LONGEST)
+        self.assertEqual(run.returncode, 0, said)
 
     def test_a_rank_that_is_killed(self):
         whole = self.summary(0, "whole", "lis1", "--until", LONG)

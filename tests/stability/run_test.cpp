@@ -122,7 +122,7 @@ TEST_F(HardRun, RanksEndTogetherWhereDiscsRunAwayOrAreNowhere) {
         change_newest(o.output, fault);
         const std::string call = fmt::format(
             "timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-            "/usr/bin/mpirun -q --oversubscribe --mca mpi_yield_when_idle 1 -n 2 '{}' run '{}' "
+            "/usr/bin/mpirun --oversubscribe --mca mpi_yield_when_idle 1 -n 2 '{}' run '{}' "
             "--output '{}' --resume --quiet >'{}' 2>&1",
             LISTRIC_PROGRAM, (o.output / "scene.toml").string(), o.output.string(), message);
         EXPECT_EQ(WEXITSTATUS(std::system(call.c_str())), 3) << contents(message);

@@ -75,5 +75,24 @@ TEST(BestTeam, ShrinksByStepsToWhatFits) {
     EXPECT_GT(work_in(10.0, team, eight), 0.9 * 80.0);
 }
 
+TEST(BestTeam, IsSoonOneThreadWhereAllCoresAreBusy) {
+    // As measured on two busy cores, where every meeting of threads costs a slice of time.
+    const Machine busy = [](int size) {
+        return size == 1 ? Pace{1e8, 0.0} : Pace{1e7 / size, 0.9};
+    };
+    for (int most : {2, 8, 64}) {
+        BestTeam team(most);
+        double work = 0.0, seconds = 0.0;
+        while (work < 2e8) { // of two seconds by one thread
+            const auto [speed, asleep] = busy(team.size());
+            const double piece = team.piece(), took = piece / speed;
+            team.report(piece, took, asleep * took * team.size());
+            work += piece;
+            seconds += took;
+        }
+        EXPECT_LT(seconds, most < 10 ? 2.4 : 3.6) << most;
+    }
+}
+
 } // namespace
 } // namespace listric
