@@ -50,6 +50,26 @@ json picks_of(const std::vector<PickedLine>& lines) {
     return list;
 }
 
+/// Nothing where brackets are nested deeper than ours ever are, for writing them calls itself as
+/// often.
+json shallow(const std::string& text) {
+    constexpr int deepest = 64;
+    int depth = 0;
+    bool quoted = false;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        if (c == '"')
+            quoted = !quoted;
+        else if (quoted)
+            k += c == '\\';
+        else if ((c == '[' || c == '{') && ++depth > deepest)
+            return {};
+        else if (c == ']' || c == '}')
+            --depth;
+    }
+    return json::parse(text, nullptr, false);
+}
+
 /// All of a run but its moments.
 json head_of(const ReportPage::Run& run) {
     const Scene& scene = run.scene;
@@ -65,7 +85,7 @@ json head_of(const ReportPage::Run& run) {
               {"mean_radius_m", run.mean_radius},
               {"scales", json::parse(report_scales(run.mean_radius))},
               {"history", run.history},
-              {"summary", run.summary.empty() ? json() : json::parse(run.summary, nullptr, false)}};
+              {"summary", run.summary.empty() ? json() : shallow(run.summary)}};
     if (scene.observed)
         head["picks"] = {{"horizons", picks_of(scene.observed->horizons)},
                          {"faults", picks_of(scene.observed->faults)}};
