@@ -9,11 +9,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 
 namespace listric {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -55,10 +60,26 @@ int parse_ranks(const std::string& text) {
     return count;
 }
 
+fs::path output_of(const RunCall& call, const Scene& scene) {
+    return call.output.empty() ? "out/" + scene.name : call.output;
+}
+
+/// What there is for a run that may end early. Nobody knows what of the disk a run that goes on, or
+/// takes the place of another, will find.
+Room room_of(const RunCall& call, const Scene& scene) {
+    Room room = room_for(output_of(call, scene));
+    if (call.options.resume || call.options.force)
+        room.disk = std::numeric_limits<double>::infinity();
+    room.disk *=
+        scene.extension.distance /
+        std::min(scene.extension.distance, std::max(1.0, call.options.until.value_or(1e300)));
+    return room;
+}
+
 /// Refuses what nobody waits for, or what several processes cannot make.
 void check_scene(const RunCall& call, const Scene& scene, bool on_ranks) {
     if (!call.force_size)
-        if (const auto oversize = oversize_of(scene, program_effects(), machine_memory()))
+        if (const auto oversize = oversize_of(scene, program_effects(), room_of(call, scene)))
             refuse_scene(call.scene, oversize->parameter, oversize->message);
     if (!on_ranks)
         return;
@@ -71,7 +92,7 @@ RunOptions options_of(const RunCall& call, const Scene& scene, bool on_ranks) {
     RunOptions options = call.options;
     if (on_ranks && call.threads->count() == 0)
         options.threads = 1;
-    options.output = call.output.empty() ? "out/" + scene.name : call.output;
+    options.output = output_of(call, scene);
     options.report = !call.no_report;
     return options;
 }
