@@ -13,8 +13,8 @@ namespace listric::dem {
 /// Square cells over the discs, for finding all discs within one cell width of a point.
 class Cells {
 public:
-    /// @param x, y  centres, m, finite
-    /// @param width  cell width = reach of a search, m
+    /// @param x, y  centres, m, finite, as their differences are
+    /// @param width  cell width = reach of a search, m, above 0
     Cells(std::span<const double> x, std::span<const double> y, double width) : width_(width) {
         if (x.empty())
             return;
@@ -24,7 +24,11 @@ public:
         bottom_ = bottom;
         // Few far-flung discs must not cost memory: then cells get wider.
         const double most = 4.0 * static_cast<double>(x.size()) + 64.0;
-        while ((right - left) / width_ * ((top - bottom) / width_) > most)
+        // Nor must many along a line, whose rows and columns multiply to nothing.
+        const auto is_many = [&](double columns, double rows) {
+            return columns * rows > most || columns + rows > 2.0 * most;
+        };
+        while (is_many((right - left) / width_, (top - bottom) / width_))
             width_ *= 2.0;
         columns_ = static_cast<std::int64_t>((right - left) / width_) + 1;
         rows_ = static_cast<std::int64_t>((top - bottom) / width_) + 1;
@@ -32,7 +36,9 @@ public:
         std::vector<std::int32_t> cell(x.size());
         in_pieces(x.size(), 8192, [&](std::size_t i, std::size_t end) {
             for (; i < end; ++i)
-                cell[i] = static_cast<std::int32_t>(column(x[i]) * rows_ + row(y[i]));
+                cell[i] =
+                    static_cast<std::int32_t>(static_cast<std::int64_t>(column(x[i])) * rows_ +
+                                              static_cast<std::int64_t>(row(y[i])));
         });
         for (const std::int32_t c : cell)
             ++begin_[static_cast<std::size_t>(c) + 1];
@@ -60,7 +66,7 @@ public:
     template <class Visit> void for_each_run_near(double x, double y, Visit&& visit) const {
         if (discs_.empty())
             return;
-        const std::int64_t c = column(x), r = row(y);
+        const std::int64_t c = within(column(x), columns_), r = within(row(y), rows_);
         const std::int64_t low = std::max<std::int64_t>(r - 1, 0);
         const std::int64_t high = std::min(r + 1, rows_ - 1);
         if (low > high)
@@ -74,11 +80,11 @@ public:
     }
 
 private:
-    std::int64_t column(double x) const {
-        return static_cast<std::int64_t>(std::floor((x - left_) / width_));
-    }
-    std::int64_t row(double y) const {
-        return static_cast<std::int64_t>(std::floor((y - bottom_) / width_));
+    // Of centres whole numbers, which fit; of other places what may be far beyond.
+    double column(double x) const { return std::floor((x - left_) / width_); }
+    double row(double y) const { return std::floor((y - bottom_) / width_); }
+    static std::int64_t within(double place, std::int64_t count) {
+        return static_cast<std::int64_t>(std::clamp(place, -2.0, static_cast<double>(count + 1)));
     }
 
     double width_, left_ = 0.0, bottom_ = 0.0;

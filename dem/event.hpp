@@ -4,6 +4,7 @@
 #include "dem/state.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -23,6 +24,10 @@ struct Schedule {
 };
 
 inline constexpr Schedule never{std::numeric_limits<double>::infinity(), 1.0};
+
+/// Told now and then how far something has come that may take long. It may throw to end it; what it
+/// worked on is then left as it is.
+using StepReport = std::function<void(const std::string& done)>;
 
 /// Something rare that happens to the state between cycles: an effect is one or more events.
 ///
@@ -51,6 +56,7 @@ public:
 
     Table memory;
     std::int64_t applied = 0; ///< how often, since extension began
+    StepReport step_report;   ///< of an application; none: nobody wants to know
 
 private:
     std::string name_;

@@ -17,8 +17,11 @@ namespace {
 
 /// Grows discs with fewer than three contacts until they carry load (FISHTank's floaters).
 void grow_floaters(State& state, const RigidBase& base, const CyclePhysics& physics, double largest,
-                   const Execution& execution) {
-    for (int round = 0; round < 40; ++round) {
+                   const Execution& execution,
+                   const std::function<void(std::string_view, double)>& report) {
+    constexpr int rounds = 40;
+    for (int round = 0; round < rounds; ++round) {
+        report("growing of floaters", static_cast<double>(round) / rounds);
         const std::vector<int> contacts = coordination(state, base);
         const DiscColumns d = disc_columns(state);
         std::size_t floaters = 0;
@@ -180,7 +183,7 @@ State make_hanging_wall(const GenesisRequest& request,
     settle(
         state, open, physics, 2.5e-3, 150 * crossing,
         [&](double share) { report("settling under gravity", share); }, execution);
-    grow_floaters(state, open, physics, largest, execution);
+    grow_floaters(state, open, physics, largest, execution, report);
     trim(state, p.length);
     set_masses(state, p.rock_density, area);
     sort_discs(state);

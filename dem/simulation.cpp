@@ -40,6 +40,11 @@ void Simulation::respond_by(BaseResponse& response) {
                            const Execution& how) { advance(s, b, p, cycles, how, &response); });
 }
 
+void Simulation::report_steps_to(const StepReport& report) {
+    for (const auto& event : events_)
+        event->step_report = report;
+}
+
 void Simulation::begin(State state) {
     assert(!has_state_ && state.clock.cycle == 0);
     state_ = std::move(state);

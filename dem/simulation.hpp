@@ -66,6 +66,10 @@ public:
     using TimeReport = std::function<void(const std::string& part, double seconds)>;
     void report_times_to(TimeReport report) { time_report_ = std::move(report); }
 
+    /// Told while an event is applied that may take long, such as filling a deep basin. If it
+    /// throws, the state is lost, and extend_to() throws the same.
+    void report_steps_to(const StepReport& report);
+
     /// Starts with a hanging wall before extension. To be called once, after events were added.
     void begin(State state);
 

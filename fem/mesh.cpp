@@ -1,13 +1,13 @@
 #include "fem/mesh.hpp"
 
 #include "fem/blocks.hpp"
+#include "fem/mesh_scan.hpp"
 
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <optional>
 
@@ -45,14 +45,6 @@ public:
 private:
     Curve curve_;
 };
-
-/// Area of the quadrilateral's corner at which it is smallest.
-double least_corner(const std::array<Vector, 4>& v) {
-    const auto corner = [&](std::size_t at, std::size_t right, std::size_t up) {
-        return cross(v[right] - v[at], v[up] - v[at]);
-    };
-    return std::min({corner(0, 1, 2), corner(1, 3, 0), corner(2, 0, 3), corner(3, 2, 1)});
-}
 
 std::vector<dealii::CellData<2>> coarse_cells(const BlockMesh& blocks) {
     std::vector<dealii::CellData<2>> cells;
@@ -137,91 +129,6 @@ void read_blocks(Mesh& mesh, const FootwallRequest& request) {
     mesh.cells->refine_global(blocks.halvings);
 }
 
-/// Reads nodes and elements of a Gmsh file and refuses what deal.II would misread, or, like
-/// inverted cells, mend without a word.
-class MshScan {
-public:
-    explicit MshScan(const std::string& name) : name_(name), file_(name) {}
-
-    void run() {
-        std::string word;
-        double version = 0.0;
-        file_ >> word;
-        if (word != "$MeshFormat" || !(file_ >> version) || version < 2.0 || version >= 3.0)
-            refuse("is no Gmsh mesh of format 2.2; write one with gmsh -2 -format msh22");
-        while (file_ >> word)
-            if (word == "$Nodes")
-                scan_nodes();
-            else if (word == "$Elements")
-                scan_elements();
-        if (quadrilaterals_ == 0)
-            refuse("has no quadrilaterals");
-    }
-
-private:
-    [[noreturn]] void refuse(const std::string& reason) const {
-        throw FootwallError(name_ + ": " + reason);
-    }
-
-    void scan_nodes() {
-        std::size_t count = 0, number = 0;
-        double x = 0.0, y = 0.0, z = 0.0;
-        file_ >> count;
-        nodes_.resize(count + 1);
-        for (std::size_t k = 0; k < count && file_ >> number >> x >> y >> z; ++k) {
-            if (number > count)
-                refuse("node numbers have gaps; write it with gmsh's renumbering");
-            nodes_[number] = {x, y};
-        }
-    }
-
-    void scan_elements() {
-        constexpr std::size_t point = 15, line = 1, quadrilateral = 3; // Gmsh's types
-        std::size_t count = 0;
-        file_ >> count;
-        for (std::size_t k = 0; k < count; ++k) {
-            std::size_t number = 0, type = 0, tags = 0, tag = 0;
-            file_ >> number >> type >> tags;
-            for (std::size_t i = 0; i < tags; ++i)
-                file_ >> tag;
-            const std::size_t corners = type == point           ? 1
-                                        : type == line          ? 2
-                                        : type == quadrilateral ? 4
-                                                                : 0;
-            if (corners == 0)
-                refuse("element " + std::to_string(number) + " is of Gmsh type " +
-                       std::to_string(type) +
-                       ", allowed: first-order lines and quadrilaterals; recombine all surfaces");
-            std::array<std::size_t, 4> v{};
-            for (std::size_t i = 0; i < corners; ++i)
-                file_ >> v[i];
-            if (!file_)
-                refuse("ends in the middle of its elements");
-            if (type == quadrilateral)
-                check_quadrilateral(number, v);
-        }
-    }
-
-    void check_quadrilateral(std::size_t number, const std::array<std::size_t, 4>& v) {
-        ++quadrilaterals_;
-        const auto at = [&](std::size_t i) {
-            if (v[i] >= nodes_.size())
-                refuse("element " + std::to_string(number) + " names node " + std::to_string(v[i]) +
-                       ", which is not there");
-            return nodes_[v[i]];
-        };
-        if (!(least_corner({at(0), at(1), at(3), at(2)}) > 0.0))
-            refuse("element " + std::to_string(number) +
-                   " is inverted or folded: nodes must run anticlockwise around a convex "
-                   "quadrilateral");
-    }
-
-    std::string name_;
-    std::ifstream file_;
-    std::vector<Vector> nodes_; ///< by number, from 1
-    std::size_t quadrilaterals_ = 0;
-};
-
 std::string place(const Point<2>& p) {
     return "(" + std::to_string(std::lround(p[0])) + ", " + std::to_string(std::lround(p[1])) +
            ") m";
@@ -290,10 +197,7 @@ void check_boundaries(const Mesh& mesh, const FootwallRequest& request) {
 }
 
 void read_gmsh(Mesh& mesh, const FootwallRequest& request) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(request.mesh_file, error))
-        throw FootwallError(request.mesh_file + ": no such mesh file");
-    MshScan(request.mesh_file).run();
+    scan_mesh(request.mesh_file);
     try {
         dealii::GridIn<2> reader(*mesh.cells);
         std::ifstream in(request.mesh_file);

@@ -23,10 +23,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Times of runs on this machine, whose speed is measured once for scenes of about the same size.
+/// What runs take on this machine, whose speed is measured once for scenes of about the same size.
 class Times {
 public:
-    double seconds(const Scene& scene) {
+    Prediction of(const Scene& scene) {
         constexpr int largest = 17; // packings of 130,000 discs are as slow as larger ones
         const double discs = static_cast<double>(estimated_discs(scene));
         const int size = std::min(largest, static_cast<int>(std::log2(discs)));
@@ -34,7 +34,7 @@ public:
         const auto [speed, is_new] = speeds_.try_emplace({size, accounted});
         if (is_new)
             speed->second = measure_speed(std::size_t{1} << size, threads_, 0.1, accounted);
-        return predict(scene, speed->second).seconds;
+        return predict(scene, speed->second);
     }
 
 private:
@@ -47,7 +47,7 @@ std::string about(double number) {
     const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(number)) - 2.0));
     std::string digits = fmt::format("{:.0f}", unit * std::round(number / unit));
     for (std::size_t at = digits.size(); at > 3;)
-        digits.insert(at -= 3, ",");
+        digits.insert(at -= 3, 1, ',');
     return "about " + digits;
 }
 
@@ -66,11 +66,15 @@ std::string check_scene_file(const std::string& file, const toml::table& documen
         std::ranges::count_if(document, [](const auto& entry) { return entry.second.is_table(); });
     if (!scene.hanging_wall)
         return fmt::format("{} tables, no discs, a few seconds{}", tables, warnings_of(scene));
-    if (const auto oversize = oversize_of(scene, program_effects(), machine_memory()))
+    if (const auto oversize = oversize_of(scene, program_effects(), room_for(".")))
         refuse_scene(request, oversize->parameter, oversize->message);
+    const Prediction p = times.of(scene);
+    const auto discs = static_cast<double>(p.discs_at_start);
+    const auto at_end = static_cast<double>(p.discs_at_end);
     return fmt::format(
-        "{} tables, {} discs, {}{}{}", tables, about(static_cast<double>(estimated_discs(scene))),
-        duration(times.seconds(scene)),
+        "{} tables, {} discs{}, {}, {}{}{}", tables, about(discs),
+        at_end > 3.0 * discs ? fmt::format(" and {} at the end", about(at_end)) : "",
+        duration(p.seconds), output_text(p),
         scene.picked_fault ? "; " + describe(*scene.picked_fault, *scene.detachment) : "",
         warnings_of(scene));
 }
@@ -80,9 +84,12 @@ std::string check_sweep(const fs::path& file, Times& times) {
     const Scene scene = scene_at(plan, {}, plan.first_seed);
     const auto runs = sweep_points(plan).size() * static_cast<std::size_t>(plan.seeds);
     std::string text = fmt::format("a sweep of {} runs", runs);
-    if (scene.hanging_wall)
-        text += fmt::format(", {} if each takes as long as {}",
-                            duration(static_cast<double>(runs) * times.seconds(scene)), scene.name);
+    if (!scene.hanging_wall)
+        return text + warnings_of(scene);
+    const Prediction p = times.of(scene);
+    const auto all = static_cast<double>(runs);
+    text += fmt::format(", {} and {} of disk if each takes as much as {}",
+                        duration(all * p.seconds), size_text(all * p.disk), scene.name);
     return text + warnings_of(scene);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace listric {
 
@@ -20,6 +21,16 @@ std::string duration(double seconds) {
     if (seconds < 2 * 86400.0)
         return fmt::format("{:.1f} h", seconds / 3600.0);
     return fmt::format("{:.1f} d", seconds / 86400.0);
+}
+
+std::string size_text(double bytes) {
+    return bytes < 1e9 ? fmt::format("{:.0f} MB", std::ceil(bytes / 1e6))
+                       : fmt::format("{:.3g} GB", bytes / 1e9);
+}
+
+std::string output_text(const Prediction& prediction) {
+    return fmt::format("{:.0f} snapshots, {} of disk", prediction.snapshots,
+                       size_text(prediction.disk));
 }
 
 namespace {
@@ -58,11 +69,13 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
                        "  {} discs at the start, about {} at the end, mean radius {} m\n"
                        "  {:g} km of extension at {} m/a: {:g} Ma\n"
                        "  time step {:.3g} s, {:.3g} million cycles at {} m/s\n"
-                       "  {:.2g} disc-steps, about {:.0f} MB of memory\n\n",
+                       "  {:.2g} disc-steps, about {:.0f} MB of memory\n"
+                       "  {}, one every {} m\n\n",
                        fitted, p.discs_at_start, p.discs_at_end, scene.hanging_wall->mean_radius,
                        extension.distance / 1e3, extension.rate,
                        extension.distance / extension.rate / 1e6, p.time_step, p.cycles / 1e6,
-                       extension.speed, p.disc_steps, p.memory / 1e6);
+                       extension.speed, p.disc_steps, p.memory / 1e6, output_text(p),
+                       scene.output.interval);
 }
 
 /// What effects say of themselves; those that need another one are spoken for by it.

@@ -10,6 +10,12 @@ namespace listric {
 /// "40 s", "3.1 min", "2.0 h"
 std::string duration(double seconds);
 
+/// "30 MB", "1.2 GB"
+std::string size_text(double bytes);
+
+/// "21 snapshots, 130 MB of disk"
+std::string output_text(const Prediction& prediction);
+
 /// What would be simulated and what it costs on this machine, as text.
 /// @param speed    with that many threads
 /// @param effects  all that there are

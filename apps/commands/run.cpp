@@ -12,9 +12,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -62,10 +64,26 @@ std::optional<int> parse_ranks(const std::string& text) {
     return count;
 }
 
+fs::path output_of(const RunCall& call, const std::string& scene) {
+    return call.output.empty() ? "out/" + scene : call.output;
+}
+
+/// What there is for a run that may end early. Nobody knows what of the disk a run that goes on, or
+/// takes the place of another, will find.
+Room room_of(const RunCall& call, const Scene& scene) {
+    Room room = room_for(output_of(call, scene.name));
+    if (call.options.resume || call.options.force)
+        room.disk = std::numeric_limits<double>::infinity();
+    room.disk *=
+        scene.extension.distance /
+        std::min(scene.extension.distance, std::max(1.0, call.options.until.value_or(1e300)));
+    return room;
+}
+
 /// Refuses what nobody waits for, or what several processes cannot make.
 void check_scene(const RunCall& call, const Scene& scene, bool on_ranks) {
     if (!call.force_size)
-        if (const auto oversize = oversize_of(scene, program_effects(), machine_memory()))
+        if (const auto oversize = oversize_of(scene, program_effects(), room_of(call, scene)))
             refuse_scene(call.scene, oversize->parameter, oversize->message);
     if (!on_ranks)
         return;
@@ -73,17 +91,12 @@ void check_scene(const RunCall& call, const Scene& scene, bool on_ranks) {
         refuse_scene(call.scene, objection->path, objection->message);
 }
 
-fs::path output_of(const RunCall& call) {
-    return call.output.empty() ? "out" / scenes.find(call.scene.scene).stem()
-                               : fs::path(call.output);
-}
-
 /// What was asked for; on ranks a process has one thread unless it is told otherwise.
-RunOptions options_of(const RunCall& call, bool on_ranks) {
+RunOptions options_of(const RunCall& call, const Scene& scene, bool on_ranks) {
     RunOptions options = call.options;
     if (on_ranks && call.threads->count() == 0)
         options.threads = 1;
-    options.output = output_of(call);
+    options.output = output_of(call, scene.name);
     options.report = !call.no_report;
     return options;
 }
@@ -100,7 +113,7 @@ ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
                                                             [&](const Scene& scene, bool is_root) {
                                                                 if (is_root)
                                                                     check_scene(call, scene, true);
-                                                                return options_of(call, true);
+                                                                return options_of(call, scene, true);
                                                             }}));
     report_end(ranks.mine(), static_cast<int>(code));
     return code;
@@ -110,7 +123,7 @@ ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
 ExitCode run_alone(const RunCall& call) {
     const Scene scene = load_scene(call.scene);
     check_scene(call, scene, false);
-    return exit_code_of(run_scene(scene, options_of(call, false)));
+    return exit_code_of(run_scene(scene, options_of(call, scene, false)));
 }
 
 ExitCode run(RunCall& call) {
@@ -122,7 +135,7 @@ ExitCode run(RunCall& call) {
         return run_alone(call);
     const Launch launch = read_launch();
     if (asked && launch.count == 1)
-        return start_ranks(*asked, output_of(call));
+        return start_ranks(*asked, output_of(call, scene_name(call.scene)));
     if (asked && *asked != launch.count)
         throw UsageError(fmt::format("--ranks={}: {} processes were started together; without "
                                      "mpirun or srun the program starts them itself",

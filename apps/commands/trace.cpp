@@ -24,8 +24,11 @@ measures::MovedPoints read_moved_points(const std::string& file) {
     for (const std::size_t column : {1, 3})
         for (double& value : rows.columns[column])
             value = -value;
-    return {std::move(rows.columns[0]), std::move(rows.columns[1]), std::move(rows.columns[2]),
-            std::move(rows.columns[3])};
+    measures::MovedPoints points{std::move(rows.columns[0]), std::move(rows.columns[1]),
+                                 std::move(rows.columns[2]), std::move(rows.columns[3])};
+    if (const std::string why = measures::objection_to(points); !why.empty())
+        throw SceneError(fmt::format("{}: {}", file, why));
+    return points;
 }
 
 } // namespace

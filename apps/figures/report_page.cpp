@@ -1,5 +1,6 @@
 #include "apps/figures/report_page.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
@@ -57,15 +58,10 @@ json picks_of(const std::vector<PickedLine>& lines) {
     return list;
 }
 
-/// Null of what is no JSON object: a page with it could not be read at all. What is nested more
-/// deeply than ours ever is falls away, as writing it would recurse.
+/// Null of what is no JSON object: a page with it could not be read at all.
 json object_or_null(const std::string& text) {
-    constexpr int deepest = 64;
-    const auto is_ours = [](int depth, json::parse_event_t, const json&) {
-        return depth <= deepest;
-    };
-    json object = json::parse(text, is_ours, false);
-    return object.is_object() ? object : json();
+    const JsonObject object = parse_json(text);
+    return object.is_object() ? json(object) : json();
 }
 
 /// Whether a text is a table as history.csv: a head, and rows with as many cells.

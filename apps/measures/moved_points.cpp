@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iomanip>
+#include <limits>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace listric::measures {
@@ -39,6 +42,17 @@ std::optional<Point> movement_across(const MovedPoints& points, const ShearField
     return (1.0 / count[1]) * sum[1] - (1.0 / count[0]) * sum[0];
 }
 
+/// Where values begin and end.
+struct Extremes {
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+
+    void add(double value) {
+        least = std::min(least, value);
+        greatest = std::max(greatest, value);
+    }
+    double width() const { return greatest - least; }
+};
+
 } // namespace
 
 double spacing_of(const MovedPoints& points) {
@@ -46,8 +60,13 @@ double spacing_of(const MovedPoints& points) {
     assert(points.x.size() > closest);
     const auto [left, right] = std::ranges::minmax(points.x);
     const auto [bottom, top] = std::ranges::minmax(points.y);
-    const double cover = std::max((right - left) * (top - bottom), 1e-300);
-    const double guess = std::sqrt(cover / static_cast<double>(points.x.size()));
+    const double width = right - left, height = top - bottom;
+    const auto count = static_cast<double>(points.x.size());
+    // Of points on a line the area says nothing.
+    const double guess =
+        std::max(std::sqrt(width * height / count), std::max(width, height) / count);
+    if (guess == 0.0)
+        return 0.0;
     const Cells cells(points.x, points.y, 3.0 * guess);
     std::vector<double> spacings;
     for (std::size_t i = 0; i < points.x.size(); ++i) {
@@ -67,6 +86,29 @@ double spacing_of(const MovedPoints& points) {
     return spacings.empty() ? guess : median(std::move(spacings));
 }
 
+std::string objection_to(const MovedPoints& points) {
+    constexpr double farthest = 1e9; // m
+    const auto is_far = [](double value) { return !(std::abs(value) <= farthest); };
+    for (const auto* values : {&points.x, &points.y, &points.dx, &points.dy})
+        if (std::ranges::any_of(*values, is_far))
+            return "has a point that is, or has moved, further than 1e9 m";
+    const double spacing = spacing_of(points);
+    Extremes x, y;
+    for (std::size_t i = 0; i < points.x.size(); ++i) {
+        x.add(points.x[i] + points.dx[i]);
+        y.add(points.y[i] + points.dy[i]);
+    }
+    const double places = (x.width() / spacing + 1.0) * (y.width() / spacing + 1.0);
+    if (spacing == 0.0 || places <= 100.0 * static_cast<double>(points.x.size()) + 1e6)
+        return "";
+    std::ostringstream text;
+    text << std::setprecision(3) << "has " << points.x.size() << " points, most of them " << spacing
+         << " m from their neighbours, but all over " << x.width() / 1e3 << " by "
+         << y.width() / 1e3 << " km, where " << places
+         << " would have room; leave out those that are far from the others";
+    return text.str();
+}
+
 ShearField shear_field(const MovedPoints& points) {
     ShearField field;
     field.diameter = spacing_of(points);
@@ -76,13 +118,16 @@ ShearField shear_field(const MovedPoints& points) {
         field.y.push_back(points.y[i] + points.dy[i]);
         field.id.push_back(static_cast<std::int64_t>(i));
     }
-    fit_gradients(field, points.x, points.y);
+    if (field.diameter > 0.0)
+        fit_gradients(field, points.x, points.y);
     return field;
 }
 
 std::vector<TracedFault> trace_faults(const MovedPoints& points, const FaultTraceOptions& options) {
     const ShearField field = shear_field(points);
     std::vector<TracedFault> faults;
+    if (!(field.diameter > 0.0))
+        return faults;
     for (FaultTrace& trace : trace_faults(field, Chain{}, options)) {
         TracedFault f;
         const double slip = median(trace.slip);

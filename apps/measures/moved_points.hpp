@@ -2,6 +2,7 @@
 
 #include "apps/measures/fault_trace.hpp"
 
+#include <string>
 #include <vector>
 
 namespace listric::measures {
@@ -14,8 +15,13 @@ struct MovedPoints {
 };
 
 /// Typical distance of neighbours before they moved, m: median over the points of the mean distance
-/// of the four closest. For discs in a packing it is about their diameter. Of at least five points.
+/// of the four closest. For discs in a packing it is about their diameter. Of at least five points;
+/// 0 where most lie on each other.
 double spacing_of(const MovedPoints& points);
+
+/// Why no faults can be looked for in them; empty: they can. Beyond a certain size numbers have no
+/// decimetres left, and a few points far from all others would make a field of empty room.
+std::string objection_to(const MovedPoints& points);
 
 /// Their strain, with that spacing for a diameter; its window is one strain_window.
 ShearField shear_field(const MovedPoints& points);
@@ -30,8 +36,8 @@ struct TracedFault {
     double width = 0.0;      ///< median along the trace, in spacings
 };
 
-/// The faults, the longest first. The least strains of the options are those of the whole
-/// displacement.
+/// The faults, the longest first; none among points that lie on each other or on a line. The least
+/// strains of the options are those of the whole displacement.
 std::vector<TracedFault> trace_faults(const MovedPoints& points,
                                       const FaultTraceOptions& options = {});
 

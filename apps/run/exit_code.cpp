@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <new>
+#include <string_view>
 #include <system_error>
 #include <unistd.h>
 
@@ -91,11 +92,18 @@ int run_guarded(const std::function<ExitCode()>& work) {
 }
 
 void guard_threads() {
+    keep_memory_for_the_end();
     std::set_terminate([] {
-        const auto exception = std::current_exception();
-        const Ending ending = exception ? ending_of(exception) : internal_error("terminated");
-        tell(ending);
-        _exit(static_cast<int>(ending.code));
+        try {
+            const auto exception = std::current_exception();
+            const Ending ending = exception ? ending_of(exception) : internal_error("terminated");
+            tell(ending);
+            _exit(static_cast<int>(ending.code));
+        } catch (...) { // there is not even memory to say so
+            constexpr std::string_view text = "listric: memory is short\n";
+            [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+            _exit(static_cast<int>(ExitCode::storage_failed));
+        }
     });
 }
 

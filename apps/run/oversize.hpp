@@ -2,6 +2,7 @@
 
 #include "apps/scene/effect.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -13,13 +14,17 @@ struct Oversize {
     std::string message;
 };
 
-/// Whether a scene with discs would take more cycles, or as much time beside the cycle, than
-/// anybody waits for, or more memory than this machine has. Its cause is the parameter that makes
-/// the run smallest when it has its default.
-/// @param memory  of the machine, bytes
-std::optional<Oversize> oversize_of(const Scene& scene, EffectList effects, double memory);
+/// What a machine has for a run, bytes; infinite where it does not tell.
+struct Room {
+    double memory, disk;
+};
 
-/// Memory of this machine, bytes; infinite where the system does not tell.
-double machine_memory();
+/// Memory of this machine, and the disk that is free where a folder is or will be.
+Room room_for(const std::filesystem::path& output);
+
+/// Whether a scene with discs would take more cycles, or as much time beside the cycle, than
+/// anybody waits for, more memory or disk than there is, or end with five times as many discs as it
+/// starts with. Its cause is the parameter that makes the run smallest when it has its default.
+std::optional<Oversize> oversize_of(const Scene& scene, EffectList effects, const Room& room);
 
 } // namespace listric

@@ -21,8 +21,10 @@ struct Prediction {
     double time_step = 0.0; ///< s
     double cycles = 0.0;    ///< after genesis
     double disc_steps = 0.0;
-    double work = 0.0;    ///< all that is done, disc-steps of the bare cycle
-    double memory = 0.0;  ///< bytes
+    double work = 0.0;   ///< all that is done, disc-steps of the bare cycle
+    double memory = 0.0; ///< bytes
+    double snapshots = 0.0;
+    double disk = 0.0;    ///< of all that is written, bytes
     double seconds = 0.0; ///< wall time, when nothing else runs
 };
 

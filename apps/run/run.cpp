@@ -13,6 +13,7 @@
 #include "apps/support/memory.hpp"
 #include "apps/support/moment_names.hpp"
 #include "apps/support/version.hpp"
+#include "dem/nothing_left.hpp"
 #include "dem/shared_loop.hpp"
 
 #include <fmt/format.h>
@@ -92,6 +93,9 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     } catch (const BeyondElasticity& limit) {
         throw NumericalFailure(
             fmt::format("{}\n{}, and valid", limit.what(), last_good_state(output)));
+    } catch (const NothingLeft& end) {
+        throw NumericalFailure(fmt::format("{}\n{}, and valid; resumed it would end the same way",
+                                           end.what(), last_good_state(output)));
     } catch (const NumericalFailure& failure) {
         throw NumericalFailure(fmt::format("{}\n{}; {}", failure.what(), last_good_state(output),
                                            retry_hint(scene, output)));

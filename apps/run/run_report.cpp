@@ -30,7 +30,9 @@ void RunReport::read_moments(const std::vector<std::filesystem::path>& window_en
     attempt([&] {
         RunFolder folder(output_, scene_);
         folder.snapshots = window_ends;
-        mean_radius_ = add_moments(moments_, folder, history, lines_, {.ends_there = false});
+        mean_radius_ = add_moments(moments_, folder, history, lines_,
+                                   {.most_bytes = most_of_report, .ends_there = false});
+        limit();
     });
 }
 
@@ -50,9 +52,25 @@ void RunReport::add(const Observation& now, const measures::FaultReport& faults,
 void RunReport::keep(const Observation& now, SectionLines lines) {
     mean_radius_ = now.state.mean_radius;
     moments_.add(now, lines_[now.state.clock.extension] = std::move(lines));
+    limit();
+}
+
+void RunReport::limit() {
+    if (static_cast<double>(moments_.bytes()) <= most_of_report)
+        return;
+    overflows_ = true;
+    moments_ = ReportMoments();
+    lines_.clear();
+    if (live_)
+        log_.say("report: no longer live, for so many moments are too much; it comes at the end");
 }
 
 void RunReport::write_page(const std::string& history, const std::string& summary, bool live) {
+    if (overflows_) {
+        if (!live)
+            report_run({.outputs = {output_}});
+        return;
+    }
     const ReportPage page{.runs = {{scene_, moments_, mean_radius_, history, summary}},
                           .live = live};
     std::string html = report_html(page);

@@ -12,6 +12,10 @@
 
 namespace listric {
 
+/// What a report keeps in memory of a run's moments, bytes. Of more it is made anew at the end,
+/// from the snapshots.
+inline constexpr double most_of_report = 2e8;
+
 /// report.html of a run that is going on: a window adds to it. What goes wrong with it is a
 /// warning, and the end of the report, not of the run. Scene and log must outlive it.
 class RunReport {
@@ -25,7 +29,9 @@ public:
     bool is_wanted() const { return wanted_; }
 
     /// Whether it has a moment, with faults that have been followed back if that is asked.
-    bool has(double extension, bool followed) const { return moments_.has(extension, followed); }
+    bool has(double extension, bool followed) const {
+        return overflows_ || moments_.has(extension, followed);
+    }
 
     /// The moments of a run that goes on, at the ends of its windows.
     void read_moments(const std::vector<std::filesystem::path>& window_ends,
@@ -49,12 +55,14 @@ public:
 private:
     void attempt(const std::function<void()>& work);
     void keep(const Observation& now, SectionLines lines);
+    void limit();
     void write_page(const std::string& history, const std::string& summary, bool live);
 
     const Scene& scene_;
     std::filesystem::path output_;
     Log& log_;
     bool wanted_, live_;
+    bool overflows_ = false; ///< moments are no longer kept
     double mean_radius_ = 0.0;
     ReportMoments moments_;
     LinesOfMoments lines_;

@@ -225,7 +225,26 @@ State Session::settled_on_base(State state) {
     return state;
 }
 
+/// Tells how far an event is that takes long. A stop request waits some seconds for its end, since
+/// what was made after the last snapshot is lost without it.
+void Session::report_step(const std::string& done, std::optional<SteadyClock::time_point>& asked) {
+    constexpr double patience = 3.0; // s
+    log_.progress(fmt::format("extension {:.2f} km: {}", extension() / 1e3, done));
+    if (!options_.stop.requested())
+        return;
+    if (!asked)
+        asked = SteadyClock::now();
+    if (seconds_since(*asked) < patience)
+        return;
+    log_.say(fmt::format("stopped within an event ({}); what came after {} will be made again",
+                         done, kept_.string()));
+    write_status("stopped");
+    throw Interrupted{};
+}
+
 void Session::extend() {
+    simulation_.report_steps_to([this, asked = std::optional<SteadyClock::time_point>()](
+                                    const std::string& done) mutable { report_step(done, asked); });
     const double tolerance = simulation_.tolerance();
     const double steps_before = record_.disc_steps;
     double next_window = next_window_end();
@@ -472,6 +491,13 @@ void Session::finish() {
     if (kept_ != snapshot_path(output, names(), extension()))
         save();
     remove_passed_stops(output, names(), extension());
+    const auto check_stop = [&] { // all is kept: resumed, the run ends from here
+        if (!options_.stop.requested())
+            return;
+        write_status("stopped");
+        throw Interrupted{};
+    };
+    check_stop();
     report_window();
     check_base(); // before the sheet, which solves for the base: that is for one thread at a time
     if (options_.figures)
@@ -481,6 +507,7 @@ void Session::finish() {
     const EffectMeasures of_effects = measure_effects(now());
     const std::vector<ObservedHorizon> observed = compare_with_observed(faults);
     await_figures();
+    check_stop();
     const std::string summary = summary_json({.scene = scene_.name,
                                               .accuracy = scene_.accuracy,
                                               .seed = scene_.seed,

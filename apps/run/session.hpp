@@ -57,6 +57,7 @@ private:
     void keep_scene() const;
 
     void report_progress(const dem::Simulation& simulation);
+    void report_step(const std::string& done, std::optional<SteadyClock::time_point>& asked);
     Observation now() const;
     measures::Measures measure_now() const;
     const measures::FaultReport& faults_now();

@@ -368,6 +368,11 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     return scene;
 }
 
+std::string scene_name(const SceneRequest& request) {
+    const fs::path path = scenes.find(request.scene);
+    return merged_document(request, path)["name"].value_or(path.stem().string());
+}
+
 void refuse_scene(const SceneRequest& request, const std::string& path,
                   const std::string& message) {
     const toml::table document = merged_document(request, scenes.find(request.scene));

@@ -32,6 +32,9 @@ struct SceneRequest {
 /// that there are. Its name is the file's without folder and ending. Throws SceneError.
 Scene load_scene(const SceneRequest& request, EffectList effects);
 
+/// The name of the scene that a call asks for, which is that of its folder. Throws SceneError.
+std::string scene_name(const SceneRequest& request);
+
 /// Refuses a scene that has been loaded because of the value at "table.key", as load_scene does.
 /// Throws SceneError.
 [[noreturn]] void refuse_scene(const SceneRequest& request, const std::string& path,

@@ -1,6 +1,7 @@
 #include "apps/scene/toml.hpp"
 
 #include "apps/scene/pieces.hpp"
+#include "apps/scene/toml_depth.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
@@ -308,7 +309,30 @@ std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parame
 
 // ----------------------------------------------------------------------- files and --set options
 
+namespace {
+
+/// The first of a text that may be long.
+std::string beginning(const std::string& text) {
+    constexpr std::size_t most = 80;
+    return text.size() > most ? text.substr(0, most) + "..." : text;
+}
+
+/// Refuses what would be nested so deep that its tables cannot be made or ended.
+void check_depth(const std::string& text, const std::string& origin) {
+    const auto line = too_deep_line(text);
+    if (!line)
+        return;
+    const std::string where =
+        origin.starts_with("--") ? beginning(origin) : fmt::format("{}:{}", origin, *line);
+    fail(fmt::format("{}: is nested too deep, allowed: {} brackets in each other and {} dots in a "
+                     "key; no table of this program has more than four",
+                     where, deepest_toml, deepest_toml));
+}
+
+} // namespace
+
 toml::table parse(const std::string& text, const std::string& origin) {
+    check_depth(text, origin);
     try {
         return toml::parse(text, origin);
     } catch (const toml::parse_error& error) {
@@ -338,6 +362,7 @@ void set(toml::table& document, const std::string& assignment, const std::string
     const std::string key = assignment.substr(0, equals);
     const std::string value = equals == key.npos ? "" : assignment.substr(equals + 1);
     toml::table given;
+    check_depth(assignment, origin);
     try {
         given = toml::parse(assignment, origin);
     } catch (const toml::parse_error&) {

@@ -10,6 +10,9 @@
 
 namespace listric {
 
+/// More runs than anybody makes.
+inline constexpr int most_runs = 100'000;
+
 /// The words of a text, which blanks separate.
 std::vector<std::string> words(const std::string& text);
 

@@ -116,6 +116,9 @@ private:
         std::vector<SweepRow> rows = asked();
         std::vector<BatchRun> runs;
         for (SweepRow& row : rows) {
+            request_.stop.check();
+            log_.progress(
+                fmt::format("reading the scene of run {} of {}", runs.size() + 1, rows.size()));
             row.folder = output_ / "runs" / fmt::format("{:04}-seed={}", row.run, row.seed);
             RunOptions options;
             options.output = row.folder;

@@ -1,6 +1,7 @@
 #include "apps/studies/sweep_plan.hpp"
 
 #include "apps/model/effects.hpp"
+#include "apps/run/oversize.hpp"
 #include "apps/scene/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/number.hpp"
@@ -18,7 +19,6 @@ namespace listric {
 namespace {
 
 constexpr Shelf shelf{"sweep plan", "it needs scene, measures and [[vary]]", "", "studies"};
-constexpr double most_runs = 100'000;
 
 /// Runs of a plan without its parameters and measures.
 struct PlanText {
@@ -45,7 +45,7 @@ const std::vector<Parameter>& plan_parameters() {
         {"samples",
          at<&T::plan, &P::samples>,
          "",
-         {.from = 0, .to = most_runs},
+         {.from = 0, .to = static_cast<double>(most_runs)},
          "",
          "of a Latin hypercube"}};
     return parameters;
@@ -91,7 +91,9 @@ void try_value(const SweepPlan& plan, const Entry& entry, const SweepParameter& 
     SweepPlan alone = plan;
     alone.parameters = {parameter};
     try {
-        scene_at(alone, {value}, plan.first_seed);
+        const Scene scene = scene_at(alone, {value}, plan.first_seed);
+        if (const auto oversize = oversize_of(scene, program_effects(), room_for(".")))
+            throw SceneError(fmt::format("{}: {}", oversize->parameter, oversize->message));
     } catch (const SceneError& error) {
         fail(entry, error.what());
     }
@@ -167,13 +169,37 @@ void check_design(const Entry& top, const SweepPlan& plan) {
                      fmt::format("a list needs as many values of each parameter: {} has {}, {} {}",
                                  plan.parameters[0].name, plan.parameters[0].values.size(),
                                  parameter.name, parameter.values.size()));
-    double runs = plan.seeds;
-    if (plan.design == SweepDesign::grid)
-        for (const SweepParameter& parameter : plan.parameters)
-            runs *= static_cast<double>(parameter.values.size());
-    if (runs > most_runs)
-        fail(key("vary"),
-             fmt::format("asks for {:.0f} runs, allowed: at most {:.0f}", runs, most_runs));
+}
+
+/// How many values an entry of [[vary]] lists; one where it lists none.
+double values_listed(const Entry& entry) {
+    const toml::table* const table = entry.node.as_table();
+    const toml::node* const values = table ? table->get("values") : nullptr;
+    return values && values->is_array()
+               ? std::max(1.0, static_cast<double>(values->as_array()->size()))
+               : 1.0;
+}
+
+/// Refuses more runs than anybody makes, before one of them takes memory.
+void check_number(const Entry& top, const SweepPlan& plan, const std::vector<Entry>& varied) {
+    double points = plan.design == SweepDesign::latin_hypercube ? plan.samples : 1.0;
+    for (const Entry& entry : varied)
+        if (plan.design == SweepDesign::grid)
+            points *= values_listed(entry);
+        else
+            points = std::max(points, values_listed(entry));
+    constexpr auto most = static_cast<double>(most_runs);
+    const double runs = points * plan.seeds;
+    if (runs <= most)
+        return;
+    const char* const cause = plan.design == SweepDesign::latin_hypercube ? "samples"
+                              : points > most                             ? "vary"
+                                                                          : "seeds";
+    const toml::node* const node = top.node.as_table()->get(cause);
+    fail(
+        node ? Entry{*node, cause} : top,
+        fmt::format("asks for {:.10g} runs, {:.10g} points with {} seeds each; allowed: at most {}",
+                    runs, points, plan.seeds, most_runs));
 }
 
 /// Places of a Latin hypercube's samples along one parameter: each of 0 .. samples - 1 once.
@@ -209,6 +235,7 @@ SweepPlan load_sweep_plan(const std::filesystem::path& file) {
     scene_at(plan, {}, plan.first_seed);
     const std::vector<Entry> varied = tables(top, "vary");
     need(top, "[[vary]]", !varied.empty());
+    check_number(top, plan, varied);
     for (const Entry& entry : varied) {
         const SweepParameter parameter = read_parameter(entry, plan);
         if (std::ranges::find(plan.parameters, parameter.name, &SweepParameter::name) !=

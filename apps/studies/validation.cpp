@@ -9,6 +9,7 @@
 #include "apps/measures/fault_history.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/batch.hpp"
+#include "apps/studies/plan_file.hpp"
 #include "apps/studies/validation_plan.hpp"
 #include "apps/studies/validation_report.hpp"
 #include "apps/studies/validation_store.hpp"
@@ -180,10 +181,18 @@ private:
 
     /// Makes the runs that are not there.
     void make_missing(const std::set<std::string>& names) {
+        std::size_t all = 0;
+        for (const std::string& name : names)
+            all += findings_.seeds_of(findings_.plan.run(name)).size();
+        if (all > static_cast<std::size_t>(most_runs))
+            throw UsageError(
+                fmt::format("--seeds {}: the plan asks for {} runs, allowed: at most {}",
+                            request_.seeds, all, most_runs));
         std::vector<BatchRun> runs;
         for (const std::string& name : names) {
             const ValidationRun& run = findings_.plan.run(name);
             for (int seed : findings_.seeds_of(run)) {
+                request_.stop.check();
                 if (!finished(run, seed).hash.empty())
                     continue;
                 RunOptions options;

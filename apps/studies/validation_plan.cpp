@@ -183,8 +183,13 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
                       true)
                 .experiments;
     }
-    for (const Entry& entry : tables(top, "run"))
+    int runs = 0;
+    for (const Entry& entry : tables(top, "run")) {
         plan.runs.push_back(read_run(entry));
+        runs += std::max(1, plan.runs.back().seeds);
+        if (runs > most_runs)
+            fail(entry, fmt::format("is beyond {} runs, all that a plan may ask for", most_runs));
+    }
     const auto check = [&](const Entry& entry, const std::string& name) {
         std::vector<std::string_view> names;
         for (const ValidationRun& run : plan.runs)

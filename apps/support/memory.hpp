@@ -9,4 +9,8 @@ void note_memory_need(double bytes);
 /// What was noted last; 0: nothing.
 double noted_memory_need();
 
+/// Lays memory by that is given back where there is no more, before std::bad_alloc is thrown: what
+/// ends then may need some, as destructors of JSON do, which must not throw.
+void keep_memory_for_the_end();
+
 } // namespace listric

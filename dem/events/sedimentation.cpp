@@ -1,13 +1,14 @@
 #include "dem/events/sedimentation.hpp"
 
-#include "dem/cycle.hpp"
 #include "dem/ground.hpp"
+#include "dem/nothing_left.hpp"
 #include "dem/random.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace listric::dem {
 
@@ -30,8 +31,8 @@ double erode(State& state, const TargetLine& line) {
             kept.push_back(static_cast<std::int32_t>(i));
     }
     if (kept.empty())
-        throw NumericalFailure("erosion: the target line lies below the whole hanging wall; raise "
-                               "sedimentation.level_m or the line");
+        throw NothingLeft("erosion: the target line lies below the whole hanging wall; raise "
+                          "sedimentation.level_m or the line");
     if (kept.size() < d.x.size())
         reorder_discs(state, kept);
     return removed;
@@ -39,12 +40,15 @@ double erode(State& state, const TargetLine& line) {
 
 /// Fills the ground up to the line until a long row of tries finds no more room.
 std::vector<Placed> fill(Ground& ground, const TargetLine& line, double smallest, double largest,
-                         std::uint64_t seed, std::uint64_t stratum) {
+                         std::uint64_t seed, std::uint64_t stratum, const StepReport& report) {
+    constexpr std::uint64_t between_reports = 64; // tries, some ms
     std::vector<Placed> placed;
     const double width = ground.right() - ground.left();
     const auto patience = static_cast<std::uint64_t>(20.0 * width / smallest);
     std::uint64_t failures = 0;
     for (std::uint64_t tries = 0; failures < patience; ++tries) {
+        if (report && tries % between_reports == 0)
+            report("sedimentation: " + std::to_string(placed.size()) + " discs laid down");
         const double x =
             ground.left() + width * uniform(seed, Purpose::deposition_place, stratum, tries);
         double radius = smallest + (largest - smallest) *
@@ -144,8 +148,8 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
     const double removed = erode(state, line);
     state.ledger.removed += removed;
     Ground ground(state, base, largest);
-    const std::vector<Placed> placed =
-        fill(ground, line, smallest, largest, state.seed, static_cast<std::uint64_t>(stratum));
+    const std::vector<Placed> placed = fill(ground, line, smallest, largest, state.seed,
+                                            static_cast<std::uint64_t>(stratum), step_report);
     if (placed.empty())
         return removed > 0.0;
 

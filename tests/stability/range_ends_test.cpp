@@ -115,9 +115,9 @@ TEST_F(RangeEnds, ARunEndsOrIsRefused) {
 }
 
 TEST_F(RangeEnds, WhatNobodyWaitsForIsRefusedByTheNameOfItsCause) {
-    const auto cause = [](const char* set, double memory) {
+    const auto cause = [](const char* set, double memory, double disk = 1e12) {
         const auto oversize =
-            oversize_of(load_scene(request_of("lis1", set)), program_effects(), memory);
+            oversize_of(load_scene(request_of("lis1", set)), program_effects(), {memory, disk});
         return oversize ? oversize->parameter : "";
     };
     constexpr double memory = 24e9;
@@ -127,6 +127,10 @@ TEST_F(RangeEnds, WhatNobodyWaitsForIsRefusedByTheNameOfItsCause) {
     EXPECT_EQ(cause("output.interval_m=1e-6", memory), "output.interval_m");
     EXPECT_EQ(cause("hanging_wall.mean_radius_m=6", 1e9), "hanging_wall.mean_radius_m");
     EXPECT_EQ(cause("hanging_wall.mean_radius_m=6", memory), "");
+    EXPECT_EQ(cause("sedimentation.level_m=100000", memory), "sedimentation.level_m");
+    EXPECT_EQ(cause("sedimentation.target=[[0.0, 100000.0]]", memory), "sedimentation.target");
+    EXPECT_EQ(cause("output.interval_m=0.5", memory, 50e9), "output.interval_m");
+    EXPECT_EQ(cause("output.interval_m=0.5", memory), "");
 }
 
 TEST_F(RangeEnds, ARefusalNamesFileValueAndCure) {

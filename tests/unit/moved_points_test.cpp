@@ -42,6 +42,49 @@ TEST(MovedPoints, SpacingIsThatOfNeighbours) {
     EXPECT_NEAR(spacing_of(section()), spacing, 0.1 * spacing);
 }
 
+TEST(MovedPoints, PointsOnALineOrOnEachOtherHaveNoFaults) {
+    MovedPoints points;
+    for (int i = 0; i < 100; ++i) {
+        points.x.push_back(spacing * i);
+        points.y.push_back(-500.0);
+        points.dx.push_back(i > 50 ? 20.0 : 0.0);
+        points.dy.push_back(0.0);
+    }
+    EXPECT_NEAR(spacing_of(points), 1.5 * spacing, 0.1 * spacing); // two neighbours, and two beyond
+    for (int turn = 0; turn < 2; ++turn) {
+        EXPECT_EQ(objection_to(points), "");
+        EXPECT_TRUE(trace_faults(points).empty());
+        std::swap(points.x, points.y);
+    }
+    for (const double shift : {0.0, 1e-12, 1e-3}) { // all at one place, but one
+        points.x.assign(100, 7.0);
+        points.y.assign(100, -7.0);
+        points.x.front() += shift;
+        EXPECT_EQ(objection_to(points), "");
+        EXPECT_TRUE(trace_faults(points).empty());
+    }
+}
+
+TEST(MovedPoints, PointsFarFromAllOthersAreRefused) {
+    for (const double far : {1e7, 1e18, 1e300, 1.7e308})
+        for (int column = 0; column < 4; ++column) {
+            MovedPoints points = section();
+            for (std::size_t row : {3u, 4u}) { // one on either side
+                std::vector<double>* const columns[] = {&points.x, &points.y, &points.dx,
+                                                        &points.dy};
+                (*columns[column])[row] = row == 3 ? far : -far;
+            }
+            if (far > 1e9) {
+                EXPECT_NE(objection_to(points), "") << far << ' ' << column;
+            } else if (objection_to(points).empty()) {
+                EXPECT_NO_THROW(trace_faults(points));
+            }
+        }
+    MovedPoints points = section();
+    points.x.front() = points.y.front() = 1e8;
+    EXPECT_THAT(objection_to(points), testing::HasSubstr("leave out those that are far"));
+}
+
 TEST(MovedPoints, AFaultIsTracedToWithinASpacing) {
     for (const double dip : {50.0, 60.0, 70.0, 120.0}) {
         const double angle = dip * std::numbers::pi / 180.0;

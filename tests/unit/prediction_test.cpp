@@ -50,5 +50,36 @@ TEST(Prediction, KnowsThePriceOfEffects) {
     EXPECT_GT(predict(draft("lis1-elastic"), one_thread).seconds, 1.05 * all);
 }
 
+TEST(Prediction, FillingToAHighLevelIsForeseen) {
+    const auto end = [](const std::vector<std::string>& set) {
+        return static_cast<double>(predict(draft("lis1", set)).discs_at_end);
+    };
+    const double none = end({});
+    EXPECT_EQ(end({"sedimentation.level_m=-500"}), none);
+    const double filled = end({"sedimentation.level_m=20000"}) - none;
+    // Above 50 km of surface, at the end; a disc of draft has pi (183 m)^2 / 0.825.
+    EXPECT_NEAR(filled, 20e3 * 50e3 / (3.1416 * 183.0 * 183.0 / 0.825), 0.1 * filled);
+    EXPECT_NEAR(end({"sedimentation.target=[[0.0, 0.0], [50000.0, 40000.0]]"}) - none, filled,
+                0.01 * filled);
+    EXPECT_NEAR(end({"sedimentation.target=[{time_a=0.0, points=[[0.0, 20000.0]]}, {time_a=1e6, "
+                     "points=[[0.0, -5.0]]}]"}) -
+                    none,
+                filled, 1e-9 * filled);
+    EXPECT_GT(predict(draft("lis1", {"sedimentation.level_m=20000"}), one_thread).seconds,
+              2.0 * predict(draft("lis1"), one_thread).seconds);
+}
+
+TEST(Prediction, SnapshotsAndTheirDiskAreForeseen) {
+    const auto of = [](const std::vector<std::string>& set) { return predict(draft("lis1", set)); };
+    EXPECT_EQ(of({}).snapshots, 21.0);
+    const Prediction fine = of({"output.interval_m=0.5"});
+    EXPECT_EQ(fine.snapshots, 20001.0);
+    EXPECT_NEAR(fine.disk, of({}).disk * 20001.0 / 21.0, 1e-6 * fine.disk);
+    EXPECT_LT(of({"output.series=none"}).disk, of({}).disk);
+    // No more than there are cycles.
+    const Prediction finest = of({"output.interval_m=0.001"});
+    EXPECT_LE(finest.snapshots, finest.cycles + 1.0);
+}
+
 } // namespace
 } // namespace listric

@@ -7,12 +7,15 @@
 #include "dem/events/bond_healing.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"
+#include "dem/nothing_left.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace listric {
 
@@ -52,6 +55,33 @@ TEST(Sedimentation, WhatOthersRememberOfNewDiscsBeginsAtTheirPlaces) {
             EXPECT_EQ(d.y[i] - y[i], d.stratum[i] == 0 ? 1.0 : 0.0) << remembered;
     }
     EXPECT_GT(std::ranges::count_if(d.stratum, [](std::int32_t s) { return s > 0; }), 100);
+}
+
+TEST(Sedimentation, AFillTellsHowFarItIsAndCanBeEnded) {
+    Basin b, other;
+    std::vector<std::string> told;
+    b.event.step_report = [&](const std::string& done) { told.push_back(done); };
+    ASSERT_TRUE(b.event.apply(b.state, b.base));
+    ASSERT_GT(told.size(), 10u);
+    EXPECT_EQ(told.front(), "sedimentation: 0 discs laid down");
+    EXPECT_NE(told.back(), told.front());
+    ASSERT_TRUE(other.event.apply(other.state, other.base));
+    EXPECT_EQ(hash(b.state), hash(other.state)); // who listens changes nothing
+
+    struct Enough {};
+    Basin ended;
+    int calls = 0;
+    ended.event.step_report = [&](const std::string&) {
+        if (++calls == 3)
+            throw Enough();
+    };
+    EXPECT_THROW(ended.event.apply(ended.state, ended.base), Enough);
+    EXPECT_EQ(calls, 3);
+}
+
+TEST(Sedimentation, ALineBelowAllDiscsIsNoMatterOfTheTimeStep) {
+    Basin b(-1e4);
+    EXPECT_THROW(b.event.apply(b.state, b.base), NothingLeft);
 }
 
 TEST(Sedimentation, FillsToTheLevelWithoutOverlap) {

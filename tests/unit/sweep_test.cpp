@@ -186,6 +186,41 @@ double expected(const std::string& term) {
     return term == "a" ? 3.0 : term == "b" ? -1.0 : term == "a:c" ? 2.0 : 0.0;
 }
 
+TEST_F(SweepPlanFile, MoreRunsThanAnybodyMakesAreRefusedBeforeTheyTakeMemory) {
+    const auto said = [&](const std::string& text) -> std::string {
+        try {
+            load(text);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    const std::string hypercube =
+        replaced(replaced(replaced(plan_text, "\"grid\"", "\"latin-hypercube\"\nsamples = 100000"),
+                          "seeds = 2", "seeds = 1000"),
+                 "values = [0, 0.2]", "range = [0.0, 0.2]");
+    EXPECT_THAT(said(hypercube), HasSubstr(":6: samples: asks for 100000000 runs, 100000 points "
+                                           "with 1000 seeds each; allowed: at most 100000"));
+    std::string many = "0.1";
+    for (int k = 0; k < 100; ++k)
+        many += ", 0.1";
+    const std::string list =
+        replaced(replaced(replaced(plan_text, "\"grid\"", "\"list\""), "seeds = 2", "seeds = 1000"),
+                 "0, 0.2", many);
+    EXPECT_THAT(said(list), HasSubstr(":3: seeds: asks for 101000 runs"));
+    const std::string grid =
+        replaced(replaced(plan_text, "seeds = 2", "seeds = 1000"), "0, 0.2", many);
+    EXPECT_THAT(said(grid), HasSubstr(":3: seeds: asks for 202000 runs"));
+}
+
+TEST_F(SweepPlanFile, AValueThatMakesARunTooLargeIsRefused) {
+    const std::string text = replaced(
+        replaced(plan_text, "fault_weakening.friction", "sedimentation.level_m"), "0.2]", "90000]");
+    EXPECT_THAT(
+        complaint(plan_text, text),
+        HasSubstr("values[1]: sedimentation.level_m: 90000 makes a run that fills the basin"));
+}
+
 TEST(SweepEffects, KnownOnesAreFound) {
     const auto found = effects(made_table(2, 0.0, 1));
     ASSERT_EQ(found.size(), 10u); // four and six

@@ -6,6 +6,7 @@
 #include "apps/scene/effect.hpp"
 #include "apps/support/spelling.hpp"
 #include "fem/blocks.hpp"
+#include "fem/mesh_scan.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -238,6 +239,12 @@ void check(const Scene& scene, const Refuse& refuse) {
             fem::make_blocks(request);
     } catch (const fem::FootwallError& error) {
         refuse("elastic_base", error.what());
+    }
+    try {
+        if (!base.mesh_file.empty())
+            fem::scan_mesh(base.mesh_file);
+    } catch (const fem::FootwallError& error) {
+        refuse("elastic_base.mesh_file", error.what());
     }
 }
 

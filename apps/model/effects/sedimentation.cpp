@@ -3,6 +3,12 @@
 
 #include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
+#include "apps/support/spelling.hpp"
+#include "dem/genesis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
 
 namespace listric::effects {
 
@@ -57,6 +63,60 @@ std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts
     return events;
 }
 
+/// The lines that the surface is adapted to, one after the other.
+std::vector<dem::TargetLine> lines_of(const P& p) {
+    std::vector<dem::TargetLine> lines;
+    for (const dem::TargetStage& stage : p.target)
+        lines.emplace_back(stage.points);
+    if (lines.empty())
+        lines.emplace_back(std::vector<dem::Point>{{0.0, p.level}});
+    return lines;
+}
+
+/// Area between the original surface and the target where that is highest, m^2.
+double area_above_surface(const Scene& scene) {
+    constexpr int columns = 1000;
+    const double width = scene.hanging_wall->length + scene.extension.distance;
+    double greatest = 0.0;
+    for (const dem::TargetLine& line : lines_of(*scene.find<P>())) {
+        double area = 0.0;
+        for (int k = 0; k < columns; ++k)
+            area += std::max(0.0, line.height((k + 0.5) * width / columns)) * width / columns;
+        greatest = std::max(greatest, area);
+    }
+    return greatest;
+}
+
+/// Fills distance times thickness, small discs up to the target, and what lies between surface and
+/// target.
+double new_area(const Scene& scene) {
+    return 1.1 * scene.extension.distance * scene.hanging_wall->thickness +
+           area_above_surface(scene);
+}
+
+/// Looking for room, and laying down a heap whose columns are looked through for every disc.
+double price(const Scene& scene, const Workload& work) {
+    constexpr double of_a_heaped_disc = 2e5;
+    return work.years / scene.find<P>()->interval * (6e6 + 480.0 * work.discs) +
+           of_a_heaped_disc *
+               static_cast<double>(dem::disc_count(*scene.hanging_wall, area_above_surface(scene)));
+}
+
+/// Refuses a target that leaves nothing of the hanging wall.
+void check(const Scene& scene, const Refuse& refuse) {
+    const P& p = *scene.find<P>();
+    const double thickness = scene.hanging_wall->thickness;
+    double lowest = 1e300; // of the highest points of all lines
+    for (const dem::TargetLine& line : lines_of(p))
+        lowest = std::min(lowest, std::ranges::max(line.points(), {}, &dem::Point::y).y);
+    if (lowest <= -thickness)
+        refuse(
+            p.target.empty() ? "sedimentation.level_m" : "sedimentation.target",
+            fmt::format("is {} at its highest, below the whole hanging wall, which erosion would "
+                        "take away; allowed: above {}, its base",
+                        text(lowest), text(-thickness)));
+}
+
 EffectMeasures measure(const Observation& now) {
     const dem::Ledger& ledger = now.state.ledger;
     EffectMeasures measures{.numbers = {{"deposited_fraction", ledger.deposited / ledger.initial},
@@ -108,6 +168,7 @@ const Effect& sedimentation() {
                         take_microproperties(scene.find<P>()->material, rock);
                     },
             },
+        .check = check,
         .contribute =
             [](const Scene& scene, ModelParts& parts) {
                 const P& p = *scene.find<P>();
@@ -120,15 +181,8 @@ const Effect& sedimentation() {
                                   {}};
             },
         .make_events = make_events,
-        .price =
-            [](const Scene& scene, const Workload& work) {
-                return work.years / scene.find<P>()->interval * (6e6 + 480.0 * work.discs);
-            },
-        // Fills distance times thickness, and small discs fill up to the target.
-        .new_area =
-            [](const Scene& scene) {
-                return 1.1 * scene.extension.distance * scene.hanging_wall->thickness;
-            },
+        .price = price,
+        .new_area = new_area,
         .measure = measure,
     };
     return effect;
