@@ -71,12 +71,12 @@ std::string check_scene_file(const std::string& file, const toml::table& documen
     const Prediction p = times.of(scene);
     const auto discs = static_cast<double>(p.discs_at_start);
     const auto at_end = static_cast<double>(p.discs_at_end);
-    return fmt::format(
-        "{} tables, {} discs{}, {}, {}{}{}", tables, about(discs),
-        at_end > 3.0 * discs ? fmt::format(" and {} at the end", about(at_end)) : "",
-        duration(p.seconds), output_text(p),
-        scene.picked_fault ? "; " + describe(*scene.picked_fault, *scene.detachment) : "",
-        warnings_of(scene));
+    return fmt::format("{} tables, {} discs{}, {}, {}{}{}", tables, about(discs),
+                       at_end > 3.0 * discs ? fmt::format(" and {} at the end", about(at_end)) : "",
+                       duration(p.seconds), output_text(p),
+                       scene.picked_fault ? "; " + describe(*scene.picked_fault, *scene.detachment)
+                                          : "",
+                       warnings_of(scene));
 }
 
 std::string check_sweep(const fs::path& file, Times& times) {

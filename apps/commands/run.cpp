@@ -109,12 +109,13 @@ ExitCode exit_code_of(RunOutcome outcome) {
 ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
     if (ranks.mine() != 0)
         ignore_signals(); // the root stops for all
-    const ExitCode code = exit_code_of(run_on_ranks(ranks, {[&] { return load_scene(call.scene); },
-                                                            [&](const Scene& scene, bool is_root) {
-                                                                if (is_root)
-                                                                    check_scene(call, scene, true);
-                                                                return options_of(call, scene, true);
-                                                            }}));
+    const ExitCode code =
+        exit_code_of(run_on_ranks(ranks, {[&] { return load_scene(call.scene); },
+                                          [&](const Scene& scene, bool is_root) {
+                                              if (is_root)
+                                                  check_scene(call, scene, true);
+                                              return options_of(call, scene, true);
+                                          }}));
     report_end(ranks.mine(), static_cast<int>(code));
     return code;
 }

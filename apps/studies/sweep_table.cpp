@@ -86,8 +86,7 @@ std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoi
             if (cells[k] != points[row.run - 1][k - 2].text)
                 refuse_row();
         row.outcome = cells[before];
-        row.exit_code =
-            static_cast<int>(std::clamp(number(cells[before + 1]), -1.0, 255.0));
+        row.exit_code = static_cast<int>(std::clamp(number(cells[before + 1]), -1.0, 255.0));
         row.state_hash = cells[before + 2];
         for (std::size_t k = before + 3; k < all; ++k)
             row.measures.push_back(cells[k].empty() ? std::nullopt
