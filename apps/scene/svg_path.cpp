@@ -2,6 +2,7 @@
 
 #include "apps/scene/svg_text.hpp"
 #include "apps/support/spelling.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
 #include <Eigen/Geometry>
@@ -205,7 +206,7 @@ double reach(const SvgPiece& piece, const Vector2d& start) {
         return (piece.first - start).norm() + (piece.second - piece.first).norm() +
                (piece.end - piece.second).norm();
     if (piece.kind == SvgPiece::Kind::arc)
-        return std::abs(piece.turn) * std::hypot(piece.first.norm(), piece.second.norm());
+        return std::abs(piece.turn) * dem::hypotenuse(piece.first.norm(), piece.second.norm());
     return (piece.end - start).norm();
 }
 
