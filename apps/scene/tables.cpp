@@ -79,7 +79,7 @@ std::vector<Parameter> fault_source_parameters() {
          "",
          "between the columns; auto: as the header has it"},
         {"svg", at<&S::svg>, "", {}, "", "in place of csv: a drawing with the fault as a path"},
-        {"svg_path", at<&S::svg_path>, "", {}, "", "id of the path"},
+        {"svg_path", at<&S::svg_path>, "", {}, "", "id or label of the path, line or polyline"},
         {"svg_points", at<&S::svg_points>, "", far, "",
          "two points or more of the drawing and where they are in the section"},
         {"shift_x_m", at<&S::shift_x>, "m", far, "",

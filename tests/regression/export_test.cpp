@@ -305,7 +305,7 @@ TEST_F(ExportTest, BadCallsSayWhatIsWrongInOneLine) {
                    "--at 5000: no snapshot there; there are some from 0 to ");
     expect_refused({"base", output}, "the base of this run is rigid");
     setenv("LISTRIC_PYTHON", "/bin/false", 1);
-    expect_refused({"discs", output, "--format", "gsd"}, "install the package python3-gsd");
+    expect_refused({"discs", output, "--format", "gsd"}, "install python3-gsd");
     unsetenv("LISTRIC_PYTHON");
 }
 

@@ -135,7 +135,7 @@ TEST_F(HardRun, AnEventThatCannotBeDoneIsNamedToo) {
     const Scene scene = load_scene(
         {.scene = test_scene("every-effect.toml"),
          .set = {"sedimentation.target=[{time_a=0, points=[[0, 0]]}, "
-                 "{time_a=1e4, points=[[0, 0]]}, {time_a=1.2e4, points=[[0, -2000]]}]"}});
+                 "{time_a=1e4, points=[[0, 0]]}, {time_a=1.2e4, points=[[0, -1495]]}]"}});
     const RunOptions o = options("run");
     try {
         run_scene(scene, o);
