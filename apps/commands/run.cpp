@@ -83,8 +83,12 @@ Room room_of(const RunCall& call, const Scene& scene) {
 /// Refuses what nobody waits for, or what several processes cannot make.
 void check_scene(const RunCall& call, const Scene& scene, bool on_ranks) {
     if (!call.force_size)
-        if (const auto oversize = oversize_of(scene, program_effects(), room_of(call, scene)))
+        if (const auto oversize = oversize_of(scene, program_effects(), room_of(call, scene))) {
+            if (oversize->is_of_disk)
+                throw StorageError(fmt::format("{}: {} = {}", output_of(call, scene.name).string(),
+                                               oversize->parameter, oversize->message));
             refuse_scene(call.scene, oversize->parameter, oversize->message);
+        }
     if (!on_ranks)
         return;
     if (const auto objection = objection_to_ranks(scene))

@@ -64,20 +64,6 @@ json object_or_null(const std::string& text) {
     return object.is_object() ? json(object) : json();
 }
 
-/// Whether a text is a table as history.csv: a head, and rows with as many cells.
-bool is_table(const std::string& text) {
-    std::istringstream in(text);
-    std::string row;
-    std::getline(in, row);
-    const auto cells = std::ranges::count(row, ',');
-    if (!row.starts_with("extension_m,") || !text.ends_with('\n'))
-        return false;
-    while (std::getline(in, row))
-        if (std::ranges::count(row, ',') != cells)
-            return false;
-    return true;
-}
-
 /// All of a run but its moments.
 json head_of(const ReportPage::Run& run) {
     const Scene& scene = run.scene;
@@ -143,9 +129,6 @@ std::vector<std::string> lacks_of(const ReportPage& page) {
         if (ended && object_or_null(run.summary).is_null())
             lacks.push_back(run.folder +
                             "summary.json is damaged, so that measures at the end are missing");
-        if ((ended || !run.history.empty()) && !page.live && !is_table(run.history))
-            lacks.push_back(run.folder + "history.csv is missing or damaged, so that curves are "
-                                         "missing or wrong");
     }
     return lacks;
 }

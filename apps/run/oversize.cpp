@@ -121,13 +121,15 @@ std::optional<Oversize> oversize_of(const Scene& scene, EffectList effects, cons
     if (!scene.hanging_wall)
         return std::nullopt;
     const Prediction p = predict(scene);
-    if (!(excess_of(p, room).greatest() > 1.0))
+    const Excess excess = excess_of(p, room);
+    if (!(excess.greatest() > 1.0))
         return std::nullopt;
     const Cause cause = cause_of(scene, effects, room);
     return Oversize{cause.parameter,
                     fmt::format("{} makes a run that {}; change it, or run it all the same with "
                                 "--force-size",
-                                cause.value, size_of(p, room))};
+                                cause.value, size_of(p, room)),
+                    excess.disk == excess.greatest()};
 }
 
 Room room_for(const std::filesystem::path& output) {
@@ -141,8 +143,9 @@ Room room_for(const std::filesystem::path& output) {
     while (!error && !std::filesystem::exists(place, error) && place != place.parent_path())
         place = place.parent_path();
     const auto space = std::filesystem::space(place, error);
-    if (!error && space.available != static_cast<std::uintmax_t>(-1))
-        room.disk = static_cast<double>(space.available);
+    // What has no size is no disk (/proc): writing there says what is wrong.
+    if (!error && space.available != static_cast<std::uintmax_t>(-1) && space.capacity > 0)
+        room.disk = std::max(1.0, static_cast<double>(space.available));
     return room;
 }
 

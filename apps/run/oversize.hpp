@@ -12,6 +12,7 @@ namespace listric {
 struct Oversize {
     std::string parameter; ///< that causes it: "table.key"
     std::string message;
+    bool is_of_disk = false; ///< the disk is too small, not the scene too large
 };
 
 /// What a machine has for a run, bytes; infinite where it does not tell.

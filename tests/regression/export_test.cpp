@@ -121,7 +121,7 @@ class ExportTest : public support::SceneRuns {
 protected:
     json run_it(const Scene& scene) {
         const json summary = run(scene, "run");
-        unsetenv("PYTHONPATH"); // the exported file needs NumPy
+        unsetenv("LISTRIC_PYTHON"); // the exported file needs NumPy
         return summary;
     }
 

@@ -128,8 +128,8 @@ class Figures(unittest.TestCase):
                 self.assertEqual(ended.returncode, 2, ended.stdout)
                 self.assertRegex(ended.stdout, f"--underlay .*{re.escape(name)}.*{words}")
         for corners, words in (("0,0,6000", "3 numbers"), ("6000,0,0,2000", "x1 = 0 must be greater"),
-                               ("0,0,6000,-2000", "these are heights"), ("0,0,nan,1", "nan is no place"),
-                               ("0,0,inf,1", "inf is no place"), ("0,5,9,5", "z1 = 5 must be greater"),
+                               ("0,0,6000,-2000", "these are heights"), ("0,0,nan,1", '"nan" is not a finite number'),
+                               ("0,0,inf,1", '"inf" is not a finite number'), ("0,5,9,5", "z1 = 5 must be greater"),
                                ("0,0,1e300,1", "no place in a section")):
             ended = self.listric("figures", "out", "--underlay", "whole.png", f"--corners={corners}")
             self.assertEqual(ended.returncode, 2, ended.stdout)
@@ -154,8 +154,7 @@ class Figures(unittest.TestCase):
         with open(run / "history.csv", "a", encoding="utf-8") as file:
             file.write("150.0,")
         ended = self.listric("report", run)
-        self.assertEqual(ended.returncode, 4, ended.stdout)
-        self.assertIn("history.csv is missing or damaged", ended.stdout)
+        self.assertEqual(ended.returncode, 0, ended.stdout)  # curves come from the newest snapshot
 
     def said_on_a_terminal(self, columns, **settings):
         """What a run writes to a terminal of that width."""

@@ -256,7 +256,7 @@ class RunFolders(unittest.TestCase):
             ended = self.call(*words)
             self.assertEqual(ended.returncode, 0, ended.stderr)
             assertAllThere(words)
-        self.assertEqual(self.call("figures", run).returncode, 4)  # no Python
+        self.assertEqual(self.call("figures", run).returncode, 2)  # no Python
         assertAllThere("figures")
         self.assertEqual(list((run / "export").glob("surfaces-*")), [])
         self.assertEqual(len(list((run / "snapshots").glob("extension-0*.??m.h5"))), 3)

@@ -27,7 +27,7 @@ BEYOND_A_SCHEMA = {
     "the chain of the detachment": r"reaches a depth of|does not join|starts and ends with a dip|"
                                    r"ends with a dip|stays at the surface",
     "the number of discs": r"too (large|small) \([^)]*\), gives \d+ discs",
-    "the size of the run": r"makes a run that takes",
+    "the size of the run": r"makes a run that (takes|writes)|fills the basin",
     "tables beside each other": r"beside \[|must be 0 beside it|needs csv, or uplift or shift|"
                                 r"give one of them",
     "numbers of several keys": r"for the base to float upright|beyond the right wall|"

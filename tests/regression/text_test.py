@@ -330,11 +330,15 @@ class Believed(TextTest):
 class Places(TextTest):
     def test_log_and_lock_that_are_no_plain_files(self):
         self.write("diary.txt", "dear diary\n")
-        (self.folder / "out").mkdir()
-        (self.folder / "out/log.txt").symlink_to("../diary.txt")
-        done = self.run_small("--output", "out")
-        self.assertEqual(done.code, 0, done.err)
-        self.assertIn("no plain file", done.err)
+        log = self.folder / "out/log.txt"
+        log.parent.mkdir()
+        log.symlink_to("../diary.txt")
+        self.assert_refused(self.run_small("--output", "out"), "out/log.txt", "--output writes elsewhere")
+        log.unlink()
+        self.assertEqual(self.run_small("--output", "out").code, 0)
+        log.unlink()
+        log.symlink_to("../diary.txt")
+        self.assertEqual(self.run_small("--output", "out", "--force").code, 0)
         self.assertEqual((self.folder / "diary.txt").read_text(), "dear diary\n")
         (self.folder / "locked/.lock").mkdir(parents=True)
         self.assert_refused(self.run_small("--output", "locked"), "locked/.lock", "remove it")
