@@ -172,7 +172,8 @@ class Ends(Ranks):
 
     def test_an_event_that_cannot_be_done(self):
         ended = self.run_on(2, "run", "lis1", "--set", "sedimentation.target=[{time_a=0, points=[[0, 0]]},"
-                            " {time_a=1e4, points=[[0, 0]]}, {time_a=1.2e4, points=[[0, -14990]]}]")
+                            " {time_a=1e4, points=[[0, 0]]},"
+                            " {time_a=1.2e4, points=[[-9e4, 0], [-8e4, -3e4], [9e4, -3e4]]}]")
         self.assertEndsWith(ended.returncode, ended.stdout, 3, "below the whole hanging wall")
 
     def test_a_request_to_stop(self):

@@ -132,10 +132,10 @@ TEST_F(HardRun, RanksEndTogetherWhereDiscsRunAwayOrAreNowhere) {
 #endif
 
 TEST_F(HardRun, AnEventThatCannotBeDoneIsNamedToo) {
-    const Scene scene = load_scene(
-        {.scene = test_scene("every-effect.toml"),
-         .set = {"sedimentation.target=[{time_a=0, points=[[0, 0]]}, "
-                 "{time_a=1e4, points=[[0, 0]]}, {time_a=1.2e4, points=[[0, -1495]]}]"}});
+    const Scene scene = load_scene({.scene = test_scene("every-effect.toml"),
+                                    .set = {"sedimentation.target=[{time_a=0, points=[[0, 0]]}, "
+                                            "{time_a=1e4, points=[[0, 0]]}, {time_a=1.2e4, "
+                                            "points=[[-9e3, 0], [-8e3, -2000], [9e3, -2000]]}]"}});
     const RunOptions o = options("run");
     try {
         run_scene(scene, o);
