@@ -20,7 +20,7 @@ inline double corrected_root(double a, double b) {
     return root - excess / (2.0 * root);
 }
 
-/// The same where squares overflow or vanish, and what infinity and NaN come to.
+/// The length of (a, b), a >= b, where squares overflow or vanish, or one is infinite or NaN.
 inline double far_hypotenuse(double a, double b) {
     if (std::isinf(a) || std::isinf(b))
         return HUGE_VAL;

@@ -21,7 +21,7 @@ JsonObject parse_json(std::string_view text);
 /// The object in a file; an empty one if there is none.
 JsonObject object_in(const std::filesystem::path& file);
 
-/// The same. Throws StorageError where there is none.
+/// The object in a file. Throws StorageError where there is none.
 JsonObject read_object(const std::filesystem::path& file);
 
 /// Members by type. Nothing where `object` is none, or has no such member of that type.

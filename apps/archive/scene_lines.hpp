@@ -12,7 +12,7 @@ namespace listric::archive {
 /// report, which is nothing of the run.
 std::vector<std::string> scene_lines(std::string_view text);
 
-/// The same by parameter, "table.key"; a table stands there, too, as "[table]".
+/// A scene's lines by parameter, "table.key"; a table stands there, too, as "[table]".
 std::map<std::string, std::string> scene_values(std::string_view text);
 
 /// A parameter in which two scenes differ; nothing: it is not there.

@@ -272,7 +272,7 @@ template <class Read> auto read_verified(const fs::path& path, Read&& read) {
     return read(file);
 }
 
-/// The same with what was thrown naming the file.
+/// Reads a file; an error names it.
 template <class Read> auto read_file(const fs::path& path, Read&& read) {
     silence_hdf5();
     try {

@@ -14,7 +14,7 @@ namespace listric {
 std::vector<dem::TargetStage> read_target_csv(const std::filesystem::path& file,
                                               std::string_view value = "y_m");
 
-/// The same for a scene, in whose model and time the line must be; what is odd is a warning of it.
+/// Reads a line for a scene, in whose model and time it must be; oddities become its warnings.
 std::vector<dem::TargetStage> read_target_csv(Scene& scene, const std::filesystem::path& file,
                                               std::string_view value = "y_m");
 

@@ -14,7 +14,7 @@ inline constexpr double clear_p = 0.05;
 /// standard_error on empty where nothing is known of chance.
 std::string effects_csv(std::span<const SweepEffect> effects);
 
-/// The same for people: each parameter's own effects, and of two together those that are clear.
+/// Effects as text: each parameter's own, and of two together those that are clear.
 std::string effects_text(std::span<const SweepEffect> effects);
 
 /// What so few seeds let nobody see; empty from three seeds on.

@@ -13,7 +13,7 @@ void run_drawing_script(const std::string& script, const std::vector<std::string
 /// The same; why it could not is a warning on stderr.
 void draw_or_warn(const std::string& script, const std::vector<std::string>& arguments);
 
-/// The same as the first with another module than Matplotlib, of a Debian package.
+/// Runs a script that needs another module than Matplotlib, of a Debian package.
 void run_script_with(const std::string& module, const std::string& package,
                      const std::string& script, const std::vector<std::string>& arguments);
 

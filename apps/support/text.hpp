@@ -15,14 +15,14 @@ std::optional<std::size_t> unsound_byte(std::string_view text);
 /// are written as \xNN, so that a terminal obeys none of them.
 std::string shown(std::string_view text);
 
-/// The same of a text that may be long: its first characters, and how it goes on as "...".
+/// The first characters of a text as shown() has them, and "..." where it goes on.
 std::string shown_start(std::string_view text, std::size_t most = 60);
 
 /// The beginning of a text without control characters that takes no more than so many columns of a
 /// terminal; "..." for what is cut off, where there is room for that.
 std::string cut_to(std::string_view text, std::size_t columns);
 
-/// The same of a text of several lines, whose ends stay.
+/// A text of several lines as shown() has it, but for their ends, which stay.
 std::string shown_lines(std::string_view text);
 
 /// What is wrong at a byte that unsound_byte() found: "has a NUL byte", "byte 0xf6 is not UTF-8".
