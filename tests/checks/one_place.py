@@ -17,7 +17,7 @@ from typing import NamedTuple
 from source_tree import is_cpp, read_tree, report
 
 DESCRIPTIONS = "apps/model/effects/"
-LIST = "apps/model/effects.cpp"  # one line each
+LIST = "apps/model/effect_list.hpp"  # one line each
 MOST_EXCEPTIONS = 5
 
 

@@ -1,6 +1,6 @@
 #include "dem/base_motion.hpp"
 
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/text.hpp"
@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-const Effect& base_motion();
 
 namespace {
 

@@ -1,9 +1,9 @@
 #include "apps/model/effects/elastic_base_parameters.hpp"
 
+#include "apps/model/effect_list.hpp"
 #include "apps/model/footwall_request.hpp"
 #include "apps/model/footwall_summary.hpp"
 #include "apps/model/model.hpp"
-#include "apps/scene/effect.hpp"
 #include "apps/support/spelling.hpp"
 #include "fem/blocks.hpp"
 #include "fem/mesh_scan.hpp"
@@ -17,8 +17,6 @@
 #include <iterator>
 
 namespace listric::effects {
-
-const Effect& elastic_base();
 
 namespace {
 

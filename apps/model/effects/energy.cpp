@@ -1,12 +1,11 @@
-#include "apps/scene/effect.hpp"
 #include "dem/events/energy_account.hpp"
 #include "dem/events/equilibrium.hpp"
+
+#include "apps/model/effect_list.hpp"
 
 #include <algorithm>
 
 namespace listric::effects {
-
-const Effect& energy();
 
 namespace {
 

@@ -1,7 +1,8 @@
 #include "dem/events/fault_weakening.hpp"
 
-#include "apps/scene/effect.hpp"
 #include "dem/events/property_update.hpp"
+
+#include "apps/model/effect_list.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +10,6 @@
 #include <cmath>
 
 namespace listric::effects {
-
-const Effect& fault_weakening();
 
 namespace {
 
