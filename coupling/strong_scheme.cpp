@@ -27,7 +27,7 @@ double largest(std::span<const double> values) {
     return most;
 }
 
-std::vector<double> difference(std::vector<double> a, std::span<const double> b) {
+std::vector<double> load_difference(std::vector<double> a, std::span<const double> b) {
     std::ranges::transform(a, b, a.begin(), std::minus());
     return a;
 }
@@ -115,7 +115,7 @@ StrongScheme::Attempt StrongScheme::compute(State& state, std::int64_t cycles) c
         elastic_.take_disc_load(state, static_cast<double>(cycles), state.clock.extension);
     std::vector<double> load = attempt.load.forces;
     add_footwall_loads(state, load);
-    attempt.residual = difference(std::move(load), elastic_.holding_forces(state));
+    attempt.residual = load_difference(std::move(load), elastic_.holding_forces(state));
     attempt.error = largest(elastic_.displacement(attempt.residual));
     return attempt;
 }
