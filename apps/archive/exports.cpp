@@ -1,5 +1,6 @@
 #include "apps/archive/exports.hpp"
 
+#include "apps/archive/fault_fields.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/horizons.hpp"
@@ -62,18 +63,14 @@ Polyline points_of(const Chain& chain, double right, double spacing) {
 }
 
 Line fault_line(const ExportedMoment& at, std::size_t k, const std::set<int>& strata) {
-    const FaultReport& report = at.faults;
-    const Fault& f = report.faults[k];
-    const std::string main = k == report.main_antithetic  ? "antithetic"
-                             : k == report.main_synthetic ? "synthetic"
-                                                          : "";
-    Line line{{fmt::format("fault {}", k), static_cast<double>(k), main,
-               f.synthetic ? "synthetic" : "antithetic", f.normal ? "normal" : "reverse",
-               f.trace.length(), f.dip, f.rate, f.born_at, f.dip_at_birth, f.traced_since,
-               f.footwall_turn, f.width, f.curvature, f.foot.x, -f.foot.y,
-               f.pre_rift_throw.value_or(none)},
-              rounded(at, f.trace.points),
-              {}};
+    const Fault& f = at.faults.faults[k];
+    Line line{{}, rounded(at, f.trace.points)};
+    for (const FaultField* field : exported_fault_fields()) {
+        const nlohmann::ordered_json value = field->value({at.faults, k});
+        line.values.push_back(value.is_string()   ? LineValue(value.get<std::string>())
+                              : value.is_number() ? value.get<double>()
+                                                  : none);
+    }
     for (const int stratum : strata) {
         const auto found = f.throws.find(stratum);
         line.values.emplace_back(found == f.throws.end() ? none : found->second);
@@ -103,13 +100,9 @@ LineTable horizons_table(const ExportedMoment& at) {
 }
 
 LineTable faults_table(const ExportedMoment& at) {
-    LineTable table{"faults",
-                    "rate_mm_per_a",
-                    {"name", "fault", "main", "attitude", "sense", "length_m", "dip_deg",
-                     "rate_mm_per_a", "born_at_m", "dip_at_birth_deg", "traced_since_m",
-                     "footwall_turn_deg", "width_diameters", "curvature_per_m", "foot_x_m",
-                     "foot_z_m", "pre_rift_throw_m"},
-                    {"slip_m", "width_m"}};
+    LineTable table{"faults", std::string(field_rate), {}, {std::string(field_slip), "width_m"}};
+    for (const FaultField* field : exported_fault_fields())
+        table.columns.emplace_back(field->name);
     const FaultReport& report = at.faults;
     std::set<int> strata;
     for (const Fault& f : report.faults)

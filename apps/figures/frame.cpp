@@ -4,6 +4,7 @@
 #include "apps/archive/setting.hpp"
 #include "apps/figures/predicted_tops.hpp"
 #include "apps/figures/window_strain.hpp"
+#include "apps/measures/dictionary.hpp"
 #include "apps/measures/horizons.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/profile.hpp"
@@ -200,18 +201,11 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         {"accuracy", scene.accuracy},
         {"effects", effect_names(scene)},
         {"strain_window_m", strain_window},
-        {"thickness_m", scene.hanging_wall->thickness},
     };
-    const auto add = [&](const char* name, const std::optional<double>& value) {
-        if (value)
-            frame[name] = *value;
-    };
-    add("inclined_shear_angle_deg", m.inclined_shear_angle);
-    add("area_balance", m.area_balance);
-    add("halfgraben_area_share", m.halfgraben_area_share);
-    add("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
-    add("rollover_tilt_deg", m.rollover_tilt);
-    add("predicted_tilt_deg", m.predicted_tilt);
+    for (const MeasureTable& table : measure_tables())
+        for (const Measure<Measures>& measure : table.measures)
+            if (const auto value = measure.value(m))
+                frame[measure.name] = *value;
     if (now.parts.sediment)
         frame["level_m"] = now.parts.sediment->level;
     return frame;

@@ -1,6 +1,7 @@
 #include "apps/figures/report_moments.hpp"
 
 #include "apps/archive/exports.hpp"
+#include "apps/archive/fault_fields.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/figures/predicted_tops.hpp"
 #include "apps/figures/window_strain.hpp"
@@ -139,9 +140,9 @@ json faults_of(const ExportedMoment& at, bool followed) {
     json faults = lines_of(faults_table(at), steps_of(at.now));
     if (!followed)
         for (json& fault : faults)
-            for (const char* past :
-                 {"born_at_m", "dip_at_birth_deg", "traced_since_m", "footwall_turn_deg"})
-                fault[past] = nullptr;
+            for (const archive::FaultField& field : archive::fault_fields())
+                if (field.of_past)
+                    fault[field.name] = nullptr;
     return faults;
 }
 

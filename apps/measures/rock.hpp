@@ -2,7 +2,7 @@
 
 #include "apps/measures/fault.hpp"
 #include "apps/measures/setting.hpp"
-#include "apps/support/named_numbers.hpp"
+#include "apps/support/measure.hpp"
 #include "dem/state.hpp"
 
 #include <optional>
@@ -32,5 +32,7 @@ NamedNumbers measure_porosity(const dem::State& state, const Sediment& sediment)
 
 /// All of these that have a meaning in the setting.
 NamedNumbers measure_rock(const Setting& setting, const dem::State& state);
+
+std::span<const Quantity> rock_quantities();
 
 } // namespace listric::measures

@@ -1,6 +1,7 @@
 #include "apps/model/footwall_coupling.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/effects/measure_names.hpp"
 #include "apps/model/footwall_request.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
@@ -129,29 +130,24 @@ std::optional<FootwallCoupling::Check> FootwallCoupling::check(const State& stat
 }
 
 FootwallCoupling::WindowEnd FootwallCoupling::end_window(State& state, const RigidBase& rigid) {
-    const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
     const WindowBalance window = base_->window(state);
     const InterfaceBalance balance = interface_balance(state, rigid);
     const fem::Guard guard = recover(state).guard(rock_weight_);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const bool moved = window.cycles > 0.0, loaded = std::abs(window.weight_change) > 0.0;
-    const auto size = [](double u) { return std::abs(u); };
     WindowEnd end;
     end.measures = {
-        {"footwall_uplift_m", nodes.uy[0]},
-        {"breakaway_shift_m", nodes.ux[0]},
-        {"base_deflection_max_m", size(std::ranges::max(nodes.uy, {}, size))},
-        {"interface_force_error", balance.force_error},
-        {"interface_moment_error", balance.moment_error},
-        {"interface_work_error", balance.work_error},
-        {"base_reaction_error", moved ? window.reaction_error : nan},
-        {"net_wall_load_n_per_m", moved ? window.net_load : nan},
-        {"weight_change_n_per_m", moved ? window.weight_change : nan},
-        {"net_wall_load_error", loaded ? window.net_load / window.weight_change - 1.0 : nan},
-        {"strong_rock_strain_max", guard.strong_strain},
-        {"relaxed_rock_strain_max", guard.relaxed_strain},
-        {"rock_rotation_max_deg", guard.rotation * 180.0 / pi},
-        {"beyond_byerlee_m2", guard.beyond_byerlee},
+        {effects::interface_force_error, balance.force_error},
+        {effects::interface_moment_error, balance.moment_error},
+        {effects::interface_work_error, balance.work_error},
+        {effects::base_reaction_error, moved ? window.reaction_error : nan},
+        {effects::net_wall_load, moved ? window.net_load : nan},
+        {effects::weight_change, moved ? window.weight_change : nan},
+        {effects::net_wall_load_error, loaded ? window.net_load / window.weight_change - 1.0 : nan},
+        {effects::strong_rock_strain, guard.strong_strain},
+        {effects::relaxed_rock_strain, guard.relaxed_strain},
+        {effects::rock_rotation, guard.rotation * 180.0 / pi},
+        {effects::beyond_byerlee, guard.beyond_byerlee},
     };
     std::ranges::move(loads_.measures(state), std::back_inserter(end.measures));
     end.beyond_elasticity = beyond_elasticity(guard, state.clock.extension);

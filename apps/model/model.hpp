@@ -5,6 +5,8 @@
 #include "coupling/footwall_loads.hpp"
 
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace listric {
@@ -27,8 +29,18 @@ std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
 /// The prescribed motion of the base's nodes; without a response where none is.
 BaseDriver make_base_driver(const Scene& scene, const ModelParts& parts);
 
+/// Measures of effects, by their names.
+struct EffectMeasures {
+    NamedNumbers numbers = {};                                     ///< also columns of history.csv
+    std::vector<std::pair<std::string, NamedNumbers>> groups = {}; ///< objects of summary.json
+    std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {}; ///< of such objects
+};
+
 /// Measures of all effects that are on.
 EffectMeasures measure_effects(const Observation& now);
+
+/// Numbers of summary.json that follow from the columns that these effects have in history.csv.
+NamedNumbers summarise_effects(const Scene& scene, const dem::Table& history);
 
 /// The scene as far as the hanging wall before extension depends on it.
 Scene genesis_of(const Scene& scene);

@@ -1,5 +1,6 @@
 #include "apps/run/session.hpp"
 
+#include "apps/archive/dictionary.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/provenance.hpp"
@@ -12,6 +13,7 @@
 #include "apps/figures/draw_run.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/paraview.hpp"
+#include "apps/model/effects/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
 #include "apps/run/passed_moments.hpp"
@@ -349,7 +351,8 @@ void Session::append_history() {
     Table& history = record_.history;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [name, value] : row)
-        history.add<double>(name, "", nan);
+        if (!history.has(name))
+            history.add<double>(name, unit_of(name, scene_), nan);
     history.resize(history.rows() + 1);
     for (const auto& [name, value] : row)
         history.get<double>(name).back() = value;
@@ -444,8 +447,8 @@ void Session::check_base() {
         return;
     const Stopwatch watch(record_.seconds_by_part["base"]);
     if (const auto fine = footwall_->check(simulation_.state())) {
-        base_check_ = {{"base_elements_difference", fine->elements},
-                       {"base_resolved_difference", fine->base}};
+        base_check_ = {{effects::base_elements_difference, fine->elements},
+                       {effects::base_resolved_difference, fine->base}};
         log_.say(fmt::format("the base under the last window's mean forces, solved again with {} "
                              "unknowns: the run's elements are {:.2f} % off, its base {:.2f} %",
                              fine->unknowns, 100.0 * fine->elements, 100.0 * fine->base));
@@ -455,12 +458,10 @@ void Session::check_base() {
 /// What summary.json has besides the measures of this moment.
 NamedNumbers Session::summary_numbers(const NamedNumbers& of_effects) const {
     NamedNumbers numbers = of_effects;
-    for (const EffectPart& part : scene_.effects)
-        if (part.effect->summarise)
-            append(numbers, part.effect->summarise(record_.history, simulation_.state()));
+    append(numbers, summarise_effects(scene_, record_.history));
     append(numbers, base_check_);
     if (scene_.picked_fault)
-        add(numbers, "detachment_misfit_m", scene_.picked_fault->misfit);
+        add(numbers, detachment_misfit, scene_.picked_fault->misfit);
     return numbers;
 }
 

@@ -5,7 +5,7 @@
 #include "apps/scene/parameter.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/support/figure_layer.hpp"
-#include "apps/support/named_numbers.hpp"
+#include "apps/support/measure.hpp"
 #include "dem/cycle.hpp"
 #include "dem/event.hpp"
 #include "dem/target_line.hpp"
@@ -125,11 +125,13 @@ struct Observation {
     double right_end() const { return scene.hanging_wall->length + state.clock.extension; }
 };
 
-/// Measures of an effect, by the names of docs/measures.md.
-struct EffectMeasures {
-    NamedNumbers numbers = {};                                     ///< also columns of history.csv
-    std::vector<std::pair<std::string, NamedNumbers>> groups = {}; ///< objects of summary.json
-    std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {}; ///< of such objects
+/// An object of summary.json, or a list of such objects.
+struct MeasuredObjects {
+    std::string_view name, unit, doc;
+    std::vector<Quantity> parts = {}; ///< of an object; none: named by what is measured
+    /// None: it has no meaning there.
+    std::optional<std::vector<NamedNumbers>> (*value)(const Observation& now) = nullptr;
+    bool is_list = true; ///< else the one object itself
 };
 
 /// What a prediction multiplies prices with.
@@ -187,9 +189,10 @@ struct Effect {
     /// Area that comes as discs, m^2 of the packing at the start.
     double (*new_area)(const Scene& scene) = nullptr;
 
-    EffectMeasures (*measure)(const Observation& now) = nullptr;
-    /// Numbers of summary.json that follow from columns of history.csv.
-    NamedNumbers (*summarise)(const dem::Table& history, const dem::State& now) = nullptr;
+    /// Columns of history.csv and numbers of summary.json. One without a function is taken
+    /// elsewhere: by the loads on the footwall, in the order in which they stand here, or by the run.
+    std::vector<Measure<Observation>> measures = {};
+    std::vector<MeasuredObjects> objects = {};
     std::vector<FigureLayer> (*draw)(const Observation& now) = nullptr;
 };
 

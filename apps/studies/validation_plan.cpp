@@ -1,5 +1,7 @@
 #include "apps/studies/validation_plan.hpp"
 
+#include "apps/archive/dictionary.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/scene/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/spelling.hpp"
@@ -161,6 +163,16 @@ ValidationExperiment read_experiment(const Entry& entry,
     return x;
 }
 
+/// Names of the effects that any of the runs has.
+std::vector<std::string> effects_of(const ValidationPlan& plan) {
+    std::vector<std::string> names;
+    for (const ValidationRun& run : plan.runs)
+        for (std::string& name : effect_names(load_scene(
+                 {.scene = run.scene, .set = run.set, .without = run.without})))
+            names.push_back(std::move(name));
+    return names;
+}
+
 /// A plan's own keys.
 struct PlanText {
     std::string extends;
@@ -197,6 +209,16 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
         if (!name.empty() && std::ranges::find(names, name) == names.end())
             fail(entry, fmt::format("no run {}, {}", name, advice(name, names)));
     };
+    std::optional<std::vector<std::string>> on; // effects of any run
+    const auto check_measure = [&](const Entry& entry, const std::string& name) {
+        if (archive::objection_to_measure(name, true, {}, program_effects()).empty())
+            return;
+        if (!on)
+            on = effects_of(plan);
+        const std::string why = archive::objection_to_measure(name, true, *on, program_effects());
+        if (!why.empty())
+            fail(entry, fmt::format("measure {} {}", name, why));
+    };
     for (const Entry& entry : tables(top, "experiment")) {
         const ValidationExperiment x = read_experiment(entry, known);
         known.push_back(x);
@@ -205,6 +227,7 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
             check(entry, name);
         check(entry, x.compare);
         for (const Expectation& e : x.expectations) {
+            check_measure(entry, e.measure);
             check(entry, e.run);
             check(entry, e.minus);
         }

@@ -85,13 +85,20 @@ inline const Effect& speed_gauge() {
             [](const Scene& scene, const Workload& work) {
                 return work.years / scene.find<P>()->interval * work.discs;
             },
-        .measure =
-            [](const Observation& now) {
-                const auto& gauge = *dem::find<const SpeedGauge>(now.events);
-                return EffectMeasures{
-                    .numbers = {{"greatest_speed_m_per_s", gauge.greatest()}},
-                    .groups = {{"speed_gauge", {{"looks", static_cast<double>(gauge.applied)}}}}};
-            },
+        .measures = {{"greatest_speed_m_per_s", "m/s", "greatest speed that a disc was seen at",
+                      [](const Observation& now) -> std::optional<double> {
+                          return dem::find<const SpeedGauge>(now.events)->greatest();
+                      }}},
+        .objects = {{"speed_gauge",
+                     "",
+                     "what the gauge has done",
+                     {{"looks", "1", "at speeds"}},
+                     [](const Observation& now) -> std::optional<std::vector<NamedNumbers>> {
+                         const auto& gauge = *dem::find<const SpeedGauge>(now.events);
+                         return std::vector<NamedNumbers>{
+                             {{"looks", static_cast<double>(gauge.applied)}}};
+                     },
+                     false}},
         .draw =
             [](const Observation& now) {
                 const auto speeds = now.state.discs.get<double>("greatest_speed");

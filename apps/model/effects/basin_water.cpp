@@ -1,7 +1,6 @@
 #include "coupling/basin_water.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/footwall_summary.hpp"
 #include "apps/scene/effect.hpp"
 
 #include <fmt/format.h>
@@ -65,11 +64,13 @@ const Effect& basin_water() {
                                    water.level);
             },
         .absence = "water",
-        .summarise =
-            [](const dem::Table& history, const dem::State&) {
-                return last_values(
-                    history, {"basin_water_n_per_m", "pore_water_n_per_m", "flank_water_n_per_m"});
-            },
+        .measures = {{coupling::basin_water_name, "N/m",
+                      "weight of the water on the detachment per metre of strike, with that in the "
+                      "sediment's pores"},
+                     {coupling::pore_water_name, "N/m", "weight of the water in the sediment's pores"},
+                     {coupling::flank_water_name, "N/m",
+                      "weight of the water where the footwall left of the breakaway has sunk below "
+                      "its level; negative where what was flooded has risen"}},
         .draw = draw,
     };
     return effect;

@@ -1,5 +1,6 @@
 #include "dem/events/fault_weakening.hpp"
 
+#include "apps/model/effects/measure_names.hpp"
 #include "apps/scene/effect.hpp"
 #include "dem/events/property_update.hpp"
 
@@ -110,21 +111,26 @@ std::string explain(const Scene& scene, EffectList) {
                        p.circle_diameters * diameter);
 }
 
-/// Share of weak discs, and how far weakening has changed the volume of rock. The latter is over
-/// the hanging wall's area at the start, of which nothing is told once there is more sediment.
-EffectMeasures measure(const Observation& now) {
-    const dem::ConstDiscColumns d = dem::disc_columns(now.state);
-    NamedNumbers numbers;
-    add(numbers, "weak_fraction",
-        static_cast<double>(std::ranges::count(d.material, dem::weak)) /
-            static_cast<double>(d.x.size()));
+/// Over the hanging wall's area at the start, of which nothing is told once there is more sediment.
+std::optional<double> volume_error(const Observation& now) {
     const dem::Ledger& ledger = now.state.ledger;
-    if (ledger.deposited - ledger.removed <= ledger.initial)
-        add(numbers, "volume_error_fraction",
-            std::abs(dem::weakened_volume_change(now.state, now.parts.base)) /
-                dem::hanging_wall_area(*now.scene.hanging_wall,
-                                       now.parts.base.surfaces.front().chain));
-    return {.numbers = std::move(numbers)};
+    if (ledger.deposited - ledger.removed > ledger.initial)
+        return std::nullopt;
+    return std::abs(dem::weakened_volume_change(now.state, now.parts.base)) /
+           dem::hanging_wall_area(*now.scene.hanging_wall, now.parts.base.surfaces.front().chain);
+}
+
+std::vector<Measure<Observation>> measures() {
+    return {{weak_fraction, "1", "share of discs weakened by fault detection",
+             [](const Observation& now) -> std::optional<double> {
+                 const auto material = dem::disc_columns(now.state).material;
+                 return static_cast<double>(std::ranges::count(material, dem::weak)) /
+                        static_cast<double>(material.size());
+             }},
+            {"volume_error_fraction", "1",
+             "power-cell area of the weakened discs less what it was before weakening, over the "
+             "hanging wall's area; ends where there is more sediment than rock",
+             volume_error}};
 }
 
 std::vector<FigureLayer> draw(const Observation& now) {
@@ -169,7 +175,7 @@ const Effect& fault_weakening() {
                 return work.years / p.interval * 330.0 * work.discs +
                        work.years / p.update_interval * 18.0 * work.discs;
             },
-        .measure = measure,
+        .measures = measures(),
         .draw = draw,
     };
     return effect;

@@ -1,7 +1,6 @@
 #include "coupling/lower_crust_thinning.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/footwall_summary.hpp"
 #include "apps/scene/effect.hpp"
 
 #include <fmt/format.h>
@@ -66,10 +65,8 @@ const Effect& lower_crust_thinning() {
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = "thinning of the lower crust",
-        .summarise =
-            [](const dem::Table& history, const dem::State&) {
-                return last_values(history, {"lower_crust_thinning_m"});
-            },
+        .measures = {{coupling::lower_crust_thinning_name, "m",
+                      "h e / (b + e) of the lower crust's thickness h and width b, and extension e"}},
     };
     return effect;
 }
