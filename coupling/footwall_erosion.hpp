@@ -12,7 +12,8 @@
 namespace listric::coupling {
 
 /// Names of what the load measures; its description declares them.
-inline constexpr const char *footwall_eroded_name = "footwall_eroded_m2", *footwall_deposited_name = "footwall_deposited_m2";
+inline constexpr const char *footwall_eroded_name = "footwall_eroded_m2",
+                            *footwall_deposited_name = "footwall_deposited_m2";
 
 /// Erosion and deposition on the footwall, left of the breakaway, to a target line.
 struct FootwallErosionParameters {

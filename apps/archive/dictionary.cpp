@@ -64,16 +64,24 @@ void add_faults(std::vector<DictionaryEntry>& all) {
     for (const Quantity& quantity : evolution_quantities())
         all.push_back({quantity, "snapshots", nullptr, false});
     all.push_back({{"faults", "", "the traces, longest first"},
-                   "faults", nullptr, false, false, std::move(parts)});
+                   "faults",
+                   nullptr,
+                   false,
+                   false,
+                   std::move(parts)});
 }
 
 void add_effect(std::vector<DictionaryEntry>& all, const Effect& effect) {
     for (const Measure<Observation>& measure : effect.measures)
-        all.push_back({measure.quantity(), effect.name, &effect,
-                       measure.over != OverTime::none, measure.value != nullptr});
+        all.push_back({measure.quantity(), effect.name, &effect, measure.over != OverTime::none,
+                       measure.value != nullptr});
     for (const MeasuredObjects& objects : effect.objects)
         all.push_back({{objects.name, objects.unit, objects.doc},
-                       effect.name, &effect, false, false, objects.parts});
+                       effect.name,
+                       &effect,
+                       false,
+                       false,
+                       objects.parts});
 }
 
 } // namespace

@@ -14,10 +14,10 @@ namespace listric::archive {
 /// A quantity of a run's files, and who has it.
 struct DictionaryEntry {
     Quantity quantity;
-    std::string_view table;       ///< of docs/measures.md
-    const Effect* effect;         ///< whose it is; none: every run's
-    bool at_end = true;           ///< in summary.json
-    bool at_moments = true;       ///< measured at any snapshot, too
+    std::string_view table;           ///< of docs/measures.md
+    const Effect* effect;             ///< whose it is; none: every run's
+    bool at_end = true;               ///< in summary.json
+    bool at_moments = true;           ///< measured at any snapshot, too
     std::vector<Quantity> parts = {}; ///< of an object or of each object of a list
 };
 

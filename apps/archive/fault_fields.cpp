@@ -18,9 +18,7 @@ using P = const FaultPlace&;
 /// A member of the fault.
 template <auto Member> Json of(P p) { return p.fault().*Member; }
 
-constexpr const char* attitude_of(bool synthetic) {
-    return synthetic ? "synthetic" : "antithetic";
-}
+constexpr const char* attitude_of(bool synthetic) { return synthetic ? "synthetic" : "antithetic"; }
 
 Json main_of(P p) {
     return p.index == p.report.main_antithetic  ? attitude_of(false)
@@ -38,7 +36,8 @@ Json throws_of(P p) {
 Json points_of(P p) {
     Json points = Json::array();
     for (const dem::Point q : p.fault().trace.points)
-        points.push_back({std::round(p.steps * q.x) / p.steps, std::round(-p.steps * q.y) / p.steps});
+        points.push_back(
+            {std::round(p.steps * q.x) / p.steps, std::round(-p.steps * q.y) / p.steps});
     return points;
 }
 
@@ -49,12 +48,14 @@ Json pre_rift_throw_of(P p) {
 constexpr std::size_t of_trace = 7;
 
 constexpr FaultField fields[] = {
-    {"x_top_m", "m", "upper end of the line", [](P p) -> Json { return p.fault().trace.points.front().x; }},
+    {"x_top_m", "m", "upper end of the line",
+     [](P p) -> Json { return p.fault().trace.points.front().x; }},
     {"z_top_m", "m", "its depth", [](P p) -> Json { return -p.fault().trace.points.front().y; }},
     {"x_bottom_m", "m", "lower end of the line",
      [](P p) -> Json { return p.fault().trace.points.back().x; }},
     {"z_bottom_m", "m", "its depth", [](P p) -> Json { return -p.fault().trace.points.back().y; }},
-    {"length_m", "m", "of the line", [](P p) -> Json { return p.fault().trace.length(); }, 6, "length"},
+    {"length_m", "m", "of the line", [](P p) -> Json { return p.fault().trace.length(); }, 6,
+     "length"},
     {"dip_deg", "deg", "of the best straight line", of<&Fault::dip>, 7, "dip"},
     {"sense", "", "`normal` or `reverse`, from the slip of the window",
      [](P p) -> Json { return p.fault().normal ? "normal" : "reverse"; }, 5, "sense"},
@@ -70,12 +71,15 @@ constexpr FaultField fields[] = {
     {"curvature_per_m", "1/m", "of the best parabola over the chord; positive: convex upward",
      of<&Fault::curvature>, 14},
     {"born_at_m", "m",
-     "extension at the end of the window since which it has been active: half of its length slid in "
+     "extension at the end of the window since which it has been active: half of its length slid "
+     "in "
      "today's sense, in two thirds of the windows since",
      of<&Fault::born_at>, 9, "born at", true, true},
     {field_dip_at_birth, "deg",
-     "of the line that was traced where the fault was then, in the window of its birth or the first "
-     "one after it that has such a line; the footwall discs (6 diameters below the trace) say where "
+     "of the line that was traced where the fault was then, in the window of its birth or the "
+     "first "
+     "one after it that has such a line; the footwall discs (6 diameters below the trace) say "
+     "where "
      "it was",
      of<&Fault::dip_at_birth>, 10, "dip at birth", true, true},
     {"traced_since_m", "m", "end of that window", of<&Fault::traced_since>, 11, "", true, true},
@@ -83,8 +87,10 @@ constexpr FaultField fields[] = {
      "rotation of these discs as one block since then, positive toward the detachment",
      of<&Fault::footwall_turn>, 12, "turn", true, true},
     {"foot_x_m", "m",
-     "where it, straight on, meets the detachment, if within 20 diameters of its lower end; else its "
-     "lower end. Where a trace falls by less than 30 degrees it follows the detachment's shear zone "
+     "where it, straight on, meets the detachment, if within 20 diameters of its lower end; else "
+     "its "
+     "lower end. Where a trace falls by less than 30 degrees it follows the detachment's shear "
+     "zone "
      "and does not count",
      [](P p) -> Json { return p.fault().foot.x; }, 15},
     {"foot_z_m", "m", "depth of that place", [](P p) -> Json { return -p.fault().foot.y; }, 16},
@@ -100,8 +106,8 @@ constexpr FaultField fields[] = {
      pre_rift_throw_of, 17, "pre-rift throw"},
     {"name", "", "`fault N`", [](P p) -> Json { return fmt::format("fault {}", p.index); }, 1, "",
      false},
-    {"fault", "1", "index in `faults`",
-     [](P p) -> Json { return static_cast<double>(p.index); }, 2, "fault", false},
+    {"fault", "1", "index in `faults`", [](P p) -> Json { return static_cast<double>(p.index); }, 2,
+     "fault", false},
     {"main", "", "attitude of the main fault that it is, if it is one", main_of, 3, "main", false},
 };
 

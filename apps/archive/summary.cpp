@@ -1,7 +1,7 @@
 #include "apps/archive/summary.hpp"
 
-#include "apps/archive/json_file.hpp"
 #include "apps/archive/fault_fields.hpp"
+#include "apps/archive/json_file.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/main_faults.hpp"
 #include "apps/support/fineness.hpp"
@@ -83,8 +83,7 @@ Json seconds_by_part(const std::map<std::string, double>& parts, double wall_sec
 
 /// A list of objects, which have the measures that have a meaning.
 template <class Subject>
-Json objects_of(const std::vector<Subject>& subjects,
-                std::span<const Measure<Subject>> measures) {
+Json objects_of(const std::vector<Subject>& subjects, std::span<const Measure<Subject>> measures) {
     Json all = Json::array();
     for (const Subject& subject : subjects) {
         Json& json = all.emplace_back(Json::object());
@@ -149,7 +148,8 @@ std::span<const HeadField> head_fields() {
          [](C c) -> Json { return c.state.clock.extension; }},
         {"cycle", "1", "cycles so far (`history.csv`)"},
         {"provenance", "",
-         "`version` `commit` `compiler` `instruction_set` of the program that finished the run (the "
+         "`version` `commit` `compiler` `instruction_set` of the program that finished the run "
+         "(the "
          "widest vectors it is compiled for; of a cycle for all processors `cycle_level` tells), "
          "`scene_hash` of every parameter in scene.toml, and `seed`; equal for equal programs and "
          "scenes. Figures have it in their metadata, too"},

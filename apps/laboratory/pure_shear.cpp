@@ -128,7 +128,8 @@ StretchedSlab stretch_slab(const Scene& scene, RunOptions options) {
     };
     StretchedSlab slab;
     slab.strain_top10 = number(measures::name_of<&measures::Measures::strain_top10>());
-    slab.strain_top10_cumulative = number(measures::name_of<&measures::Measures::strain_top10_cumulative>());
+    slab.strain_top10_cumulative =
+        number(measures::name_of<&measures::Measures::strain_top10_cumulative>());
     slab.weak_fraction = number(effects::weak_fraction);
     slab.unbalanced_ratio = number(measures::name_of<&measures::Measures::unbalanced_ratio_mean>());
     const auto snapshots = run_moments(options.output).snapshots;

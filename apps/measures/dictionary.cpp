@@ -143,7 +143,8 @@ std::string_view name_of(std::optional<double> (*value)(const Measures&)) {
 
 constinit const Quantity quasi_static{
     "quasi_static", "",
-    "whether `unbalanced_ratio_mean` is at most 1e-2 and `inertial_number` at most 2e-3, twice what "
+    "whether `unbalanced_ratio_mean` is at most 1e-2 and `inertial_number` at most 2e-3, twice "
+    "what "
     "`lis1` at draft has; else the run says so and `extension.speed_m_per_s` should be smaller. "
     "Absent without gravity"};
 

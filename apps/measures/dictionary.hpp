@@ -24,9 +24,7 @@ std::span<const MeasureTable> measure_tables();
 /// The name of a measure: name_of<&Measures::area_balance>().
 std::string_view name_of(std::optional<double> (*value)(const Measures&));
 
-template <auto... Member> std::string name_of() {
-    return std::string(name_of(taken<Member...>));
-}
+template <auto... Member> std::string name_of() { return std::string(name_of(taken<Member...>)); }
 
 // Those that are no numbers, and what the objects of lists have.
 extern const Quantity quasi_static, depocentres, old_sediment_bonded_profile;

@@ -8,8 +8,14 @@ using namespace dem;
 
 namespace {
 
-constexpr Quantity dilation{"rock_dilation_m2", "m2", "growth of the pre-rift discs' power cells (the part of the plane that is nearer to a disc than to any other) since the start, of those that are closed then and now, scaled to all: dilation of the rock, measured without its surface"};
-constexpr Quantity dilation_fraction{"rock_dilation_fraction", "1", "`rock_dilation_m2` over extension × thickness, to compare with 1 - `area_balance`"};
+constexpr Quantity dilation{
+    "rock_dilation_m2", "m2",
+    "growth of the pre-rift discs' power cells (the part of the plane that is nearer to a disc "
+    "than to any other) since the start, of those that are closed then and now, scaled to all: "
+    "dilation of the rock, measured without its surface"};
+constexpr Quantity dilation_fraction{
+    "rock_dilation_fraction", "1",
+    "`rock_dilation_m2` over extension × thickness, to compare with 1 - `area_balance`"};
 
 } // namespace
 

@@ -95,7 +95,8 @@ constexpr Measure<MainFault> of_main_fault[] = {
     {"_rate_mm_per_a", "mm/a", "`rate_mm_per_a` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.rate; }},
     {"_x_at_half_depth_m", "m",
-     "where the trace is half as deep as the flat; its change over the extension's is 1 for a fault "
+     "where the trace is half as deep as the flat; its change over the extension's is 1 for a "
+     "fault "
      "that moves with the right wall",
      [](F f) { return x_at(f.fault.trace.points, 0.5 * f.run.detachment.back().end.y); }},
     {"_bow", "1",
@@ -127,13 +128,13 @@ constexpr Quantity fault_count{"faults", "1", "number of traces"};
 constexpr Quantity foot_beyond_sole{
     "antithetic_foot_beyond_sole_m", "m",
     "`antithetic_foot_x_m` less the x at which the detachment soles out"};
-constexpr Quantity throw_over_throw{
-    "antithetic_over_synthetic_throw", "1",
-    "`antithetic_throw_m` over `synthetic_throw_m`"};
+constexpr Quantity throw_over_throw{"antithetic_over_synthetic_throw", "1",
+                                    "`antithetic_throw_m` over `synthetic_throw_m`"};
 constexpr Quantity inner_step{
     "inner_fault_step_m", "m",
     "distance of a normal fault steeper than 45 degrees from the nearest such fault that was born "
-    "2 km of extension before it or earlier, where it is nearer to the breakaway than all of those: "
+    "2 km of extension before it or earlier, where it is nearer to the breakaway than all of "
+    "those: "
     "the largest, at the height of its middle. 0: no such fault"};
 constexpr Quantity throw_age{
     "throw_age_correlation", "1",

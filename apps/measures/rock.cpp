@@ -18,12 +18,25 @@ using namespace dem;
 
 namespace {
 
-constexpr Quantity basement_weak{"basement_weak_fraction", "1", "share of the pre-rift rock, by area, that is weakened"};
-constexpr Quantity sediment_weak{"sediment_weak_fraction", "1", "share of the sediment, by area, that is weakened"};
-constexpr Quantity porosity_error{"porosity_error", "1", "mean of abs(porosity / Phi(depth) - 1) over the sediment's mass, porosity by mass and radius of a disc, depth below the surface of the discs, without discs laid down in the last 100 m, which still compact and count for no burial yet"};
-constexpr Quantity porosity_off{"porosity_off_fraction", "1", "share of that mass whose porosity is more than 2 % off: what has risen keeps its porosity"};
-constexpr Quantity superposition_share{"superposition_fraction", "1", "share of touching pairs of sediment discs of different strata, one within 45 degrees above the other, whose upper disc is the younger"};
-constexpr Quantity above_target{"discs_above_target", "1", "discs that lie wholly above the line that sedimentation adapts the surface to"};
+constexpr Quantity basement_weak{"basement_weak_fraction", "1",
+                                 "share of the pre-rift rock, by area, that is weakened"};
+constexpr Quantity sediment_weak{"sediment_weak_fraction", "1",
+                                 "share of the sediment, by area, that is weakened"};
+constexpr Quantity porosity_error{
+    "porosity_error", "1",
+    "mean of abs(porosity / Phi(depth) - 1) over the sediment's mass, porosity by mass and radius "
+    "of a disc, depth below the surface of the discs, without discs laid down in the last 100 m, "
+    "which still compact and count for no burial yet"};
+constexpr Quantity porosity_off{
+    "porosity_off_fraction", "1",
+    "share of that mass whose porosity is more than 2 % off: what has risen keeps its porosity"};
+constexpr Quantity superposition_share{
+    "superposition_fraction", "1",
+    "share of touching pairs of sediment discs of different strata, one within 45 degrees above "
+    "the other, whose upper disc is the younger"};
+constexpr Quantity above_target{
+    "discs_above_target", "1",
+    "discs that lie wholly above the line that the surface is adapted to"};
 
 /// A layer compacts, and what is below it, in this extension after it was laid down, m: in four
 /// looks of Compaction (its `approach`). Until then it is left out, as it counts for no burial yet.
@@ -136,7 +149,8 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
 }
 
 std::span<const Quantity> rock_quantities() {
-    static constexpr Quantity all[] = {basement_weak, sediment_weak, porosity_error, porosity_off, superposition_share, above_target};
+    static constexpr Quantity all[] = {basement_weak, sediment_weak,       porosity_error,
+                                       porosity_off,  superposition_share, above_target};
     return all;
 }
 

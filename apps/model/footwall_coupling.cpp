@@ -1,8 +1,8 @@
 #include "apps/model/footwall_coupling.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/effects/measure_names.hpp"
 #include "apps/model/footwall_request.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "coupling/base_memory.hpp"

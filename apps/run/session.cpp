@@ -13,7 +13,7 @@
 #include "apps/figures/draw_run.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/paraview.hpp"
-#include "apps/model/effects/measure_names.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
 #include "apps/run/passed_moments.hpp"

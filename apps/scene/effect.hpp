@@ -190,7 +190,8 @@ struct Effect {
     double (*new_area)(const Scene& scene) = nullptr;
 
     /// Columns of history.csv and numbers of summary.json. One without a function is taken
-    /// elsewhere: by the loads on the footwall, in the order in which they stand here, or by the run.
+    /// elsewhere: by the loads on the footwall, in the order in which they stand here, or by the
+    /// run.
     std::vector<Measure<Observation>> measures = {};
     std::vector<MeasuredObjects> objects = {};
     std::vector<FigureLayer> (*draw)(const Observation& now) = nullptr;

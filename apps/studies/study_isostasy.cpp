@@ -6,7 +6,7 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/effects/measure_names.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/toml.hpp"
 #include "apps/support/file.hpp"
@@ -128,10 +128,11 @@ struct IsostasyRun {
             "{:.3f},{:.0f},{:.3f},{:.3g},{:.3g}\n",
             fill.name, plate.thickness, seed, value(effects::footwall_uplift),
             value(effects::base_deflection), value(effects::net_wall_load),
-            value(effects::net_wall_load_error), number_at(summary, water_load.c_str()).value_or(0.0),
-            at_breakaway(continuous), at_breakaway(broken), local_compensation(plate, last.loads),
-            end.thickness, end.misfit, whole.thickness, whole.misfit,
-            value(effects::strong_rock_strain), value(effects::relaxed_rock_strain));
+            value(effects::net_wall_load_error),
+            number_at(summary, water_load.c_str()).value_or(0.0), at_breakaway(continuous),
+            at_breakaway(broken), local_compensation(plate, last.loads), end.thickness, end.misfit,
+            whole.thickness, whole.misfit, value(effects::strong_rock_strain),
+            value(effects::relaxed_rock_strain));
     }
 
     StudyPoint point() const {

@@ -6,7 +6,7 @@
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/main_faults.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/model/effects/measure_names.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/support/log.hpp"
@@ -33,8 +33,11 @@ constexpr double graben_from = 12e3; ///< x beyond which a depocentre is the col
 /// A quantity of a finished run; nothing where it has no meaning.
 std::optional<Values> value_of(const Json& summary, const std::string& quantity) {
     if (quantity == "cutoff")
-        return Values{need_number(summary, measures::name_of<&measures::Measures::cutoff, &Point::x>().c_str()),
-                      need_number(summary, measures::name_of<&measures::Measures::cutoff, &Point::y>().c_str())};
+        return Values{
+            need_number(summary,
+                        measures::name_of<&measures::Measures::cutoff, &Point::x>().c_str()),
+            need_number(summary,
+                        measures::name_of<&measures::Measures::cutoff, &Point::y>().c_str())};
     if (quantity == "depocentre") {
         const auto found = summary.find(std::string(measures::depocentres.name));
         if (found == summary.end())

@@ -150,8 +150,8 @@ SweepMeasure read_measure(const Entry& entry, const std::vector<std::string>& on
         if (!measure.at || !(*measure.at >= 0.0))
             fail(entry, "after @ comes an extension in metres, such as strain_top10@5000");
     }
-    const std::string objection = archive::objection_to_measure(
-        measure.name, measure.at.has_value(), on, program_effects());
+    const std::string objection =
+        archive::objection_to_measure(measure.name, measure.at.has_value(), on, program_effects());
     if (!objection.empty())
         fail(entry, fmt::format("{} {}", measure.name, objection));
     return measure;

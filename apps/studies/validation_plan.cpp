@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace listric {
 
@@ -128,9 +129,11 @@ std::vector<Expectation> expectations_of(const ValidationExperiment& experiment,
     return expectations;
 }
 
-/// @param before  experiments whose expectations this one may share
-ValidationExperiment read_experiment(const Entry& entry,
-                                     const std::vector<ValidationExperiment>& before) {
+/// @param before         experiments whose expectations this one may share
+/// @param check_measure  refuses a name
+ValidationExperiment
+read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& before,
+                const std::function<void(const Entry&, const std::string&)>& check_measure) {
     using T = ExperimentText;
     using X = ValidationExperiment;
     static const std::vector<Parameter> parameters{
@@ -155,6 +158,8 @@ ValidationExperiment read_experiment(const Entry& entry,
     }
     for (const Entry& item : tables(entry, "expect")) {
         x.expectations.push_back(read_expectation(item));
+        check_measure({*item.node.as_table()->get("measure"), item.path + ".measure"},
+                      x.expectations.back().measure);
         if (x.expectations.back().run.empty())
             x.expectations.back().run = x.runs.front();
     }
@@ -167,8 +172,8 @@ ValidationExperiment read_experiment(const Entry& entry,
 std::vector<std::string> effects_of(const ValidationPlan& plan) {
     std::vector<std::string> names;
     for (const ValidationRun& run : plan.runs)
-        for (std::string& name : effect_names(load_scene(
-                 {.scene = run.scene, .set = run.set, .without = run.without})))
+        for (std::string& name :
+             effect_names(load_scene({.scene = run.scene, .set = run.set, .without = run.without})))
             names.push_back(std::move(name));
     return names;
 }
@@ -217,17 +222,16 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
             on = effects_of(plan);
         const std::string why = archive::objection_to_measure(name, true, *on, program_effects());
         if (!why.empty())
-            fail(entry, fmt::format("measure {} {}", name, why));
+            fail(entry, fmt::format("{} {}", name, why));
     };
     for (const Entry& entry : tables(top, "experiment")) {
-        const ValidationExperiment x = read_experiment(entry, known);
+        const ValidationExperiment x = read_experiment(entry, known, check_measure);
         known.push_back(x);
         plan.experiments.push_back(x);
         for (const std::string& name : x.runs)
             check(entry, name);
         check(entry, x.compare);
         for (const Expectation& e : x.expectations) {
-            check_measure(entry, e.measure);
             check(entry, e.run);
             check(entry, e.minus);
         }

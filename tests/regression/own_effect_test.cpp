@@ -1,6 +1,7 @@
 // An effect in one place: one that the program does not have, handed in by its description and one
 // line of a list, is in everything that the program's own are in.
 
+#include "apps/archive/dictionary.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
@@ -110,6 +111,24 @@ TEST_F(OwnEffect, IsInAllThatARunLeaves) {
 
     const std::string history = contents(o.output / "history.csv");
     EXPECT_THAT(history.substr(0, history.find('\n')), HasSubstr(",greatest_speed_m_per_s"));
+
+    // Its measure is declared as the program's own are.
+    EXPECT_EQ(unit_of("greatest_speed_m_per_s", scene), "m/s");
+    for (const Column& column :
+         read_snapshot(list_snapshots(o.output).back()).record.history.columns())
+        EXPECT_EQ(column.unit, unit_of(column.name, scene)) << column.name;
+    const auto words = dictionary_json(effects_and_gauge());
+    EXPECT_TRUE(std::ranges::any_of(words, [](const auto& entry) {
+        return entry["name"] == "speed_gauge" && entry["parts"][0]["name"] == "looks";
+    }));
+    EXPECT_EQ(
+        objection_to_measure("greatest_speed_m_per_s", true, {"speed_gauge"}, effects_and_gauge()),
+        "");
+    EXPECT_THAT(
+        objection_to_measure("greatest_sped_m_per_s", true, {"speed_gauge"}, effects_and_gauge()),
+        HasSubstr("did you mean greatest_speed_m_per_s?"));
+    EXPECT_THAT(objection_to_measure("greatest_speed_m_per_s", true, {}, effects_and_gauge()),
+                HasSubstr("[speed_gauge]"));
 
     const RunFolder left(o.output, scene); // whence the last sheet of figures is drawn
     EXPECT_EQ(

@@ -89,16 +89,16 @@ inline const Effect& speed_gauge() {
                       [](const Observation& now) -> std::optional<double> {
                           return dem::find<const SpeedGauge>(now.events)->greatest();
                       }}},
-        .objects = {{"speed_gauge",
-                     "",
-                     "what the gauge has done",
-                     {{"looks", "1", "at speeds"}},
-                     [](const Observation& now) -> std::optional<std::vector<NamedNumbers>> {
-                         const auto& gauge = *dem::find<const SpeedGauge>(now.events);
-                         return std::vector<NamedNumbers>{
-                             {{"looks", static_cast<double>(gauge.applied)}}};
-                     },
-                     false}},
+        .objects =
+            {{"speed_gauge",
+              "",
+              "what the gauge has done",
+              {{"looks", "1", "at speeds"}},
+              [](const Observation& now) -> std::optional<std::vector<NamedNumbers>> {
+                  const auto& gauge = *dem::find<const SpeedGauge>(now.events);
+                  return std::vector<NamedNumbers>{{{"looks", static_cast<double>(gauge.applied)}}};
+              },
+              false}},
         .draw =
             [](const Observation& now) {
                 const auto speeds = now.state.discs.get<double>("greatest_speed");

@@ -87,6 +87,14 @@ TEST_F(Plan, SaysWhatIsRunAndExpected) {
     EXPECT_EQ(two.expectations[0].run, "b");
 }
 
+TEST_F(Plan, AMeasureThatNoRunCanHaveIsRefused) {
+    EXPECT_THAT(complaint("area_balance", "area_balence"),
+                HasSubstr("measure: area_balence is no measure, did you mean area_balance?"));
+    EXPECT_THAT(complaint("area_balance", "energy_residual"),
+                HasSubstr("is a measure of [energy], which no run of the plan has"));
+    EXPECT_EQ(complaint("area_balance", "deposited_fraction"), "none");
+}
+
 TEST_F(Plan, MayExtendAnother) {
     const std::string own = R"(extends = "validation"
 [[run]]

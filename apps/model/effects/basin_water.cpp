@@ -67,7 +67,8 @@ const Effect& basin_water() {
         .measures = {{coupling::basin_water_name, "N/m",
                       "weight of the water on the detachment per metre of strike, with that in the "
                       "sediment's pores"},
-                     {coupling::pore_water_name, "N/m", "weight of the water in the sediment's pores"},
+                     {coupling::pore_water_name, "N/m",
+                      "weight of the water in the sediment's pores"},
                      {coupling::flank_water_name, "N/m",
                       "weight of the water where the footwall left of the breakaway has sunk below "
                       "its level; negative where what was flooded has risen"}},

@@ -1,7 +1,7 @@
 #include "apps/model/effects/elastic_base_parameters.hpp"
 
-#include "apps/model/effects/measure_names.hpp"
 #include "apps/model/footwall_request.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/spelling.hpp"
@@ -378,7 +378,8 @@ std::vector<Measure<Observation>> measures() {
              "10 % in either the run stops",
              nullptr, largest},
             {rock_rotation, "deg",
-             "largest rotation of the footwall's rock. Linear elasticity overlooks a strain of half "
+             "largest rotation of the footwall's rock. Linear elasticity overlooks a strain of "
+             "half "
              "its square; above 11.5 degrees, 2 %, the run stops",
              nullptr, largest},
             {beyond_byerlee, "m2",

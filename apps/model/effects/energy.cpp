@@ -57,7 +57,8 @@ std::vector<Measure<Observation>> measures() {
         {"energy_gravity_work_j_per_m", unit, "work of weight, over the cycles",
          of<&E::gravity_work>},
         {"energy_events_j_per_m", unit,
-         "change of kinetic and strain energy by events: radii, stiffnesses and masses that change, "
+         "change of kinetic and strain energy by events: radii, stiffnesses and masses that "
+         "change, "
          "bonds made, sediment that comes and goes",
          of<&E::events>},
         {"energy_kinetic_j_per_m", unit, "kinetic energy now", of<&E::stored, &Stored::kinetic>},
@@ -70,19 +71,19 @@ std::vector<Measure<Observation>> measures() {
         {"energy_friction_j_per_m", unit, "lost by slip, between discs and on the base",
          of<&E::friction>},
         {"energy_damping_j_per_m", unit,
-         "lost by local damping; where it is relative to a mean motion or to a stretching base, less "
+         "lost by local damping; where it is relative to a mean motion or to a stretching base, "
+         "less "
          "what its force gives to that motion",
          of<&E::damping>},
-        {"energy_bond_breaking_j_per_m", unit,
-         "what the springs of bonds held when they broke", of<&E::bond_breaking>},
+        {"energy_bond_breaking_j_per_m", unit, "what the springs of bonds held when they broke",
+         of<&E::bond_breaking>},
         {"energy_stepping_j_per_m", unit,
          "lost by the integration where contacts close or open within a step; it shrinks with the "
          "step",
          of<&E::stepping>},
         {"energy_base_work_j_per_m", unit,
-         "work of a base that deforms, `[elastic_base]` or `[base_motion]`, by moving; negative "
-         "where it gives way to the discs. The elastic energy, the reference load and the virtual "
-         "loads are the base's own affair",
+         "work of a base that deforms, by moving; negative where it gives way to the discs. The "
+         "elastic energy, the reference load and the virtual loads are the base's own affair",
          of<&E::base_work>},
         {"energy_residual", "1",
          "(stored change + friction + damping + bond breaking + stepping - boundary, base and "
@@ -114,8 +115,12 @@ const Effect& energy() {
         .contribute = [](const Scene&, ModelParts& parts) { parts.accounts_energy = true; },
         .make_events = make_events,
         .measures = measures(),
-        .objects = {{"energy_by_event_j_per_m", "J/m",
-                     "change of kinetic and strain energy by each event", {}, by_event, false}},
+        .objects = {{"energy_by_event_j_per_m",
+                     "J/m",
+                     "change of kinetic and strain energy by each event",
+                     {},
+                     by_event,
+                     false}},
     };
     return effect;
 }

@@ -1,6 +1,6 @@
 #include "dem/events/fault_weakening.hpp"
 
-#include "apps/model/effects/measure_names.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/scene/effect.hpp"
 #include "dem/events/property_update.hpp"
 

@@ -65,8 +65,9 @@ const Effect& lower_crust_thinning() {
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = "thinning of the lower crust",
-        .measures = {{coupling::lower_crust_thinning_name, "m",
-                      "h e / (b + e) of the lower crust's thickness h and width b, and extension e"}},
+        .measures =
+            {{coupling::lower_crust_thinning_name, "m",
+              "h e / (b + e) of the lower crust's thickness h and width b, and extension e"}},
     };
     return effect;
 }

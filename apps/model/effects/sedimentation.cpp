@@ -136,8 +136,10 @@ std::optional<double> stress_ratio(const Observation& now) {
 
 constexpr Measure<dem::LayerStress> of_layer[] = {
     {"depth_m", "m", "of the layer's middle below the surface", taken<&dem::LayerStress::depth>},
-    {"ratio", "1", "vertical contact stress over the weight above", taken<&dem::LayerStress::ratio>},
-    {"after_event_ratio", "1", "the ratio in the first 0.5 m of extension after a compaction",
+    {"ratio", "1", "vertical contact stress over the weight above",
+     taken<&dem::LayerStress::ratio>},
+    {"after_event_ratio", "1",
+     "the ratio in the first 0.5 m of extension after sediment has compacted",
      taken<&dem::LayerStress::after_event_ratio>},
     {"damping_share", "1", "vertical force of local damping on the discs above, over their weight",
      taken<&dem::LayerStress::damping_share>},
@@ -175,8 +177,10 @@ std::vector<Measure<Observation>> measures() {
 
 std::vector<MeasuredObjects> objects() {
     MeasuredObjects profile{
-        "sediment_stress_profile", "",
-        "whether sediment carries its weight, in layers 1 to 7 km below the surface", {},
+        "sediment_stress_profile",
+        "",
+        "whether sediment carries its weight, in layers 1 to 7 km below the surface",
+        {},
         stress_profile};
     for (const auto& measure : of_layer)
         profile.parts.push_back(measure.quantity());
