@@ -3,6 +3,8 @@
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
+#include "apps/measures/dictionary.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml.hpp"
 #include "dem/contacts.hpp"

@@ -19,7 +19,7 @@ TEST(ReportPage, HasTheDictionarysDefinitionsAndFaultColumns) {
     for (const archive::DictionaryEntry& entry : archive::dictionary(program_effects()))
         EXPECT_THAT(html, HasSubstr(nlohmann::json(entry.quantity.name).dump() + ":" +
                                     nlohmann::json(entry.quantity.doc).dump()));
-    EXPECT_THAT(html, HasSubstr(R"("label":"dip at birth (°)","name":"dip_at_birth_deg")"));
+    EXPECT_THAT(html, HasSubstr(R"j("label":"dip at birth (°)","name":"dip_at_birth_deg")j"));
 }
 
 TEST(ReportPage, NothingOfASceneIsATag) {
