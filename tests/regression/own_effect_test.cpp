@@ -114,8 +114,8 @@ TEST_F(OwnEffect, IsInAllThatARunLeaves) {
 
     // Its measure is declared as the program's own are.
     EXPECT_EQ(unit_of("greatest_speed_m_per_s", scene), "m/s");
-    for (const Column& column :
-         read_snapshot(list_snapshots(o.output).back()).record.history.columns())
+    const Snapshot newest = read_snapshot(list_snapshots(o.output).back());
+    for (const Column& column : newest.record.history.columns())
         EXPECT_EQ(column.unit, unit_of(column.name, scene)) << column.name;
     const auto words = dictionary_json(effects_and_gauge());
     EXPECT_TRUE(std::ranges::any_of(words, [](const auto& entry) {
