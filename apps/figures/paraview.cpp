@@ -206,8 +206,8 @@ std::string base_file(const State& state, const RigidBase& given) {
     return file.text();
 }
 
-/// Files in output/paraview whose names are `begin`, a moment and `ending`, with its extension, m: of
-/// the ends of windows and of the present moment.
+/// Files in output/paraview whose names are `begin`, a moment and `ending`, with its extension, m:
+/// of the ends of windows and of the present moment.
 std::vector<std::pair<double, std::string>> files_of_moments(const fs::path& output,
                                                              const std::string& begin,
                                                              const std::string& ending,

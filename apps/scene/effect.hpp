@@ -172,9 +172,9 @@ struct Effect {
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
     /// Moves the base's nodes; of a scene's effects at most one does.
     /// @param events  to which those of the loads on the base are appended, for the run to apply
-    std::unique_ptr<BaseDriver> (*drive_base)(
-        const Scene& scene, const ModelParts& parts,
-        std::vector<std::unique_ptr<dem::Event>>& events) = nullptr;
+    std::unique_ptr<BaseDriver> (*drive_base)(const Scene& scene, const ModelParts& parts,
+                                              std::vector<std::unique_ptr<dem::Event>>& events) =
+        nullptr;
 
     /// Lines for `explain`. @param list  all effects that there are
     std::string (*explain)(const Scene& scene, EffectList list) = nullptr;

@@ -6,10 +6,10 @@
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "coupling/base_memory.hpp"
-#include "coupling/independent_solution.hpp"
-#include "coupling/interface_loads.hpp"
 #include "coupling/elastic_base.hpp"
 #include "coupling/footwall_loads.hpp"
+#include "coupling/independent_solution.hpp"
+#include "coupling/interface_loads.hpp"
 #include "dem/contacts.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
@@ -179,9 +179,8 @@ BaseWindow ElasticBaseDriver::end_window(State& state, const RigidBase& rigid) {
 
 } // namespace
 
-std::unique_ptr<BaseDriver>
-make_elastic_base_driver(const Scene& scene, const ModelParts& parts,
-                         std::vector<std::unique_ptr<Event>>& events) {
+std::unique_ptr<BaseDriver> make_elastic_base_driver(const Scene& scene, const ModelParts& parts,
+                                                     std::vector<std::unique_ptr<Event>>& events) {
     return std::make_unique<ElasticBaseDriver>(scene, parts, events);
 }
 
