@@ -3,6 +3,7 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
+#include "apps/figures/vocabulary.hpp"
 #include "apps/model/footwall_coupling.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
@@ -69,11 +70,12 @@ std::string uplift_rows(const State& state, const fem::Field& field, int decimal
 }
 
 /// Plain arrays for the drawing script: corners x, y and displacements of the patches, stress xx,
-/// yy, xy; discs x, y, radius, stratum, y at the start.
-void export_section(const State& state, const std::vector<fem::StressPatch>& patches,
+/// yy, xy; the end of the scale of their largest shear stress, MPa; discs x, y, radius, stratum, y
+/// at the start.
+void export_section(const Observation& now, const std::vector<fem::StressPatch>& patches,
                     const fs::path& folder) {
-    const ConstDiscColumns d = disc_columns(state);
-    const double right = *std::ranges::max_element(d.x) + beside;
+    const ConstDiscColumns d = disc_columns(now.state);
+    const double right = now.right_end() + beside;
     std::vector<double> rows;
     for (const fem::StressPatch& p : patches) {
         if (p.corner[0].x < -beside || p.corner[0].x > right)
@@ -84,6 +86,7 @@ void export_section(const State& state, const std::vector<fem::StressPatch>& pat
         rows.insert(rows.end(), {p.xx, p.yy, p.xy});
     }
     write_npy<double>(folder / "patches.npy", rows, 19);
+    write_npy<double>(folder / "end.npy", std::vector{shear_end(patches, now.right_end())});
     rows.clear();
     for (std::size_t i = 0; i < d.x.size(); ++i)
         rows.insert(rows.end(),
@@ -104,7 +107,7 @@ void export_footwall(const RunFolder& run, const fs::path& folder) {
         const RecoveredField field = coupling.recover(snapshot.state);
         table += uplift_rows(snapshot.state, field.field(), decimals);
         if (path == moments.back())
-            export_section(snapshot.state, field.stress(), folder);
+            export_section({run.scene, run.parts, snapshot.state, events}, field.stress(), folder);
     }
     write_table(run.output / "footwall.csv", uplift_header, table);
 }

@@ -1,9 +1,12 @@
 #include "apps/figures/trajectory.hpp"
 
+#include "apps/measures/rock.hpp"
 #include "apps/support/npy.hpp"
 #include "apps/support/python.hpp"
 
 #include <fmt/format.h>
+
+#include <iterator>
 
 namespace listric {
 
@@ -17,7 +20,7 @@ void Trajectory::add(const ExportedMoment& at) {
     const ConstDiscColumns d = disc_columns(state);
     write_npy<double>(folder / "x_m.npy", d.x);
     write_npy<double>(folder / "y_m.npy", d.y);
-    write_npy<std::uint32_t>(folder / "rock.npy", rocks(state));
+    write_npy<std::uint32_t>(folder / "rock.npy", measures::rocks(state));
     for (const DiscColumn& column : exported_columns(at))
         write_npy<double>(folder / ("of-" + column.name + ".npy"), column.values);
     const ConstContactColumns c = contact_columns(state);
@@ -33,7 +36,7 @@ void Trajectory::add(const ExportedMoment& at) {
 void Trajectory::write(const std::filesystem::path& file) const {
     std::vector<std::string> words{std::filesystem::absolute(data_.path).string(),
                                    std::filesystem::absolute(file).string()};
-    words.insert(words.end(), rock_names().begin(), rock_names().end());
+    words.insert(words.end(), std::begin(measures::rock_names), std::end(measures::rock_names));
     run_script_with("gsd", "python3-gsd", "trajectory.py", words);
 }
 
