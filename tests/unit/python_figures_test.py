@@ -375,6 +375,18 @@ class Scales(Folder):
         for count in (1, 2, 6, 50):
             self.assertEqual(len(np.unique(vocabulary.stratum_colours(count), axis=0)), count)
 
+    def test_younger_strata_are_lighter_and_paraview_has_their_colours(self):
+        text = Path(script.__file__).with_name("paraview.py").read_text(encoding="utf-8")
+        names = {"LOOK": {**vocabulary.VOCABULARY, "rows": vocabulary.VOCABULARY["palettes"]
+                          [vocabulary.VOCABULARY["strata"]["palette"]]["rows"]}}
+        exec(text[text.index("def layer_colour"):text.index("def colour_by_layer")], names)
+        for count in (1, 2, 5, 6, 20, 21):
+            colours = vocabulary.stratum_colours(count)
+            np.testing.assert_allclose(colours, [names["layer_colour"](k + 1, count) for k in range(count)])
+            self.assertTrue((np.diff(colours[::2] @ (0.2126, 0.7152, 0.0722)) > 0.0).all())
+        np.testing.assert_allclose(vocabulary.layer_colours(np.array([0.5, 1.5, 2.5])),
+                                   [names["layer_colour"](k, 20) for k in (-1, -2, -3)])
+
     def test_frames_share_the_largest_scale(self):
         first = self.frame({"strata": 0}, discs_stratum=[0] * 4)
         first.strain_end = 1.0
