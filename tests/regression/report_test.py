@@ -304,7 +304,7 @@ class Report(unittest.TestCase):
             "const [run] = page.runs, lines = await run.loadLines(page.t);"
             "for (const [name, kind, ink, rows] of [['shore', 'line', '#00ff00', [0, -2000, 20000, -2000]],"
             "['lake', 'band', '#0000ff', [0, 500, 900, 20000, 500, 900]]]) {"
-            "  run.head.layers.push({name, kind, label: 'the ' + name, ink}); lines.layers[name] = rows; }"
+            "  run.head.layers.push({name, kind, label: 'the ' + name, ink}); (lines.layers ??= {})[name] = rows; }"
             "run.head.layers.push({name: 'marked', kind: 'discs', label: 'the marked', ink: '#ff0000'});"
             "run.codes[page.t].marked = run.codes[page.t].present.map(there => 255 * there);"
             "run.moments[0].streams.marked = 0; run.codes[0].marked = [];"
