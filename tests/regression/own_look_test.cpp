@@ -59,7 +59,8 @@ TEST_F(OwnLook, LayersAreInFiguresAndReport) {
     const RunFolder left(o.output, scene);
     const Moment last = left.read(left.snapshots.back());
     const std::filesystem::path frame = folder / "frame";
-    write_frame({left.scene, left.parts, last.state, last.events}, {}, frame);
+    const Observation now{left.scene, left.parts, last.state, last.events};
+    write_frame(now, {}, frame);
     const json layers = json::parse(contents(frame / "frame.json"))["layers"];
     EXPECT_THAT(layers, Contains(discs));
     EXPECT_THAT(layers, Contains(line));
@@ -75,7 +76,7 @@ TEST_F(OwnLook, LayersAreInFiguresAndReport) {
     EXPECT_THAT(report, HasSubstr("\"layer_fast_discs\":["));
     const std::string key = "\"lines\":\"";
     const json lines = json::parse(unpacked(report, report.rfind(key) + key.size()));
-    EXPECT_EQ(lines["layers"]["layer_gauge_level"], (json{0.0, -250.0, 4200.0, -250.0}));
+    EXPECT_EQ(lines["layers"]["layer_gauge_level"], json(speed_gauge().layers[1].rows(now)));
 }
 
 } // namespace
