@@ -530,7 +530,8 @@ class Drawing(Folder):
         plot.name_powers(ax)
         figure.draw_without_rendering()
         labels = {text.get_text() for text in ax.get_xticklabels() + ax.get_yticklabels(which="both")}
-        self.assertLess({"10⁻⁴", "10²", "4×10⁰"}, labels)
+        self.assertLess({"10²", "4×10⁰"}, labels)
+        self.assertTrue([label for label in labels if label.startswith("10⁻")])  # which, Matplotlib decides
         self.assertFalse([label for label in labels if "$" in label])
 
 
