@@ -3,6 +3,7 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
+#include "apps/figures/vocabulary.hpp"
 #include "apps/model/base_driver.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
@@ -70,11 +71,12 @@ std::string uplift_rows(const State& state, const fem::Field& field, int decimal
 }
 
 /// Plain arrays for the drawing script: corners x, y and displacements of the patches, stress xx,
-/// yy, xy; discs x, y, radius, stratum, y at the start.
-void export_section(const State& state, const std::vector<fem::StressPatch>& patches,
+/// yy, xy; the end of the scale of their largest shear stress, MPa; discs x, y, radius, stratum, y
+/// at the start.
+void export_section(const Observation& now, const std::vector<fem::StressPatch>& patches,
                     const fs::path& folder) {
-    const ConstDiscColumns d = disc_columns(state);
-    const double right = *std::ranges::max_element(d.x) + beside;
+    const ConstDiscColumns d = disc_columns(now.state);
+    const double right = now.right_end() + beside;
     std::vector<double> rows;
     for (const fem::StressPatch& p : patches) {
         if (p.corner[0].x < -beside || p.corner[0].x > right)
@@ -85,6 +87,7 @@ void export_section(const State& state, const std::vector<fem::StressPatch>& pat
         rows.insert(rows.end(), {p.xx, p.yy, p.xy});
     }
     write_npy<double>(folder / "patches.npy", rows, 19);
+    write_npy<double>(folder / "end.npy", std::vector{shear_end(patches, now.right_end())});
     rows.clear();
     for (std::size_t i = 0; i < d.x.size(); ++i)
         rows.insert(rows.end(),
@@ -108,7 +111,8 @@ bool export_footwall(const RunFolder& run, const fs::path& folder) {
             return false;
         table += uplift_rows(snapshot.state, footwall->field(), decimals);
         if (path == moments.back())
-            export_section(snapshot.state, footwall->stress(), folder);
+            export_section({run.scene, run.parts, snapshot.state, events}, footwall->stress(),
+                           folder);
     }
     write_table(run.output / "footwall.csv", uplift_header, table);
     return true;

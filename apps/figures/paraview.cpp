@@ -1,9 +1,11 @@
 #include "apps/figures/paraview.hpp"
 
+#include "apps/figures/vocabulary.hpp"
 #include "apps/figures/vtk_array.hpp"
 #include "apps/measures/cohesion.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/json_text.hpp"
 #include "apps/support/resources.hpp"
 #include "dem/base_place.hpp"
 #include "dem/contacts.hpp"
@@ -279,9 +281,17 @@ void write_footwall(const fs::path& output, const fem::Footwall& footwall, doubl
 }
 
 void copy_view(const fs::path& output) {
-    const std::string script = read_text_if_there(resource_folder() / "figures/python/paraview.py");
-    if (!script.empty())
-        write_text(output / "paraview.py", script);
+    std::string script = read_text_if_there(resource_folder() / "figures/python/paraview.py");
+    constexpr std::string_view none = "LOOK = {}";
+    const std::size_t place = script.find(none);
+    if (place == script.npos)
+        return;
+    const auto words = vocabulary();
+    const std::string palette = words["strata"]["palette"];
+    const nlohmann::json look{{"pre_rift", words["pre_rift"]},
+                              {"strata", words["strata"]},
+                              {"rows", words["palettes"][palette]["rows"]}};
+    write_text(output / "paraview.py", script.replace(place + 7, 2, to_text(look)));
 }
 
 } // namespace listric

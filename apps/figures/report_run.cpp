@@ -5,7 +5,6 @@
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/archive/summary.hpp"
-#include "apps/figures/draw_run.hpp"
 #include "apps/figures/report_page.hpp"
 #include "apps/model/base_driver.hpp"
 #include "apps/model/model.hpp"

@@ -44,6 +44,14 @@ std::optional<double> superposition(const State& state) {
 
 } // namespace
 
+std::vector<std::uint32_t> rocks(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::uint32_t> rocks;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (d.material[i] == weak ? 1u : 0u));
+    return rocks;
+}
+
 NamedNumbers weak_shares(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const std::vector<double> rock = rock_radii(state);

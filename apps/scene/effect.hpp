@@ -4,7 +4,6 @@
 #include "apps/scene/material_file.hpp"
 #include "apps/scene/parameter.hpp"
 #include "apps/scene/scene.hpp"
-#include "apps/support/figure_layer.hpp"
 #include "apps/support/named_numbers.hpp"
 #include "dem/cycle.hpp"
 #include "dem/event.hpp"
@@ -128,6 +127,22 @@ struct EffectMeasures {
     std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {}; ///< of such objects
 };
 
+/// How a figure draws a layer.
+enum class LayerKind {
+    band, ///< an area behind the discs; rows x, bottom, top (m, y up)
+    line, ///< over the discs; rows x, y (m, y up)
+    discs ///< ink on the discs; a row per disc, the ink's share from 0 to 1
+};
+
+/// What figures and the report show of an effect besides what they show of every run.
+struct FigureLayer {
+    std::string_view name; ///< no other layer's
+    LayerKind kind;
+    std::string_view label;                              ///< in legends
+    std::string_view ink;                                ///< "#rrggbb"
+    std::vector<double> (*rows)(const Observation& now); ///< one after the other
+};
+
 /// What a prediction multiplies prices with.
 struct Workload {
     double discs = 0.0; ///< mean over the run
@@ -190,7 +205,7 @@ struct Effect {
     EffectMeasures (*measure)(const Observation& now) = nullptr;
     /// Numbers of summary.json that follow from columns of history.csv.
     NamedNumbers (*summarise)(const dem::Table& history, const dem::State& now) = nullptr;
-    std::vector<FigureLayer> (*draw)(const Observation& now) = nullptr;
+    std::vector<FigureLayer> layers = {};
 };
 
 /// Whether the effect of that name is on.
@@ -198,6 +213,9 @@ bool has_effect(const Scene& scene, std::string_view name);
 
 /// Names of the effects that are on.
 std::vector<std::string> effect_names(const Scene& scene);
+
+/// Layers of the effects that are on.
+std::vector<FigureLayer> figure_layers(const Scene& scene);
 
 /// Default parameters of a type, and where an object of it is in a std::any.
 template <class Parameters> std::any make_defaults() { return Parameters{}; }

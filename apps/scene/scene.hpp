@@ -100,6 +100,9 @@ private:
     }
 };
 
+/// Whether a scene wants pictures at this extension (m), to half a window.
+bool is_drawn_at(const Scene& scene, double extension);
+
 /// Detachment or stretching base, backstop or left wall, and right wall, where nothing deforms.
 dem::RigidBase make_rigid_base(const Scene& scene);
 
