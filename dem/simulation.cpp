@@ -1,8 +1,8 @@
 #include "dem/simulation.hpp"
 
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/events/energy_account.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <cassert>

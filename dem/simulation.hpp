@@ -1,9 +1,9 @@
 #pragma once
 
 #include "dem/base.hpp"
-#include "dem/cycle.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
-#include "dem/monitor.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>

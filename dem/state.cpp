@@ -1,7 +1,7 @@
 #include "dem/state.hpp"
 
 #include "dem/hash.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 
 // Ranks that are threads of one process.
 
-#include "dem/ranks.hpp"
+#include "dem/ranks/ranks.hpp"
 
 #include <algorithm>
 #include <barrier>

@@ -4,8 +4,8 @@
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/horizons.hpp"
 #include "apps/support/fineness.hpp"
-#include "dem/base_place.hpp"
-#include "dem/monitor.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/monitor.hpp"
 
 #include <fmt/format.h>
 

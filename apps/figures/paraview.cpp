@@ -4,11 +4,11 @@
 #include "apps/measures/cohesion.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/resources.hpp"
-#include "dem/base_place.hpp"
-#include "dem/contacts.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
-#include "dem/monitor.hpp"
 
 #include <fmt/format.h>
 

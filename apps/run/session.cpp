@@ -19,9 +19,9 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/file.hpp"
 #include "coupling/strong_scheme.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/ranked_cycles.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
 

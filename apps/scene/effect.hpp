@@ -6,9 +6,9 @@
 #include "apps/scene/scene.hpp"
 #include "apps/support/figure_layer.hpp"
 #include "apps/support/named_numbers.hpp"
-#include "dem/cycle.hpp"
+#include "dem/base/target_line.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
-#include "dem/target_line.hpp"
 #include "dem/units.hpp"
 
 #include <any>

@@ -20,7 +20,7 @@ LIBRARIES = {"dem": {"dem"}, "fem": {"fem"}, "coupling": {"dem", "fem", "couplin
 ELEMENTS = {f"fem/{name}" for name in ("mesh", "elasticity", "condensation", "solution", "material")}
 
 # The other plug-in: discs over MPI. It sees dem, and nothing sees it.
-RANKS = {f"dem/ranks/{name}" for name in ("mailboxes", "mpi_ranks", "require")}
+RANKS = {f"dem/ranks/mpi/{name}" for name in ("mailboxes", "mpi_ranks", "require")}
 RANKS_LIBRARIES = ("mpi.h", "petscsys.h")
 
 # Headers that are neither ours nor of the C++ standard, whose names have no dot and no slash.

@@ -3,13 +3,13 @@
 // there was a state, bytes per disc; or the hash at the end, for which the state is collected.
 //   mpirun -n 2 ranked_cycles SCENE ACCURACY RADIUS_M CYCLES REPEATS THREADS [hash]
 
-#include "dem/ranked_cycles.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
 #include "apps/run/join_ranks.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 
 #include <chrono>
 #include <cstdio>

@@ -2,8 +2,8 @@
 
 #include "apps/run/genesis_cache.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "dem/base_motion.hpp"
-#include "dem/ranked_cycles.hpp"
+#include "dem/base/motion.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 #include "dem/simulation.hpp"
 #include "tests/emulated_ranks.hpp"
 #include "tests/scene_runs.hpp"
