@@ -12,7 +12,7 @@
 namespace listric::dem {
 
 /// The base in a cycle: what of it changes with time where it does not deform.
-struct BaseMoment {
+struct BaseInstant {
     double extension; ///< m
     double speed;     ///< of extension, m/s
 };
@@ -53,11 +53,11 @@ inline BaseContactForce surface_force(const Surface& surface, const Foot& foot, 
 
 /// Velocity of a surface where it has a normal, below a disc at x, m/s. The conveyor runs along the
 /// chain, whose direction is (n_y, -n_x).
-inline Point surface_velocity(const Surface& surface, BaseMoment base, double x, Point normal) {
+inline Point surface_velocity(const Surface& surface, BaseInstant now, double x, Point normal) {
     double along = surface.translation.x + surface.conveyor * normal.y;
     if (surface.stretched_length > 0.0)
-        along += x / (surface.stretched_length + base.extension);
-    return {base.speed * along, base.speed * (surface.translation.y - surface.conveyor * normal.x)};
+        along += x / (surface.stretched_length + now.extension);
+    return {now.speed * along, now.speed * (surface.translation.y - surface.conveyor * normal.x)};
 }
 
 /// Where a rigid surface and a disc meet and how they move past each other.
@@ -67,27 +67,27 @@ struct BaseContactMotion {
 };
 
 /// None where the surface has ended.
-inline std::optional<BaseContactMotion> base_contact_motion(const Surface& surface, BaseMoment base,
+inline std::optional<BaseContactMotion> base_contact_motion(const Surface& surface, BaseInstant now,
                                                             const BaseContactDisc& disc) {
-    const auto foot = nearest(surface, base.extension, {disc.x, disc.y});
+    const auto foot = nearest(surface, now.extension, {disc.x, disc.y});
     if (!foot)
         return std::nullopt;
-    const Point velocity = surface_velocity(surface, base, disc.x, foot->normal);
+    const Point velocity = surface_velocity(surface, now, disc.x, foot->normal);
     return BaseContactMotion{*foot, slip_rate_on(*foot, velocity, disc)};
 }
 
 /// Force of one rigid surface on one disc; both cycles use it. `parameters` are the stiffness of
 /// surface and disc in series. Updates the shear force.
-inline BaseContactForce base_contact_force(const Surface& surface, BaseMoment base,
+inline BaseContactForce base_contact_force(const Surface& surface, BaseInstant now,
                                            const BaseContactDisc& disc,
                                            ContactParameters parameters, double& shear_force) {
-    const auto foot = nearest(surface, base.extension, {disc.x, disc.y});
+    const auto foot = nearest(surface, now.extension, {disc.x, disc.y});
     if (!foot || foot->distance >= disc.radius) {
         shear_force = 0.0;
         return {0.0, 0.0, 0.0};
     }
-    return surface_force(surface, *foot, surface_velocity(surface, base, disc.x, foot->normal),
-                         disc, parameters, shear_force);
+    return surface_force(surface, *foot, surface_velocity(surface, now, disc.x, foot->normal), disc,
+                         parameters, shear_force);
 }
 
 /// Force of a surface that deforms, and to which nodes it goes back.
@@ -134,27 +134,27 @@ NodeContactMotion node_contact_motion(const Surface& surface, const NodeColumns&
 /// How the disc moves past it; none where the surface has ended.
 inline std::optional<BaseContactMotion> surface_motion(const Surface& surface,
                                                        const NodeContactMotion& motion,
-                                                       BaseMoment base,
+                                                       BaseInstant now,
                                                        const BaseContactDisc& disc) {
     if (!motion.foot)
         return std::nullopt;
-    const Point runs = surface_velocity(surface, base, disc.x, motion.foot->normal);
+    const Point runs = surface_velocity(surface, now, disc.x, motion.foot->normal);
     const Point velocity{motion.velocity.x + runs.x, motion.velocity.y + runs.y};
     return BaseContactMotion{*motion.foot, slip_rate_on(*motion.foot, velocity, disc)};
 }
 
 /// The force of a surface that deforms; updates shear force and place.
 inline NodeContactForce node_contact_force(const Surface& surface, const BaseNodeColumns& nodes,
-                                           BaseMoment base, const BaseContactDisc& disc,
+                                           BaseInstant now, const BaseContactDisc& disc,
                                            ContactParameters parameters, double& shear_force,
                                            double& place) {
     const NodeContactMotion motion =
-        node_contact_motion(surface, nodes, base.extension, disc, place);
+        node_contact_motion(surface, nodes, now.extension, disc, place);
     if (!motion.foot || motion.foot->distance >= disc.radius) {
         shear_force = 0.0;
         return {};
     }
-    const Point runs = surface_velocity(surface, base, disc.x, motion.foot->normal);
+    const Point runs = surface_velocity(surface, now, disc.x, motion.foot->normal);
     const BaseContactForce force = surface_force(
         surface, *motion.foot, {motion.velocity.x + runs.x, motion.velocity.y + runs.y}, disc,
         parameters, shear_force);

@@ -246,7 +246,7 @@ void find_contacts(State& state, const RigidBase& base) {
     std::ranges::copy(d.y, d.searched_y.begin());
     mark_surfaces(state);
     state.displacement_bound = state.window_speed = 0.0;
-    state.look_interval = 1;
+    state.check_interval = 1;
     const Searched searched = all_discs(state);
     find_disc_contacts(state, searched);
     find_base_contacts(state, base, searched);

@@ -30,20 +30,20 @@ double greatest_displacement(const State& state, const RigidBase& base);
 /// How far a surface is from where the last search of all surfaces found it, m, at an extension.
 double surface_travel(const State& state, const RigidBase& base, double extension);
 
-// A bound of the displacements is kept from cycle to cycle. It is looked at before cycles that are
-// multiples of State::look_interval, so that processes that each know the velocities of their own
-// discs need not tell each other in every cycle.
+// The check of the lists. A bound of the displacements is kept from cycle to cycle. It is checked
+// before cycles that are multiples of State::check_interval, so that processes that each know the
+// velocities of their own discs need not tell each other in every cycle.
 
-/// Whether the greatest displacement is to be measured at a look: when discs may come beyond half a
-/// skin before the next.
-inline bool is_check_due(double displacement_bound, double skin) {
+/// Whether a check is to measure the greatest displacement: when discs may come beyond half a skin
+/// before the next check.
+inline bool is_measurement_due(double displacement_bound, double skin) {
     return !(displacement_bound <= 0.42 * skin);
 }
 
-/// Cycles to the next look at most: at twice the speed of the last window, m/s, the bound grows by
-/// less than what is_check_due leaves, and the interval by no more than twice.
-inline std::int64_t next_look_interval(std::int64_t last, double speed, double time_step,
-                                       double skin) {
+/// Cycles to the next check at most: at twice the speed of the last window, m/s, the bound grows by
+/// less than what is_measurement_due leaves, and the interval by no more than twice.
+inline std::int64_t next_check_interval(std::int64_t last, double speed, double time_step,
+                                        double skin) {
     std::int64_t interval = std::min<std::int64_t>(2 * last, 16);
     const double per_cycle = std::numbers::sqrt2 * 2.0 * speed * time_step;
     while (interval > 1 && !(static_cast<double>(interval) * per_cycle < 0.08 * skin))
@@ -51,8 +51,8 @@ inline std::int64_t next_look_interval(std::int64_t last, double speed, double t
     return interval;
 }
 
-/// Whether lists are to be updated at a measured displacement. The limit is below that of a check,
-/// or checks would become frequent.
+/// Whether lists are to be updated at a measured displacement. The limit is below that of a
+/// measurement, or measurements would become frequent.
 inline bool is_update_due(double displacement, double skin) {
     return !(displacement <= 0.4 * skin);
 }

@@ -18,16 +18,16 @@ namespace listric::dem {
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
              const Execution& execution = {}, BaseResponse* response = nullptr);
 
-class Links;
+class Surroundings;
 
-/// The same of a share. All ranks call it alike. Only the clock is up to date then: unpack_share()
-/// brings the rest.
+/// Advances a part of a packing as dem::advance() does a whole one. Those who have the other parts
+/// call it alike. Only the clock is up to date then: unpack_part() brings the rest.
 /// @param execution  with what is packed, kept until then
 /// @param response   null but on the root
-/// Returns the cycles done, on all ranks the same: fewer where a disc has run away.
-std::int64_t advance_share(State& share, const RigidBase& base, const CyclePhysics& physics,
-                           std::int64_t cycles, const Execution& execution, BaseResponse* response,
-                           Links& links);
-void unpack_share(State& share, const Execution& execution);
+/// Returns the cycles done, of all parts as many: fewer where a disc has run away.
+std::int64_t advance_part(State& part, const RigidBase& base, const CyclePhysics& physics,
+                          std::int64_t cycles, const Execution& execution, BaseResponse* response,
+                          Surroundings& around);
+void unpack_part(State& part, const Execution& execution);
 
 } // namespace listric::dem

@@ -28,17 +28,14 @@ public:
     void forget() { holds_ = false; }
     /// What is packed of the discs' columns, where nothing else has changed.
     void forget_discs() { holds_discs_ = false; }
-    bool holds() const { return holds_; }
-    /// What has been packed elsewhere.
-    void hold() { holds_ = holds_discs_ = true; }
     BestTeam& team() { return team_; }
 
 private:
     friend std::int64_t advance_fast(State&, const RigidBase&, const CyclePhysics&, std::int64_t,
-                                     const struct Execution&, BaseResponse*, class Links*);
-    friend void unpack_share(State&, const Packed&);
+                                     const struct Execution&, BaseResponse*, class Surroundings&);
+    friend void unpack_part(State&, const Packed&);
 
-    std::shared_ptr<FastCycle> cycle_; ///< shared with nobody: it destroys what is only named here
+    std::shared_ptr<FastCycle> cycle_; ///< never shared; FastCycle is incomplete here
     BestTeam team_{1};
     bool holds_ = false;       ///< whether it is what the state is
     bool holds_discs_ = false; ///< whether its discs are, too
@@ -51,8 +48,10 @@ struct Execution {
     /// Adds up energies, if given: then the cycle is the plain one, on one thread.
     EnergyFlows* energy = nullptr;
     Packed* packed = nullptr; ///< none: every call packs anew
+    /// Whether the state is as the last call left it, for those who keep a copy elsewhere.
+    bool state_is_untouched = false;
 
-    /// The same for several calls, which pack into `here` if there is nothing else.
+    /// This execution for several calls, which pack into `here` if there is nothing else.
     Execution keeping(Packed& here) const {
         Execution kept = *this;
         if (!kept.packed)

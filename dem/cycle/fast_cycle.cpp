@@ -2,9 +2,9 @@
 
 #include "dem/base/contact.hpp"
 #include "dem/contacts/contacts.hpp"
+#include "dem/cycle/surroundings.hpp"
 #include "dem/law.hpp"
 #include "dem/order_free.hpp"
-#include "dem/ranks/links.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/threads/team.hpp"
 
@@ -19,23 +19,23 @@ namespace listric::dem {
 
 using namespace fast;
 
-void FastCycle::compute_base(Strip& strip, BaseMoment base) {
+void FastCycle::compute_base(Strip& strip, BaseInstant now) {
     for (BaseContact& contact : strip.base_contacts) {
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
         const BaseContactForce f = base_contact_force(
-            *contact.surface, base,
+            *contact.surface, now,
             {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
             contact.parameters, contact.shear_force);
         slots_[contact.slot] = Slot{f.x, f.y, 0.0, f.moment};
     }
 }
 
-void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseMoment base) {
+void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseInstant now) {
     for (NodeContact& node_contact : strip.node_contacts) {
         BaseContact& contact = node_contact.contact;
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
         node_contact.force = node_contact_force(
-            *contact.surface, nodes, base,
+            *contact.surface, nodes, now,
             {d.place[0], d.place[1], d.velocity[0], d.velocity[1], d.velocity[2], d.place[3]},
             contact.parameters, contact.shear_force, node_contact.place);
         const BaseContactForce& f = node_contact.force.force;
@@ -45,11 +45,11 @@ void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseMo
 
 /// As in the plain cycle: loads by row, which is the order of strips and of their contacts.
 double FastCycle::move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
-                            BaseResponse* response, Links* links) {
+                            BaseResponse* response, Surroundings& around) {
     for (const Strip& strip : strips_)
         for (const NodeContact& c : strip.node_contacts)
             add_load(nodes, c.force, c.contact.surface->degree);
-    respond_if_due(state, clock, response, links);
+    around.respond(state, clock, response);
     return move_nodes(nodes, clock.time_step);
 }
 
@@ -63,8 +63,6 @@ DampedAgainst FastCycle::damped_against() const {
 double FastCycle::furthest(const Strip& strip) const {
     double greatest = 0.0;
     for (std::size_t i = strip.first_disc; i < strip.end_disc; ++i) {
-        if (strip.has_ghosts && own_[i] == 0)
-            continue;
         const double dx = discs_[i].place[0] - searched_places_[i].x;
         const double dy = discs_[i].place[1] - searched_places_[i].y;
         greatest = greater(greatest, dx * dx + dy * dy);
@@ -73,59 +71,66 @@ double FastCycle::furthest(const Strip& strip) const {
 }
 
 /// By what furthest() has found in the strips, m.
-double FastCycle::greatest_displacement(const State& state, double extension, Links* links) const {
+double FastCycle::greatest_displacement(const State& state, double extension) const {
     double square = 0.0;
     for (const Strip& strip : strips_)
         square = greater(square, strip.furthest);
-    if (links)
-        square = links->greatest(square);
     return greater(std::sqrt(square), surface_travel(state, *base_, extension));
 }
 
-void FastCycle::mark_ghosts(const Links* links) {
+void FastCycle::mark_ghosts(const Halo* halo) {
     own_.clear();
     for (Strip& strip : strips_)
         strip.sends = strip.has_ghosts = false;
-    if (!links)
+    if (!halo)
         return;
-    own_.assign(inertia_.size(), 0);
-    for (std::size_t i = 0; i < disc_count_; ++i)
-        own_[i] = links->own()[i] ? -1 : 0;
+    own_.assign(inertia_.size(), -1);
+    std::fill(own_.begin() + static_cast<std::ptrdiff_t>(disc_count_), own_.end(), 0);
+    for (const std::int32_t row : halo->received)
+        own_[static_cast<std::size_t>(row)] = 0;
     for (Strip& strip : strips_) {
-        strip.sends = std::ranges::any_of(links->sent(), [&](std::int32_t row) {
-            const auto disc = static_cast<std::size_t>(row);
-            return disc >= strip.first_disc && disc < strip.end_disc;
-        });
-        const std::span own = links->own().subspan(strip.first_disc, strip.disc_count());
-        strip.has_ghosts = std::ranges::find(own, 0) != own.end();
+        const auto has_any_of = [&](std::span<const std::int32_t> rows) {
+            return std::ranges::any_of(rows, [&](std::int32_t row) {
+                const auto disc = static_cast<std::size_t>(row);
+                return disc >= strip.first_disc && disc < strip.end_disc;
+            });
+        };
+        strip.sends = has_any_of(halo->sent);
+        strip.has_ghosts = has_any_of(halo->received);
     }
 }
 
-void FastCycle::send_ghosts(Links& links) const {
-    links.send_ghosts([&](std::size_t i, double* to) {
-        std::copy_n(discs_[i].place, 2, to);
-        std::copy_n(discs_[i].velocity, 3, to + 2);
-    });
+void FastCycle::fill(Halo& halo) const {
+    double* to = halo.to.data();
+    for (const std::int32_t row : halo.sent) {
+        const Disc& disc = discs_[static_cast<std::size_t>(row)];
+        to = std::copy_n(disc.place, 2, to);
+        to = std::copy_n(disc.velocity, 3, to);
+    }
 }
 
-void FastCycle::receive_ghosts(Links& links) {
-    links.receive_ghosts([&](std::size_t i, const double* from) {
-        std::copy_n(from, 2, discs_[i].place);
-        std::copy_n(from + 2, 3, discs_[i].velocity);
-    });
+void FastCycle::take_ghosts(const Halo& halo) {
+    const double* from = halo.from.data();
+    for (const std::int32_t row : halo.received) {
+        Disc& disc = discs_[static_cast<std::size_t>(row)];
+        std::copy_n(from, 2, disc.place);
+        std::copy_n(from + 2, 3, disc.velocity);
+        from += Halo::numbers;
+    }
 }
 
-/// Lets the team's size follow what it does, in disc-steps. Ranks must do alike, so theirs stays.
+/// Lets the team's size follow what it does, in disc-steps. With others all must do alike: it
+/// stays.
 std::int64_t FastCycle::run(State& state, std::int64_t cycles, BestTeam& team,
-                            BaseResponse* response, Links* links) {
-    mark_ghosts(links);
+                            BaseResponse* response, Surroundings& around) {
+    mark_ghosts(around.halo());
     std::int64_t done = 0;
     for (bool holds = true; holds && done < cycles;) {
         std::int64_t piece = cycles - done;
-        if (team.most() > 1 && !links)
+        if (team.most() > 1 && !around.halo())
             piece = std::min(piece, 1 + static_cast<std::int64_t>(
                                             team.piece() / static_cast<double>(disc_count_ + 1)));
-        const std::int64_t ran = run_piece(state, piece, team, response, links);
+        const std::int64_t ran = run_piece(state, piece, team, response, around);
         holds = ran == piece;
         done += ran;
     }
@@ -140,7 +145,8 @@ void FastCycle::Watch::enter(double fastest, double time_step) {
 struct FastCycle::Piece {
     State& state;
     BaseResponse* response;
-    Links* links;
+    Surroundings& around;
+    Halo* halo; ///< null: there are no others
     Kernels kernels, kernels_with_ghosts;
     Shared shared;
     BaseNodeColumns nodes;
@@ -164,11 +170,11 @@ public:
 
     void run(std::int64_t cycles) {
         for (std::int64_t n = 0; n < cycles; ++n) {
-            if (clock_.cycle % watch_.look_interval == 0 && !look_for_neighbours())
+            if (clock_.cycle % watch_.check_interval == 0 && !check_lists())
                 break;
             cycle();
         }
-        if (piece_.links)
+        if (piece_.halo)
             enter_speeds();
         piece_.barrier.wait(); // until all have read the state
         if (thread_ != 0)
@@ -177,7 +183,7 @@ public:
         state.clock = clock_;
         state.displacement_bound = watch_.bound;
         state.window_speed = watch_.speed;
-        state.look_interval = watch_.look_interval;
+        state.check_interval = watch_.check_interval;
     }
 
 private:
@@ -185,34 +191,36 @@ private:
         piece_.claims.take(thread_, ++phase_, [&](std::size_t k) { work(fast_.strips_[k]); });
     }
 
-    /// Keeps the lists good for the cycles up to the next look; false if they must be updated.
-    bool look_for_neighbours() {
+    /// Whether the neighbour lists are good for the cycles up to the next check; else they must be
+    /// updated.
+    bool check_lists() {
         const State& state = piece_.state;
-        if (piece_.links)
+        if (piece_.halo)
             enter_speeds();
-        if (is_check_due(watch_.bound, state.skin)) {
+        if (is_measurement_due(watch_.bound, state.skin)) {
             for_free_strips([&](Strip& strip) { strip.furthest = fast_.furthest(strip); });
             piece_.barrier.wait();
-            if (thread_ == 0)
-                fast_.displacement_ =
-                    fast_.greatest_displacement(state, clock_.extension, piece_.links);
+            if (thread_ == 0) {
+                fast_.displacement_ = fast_.greatest_displacement(state, clock_.extension);
+                piece_.around.agree_on({&fast_.displacement_, 1});
+            }
             piece_.barrier.wait();
             watch_.bound = fast_.displacement_;
             if (is_update_due(watch_.bound, state.skin))
                 return false;
         }
-        watch_.look_interval =
-            next_look_interval(watch_.look_interval, watch_.speed, clock_.time_step, state.skin);
+        watch_.check_interval =
+            next_check_interval(watch_.check_interval, watch_.speed, clock_.time_step, state.skin);
         watch_.speed = 0.0;
         return true;
     }
 
     void cycle() {
         const double speed = fast_.base_->motion.speed_at(clock_.time());
-        const BaseMoment moment{clock_.extension, speed};
+        const BaseInstant now{clock_.extension, speed};
         for_free_strips([&](Strip& strip) {
             if (fast_.deforms_)
-                fast_.compute_nodes(strip, piece_.nodes, moment);
+                fast_.compute_nodes(strip, piece_.nodes, now);
             piece_.kernels.compute_boundary(piece_.shared, strip);
         });
         piece_.barrier.wait();
@@ -220,7 +228,7 @@ private:
         // No disc looks at the nodes between the two barriers.
         if (fast_.deforms_ && thread_ == 0)
             fast_.fastest_node_[parity] =
-                fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.links);
+                fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.around);
         Stretching thins = stretching(*fast_.base_, clock_.extension);
         thins.rate *= speed;
         const auto sweep =
@@ -231,44 +239,47 @@ private:
             for_free_strips([&](Strip& strip) {
                 if (strip.sends != that_send)
                     return;
-                fast_.compute_base(strip, moment);
+                fast_.compute_base(strip, now);
                 const Kernels& kernels =
                     strip.has_ghosts ? piece_.kernels_with_ghosts : piece_.kernels;
                 mine = greater(mine, (kernels.*sweep)(piece_.shared, strip, thins));
             });
         };
-        if (piece_.links) { // ghosts travel while the other strips are swept
+        if (piece_.halo) { // ghosts travel while the other strips are swept
             sweep_strips(true);
             piece_.barrier.wait();
-            if (thread_ == 0)
-                fast_.send_ghosts(*piece_.links);
+            if (thread_ == 0) {
+                fast_.fill(*piece_.halo);
+                piece_.around.begin_exchange();
+            }
         }
         sweep_strips(false);
         piece_.barrier.wait();
         double fastest = greater(piece_.surface_translation * speed, fast_.fastest_node_[parity]);
         for (const Piece::Fastest& all : piece_.fastest)
             fastest = greater(fastest, all.in[parity]);
-        if (piece_.links)
-            tell_others(fastest);
+        if (piece_.halo)
+            exchange(fastest);
         else
             watch_.enter(fastest, clock_.time_step);
         clock_.extension += speed * clock_.time_step;
         ++clock_.cycle;
     }
 
-    void tell_others(double fastest) {
+    void exchange(double fastest) {
         if (thread_ == 0) {
-            piece_.links->speeds.push_back(fastest);
-            fast_.receive_ghosts(*piece_.links);
+            fast_.speeds_.push_back(fastest);
+            piece_.around.end_exchange();
+            fast_.take_ghosts(*piece_.halo);
         }
         piece_.barrier.wait();
     }
 
-    /// The speeds of the cycles since, the greatest of all ranks.
+    /// Enters the speeds of the cycles since the last check, the greatest that all have.
     void enter_speeds() {
-        std::vector<double>& speeds = piece_.links->speeds;
+        std::vector<double>& speeds = fast_.speeds_;
         if (thread_ == 0)
-            piece_.links->share_speeds();
+            piece_.around.agree_on(speeds);
         piece_.barrier.wait();
         for (const double fastest : speeds)
             watch_.enter(fastest, clock_.time_step);
@@ -286,13 +297,14 @@ private:
 };
 
 std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& team,
-                                  BaseResponse* response, Links* links) {
+                                  BaseResponse* response, Surroundings& around) {
     const auto begin = std::chrono::steady_clock::now();
     const int threads =
         std::min({team.size(), static_cast<int>(strips_.size()), threads_at_hand()});
     Piece piece{.state = state,
                 .response = response,
-                .links = links,
+                .around = around,
+                .halo = around.halo(),
                 .kernels = choose_kernels(level_, bonded_, frictional_, damped_against(), false),
                 .kernels_with_ghosts =
                     choose_kernels(level_, bonded_, frictional_, damped_against(), true),
@@ -302,7 +314,7 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
                 .nodes = base_node_columns(state),
                 .surface_translation = greatest_translation(*base_),
                 .clock = state.clock,
-                .watch = {state.displacement_bound, state.window_speed, state.look_interval},
+                .watch = {state.displacement_bound, state.window_speed, state.check_interval},
                 .threads = threads,
                 .barrier = Barrier(threads),
                 .claims = Claims(strips_.size(), threads),
@@ -317,7 +329,7 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
 
 std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
                           std::int64_t cycles, const Execution& execution, BaseResponse* response,
-                          Links* links) {
+                          Surroundings& around) {
     Packed for_this_call;
     Packed& packed = *execution.keeping(for_this_call).packed;
     if (!packed.cycle_ || !packed.cycle_->is_for(base, execution)) {
@@ -328,36 +340,31 @@ std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysic
         packed.team_ = BestTeam(execution.threads);
     FastCycle& fast = *packed.cycle_;
     if (!packed.holds_)
-        fast.pack(state, base, physics, links);
+        fast.pack(state, base, physics, around.halo());
     else if (!packed.holds_discs_)
         fast.pack_discs(state);
     packed.holds_ = false; // until all has gone well
     packed.holds_discs_ = true;
     std::int64_t done = 0;
     while (done < cycles) {
-        done += fast.run(state, cycles - done, packed.team_, response, links);
+        done += fast.run(state, cycles - done, packed.team_, response, around);
         if (done == cycles)
             break;
         fast.unpack(state);
-        bool changed = true;
-        if (links) {
-            if (!links->update_lists(base))
-                return done;
-        } else {
-            refuse_runaways(state);
-            changed = update_contacts(state, base);
-        }
-        fast.pack_updated(state, changed, links);
+        const ListUpdate update = around.update_lists(state, base);
+        if (update == ListUpdate::runaway)
+            return done;
+        fast.pack_updated(state, update == ListUpdate::changed, around.halo());
     }
-    if (!links)
+    if (!around.halo())
         fast.unpack(state);
     packed.holds_ = true;
     return done;
 }
 
-void unpack_share(State& share, const Packed& packed) {
+void unpack_part(State& part, const Packed& packed) {
     if (packed.holds_)
-        packed.cycle_->unpack(share);
+        packed.cycle_->unpack(part);
 }
 
 } // namespace listric::dem

@@ -35,15 +35,16 @@ namespace listric::dem {
 //   large pages for that, see aligned_vector.hpp: another 1.1 times.
 // - Scenes without bonds or friction run cycles compiled without them.
 
-class Links;
+class Surroundings;
+struct Halo;
 
 /// The same as advance_plainly() without an account of energy.
 std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
                           std::int64_t cycles, const Execution& execution, BaseResponse* response,
-                          Links* links = nullptr);
+                          Surroundings& around);
 
-/// See unpack_share() of an execution.
-void unpack_share(State& share, const Packed& packed);
+/// See unpack_part() of an execution.
+void unpack_part(State& part, const Packed& packed);
 
 class FastCycle {
 public:
@@ -57,9 +58,9 @@ public:
     }
 
     /// Base and physics must outlive it.
-    /// @param links  of a state that is a share; none: it is whole
+    /// @param halo  of a state that is part of a larger one; none: it is whole
     void pack(const State& state, const RigidBase& base, const CyclePhysics& physics,
-              const Links* links = nullptr);
+              const Halo* halo);
 
     /// Packs the discs anew, where nothing else has changed.
     void pack_discs(const State& state);
@@ -67,11 +68,11 @@ public:
     /// Runs until `cycles` cycles are done or the lists must be updated. Updates clock and bound of
     /// the state and the nodes of its base, nothing else. Returns the number of cycles done.
     std::int64_t run(State& state, std::int64_t cycles, BestTeam& team, BaseResponse* response,
-                     Links* links = nullptr);
+                     Surroundings& around);
 
     /// Packs what an update of the neighbour lists has changed; ghosts may have come, too.
     /// @param lists_changed  not only where discs have been found
-    void pack_updated(const State& state, bool lists_changed, const Links* links = nullptr);
+    void pack_updated(const State& state, bool lists_changed, const Halo* halo);
 
     /// Writes positions, velocities, shear forces and bonds back into the state's columns.
     void unpack(State& state);
@@ -84,7 +85,7 @@ private:
     /// Over the neighbour lists, as State has it.
     struct Watch {
         double bound, speed;
-        std::int64_t look_interval;
+        std::int64_t check_interval;
 
         void enter(double fastest, double time_step);
     };
@@ -92,12 +93,12 @@ private:
     class Worker; ///< one of them
 
     std::int64_t run_piece(State& state, std::int64_t cycles, BestTeam& team,
-                           BaseResponse* response, Links* links);
-    void mark_ghosts(const Links* links);
-    void send_ghosts(Links& links) const;
-    void receive_ghosts(Links& links);
-    void divide_work(const State& state, const Links* links);
-    void cut_off_borders(const Links& links);
+                           BaseResponse* response, Surroundings& around);
+    void mark_ghosts(const Halo* halo);
+    void fill(Halo& halo) const;
+    void take_ghosts(const Halo& halo);
+    void divide_work(const State& state, const Halo* halo);
+    void cut_off_borders(const Halo& halo);
     /// Calls work(strip) for all strips, which the threads at hand share.
     template <class Work> void for_each_strip(Work&& work);
     void pack_discs(const State& state, const fast::Strip& strip);
@@ -110,13 +111,13 @@ private:
     void pack_gathers(const State& state, fast::Strip& strip);
     void unpack(const fast::Strip& strip, State& state) const;
 
-    void compute_base(fast::Strip& strip, BaseMoment base);
-    void compute_nodes(fast::Strip& strip, const BaseNodeColumns& nodes, BaseMoment base);
+    void compute_base(fast::Strip& strip, BaseInstant now);
+    void compute_nodes(fast::Strip& strip, const BaseNodeColumns& nodes, BaseInstant now);
     double move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
-                     BaseResponse* response, Links* links);
+                     BaseResponse* response, Surroundings& around);
     fast::DampedAgainst damped_against() const;
     double furthest(const fast::Strip& strip) const;
-    double greatest_displacement(const State& state, double extension, Links* links) const;
+    double greatest_displacement(const State& state, double extension) const;
 
     int threads_;
     Cycle level_;
@@ -134,6 +135,8 @@ private:
     bool deforms_ = false;                     ///< whether the base has nodes
     double fastest_node_[2] = {0.0, 0.0};      ///< in even and in odd cycles, m/s
     double displacement_ = 0.0;                ///< the greatest, as it was measured last, m
+    /// Greatest of the cycles since the last check, m/s, where all have to agree on them.
+    std::vector<double> speeds_;
 
     std::vector<std::uint32_t> slot_of_, base_slot_of_; ///< by row of the contact tables
 };

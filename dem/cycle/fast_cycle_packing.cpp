@@ -2,9 +2,9 @@
 
 #include "dem/cycle/cycle_work.hpp"
 #include "dem/cycle/fast_cycle.hpp"
+#include "dem/cycle/surroundings.hpp"
 #include "dem/law.hpp"
 #include "dem/radius_rates.hpp"
-#include "dem/ranks/links.hpp"
 #include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ template <class Work> void FastCycle::for_each_strip(Work&& work) {
 }
 
 void FastCycle::pack(const State& state, const RigidBase& base, const CyclePhysics& physics,
-                     const Links* links) {
+                     const Halo* halo) {
     base_ = &base;
     physics_ = physics;
     time_step_ = state.clock.time_step;
@@ -62,7 +62,7 @@ void FastCycle::pack(const State& state, const RigidBase& base, const CyclePhysi
     discs_[padded + 1].place[0] = 1e30;
     std::fill(inertia_.begin() + static_cast<std::ptrdiff_t>(disc_count_), inertia_.end(),
               Inertia{});
-    divide_work(state, links);
+    divide_work(state, halo);
     pack_discs(state);
     pack_searched_places(state);
     pack_contacts(state);
@@ -72,9 +72,9 @@ void FastCycle::pack_discs(const State& state) {
     for_each_strip([&](const Strip& strip) { pack_discs(state, strip); });
 }
 
-void FastCycle::pack_updated(const State& state, bool lists_changed, const Links* links) {
+void FastCycle::pack_updated(const State& state, bool lists_changed, const Halo* halo) {
     if (state.discs.rows() != disc_count_)
-        return pack(state, *base_, physics_, links);
+        return pack(state, *base_, physics_, halo);
     if (lists_changed)
         pack_contacts(state);
     pack_searched_places(state);
@@ -105,9 +105,9 @@ void FastCycle::pack_discs(const State& state, const Strip& strip) {
 /// Gives each strip whole tiles of about equal work. Large packings are cut into some strips a
 /// thread, so that a thread which is late holds up little; small ones are not, for contacts between
 /// strips cost more than others.
-void FastCycle::divide_work(const State& state, const Links* links) {
-    if (links && threads_ == 1)
-        return cut_off_borders(*links);
+void FastCycle::divide_work(const State& state, const Halo* halo) {
+    if (halo && threads_ == 1)
+        return cut_off_borders(*halo);
     constexpr std::size_t large = 2500; // discs of a strip
     const std::span<const std::int32_t> first = contact_columns(state).first;
     const std::span<const std::int32_t> base_disc = base_contact_columns(state).disc;
@@ -134,7 +134,7 @@ void FastCycle::divide_work(const State& state, const Links* links) {
 
 /// Three strips, of which the first and the last have all discs that are sent, and all ghosts: what
 /// is before the middle of the rows, and what is behind it.
-void FastCycle::cut_off_borders(const Links& links) {
+void FastCycle::cut_off_borders(const Halo& halo) {
     const std::size_t middle = disc_count_ / 2 / tile_discs * tile_discs;
     std::size_t low = 0, high = disc_count_;
     const auto cut_off = [&](std::size_t row) {
@@ -144,11 +144,9 @@ void FastCycle::cut_off_borders(const Links& links) {
         else
             high = std::min(high, tile);
     };
-    for (const std::int32_t row : links.sent())
-        cut_off(static_cast<std::size_t>(row));
-    for (std::size_t row = 0; row < disc_count_; ++row)
-        if (!links.own()[row])
-            cut_off(row);
+    for (const auto* rows : {&halo.sent, &halo.received})
+        for (const std::int32_t row : *rows)
+            cut_off(static_cast<std::size_t>(row));
     strips_.resize(3);
     const std::size_t ends[] = {low, high, disc_count_};
     for (std::size_t s = 0; s < 3; ++s) {

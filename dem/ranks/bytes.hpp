@@ -59,8 +59,8 @@ public:
         return values;
     }
     std::string take_text() {
-        const std::vector<char> letters = take_all<char>();
-        return {letters.begin(), letters.end()};
+        const std::vector<char> messages = take_all<char>();
+        return {messages.begin(), messages.end()};
     }
 
 private:

@@ -19,25 +19,25 @@ void RankedCycles::give(const Order& order) {
     ranks_.broadcast(bytes);
 }
 
-void RankedCycles::take(Share share) {
-    share_ = std::move(share);
-    links_ = std::make_unique<Links>(ranks_, share_);
+void RankedCycles::take(Subdomain subdomain) {
+    subdomain_ = std::move(subdomain);
+    halo_ = std::make_unique<HaloExchange>(ranks_, subdomain_);
     packed_.forget();
 }
 
 void RankedCycles::cut_anew(State& whole) {
     own_.resize(static_cast<std::size_t>(ranks_.count()));
-    share_ = {};
-    Share mine;
+    subdomain_ = {};
+    Subdomain mine;
     {
         Cut cut(whole, ownership_(whole, ranks_.count()), ranks_.count());
         ranks_.scatter([&](int rank) {
-            Share share = cut.share(rank);
+            Subdomain subdomain = cut.subdomain(rank);
             const auto own = cut.own(rank);
             own_[static_cast<std::size_t>(rank)].assign(own.begin(), own.end());
             if (rank != 0)
-                return packed(share);
-            mine = std::move(share);
+                return packed(subdomain);
+            mine = std::move(subdomain);
             return Bytes();
         });
     }
@@ -47,47 +47,46 @@ void RankedCycles::cut_anew(State& whole) {
 }
 
 std::int64_t RankedCycles::carry_out(const Order& order, BaseResponse* response) {
-    links_->response_interval = order.response_interval;
-    return advance_share(share_.state, base_, physics_, order.cycles, execution_, response,
-                         *links_);
+    halo_->response_interval = order.response_interval;
+    return advance_part(subdomain_.state, base_, physics_, order.cycles, execution_, response,
+                        *halo_);
 }
 
 Bytes RankedCycles::changed() {
-    unpack_share(share_.state, execution_);
-    return changes(share_);
+    unpack_part(subdomain_.state, execution_);
+    return changes(subdomain_);
 }
 
-void RankedCycles::advance(State& whole, std::int64_t cycles, Packed& known,
+void RankedCycles::advance(State& whole, std::int64_t cycles, bool state_is_untouched,
                            BaseResponse* response) {
-    bool has_shares = known.holds();
-    known.forget(); // until all has gone well
+    bool has_subdomains = state_is_untouched && halo_;
     while (cycles > 0) {
-        const Order order{Task::advance, !has_shares, response ? response->interval : 0, cycles};
+        const Order order{Task::advance, !has_subdomains, response ? response->interval : 0,
+                          cycles};
         give(order);
-        if (order.has_share)
+        if (order.has_subdomain)
             cut_anew(whole);
-        has_shares = true;
+        has_subdomains = true;
         is_ahead_ = true;
-        std::swap(share_.state.base_memory, whole.base_memory); // what answers is the root's
+        std::swap(subdomain_.state.base_memory, whole.base_memory); // what answers is the root's
         cycles -= carry_out(order, response);
-        std::swap(share_.state.base_memory, whole.base_memory);
-        whole.clock = share_.state.clock;
+        std::swap(subdomain_.state.base_memory, whole.base_memory);
+        whole.clock = subdomain_.state.clock;
         if (cycles == 0)
             break;
         collect(whole);
         refuse_runaways(whole);
         update_contacts(whole, base_);
-        has_shares = false;
+        has_subdomains = false;
     }
-    known.hold();
 }
 
 void RankedCycles::collect(State& whole) {
     if (!is_ahead_)
         return;
     give({.task = Task::collect});
-    ranks_.gather(changed(), [&](int rank, const Bytes& letter) {
-        put_back(letter, rank, own_[static_cast<std::size_t>(rank)], whole);
+    ranks_.gather(changed(), [&](int rank, const Bytes& message) {
+        put_back(message, rank, own_[static_cast<std::size_t>(rank)], whole);
     });
     sort_contacts(whole);
     is_ahead_ = false;
@@ -102,8 +101,8 @@ void RankedCycles::serve() {
         case Task::end:
             return;
         case Task::advance:
-            if (order.has_share) {
-                share_ = {};
+            if (order.has_subdomain) {
+                subdomain_ = {};
                 take(unpacked(ranks_.scatter({})));
             }
             carry_out(order, nullptr);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "dem/cycle/cycle.hpp"
-#include "dem/ranks/links.hpp"
-#include "dem/ranks/share.hpp"
+#include "dem/ranks/halo_exchange.hpp"
+#include "dem/ranks/subdomain.hpp"
 
 #include <memory>
 #include <vector>
@@ -12,8 +12,8 @@ namespace listric::dem {
 /// Cycles of a whole state on several ranks, with the bits of one. The root has the state and asks
 /// for cycles; the others serve it until it is destroyed.
 ///
-/// Shares are cut anew after what is not a cycle. What is thrown on the root may leave the others
-/// waiting: then Ranks::abort() ends them.
+/// Subdomains are cut anew after what is not a cycle. An exception on the root leaves the other
+/// ranks blocked: then Ranks::abort() ends them.
 class RankedCycles {
 public:
     /// The rank of every disc, by row.
@@ -33,9 +33,10 @@ public:
     int ranks() const { return ranks_.count(); }
 
     /// As dem::advance(), on the root, but that until collect() only the clock of the state is up
-    /// to date, and its contacts are with the shares. Throws NumericalFailure if a disc runs away.
-    /// @param known  holds if the state is what the last call has left
-    void advance(State& whole, std::int64_t cycles, Packed& known,
+    /// to date, and its contacts are with the subdomains. Throws NumericalFailure if a disc runs
+    /// away.
+    /// @param state_is_untouched  whether the state is as the last call left it
+    void advance(State& whole, std::int64_t cycles, bool state_is_untouched,
                  BaseResponse* response = nullptr);
 
     /// Puts into the state what cycles have changed since.
@@ -48,14 +49,14 @@ private:
     enum class Task : std::uint8_t { end, advance, collect };
     struct Order {
         Task task = Task::end;
-        bool has_share = false; ///< comes with a new share
+        bool has_subdomain = false; ///< comes with a new subdomain
         int response_interval = 0;
         std::int64_t cycles = 0;
     };
 
     void give(const Order& order);
     void cut_anew(State& whole);
-    void take(Share share);
+    void take(Subdomain subdomain);
     std::int64_t carry_out(const Order& order, BaseResponse* response);
     Bytes changed();
 
@@ -64,11 +65,11 @@ private:
     CyclePhysics physics_;
     Execution execution_;
     Ownership ownership_;
-    Packed packed_; ///< of the share
-    Share share_;
-    std::unique_ptr<Links> links_;
+    Packed packed_; ///< of the subdomain
+    Subdomain subdomain_;
+    std::unique_ptr<HaloExchange> halo_;
     std::vector<std::vector<std::int32_t>> own_; ///< on the root, by rank, rows of its discs
-    bool is_ahead_ = false;                      ///< the shares are, of the whole
+    bool is_ahead_ = false; ///< true while the subdomains are newer than the whole
 };
 
 } // namespace listric::dem

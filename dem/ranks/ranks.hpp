@@ -11,8 +11,8 @@ namespace listric::dem {
 
 using Bytes = std::vector<std::byte>;
 
-/// Processes ("ranks") that make a simulation's cycles together, each those of a share. Every call
-/// but count() and mine() is made by all ranks, in the same order.
+/// Processes ("ranks") that make a simulation's cycles together, each those of a subdomain. Every
+/// call but count() and mine() is made by all ranks, in the same order.
 class Ranks {
 public:
     virtual ~Ranks() = default;
@@ -32,12 +32,12 @@ public:
     virtual void sum(std::span<std::int64_t> numbers) = 0;       ///< over all ranks, one by one
     virtual void broadcast(Bytes& bytes) = 0;                    ///< from the root, of any length
 
-    /// A letter of any length for each rank; returns theirs.
-    virtual std::vector<Bytes> trade(std::vector<Bytes> letters) = 0;
-    /// To the root from all ranks, in their order, one letter after the other.
-    using Take = std::function<void(int rank, const Bytes& letter)>;
-    virtual void gather(Bytes letter, const Take& take) = 0;
-    /// From the root to all ranks in the same way; returns the one for this rank.
+    /// A message of any length for each rank; returns those of the others for this one.
+    virtual std::vector<Bytes> all_to_all(std::vector<Bytes> messages) = 0;
+    /// To the root from all ranks, in their order, one message after the other.
+    using Take = std::function<void(int rank, const Bytes& message)>;
+    virtual void gather(Bytes message, const Take& take) = 0;
+    /// From the root to all ranks, one message after the other; returns that for this rank.
     using Make = std::function<Bytes(int rank)>;
     virtual Bytes scatter(const Make& make) = 0;
 

@@ -1,4 +1,3 @@
-#include "dem/ranks/mpi/mailboxes.hpp"
 #include "dem/ranks/mpi/require.hpp"
 #include "dem/ranks/ranks.hpp"
 
@@ -68,10 +67,8 @@ public:
         MPI_Comm_size(all_, &count_);
         MPI_Comm_rank(all_, &mine_);
         messages_ = Messages(all_, exchanged);
-        mailboxes_.open(all_);
     }
     ~MpiRanks() override {
-        mailboxes_.close();
         MPI_Comm_free(&all_);
         PetscFinalize();
     }
@@ -85,35 +82,20 @@ public:
                  std::span<const std::size_t> received) override {
         sent_.assign(sent.begin(), sent.end());
         received_.assign(received.begin(), received.end());
-        mailboxes_.connect(sent_, received_);
     }
 
-    // Between machines by messages of MPI's own: PetscSF's take longer (docs/scaling.md).
+    // Messages of MPI's own: PetscSF's take longer (docs/scaling.md).
     void begin_exchange(std::span<const double> sent, std::span<double> received) override {
-        received_into_ = received;
-        mailboxes_.begin_exchange();
         each_part(received, received_, [&](std::span<double> part, std::size_t rank) {
-            if (!mailboxes_.reaches(rank))
-                messages_.receive(part, MPI_DOUBLE, rank);
+            messages_.receive(part, MPI_DOUBLE, rank);
         });
         each_part(sent, sent_, [&](std::span<const double> part, std::size_t rank) {
-            if (mailboxes_.reaches(rank))
-                mailboxes_.put(part, rank);
-            else
-                messages_.send(part, MPI_DOUBLE, rank);
+            messages_.send(part, MPI_DOUBLE, rank);
         });
     }
-    void end_exchange() override {
-        each_part(received_into_, received_, [&](std::span<double> part, std::size_t rank) {
-            if (mailboxes_.reaches(rank))
-                mailboxes_.take(part, rank);
-        });
-        messages_.wait();
-    }
+    void end_exchange() override { messages_.wait(); }
 
     void greatest(std::span<std::uint64_t> numbers) override {
-        if (mailboxes_.show(numbers.size()))
-            return mailboxes_.greatest(numbers);
         require(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), as_int(numbers.size()), MPI_UINT64_T,
                               MPI_MAX, all_),
                 "MPI_Allreduce");
@@ -130,28 +112,28 @@ public:
         require(MPI_Bcast(bytes.data(), as_int(size), MPI_BYTE, 0, all_), "MPI_Bcast");
     }
 
-    std::vector<Bytes> trade(std::vector<Bytes> letters) override {
+    std::vector<Bytes> all_to_all(std::vector<Bytes> sent) override {
         const auto ranks = static_cast<std::size_t>(count_);
         std::vector<std::uint64_t> there, here(ranks);
-        for (const Bytes& letter : letters)
-            there.push_back(letter.size());
+        for (const Bytes& message : sent)
+            there.push_back(message.size());
         require(MPI_Alltoall(there.data(), 1, MPI_UINT64_T, here.data(), 1, MPI_UINT64_T, all_),
                 "MPI_Alltoall");
         std::vector<Bytes> received(ranks);
-        Messages messages(all_, traded);
+        Messages messages(all_, all_exchanged);
         for (std::size_t rank = 0; rank < ranks; ++rank) {
             received[rank].resize(here[rank]);
             messages.receive(std::span(received[rank]), MPI_BYTE, rank);
         }
         for (std::size_t rank = 0; rank < ranks; ++rank)
-            messages.send(std::span<const std::byte>(letters[rank]), MPI_BYTE, rank);
+            messages.send(std::span<const std::byte>(sent[rank]), MPI_BYTE, rank);
         messages.wait();
         return received;
     }
-    void gather(Bytes letter, const Take& take) override {
+    void gather(Bytes message, const Take& take) override {
         if (mine_ != 0)
-            return send(letter, 0, gathered);
-        take(0, letter);
+            return send(message, 0, gathered);
+        take(0, message);
         for (int rank = 1; rank < count_; ++rank)
             take(rank, receive(rank, gathered));
     }
@@ -167,14 +149,14 @@ public:
 
 private:
     static constexpr std::size_t most_at_once = 1u << 30; // bytes
-    static constexpr int gathered = 1, scattered = 2, traded = 3, exchanged = 4;
+    static constexpr int gathered = 1, scattered = 2, all_exchanged = 3, exchanged = 4;
 
     /// Of any length: MPI 3 counts bytes by int.
-    void send(const Bytes& letter, int rank, int tag) const {
-        const std::uint64_t size = letter.size();
+    void send(const Bytes& message, int rank, int tag) const {
+        const std::uint64_t size = message.size();
         require(MPI_Send(&size, 1, MPI_UINT64_T, rank, tag, all_), "MPI_Send");
-        for (std::size_t at = 0; at < letter.size(); at += most_at_once)
-            require(MPI_Send(letter.data() + at, piece(letter, at), MPI_BYTE, rank, tag, all_),
+        for (std::size_t at = 0; at < message.size(); at += most_at_once)
+            require(MPI_Send(message.data() + at, piece(message, at), MPI_BYTE, rank, tag, all_),
                     "MPI_Send");
     }
     Bytes receive(int rank, int tag) const {
@@ -187,12 +169,11 @@ private:
                     "MPI_Recv");
         return bytes;
     }
-    /// What goes between this rank and each other one that it exchanges anything with.
+    /// What goes between this rank and each other one.
     template <class T, class Go>
-    void each_part(std::span<T> all, const std::vector<std::size_t>& sizes, Go&& go) const {
+    static void each_part(std::span<T> all, const std::vector<std::size_t>& sizes, Go&& go) {
         for (std::size_t rank = 0, at = 0; rank < sizes.size(); at += sizes[rank++])
-            if (sent_[rank] + received_[rank] > 0)
-                go(all.subspan(at, sizes[rank]), rank);
+            go(all.subspan(at, sizes[rank]), rank);
     }
     static int piece(const Bytes& bytes, std::size_t at) {
         return static_cast<int>(std::min(most_at_once, bytes.size() - at));
@@ -201,9 +182,7 @@ private:
     MPI_Comm all_ = MPI_COMM_NULL;
     int count_ = 1, mine_ = 0;
     std::vector<std::size_t> sent_, received_; ///< numbers to and from each rank, at an exchange
-    std::span<double> received_into_;          ///< of the exchange under way
     Messages messages_;
-    Mailboxes mailboxes_;
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "dem/ranks/share.hpp"
+#include "dem/ranks/subdomain.hpp"
 
 #include "dem/cycle/cycle_work.hpp"
 #include "dem/ranks/table_bytes.hpp"
@@ -88,27 +88,27 @@ Cut::Lists& Cut::lists_of(std::size_t disc) {
     return lists_[static_cast<std::size_t>(rank_[disc])];
 }
 
-Share Cut::share(int of) {
+Subdomain Cut::subdomain(int of) {
     const Lists& mine = lists_[static_cast<std::size_t>(of)];
-    Share share;
-    share.rows.resize(mine.own.size() + mine.ghosts.size());
-    std::ranges::merge(mine.own, mine.ghosts, share.rows.begin());
-    share.sent.resize(lists_.size());
-    share.received.resize(lists_.size());
-    for (std::size_t k = 0; k < share.rows.size(); ++k) {
-        const auto row = static_cast<std::size_t>(share.rows[k]);
+    Subdomain subdomain;
+    subdomain.rows.resize(mine.own.size() + mine.ghosts.size());
+    std::ranges::merge(mine.own, mine.ghosts, subdomain.rows.begin());
+    subdomain.sent.resize(lists_.size());
+    subdomain.received.resize(lists_.size());
+    for (std::size_t k = 0; k < subdomain.rows.size(); ++k) {
+        const auto row = static_cast<std::size_t>(subdomain.rows[k]);
         local_[row] = static_cast<std::int32_t>(k);
-        share.own.push_back(rank_[row] == of);
+        subdomain.own.push_back(rank_[row] == of);
         if (rank_[row] != of)
-            share.received[static_cast<std::size_t>(rank_[row])].push_back(local_[row]);
+            subdomain.received[static_cast<std::size_t>(rank_[row])].push_back(local_[row]);
     }
     for (std::size_t other = 0; other < lists_.size(); ++other)
         for (const std::int32_t row : lists_[other].ghosts)
             if (rank_[static_cast<std::size_t>(row)] == of)
-                share.sent[other].push_back(local_[static_cast<std::size_t>(row)]);
+                subdomain.sent[other].push_back(local_[static_cast<std::size_t>(row)]);
 
-    State& part = share.state;
-    part.discs = selected(whole_.discs, share.rows, is_for_cycles);
+    State& part = subdomain.state;
+    part.discs = selected(whole_.discs, subdomain.rows, is_for_cycles);
     part.contacts = selected(whole_.contacts, mine.contacts);
     part.base_contacts = selected(whole_.base_contacts, mine.base_contacts);
     part.base_nodes = whole_.base_nodes;
@@ -125,7 +125,7 @@ Share Cut::share(int of) {
     renumber(contact_columns(part).first);
     renumber(contact_columns(part).second);
     renumber(base_contact_columns(part).disc);
-    return share;
+    return subdomain;
 }
 
 namespace {
@@ -149,11 +149,11 @@ template <class Wanted> std::vector<std::int32_t> rows_where(std::size_t rows, W
 
 /// Adds those rows of a table of pairs, with the discs' rows in the whole.
 void add_pairs(const Table& table, std::span<const std::int32_t> rows,
-               std::initializer_list<const char*> discs, const Share& share, BytesOut& to) {
+               std::initializer_list<const char*> discs, const Subdomain& subdomain, BytesOut& to) {
     Table pairs = selected(table, rows);
     for (const char* name : discs)
         for (std::int32_t& disc : pairs.get<std::int32_t>(name))
-            disc = share.rows[static_cast<std::size_t>(disc)];
+            disc = subdomain.rows[static_cast<std::size_t>(disc)];
     add_table(pairs, to);
 }
 
@@ -183,34 +183,35 @@ void sort_pairs(Table& table, const char* first_name, const char* second_name) {
     table.reorder(order);
 }
 
-/// Room for a share as bytes: letters that grow would need it twice.
-std::size_t most_bytes(const Share& share) {
-    std::size_t bytes = 4096 + share.rows.size() * 16;
-    for (const Table* table : {&share.state.discs, &share.state.contacts,
-                               &share.state.base_contacts, &share.state.base_nodes})
+/// Room for a subdomain as bytes: messages that grow would need it twice.
+std::size_t most_bytes(const Subdomain& subdomain) {
+    std::size_t bytes = 4096 + subdomain.rows.size() * 16;
+    for (const Table* table : {&subdomain.state.discs, &subdomain.state.contacts,
+                               &subdomain.state.base_contacts, &subdomain.state.base_nodes})
         bytes += byte_count(*table);
     return bytes;
 }
 
 } // namespace
 
-Bytes changes(const Share& share) {
-    const State& state = share.state;
+Bytes changes(const Subdomain& subdomain) {
+    const State& state = subdomain.state;
     BytesOut to;
-    to.reserve(most_bytes(share));
+    to.reserve(most_bytes(subdomain));
     to.add<StateNumbers>(state);
-    const auto own = rows_where(share.rows.size(), [&](std::size_t k) { return share.own[k]; });
+    const auto own =
+        rows_where(subdomain.rows.size(), [&](std::size_t k) { return subdomain.own[k]; });
     add_table(selected(state.discs, own, is_changed), to);
     // Both ranks of a contact have it; that of the first disc is asked.
     const auto first = contact_columns(state).first;
-    add_pairs(
-        state.contacts,
-        rows_where(first.size(),
-                   [&](std::size_t k) { return share.own[static_cast<std::size_t>(first[k])]; }),
-        {"first", "second"}, share, to);
+    add_pairs(state.contacts,
+              rows_where(
+                  first.size(),
+                  [&](std::size_t k) { return subdomain.own[static_cast<std::size_t>(first[k])]; }),
+              {"first", "second"}, subdomain, to);
     add_pairs(state.base_contacts,
               rows_where(state.base_contacts.rows(), [](std::size_t) { return true; }), {"disc"},
-              share, to);
+              subdomain, to);
     add_table(state.base_nodes, to);
     return to.take();
 }
@@ -236,39 +237,39 @@ void sort_contacts(State& whole) {
     sort_pairs(whole.base_contacts, "disc", "surface");
 }
 
-Bytes packed(const Share& share) {
-    const State& state = share.state;
+Bytes packed(const Subdomain& subdomain) {
+    const State& state = subdomain.state;
     BytesOut to;
-    to.reserve(most_bytes(share));
+    to.reserve(most_bytes(subdomain));
     for (const Table* table :
          {&state.discs, &state.contacts, &state.base_contacts, &state.base_nodes})
         add_table(*table, to);
     to.add(state.materials);
     to.add<StateNumbers>(state);
-    to.add(share.rows);
-    to.add(share.own);
-    to.add(share.sent.size());
-    for (const auto* by_rank : {&share.sent, &share.received})
+    to.add(subdomain.rows);
+    to.add(subdomain.own);
+    to.add(subdomain.sent.size());
+    for (const auto* by_rank : {&subdomain.sent, &subdomain.received})
         for (const auto& rows : *by_rank)
             to.add(rows);
     return to.take();
 }
 
-Share unpacked(const Bytes& bytes) {
+Subdomain unpacked(const Bytes& bytes) {
     BytesIn from(bytes);
-    Share share;
-    State& state = share.state;
+    Subdomain subdomain;
+    State& state = subdomain.state;
     for (Table* table : {&state.discs, &state.contacts, &state.base_contacts, &state.base_nodes})
         *table = take_table(from);
     state.materials = from.take_all<Material>();
     static_cast<StateNumbers&>(state) = from.take<StateNumbers>();
-    share.rows = from.take_all<std::int32_t>();
-    share.own = from.take_all<std::uint8_t>();
+    subdomain.rows = from.take_all<std::int32_t>();
+    subdomain.own = from.take_all<std::uint8_t>();
     const auto count = from.take<std::size_t>();
-    for (auto* by_rank : {&share.sent, &share.received})
+    for (auto* by_rank : {&subdomain.sent, &subdomain.received})
         for (std::size_t k = 0; k < count; ++k)
             by_rank->push_back(from.take_all<std::int32_t>());
-    return share;
+    return subdomain;
 }
 
 } // namespace listric::dem

@@ -1,4 +1,4 @@
-#include "dem/ranks/share_update.hpp"
+#include "dem/ranks/subdomain_update.hpp"
 
 #include "dem/contacts/contacts.hpp"
 #include "dem/ranks/table_bytes.hpp"
@@ -29,15 +29,15 @@ struct Interval {
     }
 };
 
-/// Where the own discs of a share are.
+/// Where the own discs of a subdomain are.
 class Outline {
 public:
     /// @param height  of a slab, m, if that makes no more slabs than discs
-    Outline(const Share& share, double height) {
-        const ConstDiscColumns d = disc_columns(share.state);
+    Outline(const Subdomain& subdomain, double height) {
+        const ConstDiscColumns d = disc_columns(subdomain.state);
         Interval y;
         for (std::size_t k = 0; k < d.y.size(); ++k)
-            if (share.own[k])
+            if (subdomain.own[k])
                 y.add({d.y[k], d.y[k]});
         if (y.left > y.right)
             return; // there are none
@@ -45,7 +45,7 @@ public:
         per_height_ = 1.0 / std::max(height, (y.right - y.left) / static_cast<double>(d.y.size()));
         slabs_.resize(static_cast<std::size_t>(slab_of(y.right)) + 1);
         for (std::size_t k = 0; k < d.y.size(); ++k)
-            if (share.own[k])
+            if (subdomain.own[k])
                 slabs_[static_cast<std::size_t>(slab_of(d.y[k]))].add({d.x[k], d.x[k]});
         add_up();
     }
@@ -55,7 +55,7 @@ public:
           slabs_(from.take_all<Interval>()) {
         add_up();
     }
-    Bytes letter() const {
+    Bytes message() const {
         BytesOut to;
         to.add(bottom_);
         to.add(per_height_);
@@ -143,8 +143,8 @@ Bytes packed(const Candidates& candidates) {
     return to.take();
 }
 
-Candidates candidates_in(const Bytes& letter) {
-    BytesIn from(letter);
+Candidates candidates_in(const Bytes& message) {
+    BytesIn from(message);
     Candidates candidates;
     candidates.in_whole = from.take_all<std::int32_t>();
     candidates.discs = take_table(from);
@@ -158,13 +158,13 @@ struct Border {
     Candidates heard;               ///< of the other's, those that are no ghosts here
 };
 
-std::vector<Border> trade_candidates(const Share& share, double distance, Ranks& ranks) {
-    const ConstDiscColumns d = disc_columns(share.state);
-    const Bytes outline = Outline(share, distance).letter();
+std::vector<Border> exchange_candidates(const Subdomain& subdomain, double distance, Ranks& ranks) {
+    const ConstDiscColumns d = disc_columns(subdomain.state);
+    const Bytes outline = Outline(subdomain, distance).message();
     const std::vector<Bytes> outlines =
-        ranks.trade(std::vector<Bytes>(static_cast<std::size_t>(ranks.count()), outline));
+        ranks.all_to_all(std::vector<Bytes>(static_cast<std::size_t>(ranks.count()), outline));
     std::vector<Border> borders(outlines.size());
-    std::vector<Bytes> letters(outlines.size());
+    std::vector<Bytes> messages(outlines.size());
     const auto mine = static_cast<std::size_t>(ranks.mine());
     for (std::size_t other = 0; other < borders.size(); ++other) {
         if (other == mine)
@@ -172,19 +172,19 @@ std::vector<Border> trade_candidates(const Share& share, double distance, Ranks&
         Border& border = borders[other];
         const Outline there{BytesIn(outlines[other])};
         for (std::size_t k = 0; k < d.x.size(); ++k)
-            if (share.own[k] && there.is_near({d.x[k], d.y[k]}, distance))
+            if (subdomain.own[k] && there.is_near({d.x[k], d.y[k]}, distance))
                 border.near.push_back(static_cast<std::int32_t>(k));
-        std::ranges::set_difference(border.near, share.sent[other],
+        std::ranges::set_difference(border.near, subdomain.sent[other],
                                     std::back_inserter(border.told));
-        Candidates told{{}, selected(share.state.discs, border.told)};
+        Candidates told{{}, selected(subdomain.state.discs, border.told)};
         for (const std::int32_t row : border.told)
-            told.in_whole.push_back(share.rows[static_cast<std::size_t>(row)]);
-        letters[other] = packed(told);
+            told.in_whole.push_back(subdomain.rows[static_cast<std::size_t>(row)]);
+        messages[other] = packed(told);
     }
-    letters = ranks.trade(std::move(letters));
+    messages = ranks.all_to_all(std::move(messages));
     for (std::size_t other = 0; other < borders.size(); ++other)
         if (other != mine)
-            borders[other].heard = candidates_in(letters[other]);
+            borders[other].heard = candidates_in(messages[other]);
     return borders;
 }
 
@@ -197,18 +197,18 @@ template <class T> void reorder(std::vector<T>& values, std::span<const std::int
 }
 
 /// Puts discs that have come last into the order of the whole.
-void sort_by_rows(Share& share) {
-    std::vector<std::int32_t> order(share.rows.size());
+void sort_by_rows(Subdomain& subdomain) {
+    std::vector<std::int32_t> order(subdomain.rows.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, {},
-                      [&](std::int32_t row) { return share.rows[static_cast<std::size_t>(row)]; });
+    std::ranges::sort(
+        order, {}, [&](std::int32_t row) { return subdomain.rows[static_cast<std::size_t>(row)]; });
     std::vector<std::int32_t> place(order.size());
     for (std::size_t k = 0; k < order.size(); ++k)
         place[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
-    reorder_discs(share.state, order);
-    reorder(share.rows, order);
-    reorder(share.own, order);
-    for (auto* by_rank : {&share.sent, &share.received})
+    reorder_discs(subdomain.state, order);
+    reorder(subdomain.rows, order);
+    reorder(subdomain.own, order);
+    for (auto* by_rank : {&subdomain.sent, &subdomain.received})
         for (auto& rows : *by_rank)
             for (std::int32_t& row : rows)
                 row = place[static_cast<std::size_t>(row)];
@@ -217,44 +217,45 @@ void sort_by_rows(Share& share) {
 /// Makes ghosts of the discs that have come near, here and, by the same reckoning, there. Returns
 /// whether any have.
 /// @param gap  between two discs, m
-bool add_ghosts(Share& share, std::span<const Border> borders, double gap) {
+bool add_ghosts(Subdomain& subdomain, std::span<const Border> borders, double gap) {
     bool any = false;
     for (std::size_t other = 0; other < borders.size(); ++other) {
         const Border& border = borders[other];
         if (border.told.empty() && border.heard.in_whole.empty())
             continue;
-        std::vector<std::int32_t>&sent = share.sent[other], &received = share.received[other];
+        std::vector<std::int32_t>&sent = subdomain.sent[other],
+        &received = subdomain.received[other];
         std::vector<std::int32_t> all(border.heard.in_whole.size());
         std::iota(all.begin(), all.end(), 0);
         const std::vector<Round> heard = rounds_of(border.heard.discs, all);
-        std::vector<Round> theirs = rounds_of(share.state.discs, received);
+        std::vector<Round> theirs = rounds_of(subdomain.state.discs, received);
         theirs.insert(theirs.end(), heard.begin(), heard.end());
         for (const std::int32_t k :
-             those_near(rounds_of(share.state.discs, border.told), theirs, gap)) {
+             those_near(rounds_of(subdomain.state.discs, border.told), theirs, gap)) {
             sent.push_back(border.told[static_cast<std::size_t>(k)]);
             any = true;
         }
-        const auto come = those_near(heard, rounds_of(share.state.discs, border.near), gap);
+        const auto come = those_near(heard, rounds_of(subdomain.state.discs, border.near), gap);
         for (const std::int32_t k : come) {
-            received.push_back(static_cast<std::int32_t>(share.rows.size()));
-            share.rows.push_back(border.heard.in_whole[static_cast<std::size_t>(k)]);
-            share.own.push_back(0);
+            received.push_back(static_cast<std::int32_t>(subdomain.rows.size()));
+            subdomain.rows.push_back(border.heard.in_whole[static_cast<std::size_t>(k)]);
+            subdomain.own.push_back(0);
             any = true;
         }
-        append_rows(selected(border.heard.discs, come), share.state.discs);
+        append_rows(selected(border.heard.discs, come), subdomain.state.discs);
     }
     return any;
 }
 
 /// What the others' discs put on the base is theirs to add up.
-void drop_base_contacts_of_ghosts(Share& share) {
-    const auto disc = base_contact_columns(std::as_const(share.state)).disc;
+void drop_base_contacts_of_ghosts(Subdomain& subdomain) {
+    const auto disc = base_contact_columns(std::as_const(subdomain.state)).disc;
     std::vector<std::int32_t> kept;
     for (std::size_t k = 0; k < disc.size(); ++k)
-        if (share.own[static_cast<std::size_t>(disc[k])])
+        if (subdomain.own[static_cast<std::size_t>(disc[k])])
             kept.push_back(static_cast<std::int32_t>(k));
     if (kept.size() < disc.size())
-        share.state.base_contacts.reorder(kept);
+        subdomain.state.base_contacts.reorder(kept);
 }
 
 /// Of all discs, m.
@@ -267,24 +268,24 @@ double largest_radius(const State& state, Ranks& ranks) {
 
 } // namespace
 
-bool update_share(Share& share, const RigidBase& base, Ranks& ranks) {
+bool update_subdomain(Subdomain& subdomain, const RigidBase& base, Ranks& ranks) {
     // Discs are listed by their searched places, from which they are a fifth of the skin away.
-    const double gap = 1.5 * share.state.skin;
-    const double distance = 2.0 * largest_radius(share.state, ranks) + gap;
-    std::vector<Border> borders = trade_candidates(share, distance, ranks);
-    const std::size_t before = share.rows.size();
-    const bool linked = add_ghosts(share, borders, gap);
-    if (share.rows.size() > before)
-        sort_by_rows(share);
-    for (auto* by_rank : {&share.sent, &share.received})
+    const double gap = 1.5 * subdomain.state.skin;
+    const double distance = 2.0 * largest_radius(subdomain.state, ranks) + gap;
+    std::vector<Border> borders = exchange_candidates(subdomain, distance, ranks);
+    const std::size_t before = subdomain.rows.size();
+    const bool linked = add_ghosts(subdomain, borders, gap);
+    if (subdomain.rows.size() > before)
+        sort_by_rows(subdomain);
+    for (auto* by_rank : {&subdomain.sent, &subdomain.received})
         for (auto& rows : *by_rank)
             std::ranges::sort(rows);
-    update_contacts(share.state, base);
-    drop_base_contacts_of_ghosts(share);
-    std::array<std::uint64_t, 2> all{std::bit_cast<std::uint64_t>(share.state.displacement_bound),
-                                     linked};
+    update_contacts(subdomain.state, base);
+    drop_base_contacts_of_ghosts(subdomain);
+    std::array<std::uint64_t, 2> all{
+        std::bit_cast<std::uint64_t>(subdomain.state.displacement_bound), linked};
     ranks.greatest(all);
-    share.state.displacement_bound = std::bit_cast<double>(all[0]);
+    subdomain.state.displacement_bound = std::bit_cast<double>(all[0]);
     return all[1] != 0;
 }
 
