@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/elastic_base.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 
 #include <cstdint>
 

@@ -5,7 +5,7 @@
 #include "coupling/elastic_base.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "dem/base.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
 #include "dem/state.hpp"
 #include "fem/footwall.hpp"

@@ -19,9 +19,9 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/file.hpp"
 #include "coupling/strong_scheme.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/ranked_cycles.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
 
@@ -85,7 +85,7 @@ void Session::make_cycles_by(BaseResponse* response) {
         simulation_.advance_by(
             [on_ranks, response](State& state, const RigidBase&, const CyclePhysics&,
                                  std::int64_t cycles, const Execution& how) {
-                on_ranks->advance(state, cycles, *how.packed, response);
+                on_ranks->advance(state, cycles, how.state_is_untouched, response);
             },
             [on_ranks](State& state) { on_ranks->collect(state); });
     else if (response)
