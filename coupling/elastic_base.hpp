@@ -2,7 +2,7 @@
 
 #include "coupling/interface.hpp"
 #include "coupling/modes.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 
 #include <functional>
 #include <span>

@@ -5,9 +5,9 @@
 
 #include "coupling/base_memory.hpp"
 #include "coupling/elastic_base.hpp"
-#include "dem/base_place.hpp"
-#include "dem/contacts.hpp"
-#include "dem/genesis.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "tests/support.hpp"
 
 #include <cmath>

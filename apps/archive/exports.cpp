@@ -5,8 +5,8 @@
 #include "apps/measures/horizons.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/support/fineness.hpp"
-#include "dem/base_place.hpp"
-#include "dem/monitor.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/monitor.hpp"
 
 #include <fmt/format.h>
 

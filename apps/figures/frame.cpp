@@ -13,10 +13,10 @@
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
 #include "apps/support/npy.hpp"
-#include "dem/base_place.hpp"
-#include "dem/contacts.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/power_cell.hpp"
 
 #include <nlohmann/json.hpp>
 

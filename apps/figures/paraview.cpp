@@ -7,11 +7,11 @@
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
 #include "apps/support/resources.hpp"
-#include "dem/base_place.hpp"
-#include "dem/contacts.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
-#include "dem/monitor.hpp"
 
 #include <fmt/format.h>
 

@@ -13,11 +13,11 @@
 #include "apps/support/deflate.hpp"
 #include "apps/support/fineness.hpp"
 #include "apps/support/json_text.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/monitor.hpp"
-#include "dem/power_cell.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

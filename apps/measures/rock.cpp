@@ -1,11 +1,11 @@
 #include "apps/measures/rock.hpp"
 
 #include "apps/measures/polyline.hpp"
-#include "dem/contacts.hpp"
+#include "dem/base/ground_level.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "dem/events/property_update.hpp"
-#include "dem/genesis.hpp"
-#include "dem/ground_level.hpp"
-#include "dem/power_cell.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 #include "apps/support/moment_names.hpp"
 #include "apps/support/version.hpp"
 #include "dem/nothing_left.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>
 

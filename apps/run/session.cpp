@@ -19,7 +19,7 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/file.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/ranked_cycles.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
 
@@ -71,7 +71,7 @@ void Session::make_cycles_by(BaseResponse* response) {
         simulation_.advance_by(
             [on_ranks, response](State& state, const RigidBase&, const CyclePhysics&,
                                  std::int64_t cycles, const Execution& how) {
-                on_ranks->advance(state, cycles, *how.packed, response);
+                on_ranks->advance(state, cycles, how.state_is_untouched, response);
             },
             [on_ranks](State& state) { on_ranks->collect(state); });
     else if (response)

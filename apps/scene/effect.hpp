@@ -5,9 +5,9 @@
 #include "apps/scene/parameter.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/support/named_numbers.hpp"
-#include "dem/cycle.hpp"
+#include "dem/base/target_line.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
-#include "dem/target_line.hpp"
 #include "dem/units.hpp"
 
 #include <any>

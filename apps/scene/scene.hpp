@@ -2,8 +2,8 @@
 
 #include "apps/scene/observed.hpp"
 #include "apps/scene/picked_fault.hpp"
-#include "dem/detachment.hpp"
-#include "dem/genesis.hpp"
+#include "dem/genesis/detachment.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "dem/material.hpp"
 
 #include <any>

@@ -122,10 +122,6 @@ class SameBits(Ranks):
     def test_a_rigid_scene_on_any_number(self):
         self.assertSameBits("lis1", "120m", (1, 2, 3, 5))
 
-    def test_messages_alone_as_between_machines(self):
-        self.environment["LISTRIC_MAILBOXES"] = "0"
-        self.assertSameBits("lis1", "60m", (3,))
-
     def test_a_ramp_and_a_flat(self):
         self.assertSameBits("rfr", "40m", (3,))
 

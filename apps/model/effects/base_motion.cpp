@@ -1,4 +1,4 @@
-#include "dem/base_motion.hpp"
+#include "dem/base/motion.hpp"
 
 #include "apps/model/base_driver.hpp"
 #include "apps/scene/effect.hpp"

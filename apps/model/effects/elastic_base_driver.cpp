@@ -10,7 +10,7 @@
 #include "coupling/footwall_loads.hpp"
 #include "coupling/independent_solution.hpp"
 #include "coupling/interface_loads.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
