@@ -2,7 +2,7 @@
 
 #include "apps/support/named_numbers.hpp"
 #include "dem/base.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/state.hpp"
 #include "fem/footwall.hpp"
 
