@@ -122,13 +122,13 @@ int advance_interval(Coupled& c, Broyden& broyden) {
         advance(c.state, c.base, c.physics, interval, {});
         const std::vector<double> loads = unbalanced_loads(c);
         const double error = largest(c.elastic.displacement(loads));
-        if (error < std::max(noticed, 1e-3 * c.greatest_displacement()) ||
-            (trial > most && error < 10.0 * noticed))
-            return trial;
         if (!step_before.empty())
             broyden.update(difference(step, step_before), difference(loads, loads_before));
         if (trial % restart_every == 0) // loads kink where contacts open
             broyden.restart();
+        if (error < std::max(noticed, 1e-3 * c.greatest_displacement()) ||
+            (trial > most && error < 10.0 * noticed))
+            return trial;
         if (error < least) {
             least = error;
             best = step;
