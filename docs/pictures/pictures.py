@@ -36,6 +36,11 @@ def small(snapshot, deposits):
     return Image.open(buffer).convert("RGB")
 
 
+def bent_footwall(picture):
+    """The upper panel of figures/footwall.png, where an elastic footwall shows more than strata do."""
+    return Image.open(picture).convert("RGB").crop((48, 45, 960, 357)).resize((440, 150), Image.LANCZOS)
+
+
 def save(image, name):
     path = animate.HERE / f"{name}.webp"
     image.save(path, quality=82, method=6)
@@ -48,7 +53,8 @@ def main(runs, scenes):
         last = run.at(10e3)
         deposits = int(np.max(last.discs["stratum"]))
         save(animate.frame(scene, last, deposits), f"{scene}-10km")
-        save(small(last, deposits), f"{scene}-small")
+        bent = runs / scene / "figures/footwall.png"
+        save(bent_footwall(bent) if bent.exists() else small(last, deposits), f"{scene}-small")
         if scene == "lis1":
             save(animate.frame(scene, run.at(5e3), deposits), "lis1-5km")
 
