@@ -67,7 +67,9 @@ def draw(file, moment, colour, size, picked, picture):
             "width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": False})
         time.sleep(1.0)
         screen = io.BytesIO(driver.get_screenshot_as_png())
-        Image.open(screen).convert("RGB").save(picture, quality=80, method=6)
+        image = Image.open(screen).convert("RGB")
+        image.thumbnail((1000, 1000), Image.LANCZOS)
+        image.save(picture, quality=64, method=6)
     finally:
         driver.quit()
 
