@@ -65,7 +65,7 @@ def main():
         line([(24.0, 0.4), (22.3, 4), (20.0, 9), (17.8, 13.2)], stroke="#1d2730", stroke_width=2),
         line([(wall, -1), (wall, 15)], stroke="#1d2730", stroke_width=4),
         line([(0, 0), (0, -1.2)], stroke="#5b6770", stroke_width=3),
-        arrow(wall + 0.6, 7, 2.2), arrow(34.6, 15.75, 3),
+        arrow(wall + 0.6, 7, 2.2), arrow(38.0, 15.75, 3),
         *(spring(x, 20.0) for x in range(-5, 47, 4)),
         '<circle cx="{}" cy="{}" r="4" fill="#9d1f2d"/>'.format(*at(0, 0).split(",")),
         '<circle cx="{}" cy="{}" r="4" fill="#8a6d3b"/>'.format(*at(*top[0]).split(",")),
