@@ -22,7 +22,7 @@ import listric
 
 HERE = Path(__file__).resolve().parent
 SPACING = 60.0                       # of the grid that colours are drawn on, m
-WIDE, DEEP = (-1.5, 50.5), (15.6, -0.9)  # km
+WIDE, DEEP = (-1.5, 50.5), (15.6, -1.1)  # km
 FRAME, LAST_FRAME = 380, 2400        # ms
 STRAIN = LinearSegmentedColormap.from_list(
     "strain", ["#f4f1ea", "#f1d9a7", "#e8a15c", "#cf5a3c", "#8a2040", "#35102e"])
@@ -56,8 +56,8 @@ def draw_section(axes, picture, colours, norm, detachment):
     axes.imshow(np.ma.masked_invalid(values), cmap=colours, norm=norm, interpolation="nearest",
                 extent=(x[0] / 1e3, x[-1] / 1e3, depth[-1] / 1e3, depth[0] / 1e3))
     foot_x, foot_z = detachment
-    axes.fill(np.r_[WIDE[0] - 1, WIDE[0] - 1, 0.0, foot_x, WIDE[1] + 20, WIDE[1] + 20],
-              np.r_[20.0, 0.0, 0.0, foot_z, foot_z[-1], 20.0], color=GROUND, zorder=2, lw=0)
+    axes.fill(np.r_[WIDE[0] - 1, WIDE[0] - 1, foot_x, WIDE[1] + 20, WIDE[1] + 20],
+              np.r_[20.0, foot_z[0], foot_z, foot_z[-1], 20.0], color=GROUND, zorder=2, lw=0)
     axes.set(xlim=WIDE, ylim=DEEP, aspect="equal", yticks=(0, 5, 10, 15))
     axes.tick_params(length=2, labelsize=8, colors=INK)
     for side in ("top", "right"):

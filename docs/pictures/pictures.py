@@ -17,7 +17,8 @@ from PIL import Image
 import animate
 import listric
 
-SCENES = ("lis1", "lis2", "rfr", "lis1-elastic")
+SCENES = ("lis1", "lis2", "rfr", "lis1-elastic", "lis2-elastic", "rfr-elastic")
+SMALL = SCENES[:4]
 
 
 def small(snapshot, deposits):
@@ -53,6 +54,8 @@ def main(runs, scenes):
         last = run.at(10e3)
         deposits = int(np.max(last.discs["stratum"]))
         save(animate.frame(scene, last, deposits), f"{scene}-10km")
+        if scene not in SMALL:
+            continue
         bent = runs / scene / "figures/footwall.png"
         save(bent_footwall(bent) if bent.exists() else small(last, deposits), f"{scene}-small")
         if scene == "lis1":
