@@ -5,7 +5,7 @@
 #include "apps/archive/snapshot.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 #include "apps/run/run_report.hpp"
 #include "apps/support/statistics.hpp"
 #include "apps/support/stopwatch.hpp"
-#include "dem/contacts.hpp"
-#include "dem/cycle.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "apps/run/rank_reports.hpp"
 #include "apps/run/ranked_call.hpp"
 #include "apps/run/run.hpp"
-#include "dem/ranked_cycles.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
 

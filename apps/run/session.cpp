@@ -18,10 +18,8 @@
 #include "apps/run/prediction.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/file.hpp"
-#include "coupling/strong_scheme.hpp"
-#include "dem/contacts.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/ranked_cycles.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
 
@@ -38,7 +36,6 @@ namespace listric {
 using namespace archive;
 using namespace dem;
 using namespace measures;
-using namespace coupling;
 
 namespace {
 
@@ -48,34 +45,23 @@ fs::path snapshot_path(const fs::path& output, const MomentNames& names, double 
     return output / "snapshots" / snapshot_name(names.metres(extension));
 }
 
-/// Gives a base that is driven the nodes that it moves by.
-void attach(const std::vector<Point>& nodes, State& state) {
-    std::vector<double> x, y;
-    for (const Point& node : nodes) {
-        x.push_back(node.x);
-        y.push_back(node.y);
-    }
-    add_base_nodes(state, x, y);
-}
-
 } // namespace
 
 Session::Session(const Scene& scene, const RunOptions& options, Log& log)
     : scene_(scene), options_(options), log_(log), parts_(make_parts(scene)),
       setting_(make_setting(scene, parts_)), simulation_(parts_.base, parts_.physics),
-      driver_(make_base_driver(scene, parts_)),
       report_(scene, options.output, options.report && scene.output.report, options.live, log) {
     for (auto& event : make_events(scene, parts_))
         simulation_.add(std::move(event));
     simulation_.report_times_to([this](const std::string& part, double seconds) {
         record_.seconds_by_part[part] += seconds;
-        if (!footwall_ || part != "cycle")
+        if (!driver_ || part != "cycle")
             return;
-        const double base = std::exchange(footwall_->base().seconds, 0.0);
+        const double base = driver_->take_seconds();
         record_.seconds_by_part["base"] += base;
         record_.seconds_by_part["cycle"] -= base;
     });
-    make_cycles_by(driver_.response.get());
+    make_cycles_by(nullptr);
 }
 
 /// Cycles are made here, or on all ranks.
@@ -85,7 +71,7 @@ void Session::make_cycles_by(BaseResponse* response) {
         simulation_.advance_by(
             [on_ranks, response](State& state, const RigidBase&, const CyclePhysics&,
                                  std::int64_t cycles, const Execution& how) {
-                on_ranks->advance(state, cycles, *how.packed, response);
+                on_ranks->advance(state, cycles, how.state_is_untouched, response);
             },
             [on_ranks](State& state) { on_ranks->collect(state); });
     else if (response)
@@ -109,32 +95,24 @@ Execution Session::execution() const {
     return {options_.threads, options_.plain ? Cycle::plain : best_cycle()};
 }
 
-/// Condenses the footwall of a scene that has one.
-void Session::make_footwall() {
-    if (!has_effect(scene_, "elastic_base") || footwall_)
+/// Makes what moves the base, for a scene whose base deforms.
+void Session::make_driver() {
+    if (!parts_.base_moves || driver_)
         return;
     const Stopwatch watch(record_.seconds_by_part["base"]);
     std::vector<std::unique_ptr<Event>> loads;
-    footwall_ = std::make_unique<FootwallCoupling>(scene_, parts_, loads);
-    for (const std::string& line : footwall_->description())
+    driver_ = make_base_driver(scene_, parts_, loads);
+    for (const std::string& line : driver_->description())
         log_.say(line);
     for (auto& event : loads)
         simulation_.add(std::move(event));
-    ElasticBase& base = footwall_->base();
-    if (base.is_iterated())
-        simulation_.advance_by([&base](State& state, const RigidBase& rigid,
-                                       const CyclePhysics& physics, std::int64_t cycles,
-                                       const Execution& how) {
-            advance_iterated(base, state, rigid, physics, cycles, how);
-        });
-    else
-        make_cycles_by(&base);
+    make_cycles_by(&driver_->response());
 }
 
 bool Session::resume() {
     const std::vector<fs::path> snapshots = list_snapshots(options_.output);
     for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
-        make_footwall(); // its effects are handed their memories
+        make_driver(); // its effects are handed their memories
         try {
             Snapshot snapshot = read_snapshot(*path);
             hand_over(snapshot, simulation_.events());
@@ -193,36 +171,29 @@ void Session::begin() {
     for (const std::string& warning : scene_.warnings)
         log_.say("warning: " + warning);
     write_status("genesis");
-    make_footwall();
+    make_driver();
     State state;
     {
         const Stopwatch watch(record_.seconds_by_part["genesis"]);
         state = make_or_recall_hanging_wall(scene_, parts_, log_, options_.stop, options_.threads);
     }
-    if (footwall_)
-        state = settled_on_base(std::move(state));
-    if (driver_.response)
-        attach(driver_.nodes, state);
+    if (driver_)
+        settle_on_base(state);
     simulation_.begin(std::move(state));
     log_.say(fmt::format("hanging wall: {} discs", simulation_.state().discs.rows()));
     append_history();
     save();
 }
 
-/// Puts the hanging wall on the elastic base and settles it there.
-State Session::settled_on_base(State state) {
+/// Puts the hanging wall on the base that deforms.
+void Session::settle_on_base(State& state) {
     const Stopwatch watch(record_.seconds_by_part["base"]);
-    const RigidBase& rigid = simulation_.base();
-    const ElasticBase& base = footwall_->base();
-    base.attach(state);
-    find_contacts(state, rigid);
-    base.settle(state, rigid, simulation_.physics(), execution(),
-                [&](std::string_view stage, double share) {
-                    if (options_.stop.requested())
-                        throw Interrupted{};
-                    log_.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
-                });
-    return state;
+    driver_->settle(state, simulation_.base(), simulation_.physics(), execution(),
+                    [&](std::string_view stage, double share) {
+                        if (options_.stop.requested())
+                            throw Interrupted{};
+                        log_.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
+                    });
 }
 
 /// Tells how far an event is that takes long. A stop request waits some seconds for its end, since
@@ -341,8 +312,8 @@ void Session::append_history() {
     NamedNumbers row = history_row(simulation_.state(), measures);
     append(row, measure_effects(now()).numbers);
     std::optional<std::string> beyond_elasticity;
-    if (footwall_) {
-        auto window = footwall_->end_window(simulation_.state(), simulation_.base());
+    if (driver_) {
+        const BaseWindow window = driver_->end_window(simulation_.state(), simulation_.base());
         append(row, window.measures);
         beyond_elasticity = window.beyond_elasticity;
     }
@@ -381,11 +352,15 @@ void Session::report_window() {
         return;
     const Stopwatch watch(record_.seconds_by_part["report"]);
     if (followed)
-        report_.add(now(), *faults_,
-                    footwall_ ? footwall_->recover(simulation_.state()).stress()
-                              : std::vector<fem::StressPatch>());
+        report_.add(now(), *faults_, stress_below());
     else
         report_.add(now(), history_);
+}
+
+/// The stress below the base; none where it is not known.
+std::vector<fem::StressPatch> Session::stress_below() {
+    const fem::Footwall* footwall = driver_ ? driver_->recover(simulation_.state()) : nullptr;
+    return footwall ? footwall->stress() : std::vector<fem::StressPatch>();
 }
 
 void Session::write_status(const std::string& phase) const {
@@ -402,10 +377,11 @@ void Session::write_status(const std::string& phase) const {
 
 /// The field below the discs: at the figures' moments, for a file of it is larger than the discs'.
 void Session::save_field() {
-    if (!footwall_ || scene_.output.series != SeriesFormat::paraview)
+    if (!driver_ || scene_.output.series != SeriesFormat::paraview)
         return;
     const Stopwatch watch(record_.seconds_by_part["output"]);
-    footwall_->write(options_.output, footwall_->recover(simulation_.state()), names());
+    if (const fem::Footwall* footwall = driver_->recover(simulation_.state()))
+        write_footwall(options_.output, *footwall, extension(), names(), scene_.extension.rate);
 }
 
 void Session::draw() {
@@ -440,15 +416,12 @@ void Session::await_figures() {
 
 /// Solves for the base once more on a finer mesh.
 void Session::check_base() {
-    if (!footwall_)
+    if (!driver_)
         return;
     const Stopwatch watch(record_.seconds_by_part["base"]);
-    if (const auto fine = footwall_->check(simulation_.state())) {
-        base_check_ = {{"base_elements_difference", fine->elements},
-                       {"base_resolved_difference", fine->base}};
-        log_.say(fmt::format("the base under the last window's mean forces, solved again with {} "
-                             "unknowns: the run's elements are {:.2f} % off, its base {:.2f} %",
-                             fine->unknowns, 100.0 * fine->elements, 100.0 * fine->base));
+    if (const std::optional<BaseCheck> check = driver_->check(simulation_.state())) {
+        base_check_ = check->measures;
+        log_.say(check->line);
     }
 }
 

@@ -5,7 +5,7 @@
 #include "apps/archive/snapshot.hpp"
 #include "apps/measures/fault.hpp"
 #include "apps/measures/measures.hpp"
-#include "apps/model/footwall_coupling.hpp"
+#include "apps/model/base_driver.hpp"
 #include "apps/run/options.hpp"
 #include "apps/run/run_report.hpp"
 #include "apps/scene/effect.hpp"
@@ -46,8 +46,8 @@ public:
 
 private:
     void make_cycles_by(dem::BaseResponse* response);
-    void make_footwall();
-    dem::State settled_on_base(dem::State state);
+    void make_driver();
+    void settle_on_base(dem::State& state);
     dem::Execution execution() const;
     double target() const;
     double wall_seconds() const;
@@ -74,6 +74,7 @@ private:
     std::string draw_sheet() const;
     void await_figures();
     void report_window();
+    std::vector<fem::StressPatch> stress_below();
     void write_status(const std::string& phase) const;
     void check_base();
 
@@ -83,8 +84,7 @@ private:
     ModelParts parts_;
     measures::Setting setting_;
     dem::Simulation simulation_;
-    std::unique_ptr<FootwallCoupling> footwall_; ///< none: the base does not respond
-    BaseDriver driver_;                          ///< without a response: nothing drives it
+    std::unique_ptr<BaseDriver> driver_; ///< null: nothing moves the base
     archive::RunRecord record_;
     archive::RunHistory history_; ///< ends of windows that have been saved
     NamedNumbers base_check_;     ///< of the base solved once more

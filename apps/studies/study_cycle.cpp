@@ -4,8 +4,8 @@
 #include "apps/studies/study.hpp"
 
 #include "apps/support/stopwatch.hpp"
-#include "dem/contacts.hpp"
-#include "dem/cycle.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/material.hpp"
 #include "dem/units.hpp"

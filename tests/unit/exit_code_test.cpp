@@ -4,8 +4,8 @@
 
 #include "apps/support/error.hpp"
 #include "apps/support/memory.hpp"
-#include "dem/cycle.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/cycle/cycle.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "fem/footwall.hpp"
 
 #include <gmock/gmock.h>
