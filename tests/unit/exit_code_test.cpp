@@ -1,4 +1,4 @@
-// What exceptions mean for the call that they end: README's table of exit codes.
+// What exceptions mean for the call that they end: docs/exit-codes.md.
 
 #include "apps/run/exit_code.hpp"
 
