@@ -3,7 +3,7 @@
 
 #include "apps/model/effects.hpp"
 #include "dem/cycle/cycle.hpp"
-#include "dem/ranks/share.hpp"
+#include "dem/ranks/subdomain.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
