@@ -6,6 +6,8 @@
 #include "dem/radius_rates.hpp"
 #include "dem/state.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -66,5 +68,48 @@ struct NoAccount {
     template <class... Any> void enter_motion(Any&&...) {}
     void enter_half_step() {}
 };
+
+inline void PlainAccount::enter_contact(std::size_t k, const ContactParameters& p, bool was_bonded,
+                                        double shear_before, double normal) {
+    const auto i = static_cast<std::size_t>(c_.first[k]),
+               j = static_cast<std::size_t>(c_.second[k]);
+    const double time_step = state_.clock.time_step;
+    flows_.radii += normal * (radii_[i] + radii_[j]) * time_step;
+    const double reach = d_.radius[i] + d_.radius[j];
+    const double growth = (radii_[i] + radii_[j]) * time_step; // of the reach, m
+    const double dx = d_.x[j] - d_.x[i], dy = d_.y[j] - d_.y[i];
+    const double square = dx * dx + dy * dy;
+    if (!c_.bonded[k]) {
+        const double dx_before = dx - (d_.vx[j] - d_.vx[i]) * time_step;
+        const double dy_before = dy - (d_.vy[j] - d_.vy[i]) * time_step;
+        const double square_before = dx_before * dx_before + dy_before * dy_before;
+        const double reach_before = reach - growth;
+        const bool pressed = square < reach * reach,
+                   was_pressed = square_before < reach_before * reach_before;
+        if (pressed != was_pressed || (was_bonded && !pressed)) {
+            const double now = reach - std::sqrt(square);
+            const double overlap_before = reach_before - std::sqrt(square_before);
+            (was_bonded && !was_pressed ? flows_.bond_breaking : flows_.stepping) +=
+                normal_loss(was_bonded ? overlap_before : std::max(overlap_before, 0.0),
+                            overlap_before, std::max(now, 0.0), now, p);
+        }
+    }
+    const double after = c_.shear_force[k];
+    if (shear_before == 0.0 && after == 0.0)
+        return;
+    const double slip_rate = pair_of(d_, i, j, dx, dy, square).slip_rate;
+    const double trial =
+        shear_before - static_cast<double>(p.shear_stiffness_times_step) * slip_rate;
+    (was_bonded && !c_.bonded[k] ? flows_.bond_breaking : flows_.friction) +=
+        slip_loss(shear_before, trial, after, p, time_step);
+}
+
+inline void PlainAccount::enter_motion(std::size_t i, const Force& all, const Force& net,
+                                       const Force& before) {
+    flows_.damping +=
+        0.5 * state_.clock.time_step *
+        ((all.x - net.x) * (before.x + d_.vx[i]) + (all.y - net.y) * (before.y + d_.vy[i]) +
+         (all.moment - net.moment) * (before.moment + d_.spin[i]));
+}
 
 } // namespace listric::dem

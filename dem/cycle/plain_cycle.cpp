@@ -128,13 +128,14 @@ private:
     double weight_ = 0.0; ///< of a sample in the mean
 };
 
-/// Newton's law for every disc.
+/// Newton's law for every disc. Returns the largest component of a velocity, m/s.
 template <class Account>
-void move_discs(State& state, const CyclePhysics& physics, UndampedMotion undamped,
-                std::span<const Force> force, Account& account) {
+double move_discs(State& state, const CyclePhysics& physics, UndampedMotion undamped,
+                  std::span<const Force> force, Account& account) {
     const DiscColumns d = disc_columns(state);
     const RadiusRates radii(state);
     const double dt = state.clock.time_step;
+    double fastest = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
         const double acceleration_per_force = dt / inertia;
@@ -155,15 +156,8 @@ void move_discs(State& state, const CyclePhysics& physics, UndampedMotion undamp
         d.rotation[i] += d.spin[i] * dt;
         d.radius[i] += radii[i] * dt;
         undamped.learn(d, i);
-    }
-}
-
-/// Greatest component of a disc's velocity, m/s.
-double greatest_velocity(const State& state) {
-    const ConstDiscColumns d = disc_columns(state);
-    double fastest = 0.0;
-    for (std::size_t i = 0; i < d.x.size(); ++i)
         fastest = greater(fastest, greater(std::abs(d.vx[i]), std::abs(d.vy[i])));
+    }
     return fastest;
 }
 
@@ -178,16 +172,15 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
     contact_forces(state, pairs, force, account);
     Stretching thins = stretching(base, clock.extension);
     thins.rate *= speed;
-    move_discs(state, physics, {state, physics, thins}, force, account);
+    const double disc_speed = move_discs(state, physics, {state, physics, thins}, force, account);
     account.enter_half_step();
     around.respond(state, clock, response);
     account.enter_half_step();
     const double node_speed = move_nodes(base_node_columns(state), clock.time_step);
-    around.after_cycle(state);
+    const double base_speed = greater(greatest_translation(base) * speed, node_speed);
     clock.extension += speed * clock.time_step;
     ++clock.cycle;
-    return greater(greatest_velocity(state),
-                   greater(greatest_translation(base) * speed, node_speed));
+    return greater(around.after_cycle(state, disc_speed), base_speed);
 }
 
 /// Adds the greatest speeds of cycles, m/s, to what is known of the displacements.

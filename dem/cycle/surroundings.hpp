@@ -28,8 +28,10 @@ class Surroundings {
 public:
     virtual ~Surroundings() = default;
 
-    /// Ends a cycle: brings those discs of the state up to date that others move.
-    virtual void after_cycle(State&) {}
+    /// Ends a cycle: brings those discs of the state up to date that others move. Returns the
+    /// largest component of a disc's velocity then, m/s.
+    /// @param fastest  that of the discs as the cycle has moved them
+    virtual double after_cycle(State&, double fastest) { return fastest; }
 
     /// For who does that elsewhere than in the state. Null: there are no others.
     virtual Halo* halo() { return nullptr; }

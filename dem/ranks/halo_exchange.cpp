@@ -1,10 +1,12 @@
 #include "dem/ranks/halo_exchange.hpp"
 
+#include "dem/order_free.hpp"
 #include "dem/ranks/subdomain_update.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 
 namespace listric::dem {
@@ -31,7 +33,7 @@ void HaloExchange::connect() {
     ranks_.connect(sent, received);
 }
 
-void HaloExchange::after_cycle(State& state) {
+double HaloExchange::after_cycle(State& state, double) {
     const DiscColumns d = disc_columns(state);
     const std::span<double> columns[Halo::numbers] = {d.x, d.y, d.vx, d.vy, d.spin};
     double* to = halo_.to.data();
@@ -44,6 +46,10 @@ void HaloExchange::after_cycle(State& state) {
     for (const std::int32_t row : halo_.received)
         for (const auto column : columns)
             column[static_cast<std::size_t>(row)] = *from++;
+    double fastest = 0.0; // ghosts had been moved without all of their forces
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        fastest = greater(fastest, greater(std::abs(d.vx[i]), std::abs(d.vy[i])));
+    return fastest;
 }
 
 void HaloExchange::agree_on(std::span<double> numbers) {

@@ -14,7 +14,7 @@ public:
     /// The subdomain must outlive it. Made by all ranks.
     HaloExchange(Ranks& ranks, Subdomain& subdomain);
 
-    void after_cycle(State& state) override;
+    double after_cycle(State& state, double) override;
     Halo* halo() override { return &halo_; }
     void begin_exchange() override { ranks_.begin_exchange(halo_.to, halo_.from); }
     void end_exchange() override { ranks_.end_exchange(); }
