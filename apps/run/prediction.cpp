@@ -1,7 +1,7 @@
 #include "apps/run/prediction.hpp"
 
+#include "apps/figures/report_run.hpp"
 #include "apps/model/model.hpp"
-#include "apps/run/run_report.hpp"
 #include "apps/support/statistics.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "dem/contacts.hpp"
