@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/support/stop.hpp"
+#include "dem/cycle.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -26,6 +27,10 @@ struct RunOptions {
     bool report = true;  ///< report.html is written at the end
     bool live = false;   ///< and after every window
     StopToken stop;      ///< where it is requested, the run saves and stops as soon as it can
+
+    dem::Execution execution() const {
+        return {threads, plain ? dem::Cycle::plain : dem::best_cycle()};
+    }
 
     /// Extension at which the run ends of a scene that goes so far, m.
     double end(double distance) const { return std::min(distance, until.value_or(distance)); }

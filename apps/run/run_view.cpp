@@ -25,10 +25,6 @@ RunView::RunView(const Scene& s, const RunOptions& o, Log& l, const dem::Simulat
 
 int RunView::ranks() const { return options.on_ranks ? options.on_ranks->ranks() : 1; }
 
-dem::Execution RunView::execution() const {
-    return {options.threads, options.plain ? dem::Cycle::plain : dem::best_cycle()};
-}
-
 MomentNames RunView::names() const { return {scene.output.interval, window_ends(record.history)}; }
 
 bool RunView::is_drawn() const { return is_drawn_at(scene, extension()); }

@@ -52,7 +52,6 @@ public:
     Observation now() const { return {scene, parts, state(), simulation.events()}; }
 
     int ranks() const;
-    dem::Execution execution() const;
 
     /// By the windows that have ended.
     MomentNames names() const;

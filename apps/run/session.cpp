@@ -178,7 +178,7 @@ State Session::settled_on_base(State state) {
     const ElasticBase& base = footwall_->base();
     base.attach(state);
     find_contacts(state, rigid);
-    base.settle(state, rigid, simulation_.physics(), run_.execution(),
+    base.settle(state, rigid, simulation_.physics(), run_.options.execution(),
                 [&](std::string_view stage, double share) {
                     run_.options.stop.check();
                     run_.log.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
@@ -203,7 +203,7 @@ void Session::extend() {
             run_.log.progress(run_.progress());
             return !run_.options.stop.requested();
         };
-        simulation_.extend_to(std::min(window, target), run_.execution(), report);
+        simulation_.extend_to(std::min(window, target), run_.options.execution(), report);
         if (run_.extension() >= window - tolerance)
             end_window(&Output::window);
     }
