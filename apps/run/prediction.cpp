@@ -80,7 +80,11 @@ PieceTime time_piece(Lattice& lattice, std::int64_t cycles, const Execution& exe
 
 } // namespace
 
+/// More discs are as far from every cache, and their lattice would take longer than the answer may.
+constexpr std::size_t most_probed = std::size_t{1} << 18;
+
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted) {
+    discs = std::min(discs, most_probed);
     Lattice lattice = bonded_lattice(discs);
     // So many that putting the state back after them does not count.
     const auto cycles = std::max<std::int64_t>(50, 4'000'000 / static_cast<std::int64_t>(discs));

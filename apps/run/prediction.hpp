@@ -30,9 +30,9 @@ struct Prediction {
 
 Prediction predict(const Scene& scene, const CycleSpeed& speed = {});
 
-/// A bonded lattice of the scene's size is cycled for about `seconds` by the team, and half as long
-/// by one thread, with or without the account of energy. Processor time tells the speed, so that
-/// other programs do not change it.
+/// A bonded lattice of the scene's size, at most 262,144 discs, is cycled for about `seconds` by
+/// the team, and half as long by one thread, with or without the account of energy. Processor time
+/// tells the speed, so that other programs do not change it.
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted);
 
 } // namespace listric
