@@ -219,4 +219,11 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     return p;
 }
 
+double seconds_from_now(const Scene& scene, int threads, int ranks) {
+    CycleSpeed speed =
+        measure_speed(estimated_discs(scene), threads, 0.1, make_parts(scene).accounts_energy);
+    speed.team *= ranks;
+    return speed.busy * predict(scene, speed).seconds;
+}
+
 } // namespace listric

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace listric {
@@ -21,11 +22,21 @@ namespace fs = std::filesystem;
 
 RunView::RunView(const Scene& s, const RunOptions& o, Log& l, const dem::Simulation& of)
     : scene(s), options(o), log(l), simulation(of), parts(make_parts(s)),
-      setting(make_setting(s, parts)) {}
+      setting(make_setting(s, parts)), driver(make_base_driver(s, parts)) {}
 
 int RunView::ranks() const { return options.on_ranks ? options.on_ranks->ranks() : 1; }
 
 MomentNames RunView::names() const { return {scene.output.interval, window_ends(record.history)}; }
+
+/// The first multiple of the interval that has not been reached; windows shorter than a cycle are
+/// passed over. Windows are counted, not summed up, so that a resumed run has the same ends.
+double RunView::next_window_end() const {
+    const double window = scene.output.interval, tolerance = simulation.tolerance();
+    double count = std::floor((extension() + tolerance) / window);
+    while (extension() >= count * window - tolerance)
+        count += 1.0;
+    return count * window;
+}
 
 bool RunView::is_drawn() const { return is_drawn_at(scene, extension()); }
 

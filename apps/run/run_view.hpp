@@ -14,6 +14,7 @@
 #include "dem/simulation.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,7 +36,8 @@ public:
     const dem::Simulation& simulation;
     const ModelParts parts;
     const measures::Setting setting;
-    FootwallCoupling* footwall = nullptr; ///< none: the base does not respond
+    std::unique_ptr<FootwallCoupling> footwall; ///< none: the base does not respond
+    BaseDriver driver;                          ///< without a response: nothing drives it
 
     Phase phase = Phase::genesis;
     archive::RunRecord record;
@@ -56,7 +58,8 @@ public:
     /// By the windows that have ended.
     MomentNames names() const;
     bool is_window_end() const { return names().is_window_end(extension()); }
-    bool is_drawn() const; ///< whether the scene wants pictures of the present moment
+    double next_window_end() const; ///< extension, m
+    bool is_drawn() const;          ///< whether the scene wants pictures of the present moment
 
     /// Of the present moment, whether it is there or not.
     std::filesystem::path snapshot() const;

@@ -1,53 +1,24 @@
 #include "apps/run/session.hpp"
 
 #include "apps/archive/run_folder.hpp"
-#include "apps/model/model.hpp"
-#include "apps/run/genesis_cache.hpp"
+#include "apps/run/build.hpp"
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "coupling/strong_scheme.hpp"
-#include "dem/contacts.hpp"
-#include "dem/ranked_cycles.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace listric {
 
 using namespace archive;
 using namespace dem;
-using namespace coupling;
-
-namespace {
-
-/// Gives a base that is driven the nodes that it moves by.
-void attach(const std::vector<Point>& nodes, State& state) {
-    std::vector<double> x, y;
-    for (const Point& node : nodes) {
-        x.push_back(node.x);
-        y.push_back(node.y);
-    }
-    add_base_nodes(state, x, y);
-}
-
-} // namespace
 
 Session::Session(const Scene& scene, const RunOptions& options, Log& log, OutputList outputs)
-    : run_(scene, options, log, simulation_), simulation_(run_.parts.base, run_.parts.physics),
-      driver_(make_base_driver(scene, run_.parts)) {
-    for (auto& event : make_events(scene, run_.parts))
-        simulation_.add(std::move(event));
-    simulation_.report_times_to([this](const std::string& part, double seconds) {
-        const double base = footwall_ ? std::exchange(footwall_->base().seconds, 0.0) : 0.0;
-        run_.record.seconds_by_part[part] += seconds - base;
-        if (base > 0.0)
-            run_.record.seconds_by_part[name(Part::base)] += base;
-    });
-    make_cycles_by(driver_.response.get());
+    : run_(scene, options, log, simulation_), simulation_(run_.parts.base, run_.parts.physics) {
+    add_events(simulation_, run_);
     for (const MakeOutput make : outputs)
         if (auto output = make(run_))
             outputs_.push_back(std::move(output));
@@ -81,47 +52,10 @@ void Session::enter(Phase phase) {
     tell(&Output::enter);
 }
 
-/// Cycles are made here, or on all ranks.
-/// @param response  of the base; none: nothing answers to its loads
-void Session::make_cycles_by(BaseResponse* response) {
-    if (RankedCycles* const on_ranks = run_.options.on_ranks)
-        simulation_.advance_by(
-            [on_ranks, response](State& state, const RigidBase&, const CyclePhysics&,
-                                 std::int64_t cycles, const Execution& how) {
-                on_ranks->advance(state, cycles, *how.packed, response);
-            },
-            [on_ranks](State& state) { on_ranks->collect(state); });
-    else if (response)
-        simulation_.respond_by(*response);
-}
-
-/// Condenses the footwall of a scene that has one.
-void Session::make_footwall() {
-    if (!has_effect(run_.scene, "elastic_base") || footwall_)
-        return;
-    const PartWatch time = run_.watch(Part::base);
-    std::vector<std::unique_ptr<Event>> loads;
-    footwall_ = std::make_unique<FootwallCoupling>(run_.scene, run_.parts, loads);
-    run_.footwall = footwall_.get();
-    for (const std::string& line : footwall_->description())
-        run_.log.say(line);
-    for (auto& event : loads)
-        simulation_.add(std::move(event));
-    ElasticBase& base = footwall_->base();
-    if (base.is_iterated())
-        simulation_.advance_by([&base](State& state, const RigidBase& rigid,
-                                       const CyclePhysics& physics, std::int64_t cycles,
-                                       const Execution& how) {
-            advance_iterated(base, state, rigid, physics, cycles, how);
-        });
-    else
-        make_cycles_by(&base);
-}
-
 bool Session::resume() {
     const auto snapshots = list_snapshots(run_.options.output);
     for (auto path = snapshots.rbegin(); path != snapshots.rend(); ++path) {
-        make_footwall(); // its effects are handed their memories
+        drive(simulation_, run_); // its effects are handed their memories
         try {
             Snapshot snapshot = read_snapshot(*path);
             hand_over(snapshot, simulation_.events());
@@ -145,50 +79,18 @@ bool Session::resume() {
 void Session::begin() {
     const Scene& scene = run_.scene;
     run_.record.scene = to_toml(scene);
-    CycleSpeed speed = measure_speed(estimated_discs(scene), run_.options.threads, 0.1,
-                                     run_.parts.accounts_energy);
-    speed.team *= run_.ranks();
-    run_.record.predicted_seconds = speed.busy * predict(scene, speed).seconds;
-
+    run_.record.predicted_seconds = seconds_from_now(scene, run_.options.threads, run_.ranks());
     if (scene.picked_fault)
         run_.log.say(describe(*scene.picked_fault, *scene.detachment));
     for (const std::string& warning : scene.warnings)
         run_.log.say("warning: " + warning);
     enter(Phase::genesis);
-    make_footwall();
-    State state;
-    {
-        const PartWatch time = run_.watch(Part::genesis);
-        state = make_or_recall_hanging_wall(scene, run_.parts, run_.log, run_.options.stop,
-                                            run_.options.threads);
-    }
-    if (footwall_)
-        state = settled_on_base(std::move(state));
-    if (driver_.response)
-        attach(driver_.nodes, state);
-    simulation_.begin(std::move(state));
-    run_.log.say(fmt::format("hanging wall: {} discs", run_.state().discs.rows()));
+    start(simulation_, run_);
     end_window(&Output::begin);
 }
 
-/// Puts the hanging wall on the elastic base and settles it there.
-State Session::settled_on_base(State state) {
-    const PartWatch time = run_.watch(Part::base);
-    const RigidBase& rigid = simulation_.base();
-    const ElasticBase& base = footwall_->base();
-    base.attach(state);
-    find_contacts(state, rigid);
-    base.settle(state, rigid, simulation_.physics(), run_.options.execution(),
-                [&](std::string_view stage, double share) {
-                    run_.options.stop.check();
-                    run_.log.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
-                });
-    return state;
-}
-
 void Session::extend() {
-    simulation_.report_steps_to([this, asked = std::optional<SteadyClock::time_point>()](
-                                    const std::string& done) mutable { report_step(done, asked); });
+    simulation_.report_steps_to([this](const std::string& done) { report_step(done); });
     enter(Phase::extension);
     const double tolerance = simulation_.tolerance(), target = run_.target();
     const double steps_before = run_.record.disc_steps;
@@ -197,7 +99,7 @@ void Session::extend() {
             keep();
             throw Interrupted{};
         }
-        const double window = next_window_end();
+        const double window = run_.next_window_end();
         const auto report = [&](const Simulation& simulation) {
             run_.record.disc_steps = steps_before + simulation.disc_steps();
             run_.log.progress(run_.progress());
@@ -209,20 +111,10 @@ void Session::extend() {
     }
 }
 
-/// The first multiple of the interval that has not been reached; windows shorter than a cycle are
-/// passed over. Windows are counted, not summed up, so that a resumed run has the same ends.
-double Session::next_window_end() const {
-    const double window = run_.scene.output.interval, tolerance = simulation_.tolerance();
-    double count = std::floor((run_.extension() + tolerance) / window);
-    while (run_.extension() >= count * window - tolerance)
-        count += 1.0;
-    return count * window;
-}
-
 void Session::end_window(Hook hook) {
-    if (footwall_) {
+    if (run_.footwall) {
         const PartWatch time = run_.watch(Part::measures);
-        run_.window_of_base = footwall_->end_window(simulation_.state(), simulation_.base());
+        run_.window_of_base = run_.footwall->end_window(simulation_.state(), simulation_.base());
     }
     tell(hook);
     run_.past.add(measures::DiscPlaces(run_.state()));
@@ -236,14 +128,14 @@ void Session::keep() {
 
 /// Tells how far an event is that takes long. A stop request waits some seconds for its end, since
 /// what was made after the last snapshot is lost without it.
-void Session::report_step(const std::string& done, std::optional<SteadyClock::time_point>& asked) {
+void Session::report_step(const std::string& done) {
     constexpr double patience = 3.0; // s
     run_.log.progress(fmt::format("extension {:.2f} km: {}", run_.extension() / 1e3, done));
     if (!run_.options.stop.requested())
         return;
-    if (!asked)
-        asked = SteadyClock::now();
-    if (seconds_since(*asked) < patience)
+    if (!stop_seen_)
+        stop_seen_ = SteadyClock::now();
+    if (seconds_since(*stop_seen_) < patience)
         return;
     run_.log.say(fmt::format("stopped within an event ({}); what came after {} will be made again",
                              done, run_.kept.string()));

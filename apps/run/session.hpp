@@ -27,23 +27,18 @@ private:
     void tell(Hook hook);
     void enter(Phase phase);
 
-    void make_cycles_by(dem::BaseResponse* response);
-    void make_footwall();
-    dem::State settled_on_base(dem::State state);
     bool resume();
     void begin();
     void extend();
     void finish();
-    double next_window_end() const;
     void end_window(Hook hook);
     void keep();
-    void report_step(const std::string& done, std::optional<SteadyClock::time_point>& asked);
+    void report_step(const std::string& done);
 
     RunView run_;
     dem::Simulation simulation_;
-    std::unique_ptr<FootwallCoupling> footwall_; ///< none: the base does not respond
-    BaseDriver driver_;                          ///< without a response: nothing drives it
     std::vector<std::unique_ptr<Output>> outputs_;
+    std::optional<SteadyClock::time_point> stop_seen_; ///< within an event
 };
 
 } // namespace listric
