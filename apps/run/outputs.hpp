@@ -2,7 +2,7 @@
 
 #include "apps/run/output.hpp"
 
-#include <memory>
+#include <optional>
 
 // The program's outputs, each in outputs/NAME.cpp, in the order in which they are told:
 // - scene.toml comes first, for a folder is resumed by it.
@@ -31,7 +31,7 @@
 namespace listric {
 
 namespace outputs {
-#define OUTPUT(name) std::unique_ptr<Output> name(const RunView& run);
+#define OUTPUT(name) std::optional<Output> name(const RunView& run);
 LISTRIC_OUTPUTS(OUTPUT)
 #undef OUTPUT
 } // namespace outputs

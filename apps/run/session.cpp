@@ -21,7 +21,7 @@ Session::Session(const Scene& scene, const RunOptions& options, Log& log, Output
     add_events(simulation_, run_);
     for (const MakeOutput make : outputs)
         if (auto output = make(run_))
-            outputs_.push_back(std::move(output));
+            outputs_.push_back(std::move(*output));
 }
 
 RunOutcome Session::run() {
@@ -41,10 +41,11 @@ RunOutcome Session::run() {
 }
 
 void Session::tell(Hook hook) {
-    for (const auto& output : outputs_) {
-        const PartWatch time = run_.watch(output->part());
-        ((*output).*hook)(run_);
-    }
+    for (const Output& output : outputs_)
+        if (output.*hook) {
+            const PartWatch time = run_.watch(output.part);
+            (output.*hook)(run_);
+        }
 }
 
 void Session::enter(Phase phase) {

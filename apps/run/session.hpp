@@ -3,7 +3,6 @@
 #include "apps/run/output.hpp"
 #include "apps/run/run_view.hpp"
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +22,7 @@ public:
     RunOutcome run();
 
 private:
-    using Hook = void (Output::*)(RunView&);
+    using Hook = Output::Work Output::*;
     void tell(Hook hook);
     void enter(Phase phase);
 
@@ -37,7 +36,7 @@ private:
 
     RunView run_;
     dem::Simulation simulation_;
-    std::vector<std::unique_ptr<Output>> outputs_;
+    std::vector<Output> outputs_;
     std::optional<SteadyClock::time_point> stop_seen_; ///< within an event
 };
 

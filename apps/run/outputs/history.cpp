@@ -23,37 +23,32 @@ std::string_view unit_of(std::string_view column) {
     return measure == measure_names().end() ? "" : measure->unit;
 }
 
-/// history.csv: a row of measures per window.
-class History : public Output {
-public:
-    Part part() const override { return Part::measures; }
+void write_table(const RunView& run) {
+    write_text(run.options.output / "history.csv", archive::to_csv(run.record.history));
+}
 
-    void resume(RunView& run) override { write(run); }
-
-    void window(RunView& run) override {
-        NamedNumbers row = archive::history_row(run.state(), run.measured());
-        append(row, measure_effects(run.now()).numbers);
-        append(row, run.window_of_base.measures);
-        dem::Table& history = run.record.history;
-        const double nan = std::numeric_limits<double>::quiet_NaN();
-        for (const auto& [name, value] : row)
-            history.add<double>(name, unit_of(name), nan);
-        history.resize(history.rows() + 1);
-        for (const auto& [name, value] : row)
-            history.get<double>(name).back() = value;
-        write(run);
-        if (run.window_of_base.beyond_elasticity)
-            throw BeyondElasticity(*run.window_of_base.beyond_elasticity);
-    }
-
-private:
-    static void write(const RunView& run) {
-        write_text(run.options.output / "history.csv", archive::to_csv(run.record.history));
-    }
-};
+/// Adds a row of measures to history.csv.
+void add_row(RunView& run) {
+    NamedNumbers row = archive::history_row(run.state(), run.measured());
+    append(row, measure_effects(run.now()).numbers);
+    append(row, run.window_of_base.measures);
+    dem::Table& history = run.record.history;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [name, value] : row)
+        history.add<double>(name, unit_of(name), nan);
+    history.resize(history.rows() + 1);
+    for (const auto& [name, value] : row)
+        history.get<double>(name).back() = value;
+    write_table(run);
+    if (run.window_of_base.beyond_elasticity)
+        throw BeyondElasticity(*run.window_of_base.beyond_elasticity);
+}
 
 } // namespace
 
-std::unique_ptr<Output> outputs::history(const RunView&) { return std::make_unique<History>(); }
+std::optional<Output> outputs::history(const RunView&) {
+    return Output{
+        .part = Part::measures, .begin = add_row, .resume = write_table, .window = add_row};
+}
 
 } // namespace listric

@@ -20,24 +20,21 @@ std::string line_of(const ObservedHorizon& row) {
                        row.misfit->compared, row.points, *row.stratum);
 }
 
-/// Picked horizons beside the model's.
-class ObservedLines : public Output {
-public:
-    Part part() const override { return Part::measures; }
-
-    void finish(RunView& run) override {
-        run.observed = compare_horizons(
-            run.scene, run.state(),
-            trace_horizons(run.setting, run.parts.base, run.state(), run.faults().faults));
-        for (const ObservedHorizon& row : run.observed)
-            run.log.say(line_of(row));
-    }
-};
+/// Compares picked horizons with the model's.
+void compare(RunView& run) {
+    run.observed = compare_horizons(
+        run.scene, run.state(),
+        trace_horizons(run.setting, run.parts.base, run.state(), run.faults().faults));
+    for (const ObservedHorizon& row : run.observed)
+        run.log.say(line_of(row));
+}
 
 } // namespace
 
-std::unique_ptr<Output> outputs::observed(const RunView& run) {
-    return run.scene.observed ? std::make_unique<ObservedLines>() : nullptr;
+std::optional<Output> outputs::observed(const RunView& run) {
+    if (!run.scene.observed)
+        return std::nullopt;
+    return Output{.part = Part::measures, .finish = compare};
 }
 
 } // namespace listric

@@ -7,42 +7,25 @@ namespace listric {
 
 namespace {
 
-/// The series for ParaView: the discs at every moment; the field below them where pictures are
-/// drawn, for a file of it is larger.
-class Paraview : public Output {
-public:
-    void begin(RunView& run) override { save(run); }
+/// Writes the discs of the present moment.
+void save(const RunView& run) {
+    write_paraview(run.options.output, run.state(), run.simulation.base(), run.names(),
+                   run.scene.extension.rate);
+}
 
-    void resume(RunView& run) override {
-        save(run);
-        if (run.is_drawn() && run.is_window_end())
-            save_field(run);
-    }
-
-    void window(RunView& run) override {
-        save(run);
-        if (run.is_drawn())
-            save_field(run);
-    }
-
-    void save(RunView& run) override {
-        write_paraview(run.options.output, run.state(), run.simulation.base(), run.names(),
-                       run.scene.extension.rate);
-    }
-
-private:
-    static void save_field(RunView& run) {
-        if (run.footwall)
-            run.footwall->write(run.options.output, run.footwall->recover(run.state()),
-                                run.names());
-    }
-};
+/// Where pictures are drawn, writes the field below the discs, too: a file of it is larger.
+void save_window(const RunView& run) {
+    save(run);
+    if (run.is_drawn() && run.is_window_end() && run.footwall)
+        run.footwall->write(run.options.output, run.footwall->recover(run.state()), run.names());
+}
 
 } // namespace
 
-std::unique_ptr<Output> outputs::paraview(const RunView& run) {
-    return run.scene.output.series == SeriesFormat::paraview ? std::make_unique<Paraview>()
-                                                             : nullptr;
+std::optional<Output> outputs::paraview(const RunView& run) {
+    if (run.scene.output.series != SeriesFormat::paraview)
+        return std::nullopt;
+    return Output{.begin = save, .resume = save_window, .window = save_window, .save = save};
 }
 
 } // namespace listric

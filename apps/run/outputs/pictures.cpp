@@ -10,6 +10,7 @@
 
 #include <exception>
 #include <future>
+#include <memory>
 
 namespace listric {
 
@@ -20,19 +21,15 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Pictures at the scene's extensions and at the end, drawn by a process beside the run.
-class Pictures : public Output {
+class Pictures {
 public:
-    Part part() const override { return Part::figures; }
-
-    void begin(RunView&) override {}
-
-    void window(RunView& run) override {
+    void window(RunView& run) {
         if (run.is_drawn())
             draw(run);
     }
 
     /// Draws those of ended windows that a killed session has not come to.
-    void resume(RunView& run) override {
+    void resume(RunView& run) {
         for (const fs::path& path : run.ended_windows()) {
             const double end =
                 *run.names().window_end(*moment_of_snapshot(path.filename().string()));
@@ -44,12 +41,12 @@ public:
         }
     }
 
-    void finish(RunView& run) override {
+    void finish(RunView& run) {
         if (drawn_at_ != run.extension())
             draw(run);
     }
 
-    void close(RunView& run) override {
+    void close(RunView& run) {
         draw_sheet(run);
         for (std::future<std::string>& picture : pending_)
             if (const std::string problem = picture.get(); !problem.empty())
@@ -100,8 +97,15 @@ private:
 
 } // namespace
 
-std::unique_ptr<Output> outputs::pictures(const RunView& run) {
-    return run.options.figures ? std::make_unique<Pictures>() : nullptr;
+std::optional<Output> outputs::pictures(const RunView& run) {
+    if (!run.options.figures)
+        return std::nullopt;
+    const auto pictures = std::make_shared<Pictures>();
+    return Output{.part = Part::figures,
+                  .resume = [=](RunView& r) { pictures->resume(r); },
+                  .window = [=](RunView& r) { pictures->window(r); },
+                  .finish = [=](RunView& r) { pictures->finish(r); },
+                  .close = [=](RunView& r) { pictures->close(r); }};
 }
 
 } // namespace listric

@@ -9,6 +9,7 @@
 
 #include <exception>
 #include <functional>
+#include <memory>
 #include <utility>
 
 namespace listric {
@@ -19,49 +20,8 @@ namespace {
 
 /// report.html: a window adds to it. What goes wrong with it is a warning, and the end of the
 /// report, not of the run.
-class Report : public Output {
+class Report {
 public:
-    Part part() const override { return Part::report; }
-
-    void begin(RunView& run) override { add(run); }
-
-    void window(RunView& run) override {
-        add(run);
-        if (run.options.live)
-            attempt(run, [&] { write(run, true); });
-    }
-
-    void resume(RunView& run) override {
-        attempt(run, [&] {
-            RunFolder folder(run.options.output, run.scene);
-            folder.snapshots = run.ended_windows();
-            mean_radius_ = add_moments(moments_, folder, run.past, lines_,
-                                       {.most_bytes = most_of_report, .ends_there = false});
-            limit(run);
-        });
-    }
-
-    void finish(RunView& run) override {
-        run.faults();
-        add(run);
-    }
-
-    void close(RunView& run) override {
-        attempt(run, [&] { write(run, false); });
-    }
-
-private:
-    void attempt(RunView& run, const std::function<void()>& work) {
-        if (has_failed_)
-            return;
-        try {
-            work();
-        } catch (const std::exception& error) {
-            run.log.say(std::string("warning: no report: ") + error.what());
-            has_failed_ = true;
-        }
-    }
-
     /// Adds the present moment, or other lines to the last one. Faults are followed back where
     /// they are known; then the stress below an elastic base is shown, too.
     void add(RunView& run) {
@@ -82,6 +42,43 @@ private:
             moments_.add(now, lines_[run.extension()] = std::move(lines));
             limit(run);
         });
+    }
+
+    void window(RunView& run) {
+        add(run);
+        if (run.options.live)
+            attempt(run, [&] { write(run, true); });
+    }
+
+    void resume(RunView& run) {
+        attempt(run, [&] {
+            RunFolder folder(run.options.output, run.scene);
+            folder.snapshots = run.ended_windows();
+            mean_radius_ = add_moments(moments_, folder, run.past, lines_,
+                                       {.most_bytes = most_of_report, .ends_there = false});
+            limit(run);
+        });
+    }
+
+    void finish(RunView& run) {
+        run.faults();
+        add(run);
+    }
+
+    void close(RunView& run) {
+        attempt(run, [&] { write(run, false); });
+    }
+
+private:
+    void attempt(RunView& run, const std::function<void()>& work) {
+        if (has_failed_)
+            return;
+        try {
+            work();
+        } catch (const std::exception& error) {
+            run.log.say(std::string("warning: no report: ") + error.what());
+            has_failed_ = true;
+        }
     }
 
     /// What takes too much memory is made anew at the end, from the snapshots.
@@ -122,8 +119,16 @@ private:
 
 } // namespace
 
-std::unique_ptr<Output> outputs::report(const RunView& run) {
-    return run.options.report && run.scene.output.report ? std::make_unique<Report>() : nullptr;
+std::optional<Output> outputs::report(const RunView& run) {
+    if (!run.options.report || !run.scene.output.report)
+        return std::nullopt;
+    const auto report = std::make_shared<Report>();
+    return Output{.part = Part::report,
+                  .begin = [=](RunView& r) { report->add(r); },
+                  .resume = [=](RunView& r) { report->resume(r); },
+                  .window = [=](RunView& r) { report->window(r); },
+                  .finish = [=](RunView& r) { report->finish(r); },
+                  .close = [=](RunView& r) { report->close(r); }};
 }
 
 } // namespace listric

@@ -29,22 +29,17 @@ void remove_passed_stops(const RunView& run) {
     }
 }
 
-/// States from which the run can go on.
-class Snapshots : public Output {
-public:
-    void window(RunView& run) override { save(run); }
-
-    void save(RunView& run) override {
-        run.kept = run.snapshot();
-        write_snapshot(run.kept, run.state(), run.simulation.events(), run.record);
-        remove_passed_stops(run);
-    }
-
-    void finish(RunView& run) override { remove_passed_stops(run); }
-};
+/// Writes the state from which the run can go on.
+void save(RunView& run) {
+    run.kept = run.snapshot();
+    write_snapshot(run.kept, run.state(), run.simulation.events(), run.record);
+    remove_passed_stops(run);
+}
 
 } // namespace
 
-std::unique_ptr<Output> outputs::snapshots(const RunView&) { return std::make_unique<Snapshots>(); }
+std::optional<Output> outputs::snapshots(const RunView&) {
+    return Output{.begin = save, .window = save, .save = save, .finish = remove_passed_stops};
+}
 
 } // namespace listric

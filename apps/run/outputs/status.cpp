@@ -13,24 +13,20 @@ const char* name(Phase phase) {
     return names[static_cast<int>(phase)];
 }
 
-/// status.json: how far the run is.
-class Status : public Output {
-public:
-    void enter(RunView& run) override {
-        const double left = run.phase == Phase::finished ? 0.0 : run.seconds_left();
-        write_object(run.options.output / "status.json",
-                     {{"phase", name(run.phase)},
-                      {"extension_m", run.extension()},
-                      {"of_m", run.target()},
-                      {"seconds_left", static_cast<std::int64_t>(left + 0.5)}});
-    }
-
-    void begin(RunView&) override {}
-    void window(RunView& run) override { enter(run); }
-};
+/// Writes how far the run is.
+void tell(const RunView& run) {
+    const double left = run.phase == Phase::finished ? 0.0 : run.seconds_left();
+    write_object(run.options.output / "status.json",
+                 {{"phase", name(run.phase)},
+                  {"extension_m", run.extension()},
+                  {"of_m", run.target()},
+                  {"seconds_left", static_cast<std::int64_t>(left + 0.5)}});
+}
 
 } // namespace
 
-std::unique_ptr<Output> outputs::status(const RunView&) { return std::make_unique<Status>(); }
+std::optional<Output> outputs::status(const RunView&) {
+    return Output{.enter = tell, .window = tell};
+}
 
 } // namespace listric
