@@ -10,7 +10,7 @@ namespace listric {
 void add_events(dem::Simulation& simulation, RunView& run);
 
 /// Says who makes the cycles: this process or all ranks, and what moves a base that deforms, with
-/// the events of its loads. It may be said again.
+/// the events of its loads. May be called again.
 void drive(dem::Simulation& simulation, RunView& run);
 
 /// Drives the simulation and begins it with the hanging wall before extension. Throws Interrupted.

@@ -11,7 +11,7 @@ namespace listric {
 class RunView;
 
 /// One of the things that a run leaves in its folder, or says of itself: what it does at the run's
-/// moments. It reads the run and changes nothing of it. What is null does not concern it.
+/// moments. It never changes the simulation. What is null does not concern it.
 struct Output {
     using Work = std::function<void(RunView& run)>;
 
