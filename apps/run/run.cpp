@@ -2,7 +2,7 @@
 
 #include "apps/archive/output_folder.hpp"
 #include "apps/archive/run_folder.hpp"
-#include "apps/model/footwall_coupling.hpp"
+#include "apps/model/base_driver.hpp"
 #include "apps/run/flexure.hpp"
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 RunView::RunView(const Scene& s, const RunOptions& o, Log& l, const dem::Simulation& of)
     : scene(s), options(o), log(l), simulation(of), parts(make_parts(s)),
-      setting(make_setting(s, parts)), driver(make_base_driver(s, parts)) {}
+      setting(make_setting(s, parts)) {}
 
 int RunView::ranks() const { return options.on_ranks ? options.on_ranks->ranks() : 1; }
 

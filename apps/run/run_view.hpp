@@ -5,7 +5,7 @@
 #include "apps/archive/snapshot.hpp"
 #include "apps/measures/fault.hpp"
 #include "apps/measures/measures.hpp"
-#include "apps/model/footwall_coupling.hpp"
+#include "apps/model/base_driver.hpp"
 #include "apps/run/options.hpp"
 #include "apps/run/part.hpp"
 #include "apps/scene/effect.hpp"
@@ -36,13 +36,12 @@ public:
     const dem::Simulation& simulation;
     const ModelParts parts;
     const measures::Setting setting;
-    std::unique_ptr<FootwallCoupling> footwall; ///< none: the base does not respond
-    BaseDriver driver;                          ///< without a response: nothing drives it
+    std::unique_ptr<BaseDriver> driver; ///< null: nothing moves the base, or not yet
 
     Phase phase = Phase::genesis;
     archive::RunRecord record;
     archive::RunHistory past;                       ///< ends of windows before the present one
-    FootwallCoupling::WindowEnd window_of_base;     ///< that has ended last
+    BaseWindow window_of_base;                      ///< that has ended last
     std::filesystem::path kept;                     ///< snapshot that was written last
     NamedNumbers numbers;                           ///< of outputs, for summary.json
     std::vector<archive::ObservedHorizon> observed; ///< the same of picked horizons
@@ -54,6 +53,10 @@ public:
     Observation now() const { return {scene, parts, state(), simulation.events()}; }
 
     int ranks() const;
+
+    /// The footwall with the field of the present moment, until that of another one is recovered;
+    /// null: nothing is known below the base.
+    const fem::Footwall* footwall() const { return driver ? driver->recover(state()) : nullptr; }
 
     /// By the windows that have ended.
     MomentNames names() const;

@@ -113,9 +113,9 @@ void Session::extend() {
 }
 
 void Session::end_window(Hook hook) {
-    if (run_.footwall) {
+    if (run_.driver) {
         const PartWatch time = run_.watch(Part::measures);
-        run_.window_of_base = run_.footwall->end_window(simulation_.state(), simulation_.base());
+        run_.window_of_base = run_.driver->end_window(simulation_.state(), simulation_.base());
     }
     tell(hook);
     run_.past.add(measures::DiscPlaces(run_.state()));

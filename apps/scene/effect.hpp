@@ -31,6 +31,8 @@ struct FootwallLoad;
 
 namespace listric {
 
+class BaseDriver;
+
 /// Refuses a scene because of the value at a path of keys ("table.key"). Throws SceneError.
 using Refuse = std::function<void(const std::string& path, const std::string& message)>;
 
@@ -108,12 +110,6 @@ struct ModelParts {
     bool accounts_energy = false; ///< the cycle is the plain one, on one thread
 };
 
-/// A base whose nodes move as an effect wants.
-struct BaseDriver {
-    std::unique_ptr<dem::BaseResponse> response;
-    std::vector<dem::Point> nodes; ///< before extension, m
-};
-
 /// A moment of a run, for what is measured and drawn of it.
 struct Observation {
     const Scene& scene;
@@ -174,7 +170,11 @@ struct Effect {
     std::vector<StagedEvent> (*make_events)(const Scene& scene, const ModelParts& parts,
                                             std::span<const StagedEvent> others) = nullptr;
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
-    BaseDriver (*drive_base)(const Scene& scene, const ModelParts& parts) = nullptr;
+    /// Moves the base's nodes; of a scene's effects at most one does.
+    /// @param events  to which those of the loads on the base are appended, for the run to apply
+    std::unique_ptr<BaseDriver> (*drive_base)(
+        const Scene& scene, const ModelParts& parts,
+        std::vector<std::unique_ptr<dem::Event>>& events) = nullptr;
 
     /// Lines for `explain`. @param list  all effects that there are
     std::string (*explain)(const Scene& scene, EffectList list) = nullptr;

@@ -153,7 +153,6 @@ class Ends(Ranks):
         energies.write_text((SOURCES / "apps/scenes/lis1.toml").read_text() + "\n[energy]\n")
         for words, message in ((("lis9",), "did you mean lis1?"),
                                (("lis1", "--set", "compacton.x=1"), "did you mean compaction?"),
-                               (("lis1-elastic", "--set", "elastic_base.scheme='strong'"), "takes cycles back"),
                                ((energies,), "one process"), (("flexure",), "no discs")):
             with self.subTest(message):
                 self.assertRefused(message, *words)

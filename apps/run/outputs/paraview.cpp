@@ -16,8 +16,11 @@ void save(const RunView& run) {
 /// Where pictures are drawn, writes the field below the discs, too: a file of it is larger.
 void save_window(const RunView& run) {
     save(run);
-    if (run.is_drawn() && run.is_window_end() && run.footwall)
-        run.footwall->write(run.options.output, run.footwall->recover(run.state()), run.names());
+    if (!run.is_drawn() || !run.is_window_end())
+        return;
+    if (const fem::Footwall* footwall = run.footwall())
+        write_footwall(run.options.output, *footwall, run.extension(), run.names(),
+                       run.scene.extension.rate);
 }
 
 } // namespace

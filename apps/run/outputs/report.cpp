@@ -30,9 +30,8 @@ public:
             return;
         attempt(run, [&] {
             const Observation now = run.now();
-            const auto stress = followed && run.footwall
-                                    ? run.footwall->recover(run.state()).stress()
-                                    : std::vector<fem::StressPatch>();
+            const fem::Footwall* const footwall = followed ? run.footwall() : nullptr;
+            const auto stress = footwall ? footwall->stress() : std::vector<fem::StressPatch>();
             SectionLines lines = followed ? section_lines(now, run.faults(), true, stress)
                                           : section_lines(now,
                                                           active_faults(run.setting, run.parts.base,

@@ -1,12 +1,16 @@
-#include "apps/model/footwall_coupling.hpp"
+#include "apps/model/effects/elastic_base_driver.hpp"
 
+#include "apps/model/base_driver.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/footwall_request.hpp"
+#include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "coupling/base_memory.hpp"
 #include "coupling/independent_solution.hpp"
 #include "coupling/interface_loads.hpp"
+#include "coupling/elastic_base.hpp"
+#include "coupling/footwall_loads.hpp"
+#include "dem/contacts.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
@@ -15,13 +19,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace listric {
 
 using namespace dem;
 using namespace coupling;
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -41,23 +44,12 @@ auto refusing(auto&& make) {
 
 std::unique_ptr<ElasticBase> make_elastic_base(const Scene& scene, const ModelParts& parts,
                                                fem::Footwall& footwall) {
-    const auto& parameters = *elastic_base(scene);
-    Interface interface = condense(footwall, parameters.degree);
+    Interface interface = condense(footwall, elastic_base(scene)->degree);
     const std::size_t last = interface.x.size() - 1;
     const double spacing = hypotenuse(interface.x[last] - interface.x[last - 1],
                                       interface.y[last] - interface.y[last - 1]);
-    auto base = std::make_unique<ElasticBase>(std::move(interface),
-                                              make_coupling_parameters(scene, parts, spacing));
-    // Long intervals in which the discs come to rest are the one way in which it was seen to work.
-    constexpr int long_enough = 1000;
-    if (parameters.scheme == CouplingScheme::staggered && base->staggered_growth() >= 1.0 &&
-        parameters.update_interval < long_enough)
-        throw UsageError(fmt::format(
-            "elastic_base.scheme: staggered would blow up: the base gives way {:.3g} times as far "
-            "as a contact that pushes it is pressed, allowed: below 1; scheme modal is stable, or "
-            "let discs rest in between with elastic_base.update_interval_cycles of {} or more",
-            base->staggered_growth(), long_enough));
-    return base;
+    return std::make_unique<ElasticBase>(std::move(interface),
+                                         make_coupling_parameters(scene, parts, spacing));
 }
 
 /// Why a field is not one of linear elasticity, if so.
@@ -74,35 +66,56 @@ std::optional<std::string> beyond_elasticity(const fem::Guard& guard, double ext
         rotation_allowed * 180.0 / pi);
 }
 
-} // namespace
+class ElasticBaseDriver final : public BaseDriver {
+public:
+    ElasticBaseDriver(const Scene& scene, const ModelParts& parts,
+                      std::vector<std::unique_ptr<Event>>& events)
+        : request_(make_footwall_request(scene, parts)),
+          rock_weight_(elastic_base(scene)->crust_density * parts.physics.gravity),
+          footwall_(refusing([&] { return fem::make_footwall(request_); })),
+          base_(refusing([&] { return make_elastic_base(scene, parts, *footwall_); })),
+          loads_(refusing([&] {
+              return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts), events);
+          })) {}
 
-FootwallCoupling::FootwallCoupling(const Scene& scene, const ModelParts& parts,
-                                   std::vector<std::unique_ptr<Event>>& events)
-    : request_(make_footwall_request(scene, parts)),
-      rock_weight_(elastic_base(scene)->crust_density * parts.physics.gravity),
-      extension_rate_(scene.extension.rate),
-      footwall_(refusing([&] { return fem::make_footwall(request_); })),
-      base_(refusing([&] { return make_elastic_base(scene, parts, *footwall_); })),
-      loads_(refusing([&] {
-          return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts), events);
-      })) {}
+    std::vector<std::string> description() const override {
+        const fem::MeshFacts mesh = footwall_->mesh();
+        return {fmt::format("elastic base: {} elements, {} unknowns, condensed to {} nodes of the "
+                            "detachment",
+                            mesh.cells, mesh.unknowns, base_->interface().x.size())};
+    }
 
-std::vector<std::string> FootwallCoupling::description() const {
-    const fem::MeshFacts mesh = footwall_->mesh();
-    return {fmt::format("elastic base: {} elements, {} unknowns, condensed to {} nodes of the "
-                        "detachment",
-                        mesh.cells, mesh.unknowns, base_->interface().x.size())};
-}
+    BaseResponse& response() override { return *base_; }
+    double take_seconds() override { return std::exchange(base_->seconds, 0.0); }
 
-RecoveredField FootwallCoupling::recover(const State& state) {
-    fem::Load load = loads_.elsewhere(state);
-    load.interface = base_->interface_forces(state);
-    load.interface.resize(2 * footwall_->interface().size(), 0.0);
-    footwall_->solve(load);
-    return RecoveredField(*this, ++solutions_, state.clock.extension);
-}
+    void settle(State& state, const RigidBase& base, const CyclePhysics& physics,
+                const Execution& execution, const Progress& progress) const override {
+        base_->attach(state);
+        find_contacts(state, base);
+        base_->settle(state, base, physics, execution, progress);
+    }
 
-std::optional<FootwallCoupling::Check> FootwallCoupling::check(const State& state) const {
+    BaseWindow end_window(State& state, const RigidBase& rigid) override;
+
+    const fem::Footwall* recover(const State& state) override {
+        fem::Load load = loads_.elsewhere(state);
+        load.interface = base_->interface_forces(state);
+        load.interface.resize(2 * footwall_->interface().size(), 0.0);
+        footwall_->solve(load);
+        return footwall_.get();
+    }
+
+    std::optional<BaseCheck> check(const State& state) const override;
+
+private:
+    fem::FootwallRequest request_;
+    double rock_weight_; ///< N/m^3
+    std::unique_ptr<fem::Footwall> footwall_;
+    std::unique_ptr<ElasticBase> base_;
+    FootwallLoads loads_;
+};
+
+std::optional<BaseCheck> ElasticBaseDriver::check(const State& state) const {
     const std::optional<ConstInterfaceMeans> means = last_window_means(state);
     if (!means)
         return std::nullopt;
@@ -124,19 +137,24 @@ std::optional<FootwallCoupling::Check> FootwallCoupling::check(const State& stat
         return solve_independently(request_, base_->interface(), on_interface,
                                    loads_.elsewhere(state));
     });
-    return Check{fine.unknowns, relative_difference(base_->displacement(all), fine.displacement),
-                 relative_difference(now, fine.displacement)};
+    const double elements = relative_difference(base_->displacement(all), fine.displacement);
+    const double base = relative_difference(now, fine.displacement);
+    return BaseCheck{
+        {{"base_elements_difference", elements}, {"base_resolved_difference", base}},
+        fmt::format("the base under the last window's mean forces, solved again with {} unknowns: "
+                    "the run's elements are {:.2f} % off, its base {:.2f} %",
+                    fine.unknowns, 100.0 * elements, 100.0 * base)};
 }
 
-FootwallCoupling::WindowEnd FootwallCoupling::end_window(State& state, const RigidBase& rigid) {
+BaseWindow ElasticBaseDriver::end_window(State& state, const RigidBase& rigid) {
     const ConstBaseNodeColumns nodes = base_node_columns(std::as_const(state));
     const WindowBalance window = base_->window(state);
     const InterfaceBalance balance = interface_balance(state, rigid);
-    const fem::Guard guard = recover(state).guard(rock_weight_);
+    const fem::Guard guard = recover(state)->guard(rock_weight_);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const bool moved = window.cycles > 0.0, loaded = std::abs(window.weight_change) > 0.0;
     const auto size = [](double u) { return std::abs(u); };
-    WindowEnd end;
+    BaseWindow end;
     end.measures = {
         {"footwall_uplift_m", nodes.uy[0]},
         {"breakaway_shift_m", nodes.ux[0]},
@@ -159,31 +177,12 @@ FootwallCoupling::WindowEnd FootwallCoupling::end_window(State& state, const Rig
     return end;
 }
 
-void FootwallCoupling::write(const fs::path& output, const RecoveredField& field,
-                             const MomentNames& names) const {
-    const fs::path folder = output / "paraview";
-    std::error_code error;
-    fs::create_directories(folder, error);
-    const std::string begin = "footwall-", end = "m.vtu", present = names.metres(field.extension());
-    field.current().write(folder.string(), begin + present + "m");
-    std::vector<std::pair<double, std::string>> moments;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        const std::string file = entry.path().filename().string();
-        if (!file.starts_with(begin) || !file.ends_with(end))
-            continue;
-        const std::string moment =
-            file.substr(begin.size(), file.size() - begin.size() - end.size());
-        const std::optional<double> extension =
-            moment == present ? std::optional(field.extension()) : names.window_end(moment);
-        if (extension)
-            moments.emplace_back(*extension / extension_rate_ / 1e6, "paraview/" + file);
-    }
-    std::ranges::sort(moments);
-    try {
-        fem::write_series((output / "footwall.pvd").string(), moments);
-    } catch (const fem::FootwallError& failure) {
-        throw StorageError(failure.what());
-    }
+} // namespace
+
+std::unique_ptr<BaseDriver>
+make_elastic_base_driver(const Scene& scene, const ModelParts& parts,
+                         std::vector<std::unique_ptr<Event>>& events) {
+    return std::make_unique<ElasticBaseDriver>(scene, parts, events);
 }
 
 } // namespace listric

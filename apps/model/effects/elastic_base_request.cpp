@@ -1,4 +1,4 @@
-#include "apps/model/footwall_request.hpp"
+#include "apps/model/effects/elastic_base_request.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
 
