@@ -38,7 +38,7 @@ void drive(Simulation& simulation, RunView& run) {
         simulation.advance_by(
             [on_ranks, response](State& state, const RigidBase&, const CyclePhysics&,
                                  std::int64_t cycles, const Execution& how) {
-                on_ranks->advance(state, cycles, *how.packed, response);
+                on_ranks->advance(state, cycles, how.state_is_untouched, response);
             },
             [on_ranks](State& state) { on_ranks->collect(state); });
     else if (response)
