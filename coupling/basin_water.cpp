@@ -1,7 +1,7 @@
 #include "coupling/basin_water.hpp"
 
 #include "coupling/interface_loads.hpp"
-#include "dem/base_place.hpp"
+#include "dem/base/place.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "coupling/footwall_loads.hpp"
+#include "dem/base/target_line.hpp"
 #include "dem/event.hpp"
-#include "dem/target_line.hpp"
 #include "fem/footwall.hpp"
 
 #include <functional>

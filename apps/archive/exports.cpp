@@ -4,9 +4,10 @@
 #include "apps/archive/setting.hpp"
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/horizons.hpp"
+#include "apps/measures/rock.hpp"
 #include "apps/support/fineness.hpp"
-#include "dem/base_place.hpp"
-#include "dem/monitor.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/monitor.hpp"
 
 #include <fmt/format.h>
 
@@ -162,20 +163,6 @@ LineTable base_table(const ExportedMoment& at) {
     return table;
 }
 
-const std::vector<std::string>& rock_names() {
-    static const std::vector<std::string> names{"basement", "weak basement", "sediment",
-                                                "weak sediment"};
-    return names;
-}
-
-std::vector<std::uint32_t> rocks(const State& state) {
-    const ConstDiscColumns d = disc_columns(state);
-    std::vector<std::uint32_t> rocks;
-    for (std::size_t i = 0; i < d.x.size(); ++i)
-        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (d.material[i] == weak ? 1u : 0u));
-    return rocks;
-}
-
 std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
     const State& state = at.now.state;
     const ConstDiscColumns d = disc_columns(state);
@@ -225,8 +212,8 @@ LineTable discs_table(const ExportedMoment& at) {
     std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(rock[i], d.id[i]); });
     for (const std::size_t i : order) {
         if (table.lines.empty() ||
-            std::get<std::string>(table.lines.back().values.front()) != rock_names()[rock[i]])
-            table.lines.push_back({{rock_names()[rock[i]]}});
+            std::get<std::string>(table.lines.back().values.front()) != rock_names[rock[i]])
+            table.lines.push_back({{rock_names[rock[i]]}});
         Line& line = table.lines.back();
         line.points.push_back(rounded(at, {d.x[i], d.y[i]}));
         for (const DiscColumn& column : columns)

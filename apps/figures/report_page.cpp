@@ -3,10 +3,12 @@
 #include "apps/archive/dictionary.hpp"
 #include "apps/archive/fault_fields.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/figures/vocabulary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/json_text.hpp"
 #include "apps/support/png.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/version.hpp"
@@ -73,7 +75,7 @@ json head_of(const ReportPage::Run& run) {
               {"description", scene.description},
               {"accuracy", scene.accuracy},
               {"seed", scene.seed},
-              {"effects", effect_names(scene)},
+              {"layers", declared_layers(scene)},
               {"length_m", scene.hanging_wall->length},
               {"thickness_m", scene.hanging_wall->thickness},
               {"extension_m", scene.extension.distance},
@@ -163,7 +165,7 @@ std::string report_html(const ReportPage& page) {
         {"style", read_text(folder / "report.css")},
         {"charts_style", read_text_if_there(charts_folder() / "dygraph.min.css")},
         {"charts", as_script(read_text_if_there(charts_folder() / "dygraph.min.js"))},
-        {"palettes", read_text(folder / "palettes.json")},
+        {"vocabulary", as_data(to_text(vocabulary()))},
         {"data", data_of(page)},
         {"scripts", as_script(scripts)}};
     const std::string frame = read_text(folder / "report.html");

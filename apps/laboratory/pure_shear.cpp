@@ -7,7 +7,7 @@
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>

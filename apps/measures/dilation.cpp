@@ -1,6 +1,6 @@
 #include "apps/measures/dilation.hpp"
 
-#include "dem/power_cell.hpp"
+#include "dem/contacts/power_cell.hpp"
 
 namespace listric::measures {
 

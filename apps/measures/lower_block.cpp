@@ -1,6 +1,6 @@
 #include "apps/measures/lower_block.hpp"
 
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 

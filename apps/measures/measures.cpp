@@ -5,7 +5,7 @@
 #include "apps/measures/kinematics.hpp"
 #include "apps/measures/localisation.hpp"
 #include "apps/measures/profile.hpp"
-#include "dem/base_place.hpp"
+#include "dem/base/place.hpp"
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/strain.hpp"
 

@@ -1,11 +1,11 @@
 #include "apps/measures/rock.hpp"
 
 #include "apps/measures/polyline.hpp"
-#include "dem/contacts.hpp"
+#include "dem/base/ground_level.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "dem/events/property_update.hpp"
-#include "dem/genesis.hpp"
-#include "dem/ground_level.hpp"
-#include "dem/power_cell.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -63,6 +63,14 @@ std::optional<double> superposition(const State& state) {
 }
 
 } // namespace
+
+std::vector<std::uint32_t> rocks(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::uint32_t> rocks;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (d.material[i] == weak ? 1u : 0u));
+    return rocks;
+}
 
 NamedNumbers weak_shares(const State& state) {
     const ConstDiscColumns d = disc_columns(state);

@@ -1,5 +1,6 @@
 #include "apps/model/model.hpp"
 
+#include "apps/model/base_driver.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/strain.hpp"
@@ -60,11 +61,12 @@ std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
     return loads;
 }
 
-BaseDriver make_base_driver(const Scene& scene, const ModelParts& parts) {
+std::unique_ptr<BaseDriver> make_base_driver(const Scene& scene, const ModelParts& parts,
+                                             std::vector<std::unique_ptr<Event>>& events) {
     for (const EffectPart& part : scene.effects)
         if (part.effect->drive_base)
-            return part.effect->drive_base(scene, parts);
-    return {};
+            return part.effect->drive_base(scene, parts, events);
+    return nullptr;
 }
 
 EffectMeasures measure_effects(const Observation& now) {

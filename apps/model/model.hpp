@@ -18,16 +18,18 @@ ModelParts make_parts(const Scene& scene);
 double gravity_of(const Scene& scene);
 
 /// The events of a scene, in the order in which they are applied at the same moment. An effect that
-/// is not in the scene has no event, so it has no memory and no cost. Those of the loads on an
-/// elastic footwall come with the footwall.
+/// is not in the scene has no event, so it has no memory and no cost. Those of the loads on a base
+/// that deforms come with its driver.
 std::vector<std::unique_ptr<dem::Event>> make_events(const Scene& scene, const ModelParts& parts);
 
 /// The loads on an elastic footwall, in the order in which they are applied.
 std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
                                                         const ModelParts& parts);
 
-/// The prescribed motion of the base's nodes; without a response where none is.
-BaseDriver make_base_driver(const Scene& scene, const ModelParts& parts);
+/// What moves the base's nodes; null where nothing does. The events of the loads on the base are
+/// appended to `events`, for the run to apply: they and the driver refer to each other.
+std::unique_ptr<BaseDriver> make_base_driver(const Scene& scene, const ModelParts& parts,
+                                             std::vector<std::unique_ptr<dem::Event>>& events);
 
 /// Measures of effects, by their names.
 struct EffectMeasures {

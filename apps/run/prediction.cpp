@@ -1,11 +1,11 @@
 #include "apps/run/prediction.hpp"
 
+#include "apps/figures/report_run.hpp"
 #include "apps/model/model.hpp"
-#include "apps/run/run_report.hpp"
 #include "apps/support/statistics.hpp"
 #include "apps/support/stopwatch.hpp"
-#include "dem/contacts.hpp"
-#include "dem/cycle.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -80,7 +80,11 @@ PieceTime time_piece(Lattice& lattice, std::int64_t cycles, const Execution& exe
 
 } // namespace
 
+/// More discs are as far from every cache, and their lattice would take longer than the answer may.
+constexpr std::size_t most_probed = std::size_t{1} << 18;
+
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted) {
+    discs = std::min(discs, most_probed);
     Lattice lattice = bonded_lattice(discs);
     // So many that putting the state back after them does not count.
     const auto cycles = std::max<std::int64_t>(50, 4'000'000 / static_cast<std::int64_t>(discs));
@@ -213,6 +217,13 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     p.disk = p.snapshots * disk_of_snapshot(scene, work.discs);
     p.memory += memory_of_report(scene, p.snapshots, work.discs);
     return p;
+}
+
+double seconds_from_now(const Scene& scene, int threads, int ranks) {
+    CycleSpeed speed =
+        measure_speed(estimated_discs(scene), threads, 0.1, make_parts(scene).accounts_energy);
+    speed.team *= ranks;
+    return speed.busy * predict(scene, speed).seconds;
 }
 
 } // namespace listric

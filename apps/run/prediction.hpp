@@ -30,9 +30,13 @@ struct Prediction {
 
 Prediction predict(const Scene& scene, const CycleSpeed& speed = {});
 
-/// A bonded lattice of the scene's size is cycled for about `seconds` by the team, and half as long
-/// by one thread, with or without the account of energy. Processor time tells the speed, so that
-/// other programs do not change it.
+/// A bonded lattice of the scene's size, at most 262,144 discs, is cycled for about `seconds` by
+/// the team, and half as long by one thread, with or without the account of energy. Processor time
+/// tells the speed, so that other programs do not change it.
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted);
+
+/// What a run that begins now will take beside what else runs, s.
+/// @param threads  of each rank
+double seconds_from_now(const Scene& scene, int threads, int ranks);
 
 } // namespace listric

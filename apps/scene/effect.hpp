@@ -4,11 +4,10 @@
 #include "apps/scene/material_file.hpp"
 #include "apps/scene/parameter.hpp"
 #include "apps/scene/scene.hpp"
-#include "apps/support/figure_layer.hpp"
 #include "apps/support/measure.hpp"
-#include "dem/cycle.hpp"
+#include "dem/base/target_line.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
-#include "dem/target_line.hpp"
 #include "dem/units.hpp"
 
 #include <any>
@@ -30,6 +29,8 @@ struct FootwallLoad;
 }
 
 namespace listric {
+
+class BaseDriver;
 
 /// Refuses a scene because of the value at a path of keys ("table.key"). Throws SceneError.
 using Refuse = std::function<void(const std::string& path, const std::string& message)>;
@@ -108,12 +109,6 @@ struct ModelParts {
     bool accounts_energy = false; ///< the cycle is the plain one, on one thread
 };
 
-/// A base whose nodes move as an effect wants.
-struct BaseDriver {
-    std::unique_ptr<dem::BaseResponse> response;
-    std::vector<dem::Point> nodes; ///< before extension, m
-};
-
 /// A moment of a run, for what is measured and drawn of it.
 struct Observation {
     const Scene& scene;
@@ -132,6 +127,22 @@ struct MeasuredObjects {
     /// None: it has no meaning there.
     std::optional<std::vector<NamedNumbers>> (*value)(const Observation& now) = nullptr;
     bool is_list = true; ///< else the one object itself
+};
+
+/// How a figure draws a layer.
+enum class LayerKind {
+    band, ///< an area behind the discs; rows x, bottom, top (m, y up)
+    line, ///< over the discs; rows x, y (m, y up)
+    discs ///< ink on the discs; a row per disc, the ink's share from 0 to 1
+};
+
+/// What figures and the report show of an effect besides what they show of every run.
+struct FigureLayer {
+    std::string_view name; ///< no other layer's
+    LayerKind kind;
+    std::string_view label;                              ///< in legends
+    std::string_view ink;                                ///< "#rrggbb"
+    std::vector<double> (*rows)(const Observation& now); ///< one after the other
 };
 
 /// What a prediction multiplies prices with.
@@ -176,7 +187,11 @@ struct Effect {
     std::vector<StagedEvent> (*make_events)(const Scene& scene, const ModelParts& parts,
                                             std::span<const StagedEvent> others) = nullptr;
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
-    BaseDriver (*drive_base)(const Scene& scene, const ModelParts& parts) = nullptr;
+    /// Moves the base's nodes; of a scene's effects at most one does.
+    /// @param events  to which those of the loads on the base are appended, for the run to apply
+    std::unique_ptr<BaseDriver> (*drive_base)(const Scene& scene, const ModelParts& parts,
+                                              std::vector<std::unique_ptr<dem::Event>>& events) =
+        nullptr;
 
     /// Lines for `explain`. @param list  all effects that there are
     std::string (*explain)(const Scene& scene, EffectList list) = nullptr;
@@ -194,7 +209,7 @@ struct Effect {
     /// run.
     std::vector<Measure<Observation>> measures = {};
     std::vector<MeasuredObjects> objects = {};
-    std::vector<FigureLayer> (*draw)(const Observation& now) = nullptr;
+    std::vector<FigureLayer> layers = {};
 };
 
 /// Whether the effect of that name is on.
@@ -202,6 +217,9 @@ bool has_effect(const Scene& scene, std::string_view name);
 
 /// Names of the effects that are on.
 std::vector<std::string> effect_names(const Scene& scene);
+
+/// Layers of the effects that are on.
+std::vector<FigureLayer> figure_layers(const Scene& scene);
 
 /// Default parameters of a type, and where an object of it is in a std::any.
 template <class Parameters> std::any make_defaults() { return Parameters{}; }

@@ -5,8 +5,8 @@
 
 #include "apps/measures/dictionary.hpp"
 #include "apps/support/stopwatch.hpp"
-#include "dem/contacts.hpp"
-#include "dem/cycle.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/material.hpp"
 #include "dem/units.hpp"

@@ -10,7 +10,7 @@
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/support/log.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // What a neighbour search costs per disc, beside the cycle's 10 ns: of all discs, of one that ran
 // ahead, and packing the fast cycle's records after it.
 
-#include "dem/fast_cycle.hpp"
+#include "dem/cycle/fast_cycle.hpp"
 #include "tests/support.hpp"
 
 #include <benchmark/benchmark.h>

@@ -141,13 +141,6 @@ TEST_F(OwnEffect, IsInAllThatARunLeaves) {
     const auto speeds = last.state.discs.get<double>("greatest_speed");
     EXPECT_GT(std::ranges::count_if(speeds, [](double v) { return v > 0.0; }), 300);
     EXPECT_LE(std::ranges::max(speeds), summary["greatest_speed_m_per_s"].get<double>());
-
-    const ModelParts parts = make_parts(scene);
-    auto events = make_events(scene, parts);
-    hand_over(last, events);
-    const auto layers = speed_gauge().draw({scene, parts, last.state, events});
-    ASSERT_EQ(layers.size(), 1u);
-    EXPECT_EQ(layers[0].rows.size(), last.state.discs.rows());
 }
 
 TEST_F(OwnEffect, IsResumed) {

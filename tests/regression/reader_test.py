@@ -327,6 +327,17 @@ class Reader(unittest.TestCase):
             with self.fails(listric.RunError, snapshot.path, *words):
                 snapshot.discs["x"]
 
+    def test_damaged_texts_of_any_depth(self):
+        folder = self.copy()
+        deep = 5000
+        for text in ("[" * deep + "]" * deep, "[1]", "7", '{"a": 1'):
+            (folder / "summary.json").write_text(text)
+            with self.fails(listric.RunError, folder / "summary.json", "is damaged"):
+                listric.Run(folder).summary
+        (folder / "scene.toml").write_text("a = " + "[" * deep + "]" * deep)
+        with self.fails(listric.RunError, folder / "scene.toml", "is damaged"):
+            listric.Run(folder).scene
+
     def test_unknown_names(self):
         snapshot = self.run_.snapshots[0]
         with self.fails(listric.UnknownName, snapshot.path, "no radios", "did you mean radius"):

@@ -99,11 +99,20 @@ inline const Effect& speed_gauge() {
                   return std::vector<NamedNumbers>{{{"looks", static_cast<double>(gauge.applied)}}};
               },
               false}},
-        .draw =
-            [](const Observation& now) {
-                const auto speeds = now.state.discs.get<double>("greatest_speed");
-                return std::vector<FigureLayer>{
-                    {"greatest_speed", 0, {speeds.begin(), speeds.end()}}};
+        .layers =
+            {
+                {"fast_discs", LayerKind::discs, "greatest speed", "#8e24aa",
+                 [](const Observation& now) {
+                     const auto speeds = now.state.discs.get<double>("greatest_speed");
+                     std::vector<double> shares(speeds.begin(), speeds.end());
+                     for (double& share : shares)
+                         share /= std::max(std::ranges::max(speeds), 1e-300);
+                     return shares;
+                 }},
+                {"gauge_level", LayerKind::line, "level of the gauge", "#00695c",
+                 [](const Observation& now) {
+                     return std::vector<double>{0.0, -250.0, now.right_end(), -250.0};
+                 }},
             },
     };
     return effect;

@@ -81,5 +81,10 @@ TEST(Prediction, SnapshotsAndTheirDiskAreForeseen) {
     EXPECT_LE(finest.snapshots, finest.cycles + 1.0);
 }
 
+// A lattice of as many discs as that would take 600 TB.
+TEST(Prediction, SpeedIsMeasuredOnNoMoreDiscsThanTellIt) {
+    EXPECT_GT(measure_speed(std::size_t{1} << 40, 1, 0.01, false).team, 0.0);
+}
+
 } // namespace
 } // namespace listric

@@ -74,7 +74,7 @@ def read_order(text: str) -> Order:
         words = json.loads(text)
         run = words["provenance"]
         return Order(tuple(words["formats"]), words["software"], json.dumps(run) if run else "")
-    except (ValueError, TypeError, KeyError) as failure:
+    except (ValueError, TypeError, KeyError, RecursionError) as failure:
         raise InputError(f"not an order of figures ({failure!r}): {text}") from failure
 
 
@@ -85,7 +85,7 @@ def read_json(path: str) -> dict:
             value = json.load(file)
     except OSError as failure:
         raise InputError(f"{path}: {failure.strerror or failure}") from failure
-    except ValueError as failure:
+    except (ValueError, RecursionError) as failure:
         raise InputError(f"{path}: not valid JSON ({failure})") from failure
     if not isinstance(value, dict):
         raise InputError(f"{path}: not a JSON object")

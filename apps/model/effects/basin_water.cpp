@@ -25,17 +25,17 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
         base.infill_density > 0.0 ? std::nullopt : std::optional(base.left));
 }
 
-/// Rows x, floor and level, m, from the shore at the breakaway on.
-std::vector<FigureLayer> draw(const Observation& now) {
+/// Floor and level of the water from the shore at the breakaway on.
+std::vector<double> water_band(const Observation& now) {
     const double width = coupling::water_column_width(now.scene.hanging_wall->mean_radius);
     const double level = now.scene.find<P>()->level;
-    FigureLayer layer{"water", 3, {0.0, level, level}};
+    std::vector<double> rows{0.0, level, level};
     double x = 0.5 * width;
     for (const double water : coupling::water_depths(now.state, level, width)) {
-        layer.rows.insert(layer.rows.end(), {x, level - water, level});
+        rows.insert(rows.end(), {x, level - water, level});
         x += width;
     }
-    return {layer};
+    return rows;
 }
 
 } // namespace
@@ -72,7 +72,7 @@ const Effect& basin_water() {
                      {coupling::flank_water_name, "N/m",
                       "weight of the water where the footwall left of the breakaway has sunk below "
                       "its level; negative where what was flooded has risen"}},
-        .draw = draw,
+        .layers = {{"water", LayerKind::band, "water", "#c6dcef", water_band}},
     };
     return effect;
 }

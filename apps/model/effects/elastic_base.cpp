@@ -1,6 +1,7 @@
+#include "apps/model/base_driver.hpp"
+#include "apps/model/effects/elastic_base_driver.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-
-#include "apps/model/footwall_request.hpp"
+#include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/effect.hpp"
@@ -145,7 +146,7 @@ std::vector<Parameter> footwall_parameters() {
 std::vector<Parameter> coupling_parameters() {
     return {
         {"scheme",
-         one_of<&P::scheme>({"modal", "lumped", "staggered", "strong"}),
+         one_of<&P::scheme>({"modal", "lumped"}),
          "",
          {},
          "",
@@ -259,7 +260,7 @@ void contribute(const Scene& scene, ModelParts& parts) {
 /// What the footwall feels and what it does not.
 std::string explain(const Scene& scene, EffectList list) {
     const P& base = *elastic_base(scene);
-    constexpr const char* schemes[] = {"modal", "lumped", "staggered", "strong"};
+    constexpr const char* schemes[] = {"modal", "lumped"};
     std::string text = fmt::format(
         "elastic base\n"
         "  Te {:g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "
@@ -314,13 +315,6 @@ double memory(const Scene& scene) {
         2.0 * base.degree * std::ldexp(request.interface_end / base.cell_size, base.refinements);
     return plug_in + unknown * 2.0 * base.degree * base.degree * cells +
            8.0 * on_detachment * on_detachment;
-}
-
-std::optional<Objection> on_ranks(const Scene& scene) {
-    if (elastic_base(scene)->scheme != coupling::CouplingScheme::strong)
-        return std::nullopt;
-    return Objection{"elastic_base.scheme", "strong takes cycles back, which one process can; use "
-                                            "modal, or start one process"};
 }
 
 /// Where the base is now: the run may have been ended within a window.
@@ -418,8 +412,8 @@ const Effect& elastic_base() {
         .scale = [](Scene& scene,
                     const AccuracyLevel& level) { scene.find<P>()->cell_size = level.cell_size; },
         .check = check,
-        .on_ranks = on_ranks,
         .contribute = contribute,
+        .drive_base = make_elastic_base_driver,
         .explain = explain,
         .price = price,
         .memory = memory,

@@ -133,11 +133,11 @@ std::vector<Measure<Observation>> measures() {
              volume_error}};
 }
 
-std::vector<FigureLayer> draw(const Observation& now) {
-    FigureLayer layer{"discs_weak", 0, {}};
+std::vector<double> weak_discs(const Observation& now) {
+    std::vector<double> weak;
     for (const std::uint8_t material : dem::disc_columns(now.state).material)
-        layer.rows.push_back(material == dem::weak ? 1.0 : 0.0);
-    return {layer};
+        weak.push_back(material == dem::weak ? 1.0 : 0.0);
+    return weak;
 }
 
 } // namespace
@@ -176,7 +176,7 @@ const Effect& fault_weakening() {
                        work.years / p.update_interval * 18.0 * work.discs;
             },
         .measures = measures(),
-        .draw = draw,
+        .layers = {{"weak", LayerKind::discs, "weakened", "#e9a59a", weak_discs}},
     };
     return effect;
 }

@@ -4,7 +4,7 @@
 #include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
-#include "dem/genesis.hpp"
+#include "dem/genesis/genesis.hpp"
 
 #include <fmt/format.h>
 

@@ -61,7 +61,7 @@ class Run:
         except FileNotFoundError:
             raise RunError(f"{path}: is not there: the run has not ended; `listric run ... --resume` "
                            "goes on") from None
-        except ValueError as error:
+        except (ValueError, TypeError, RecursionError) as error:
             raise RunError(f"{path}: is damaged ({error}); run the scene again") from error
 
     @cached_property
@@ -70,7 +70,7 @@ class Run:
         path = self.folder / "scene.toml"
         try:
             return Named(tomllib.loads(path.read_text(encoding="utf-8")), str(path))
-        except ValueError as error:
+        except (ValueError, TypeError, RecursionError) as error:
             raise RunError(f"{path}: is damaged ({error})") from error
 
     @property
