@@ -3,6 +3,7 @@
 #include "apps/archive/dictionary.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/support/json_text.hpp"
 
 #include <iostream>
 #include <memory>
@@ -17,7 +18,7 @@ Command add_schema(CLI::App& program) {
     command->add_flag("--measures", *measures, "What is measured: names, units, definitions");
     return {command, [material, measures] {
                 if (*measures) {
-                    std::cout << archive::dictionary_json(program_effects()).dump(1) << '\n';
+                    std::cout << to_text(archive::dictionary_json(program_effects()), 1) << '\n';
                     return ExitCode::done;
                 }
                 std::cout << (*material ? material_schema() : scene_schema(program_effects()));
