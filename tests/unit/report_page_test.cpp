@@ -17,9 +17,10 @@ TEST(ReportPage, HasTheDictionarysDefinitionsAndFaultColumns) {
     const ReportMoments moments;
     const std::string html = report_html({.runs = {{scene, moments, 75.0, "extension_m\n0\n"}}});
     for (const archive::DictionaryEntry& entry : archive::dictionary(program_effects()))
-        if (entry.quantity.name != "faults") // a number from snapshots, a list in summary.json
+        if (entry.quantity.name != "faults") { // a number from snapshots, a list in summary.json
             EXPECT_THAT(html, HasSubstr(nlohmann::json(entry.quantity.name).dump() + ":" +
                                         nlohmann::json(entry.quantity.doc).dump()));
+        }
     EXPECT_THAT(html, HasSubstr(R"j("label":"dip at birth (°)","name":"dip_at_birth_deg")j"));
 }
 
