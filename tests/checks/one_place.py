@@ -21,7 +21,7 @@ from source_tree import CPP, PAGE, PYTHON, is_cpp, read_tree, report
 DESCRIPTIONS = "apps/model/effects/"
 LIST = "apps/model/effects.cpp"  # one line each
 MOST_EXCEPTIONS = 5
-SCHEMAS = "apps/*.schema.json"   # generated from the descriptions
+GENERATED = ("apps/*.schema.json", "apps/python/listric/dictionary.json")  # from the descriptions
 
 
 class Effect(NamedTuple):
@@ -134,7 +134,7 @@ def pasted(word, text):
 def mentions(effect, tree):
     """Lines of apps outside the effect's own files that name it."""
     for path, text in tree.items():
-        if not path.startswith("apps/") or is_own(effect, path) or fnmatch(path, SCHEMAS):
+        if not path.startswith("apps/") or is_own(effect, path) or any(fnmatch(path, made) for made in GENERATED):
             continue
         if any(fnmatch(path, known) for known in effect.known_to):
             continue
