@@ -51,9 +51,9 @@ void pack(benchmark::State& run) {
     const State state = packing(static_cast<std::size_t>(run.range(0)));
     const RigidBase base;
     FastCycle cycle(1, fast_cycle());
-    cycle.pack(state, base, {});
+    cycle.pack(state, base, {}, nullptr);
     for (auto _ : run)
-        cycle.pack_updated(state, true);
+        cycle.pack_updated(state, true, nullptr);
     per_disc(run, state);
 }
 

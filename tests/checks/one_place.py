@@ -134,8 +134,7 @@ def pasted(word, text):
 def mentions(effect, tree):
     """Lines of apps outside the effect's own files that name it."""
     for path, text in tree.items():
-        if not path.startswith("apps/") or is_own(effect, path) or any(
-                fnmatch(path, generated) for generated in GENERATED):
+        if not path.startswith("apps/") or is_own(effect, path) or any(fnmatch(path, made) for made in GENERATED):
             continue
         if any(fnmatch(path, known) for known in effect.known_to):
             continue
