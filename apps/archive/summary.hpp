@@ -49,7 +49,7 @@ struct SummaryContent {
     nlohmann::ordered_json provenance = {}; ///< provenance.hpp
 };
 
-/// What is said of every run; without a function: elsewhere.
+/// Quantities of every run. One without a function is taken elsewhere.
 struct HeadField {
     std::string_view name, unit, doc;
     nlohmann::ordered_json (*value)(const SummaryContent& content) = nullptr;

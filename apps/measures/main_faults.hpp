@@ -25,7 +25,7 @@ inline constexpr std::string_view antithetic_foot = "antithetic_foot_x_m";
 /// Measures of the report alone.
 std::span<const Measure<FaultReport>> fault_report_measures();
 
-/// What measure_main_faults adds to these.
+/// Quantities that measure_main_faults adds.
 std::vector<Quantity> main_fault_quantities();
 
 /// How far nearer to the breakaway a steep normal fault has come up than those born 2 km of

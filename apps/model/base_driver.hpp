@@ -19,7 +19,7 @@ struct BeyondElasticity : dem::NumericalFailure {
     using dem::NumericalFailure::NumericalFailure;
 };
 
-/// What a driver knows of a window of extension that has ended.
+/// A driver's account of a window of extension that has ended.
 struct BaseWindow {
     NamedNumbers measures; ///< columns of history.csv
     /// Why the run must not go on: the field is beyond linear elasticity.

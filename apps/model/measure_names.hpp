@@ -7,7 +7,7 @@ namespace listric::effects {
 
 inline constexpr const char* weak_fraction = "weak_fraction";
 
-// Of the elastic base.
+// Names of the elastic base's measures.
 inline constexpr const char* footwall_uplift = "footwall_uplift_m";
 inline constexpr const char* breakaway_shift = "breakaway_shift_m";
 inline constexpr const char* base_deflection = "base_deflection_max_m";

@@ -64,7 +64,7 @@ public:
     double next_window_end() const; ///< extension, m
     bool is_drawn() const;          ///< whether the scene wants pictures of the present moment
 
-    /// Of the present moment, whether it is there or not.
+    /// Path of the present moment's snapshot, whether that file exists or not.
     std::filesystem::path snapshot() const;
 
     /// Snapshots at the ends of windows up to the present moment, oldest first.
@@ -78,13 +78,13 @@ public:
     double seconds_left() const;
     std::string progress() const; ///< a line about it
 
-    /// What the sessions that this one resumes have taken counts, too.
+    /// Takes over the record of the sessions that this one resumes; their wall time counts, too.
     void go_on_with(archive::RunRecord earlier);
 
     PartWatch watch(Part part) { return {record.seconds_by_part, part}; }
 
 private:
-    /// What has been made of a moment.
+    /// Measures and faults of a moment, as far as they have been made.
     template <class T> struct Made {
         std::optional<T> value;
         double at = -1.0; ///< extension, m

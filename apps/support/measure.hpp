@@ -19,7 +19,7 @@ enum class OverTime {
     none ///< it is in history.csv alone
 };
 
-/// What a file says under a name.
+/// Name, unit and definition of a value in a file.
 struct Quantity {
     std::string_view name;
     std::string_view unit; ///< "1": a ratio or a count; none: no number

@@ -8,7 +8,7 @@
 
 namespace listric::dem {
 
-/// What lies around a subdomain: those of the other ranks.
+/// Surroundings of a subdomain: the subdomains of the other ranks.
 class HaloExchange final : public Surroundings {
 public:
     /// The subdomain must outlive it. Made by all ranks.

@@ -10,7 +10,7 @@ namespace listric {
 
 namespace {
 
-/// What summary.json has besides the measures of the last moment.
+/// Numbers of summary.json besides the measures of the last moment.
 NamedNumbers numbers_of(const RunView& run, const NamedNumbers& of_effects) {
     NamedNumbers numbers = of_effects;
     append(numbers, summarise_effects(run.scene, run.record.history));

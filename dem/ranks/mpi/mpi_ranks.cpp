@@ -169,7 +169,7 @@ private:
                     "MPI_Recv");
         return bytes;
     }
-    /// What goes between this rank and each other one.
+    /// Calls `go` with the part of every other rank.
     template <class T, class Go>
     static void each_part(std::span<T> all, const std::vector<std::size_t>& sizes, Go&& go) {
         for (std::size_t rank = 0, at = 0; rank < sizes.size(); at += sizes[rank++])
