@@ -24,6 +24,7 @@ install(FILES ${PROJECT_BINARY_DIR}/listric.1 DESTINATION ${CMAKE_INSTALL_MANDIR
 install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT program
   FILES_MATCHING PATTERN *.py)
 install(DIRECTORY apps/figures/report DESTINATION ${share}/figures COMPONENT program)
+install(FILES apps/figures/vocabulary.json DESTINATION ${share}/figures COMPONENT program)
 install(FILES docs/measures.md DESTINATION ${share} COMPONENT program)
 # Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/python.md).
 set(LISTRIC_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the Python package goes, below the prefix")

@@ -1,7 +1,7 @@
 #include "coupling/basin_water.hpp"
 
 #include "coupling/interface_loads.hpp"
-#include "dem/base_place.hpp"
+#include "dem/base/place.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -204,9 +204,9 @@ FootwallLoad basin_water_load(const BasinWaterParameters& parameters, double gra
             flank_left ? std::optional(make_flank(knots, solution)) : std::nullopt);
         const BasinWater& water = *event;
         LoadingEvent effect{.event = std::move(event), .measures = [&water](const State& state) {
-                                return NamedValues{{"basin_water_n_per_m", water_weight(state)},
-                                                   {"pore_water_n_per_m", pore_water_weight(state)},
-                                                   {"flank_water_n_per_m", water.flank_weight()}};
+                                return NamedValues{{basin_water_name, water_weight(state)},
+                                                   {pore_water_name, pore_water_weight(state)},
+                                                   {flank_water_name, water.flank_weight()}};
                             }};
         if (flank_left) {
             effect.amounts = [&water](const State&) { return water.flank_pressure(); };

@@ -12,6 +12,11 @@
 
 namespace listric::coupling {
 
+/// Names of what the load measures; its description declares them.
+inline constexpr const char *basin_water_name = "basin_water_n_per_m",
+                            *pore_water_name = "pore_water_n_per_m",
+                            *flank_water_name = "flank_water_n_per_m";
+
 /// Water fills what lies below its level above hanging wall and detachment, the pores of the
 /// sediment there and, left of the breakaway, what of the footwall's surface has sunk below it. Its
 /// weight in the basin goes straight down to the detachment. It does not act on the discs: their

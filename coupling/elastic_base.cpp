@@ -105,10 +105,6 @@ void ElasticBase::find_stiffness() {
     }
 }
 
-double ElasticBase::staggered_growth() const {
-    return modes_.compliance.front() * parameters_.contact_stiffness / 3.0;
-}
-
 void ElasticBase::attach(State& state) const {
     add_base_nodes(state, interface_.x, interface_.y);
     for (const char* name : {"reference_load_x", "reference_load_y"})
@@ -201,7 +197,8 @@ std::vector<double> ElasticBase::interface_forces(const State& state) const {
     return forces;
 }
 
-DiscLoad ElasticBase::take_disc_load(State& state, double cycles, double extension) const {
+ElasticBase::DiscLoad ElasticBase::take_disc_load(State& state, double cycles,
+                                                  double extension) const {
     assert(cycles > 0.0);
     const BaseNodeColumns nodes = base_node_columns(state);
     const auto reference_x = state.base_nodes.get<double>("reference_load_x");
@@ -261,20 +258,10 @@ void ElasticBase::respond(State& state, const Clock& clock) {
     load_ = std::move(discs.forces);
     add_footwall_loads(state, load_);
     const double step = cycles * clock.time_step;
-    switch (parameters_.scheme) {
-    case CouplingScheme::modal:
+    if (parameters_.scheme == CouplingScheme::modal)
         move_modes(state, step);
-        break;
-    case CouplingScheme::lumped:
+    else
         move_lumped(state, step);
-        break;
-    case CouplingScheme::staggered:
-        move_staggered(state, step);
-        break;
-    case CouplingScheme::strong: // advance_iterated() moves it
-        assert(false);
-        break;
-    }
     seconds += std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
@@ -331,15 +318,6 @@ void ElasticBase::move_lumped(State& state, double step) {
     for (std::size_t k = 0; k < nodes.x.size(); ++k) {
         accelerate(nodes.vx[k], 2 * k);
         accelerate(nodes.vy[k], 2 * k + 1);
-    }
-}
-
-void ElasticBase::move_staggered(State& state, double step) {
-    const std::vector<double> u = displacement(load_);
-    const BaseNodeColumns nodes = base_node_columns(state);
-    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
-        nodes.vx[k] = (u[2 * k] - nodes.ux[k]) / step;
-        nodes.vy[k] = (u[2 * k + 1] - nodes.uy[k]) / step;
     }
 }
 

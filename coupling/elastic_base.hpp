@@ -2,7 +2,7 @@
 
 #include "coupling/interface.hpp"
 #include "coupling/modes.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 
 #include <functional>
 #include <span>
@@ -13,10 +13,8 @@ namespace listric::coupling {
 
 /// How base and discs advance together.
 enum class CouplingScheme {
-    modal,     ///< the base's modes have a mass and move with the discs
-    lumped,    ///< its nodes have
-    staggered, ///< the base goes where the last interval's loads want it, whatever discs do then
-    strong     ///< an interval is repeated until the base is where its own loads want it
+    modal, ///< the base's modes have a mass and move with the discs
+    lumped ///< its nodes have
 };
 
 struct CouplingParameters {
@@ -44,15 +42,6 @@ struct WindowBalance {
     double cycles = 0.0;
 };
 
-/// Mean load of the discs on the base over some cycles.
-struct DiscLoad {
-    double cycles = 0.0;
-    double extension = 0.0;     ///< at their end, m
-    std::vector<double> forces; ///< on the interface's unknowns, relative to the reference, with
-                                ///< those of the virtual load, N
-    double reaction = 0.0;      ///< upward, of the base on the discs, N
-};
-
 /// An elastic footwall under the discs, condensed to the detachment and loaded by the changes of
 /// the discs' forces since the settled initial state. Its memory are the state's nodes and
 /// `base_memory`, so that it can be made anew for a resumed state.
@@ -63,11 +52,6 @@ public:
     const Interface& interface() const { return interface_; }
     const CouplingParameters& parameters() const { return parameters_; }
     const Modes& modes() const { return modes_; }
-
-    /// Compliance of the softest mode times the stiffness of a contact. Above 1 the staggered
-    /// scheme gives way to an error more than the error was, unless discs come to rest within an
-    /// interval.
-    double staggered_growth() const;
 
     /// Gives a state the nodes, at rest.
     void attach(dem::State& state) const;
@@ -83,23 +67,13 @@ public:
 
     void respond(dem::State& state, const dem::Clock& clock) override;
 
-    /// Whether advance_iterated() of the strong scheme moves it, not respond().
-    bool is_iterated() const { return parameters_.scheme == CouplingScheme::strong; }
-
-    /// Takes the load of the last cycles from the nodes, where it is summed, and sets it to zero
-    /// there.
-    DiscLoad take_disc_load(dem::State& state, double cycles, double extension) const;
-
-    /// Adds a load of the discs, the effects' loads and the displacement to the window's sums.
-    void book(dem::State& state, const DiscLoad& load) const;
-
     /// Static displacement of the interface under forces on its unknowns.
     std::vector<double> displacement(std::span<const double> forces) const;
 
     /// Forces on the interface that hold it so.
     std::vector<double> forces_for(std::span<const double> displacement) const;
 
-    /// The same for its present displacement.
+    /// Forces on the interface that hold its present displacement.
     std::vector<double> holding_forces(const dem::State& state) const;
 
     /// Forces on the interface, of discs and of what rests on it, that hold its present
@@ -115,12 +89,27 @@ public:
     double seconds = 0.0; ///< wall time spent responding
 
 private:
+    /// Mean load of the discs on the base over some cycles.
+    struct DiscLoad {
+        double cycles = 0.0;
+        double extension = 0.0;     ///< at their end, m
+        std::vector<double> forces; ///< on the interface's unknowns, relative to the reference,
+                                    ///< with those of the virtual load, N
+        double reaction = 0.0;      ///< upward, of the base on the discs, N
+    };
+
+    /// Takes the load of the last cycles from the nodes, where it is summed, and sets it to zero
+    /// there.
+    DiscLoad take_disc_load(dem::State& state, double cycles, double extension) const;
+
+    /// Adds a load of the discs, the effects' loads and the displacement to the window's sums.
+    void book(dem::State& state, const DiscLoad& load) const;
+
     void find_stiffness();
     double flat_start() const;
     double carried_mass(const dem::State& state) const;
     void move_modes(dem::State& state, double step);
     void move_lumped(dem::State& state, double step);
-    void move_staggered(dem::State& state, double step);
 
     Interface interface_;
     CouplingParameters parameters_;

@@ -198,8 +198,8 @@ FootwallLoad footwall_erosion_load(const FootwallErosionParameters& parameters, 
                             .measures =
                                 [&erosion](const State&) {
                                     const auto [eroded, deposited] = erosion.areas();
-                                    return NamedValues{{"footwall_eroded_m2", eroded},
-                                                       {"footwall_deposited_m2", deposited}};
+                                    return NamedValues{{footwall_eroded_name, eroded},
+                                                       {footwall_deposited_name, deposited}};
                                 }};
     };
     return {surface_loads(knots), make_event};

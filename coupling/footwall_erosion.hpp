@@ -1,8 +1,8 @@
 #pragma once
 
 #include "coupling/footwall_loads.hpp"
+#include "dem/base/target_line.hpp"
 #include "dem/event.hpp"
-#include "dem/target_line.hpp"
 #include "fem/footwall.hpp"
 
 #include <functional>
@@ -10,6 +10,10 @@
 #include <vector>
 
 namespace listric::coupling {
+
+/// Names of what the load measures; its description declares them.
+inline constexpr const char *footwall_eroded_name = "footwall_eroded_m2",
+                            *footwall_deposited_name = "footwall_deposited_m2";
 
 /// Erosion and deposition on the footwall, left of the breakaway, to a target line.
 struct FootwallErosionParameters {

@@ -1,8 +1,8 @@
 #include "coupling/independent_solution.hpp"
 
 #include "coupling/modes.hpp"
+#include "dem/base/trace.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/trace.hpp"
 
 #include <algorithm>
 #include <array>

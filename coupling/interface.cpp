@@ -1,6 +1,6 @@
 #include "coupling/interface.hpp"
 
-#include "dem/base_place.hpp"
+#include "dem/base/place.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
 

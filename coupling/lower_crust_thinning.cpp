@@ -90,7 +90,7 @@ FootwallLoad lower_crust_thinning_load(const LowerCrustThinningParameters& param
                 },
             .measures =
                 [=](const State& state) {
-                    return NamedValues{{"lower_crust_thinning_m",
+                    return NamedValues{{lower_crust_thinning_name,
                                         lower_crust_thinning(parameters, state.clock.extension)}};
                 }};
     };

@@ -8,6 +8,9 @@
 
 namespace listric::coupling {
 
+/// Names of what the load measures; its description declares them.
+inline constexpr const char* lower_crust_thinning_name = "lower_crust_thinning_m";
+
 /// Pure shear of the lower crust, below and beyond the detachment: extension that the discs do not
 /// have. Its crust stretches from width b to b + e and thins from h to h b / (b + e); mantle rises
 /// by the difference, so that isostasy lowers what lies above (Kusznir et al. 1991: flexural

@@ -1,6 +1,6 @@
 #include "dem/column.hpp"
 
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,8 +1,8 @@
 #include "dem/simulation.hpp"
 
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/events/energy_account.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -100,8 +100,14 @@ template <class Work> void Simulation::timed(const std::string& part, Work&& wor
             part, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
-void Simulation::search_contacts() {
+/// Before the state is changed by anything but cycles.
+void Simulation::touch() {
     packed_.forget();
+    is_untouched_ = false;
+}
+
+void Simulation::search_contacts() {
+    touch();
     timed("rebuild", [&] { find_contacts(state_, base_); });
 }
 
@@ -115,7 +121,7 @@ void Simulation::apply_due_events() {
         if (event->next_due() > extension() + tolerance())
             continue;
         if (!dynamic_cast<const Observer*>(event.get()))
-            packed_.forget();
+            touch();
         timed(event->name(), [&] { search_due |= event->apply(state_, base_); });
         ++event->applied;
         if (!energy_)
@@ -148,7 +154,9 @@ void Simulation::cycle_toward(double goal, Execution execution) {
         execution.energy = &flows;
     }
     execution.packed = &packed_;
+    execution.state_is_untouched = std::exchange(is_untouched_, false); // until all has gone well
     timed("cycle", [&] { advance_(state_, base_, physics_, batch, execution); });
+    is_untouched_ = true;
     if (energy_)
         energy_->put(flows);
     disc_steps_ += discs * static_cast<double>(batch);

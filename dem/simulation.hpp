@@ -1,9 +1,9 @@
 #pragma once
 
 #include "dem/base.hpp"
-#include "dem/cycle.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
-#include "dem/monitor.hpp"
 #include "dem/state.hpp"
 
 #include <cstdint>
@@ -49,7 +49,7 @@ public:
         std::function<void(State& state, const RigidBase& base, const CyclePhysics& physics,
                            std::int64_t cycles, const Execution& execution)>;
 
-    /// Brings a state up to date of which cycles have changed the clock alone.
+    /// Completes a state in which only the clock has been updated so far.
     using Collect = std::function<void(State& state)>;
 
     /// How cycles are made: advance() unless something else is asked for, such as a base that
@@ -92,7 +92,7 @@ public:
     const State& state() const { return state_; }
     /// For what is no event, before the next cycles: keep contacts up to date.
     State& state() {
-        packed_.forget();
+        touch();
         return state_;
     }
     const RigidBase& base() const { return base_; }
@@ -119,6 +119,7 @@ private:
     template <class Work> void timed(const std::string& part, Work&& work);
     void apply_due_events();
     void search_contacts();
+    void touch();
     void cycle_toward(double extension, Execution execution);
     void collect();
 
@@ -128,8 +129,9 @@ private:
     std::vector<std::unique_ptr<Event>> events_;
     EnergyAccount* energy_ = nullptr; ///< one of the events, if it is on
     Advance advance_;
-    Collect collect_; ///< none: cycles leave nothing to collect
-    Packed packed_;   ///< of the state
+    Collect collect_;           ///< none: cycles leave nothing to collect
+    Packed packed_;             ///< of the state
+    bool is_untouched_ = false; ///< whether the state is as the last cycles left it
     TimeReport time_report_;
     double disc_steps_ = 0.0;
     bool has_state_ = false;

@@ -1,7 +1,7 @@
 #include "dem/state.hpp"
 
 #include "dem/hash.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -273,7 +273,7 @@ std::uint64_t hash(const State& state) {
                          state.inertial_mass_floor, state.skin, state.searched_extension,
                          state.displacement_bound, state.window_speed})
         mix(h, value);
-    mix(h, state.look_interval);
+    mix(h, state.check_interval);
     mix(h, state.seed);
     mix(h, state.next_id);
     return h;

@@ -29,7 +29,7 @@ struct Ledger {
     double removed = 0.0;
 };
 
-/// What a state has but its tables and materials.
+/// The scalar part of a State.
 struct StateNumbers {
     Clock clock;
     Ledger ledger;
@@ -41,8 +41,8 @@ struct StateNumbers {
     double searched_extension = 0.0;  ///< where the last search of all surfaces found them, m
     /// No disc or surface is further from where it was found, m; none has been looked for yet.
     double displacement_bound = std::numeric_limits<double>::infinity();
-    double window_speed = 0.0;      ///< greatest since that bound was last looked at, m/s
-    std::int64_t look_interval = 1; ///< cycles between looks at it, at multiples
+    double window_speed = 0.0;       ///< greatest since that bound was last checked, m/s
+    std::int64_t check_interval = 1; ///< cycles between checks of it, at multiples
 };
 
 /// All that the next cycle depends on: copy it, hash it, save it.
@@ -55,7 +55,7 @@ struct State : StateNumbers {
     std::vector<Material> materials;          ///< by MaterialIndex
 };
 
-/// Columns that every disc has. (1): cycles do not need it, so a Share has none, an empty span.
+/// Columns that every disc has. (1): cycles do not need it, so a Subdomain has none, an empty span.
 template <bool writable> struct BasicDiscColumns {
     template <class T> using Values = std::span<std::conditional_t<writable, T, const T>>;
 

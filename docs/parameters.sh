@@ -1,6 +1,6 @@
 #!/bin/bash
-# Writes docs/parameters.md and the schemas of scenes and materials from the program's own
-# declarations.
+# Writes docs/parameters.md, the schemas of scenes and materials, the dictionary of measures and the
+# tables of docs/measures.md from the program's own declarations.
 cd "$(dirname "$0")/.." || exit
 reference=$(./listric explain --parameters) || exit
 cat >docs/parameters.md <<END
@@ -16,3 +16,6 @@ END
 scene=$(./listric schema) && material=$(./listric schema --material) || exit
 echo "$scene" >apps/scene.schema.json
 echo "$material" >apps/material.schema.json
+measures=$(./listric schema --measures) || exit
+echo "$measures" >apps/python/listric/dictionary.json
+python3 -B docs/measures.py

@@ -61,7 +61,7 @@ std::vector<ElasticFootwall::FaceOnWall> ElasticFootwall::own_faces_on_wall() co
 
 void ElasticFootwall::find_interface() {
     std::vector<FaceOnWall> wall_faces;
-    for (const auto& part : dealii::Utilities::MPI::all_gather(processes, own_faces_on_wall()))
+    for (const auto& part : dealii::Utilities::MPI::all_gather(processes_, own_faces_on_wall()))
         wall_faces.insert(wall_faces.end(), part.begin(), part.end());
     const unsigned nodes = element_.n_dofs_per_face() / 2;
 
@@ -200,8 +200,8 @@ std::vector<double> ElasticFootwall::compliance() {
     if (refined_)
         throw FootwallError("a footwall that was refined for one load has no compliance");
     // PETSc has MUMPS's Schur complement on one process only.
-    return dealii::Utilities::MPI::n_mpi_processes(processes) == 1 ? inverse_of_schur_complement()
-                                                                   : unit_solutions();
+    return dealii::Utilities::MPI::n_mpi_processes(processes_) == 1 ? inverse_of_schur_complement()
+                                                                    : unit_solutions();
 }
 
 /// The stiffness with everything but the interface eliminated, inverted. Later solutions go through
@@ -242,7 +242,7 @@ std::vector<double> ElasticFootwall::unit_solutions() {
     for (std::size_t first = 0; first < n; first += at_once) {
         const std::size_t columns = std::min(at_once, n - first);
         Mat forces = nullptr, displacements = nullptr;
-        must(MatCreateDense(processes, own, PETSC_DECIDE, PETSC_DECIDE,
+        must(MatCreateDense(processes_, own, PETSC_DECIDE, PETSC_DECIDE,
                             static_cast<PetscInt>(columns), nullptr, &forces),
              "memory");
         for (std::size_t k = 0; k < columns; ++k)
@@ -269,7 +269,7 @@ std::vector<double> ElasticFootwall::unit_solutions() {
         must(MatDestroy(&displacements), "condensation");
     }
     MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPI_DOUBLE, MPI_SUM,
-                  processes);
+                  processes_);
     return result;
 }
 
@@ -288,9 +288,9 @@ std::vector<double> ElasticFootwall::at_interface(const GlobalVector& displaceme
         if (owned_.is_element(unknown))
             result[i] = displacement(unknown);
     }
-    if (dealii::Utilities::MPI::n_mpi_processes(processes) > 1)
+    if (dealii::Utilities::MPI::n_mpi_processes(processes_) > 1)
         MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPI_DOUBLE,
-                      MPI_SUM, processes);
+                      MPI_SUM, processes_);
     return result;
 }
 

@@ -87,24 +87,26 @@ bool join_those_who_started() {
     MPI_Initialized(&started);
     if (!started)
         return false;
-    processes = MPI_COMM_SELF;
     sc_init(MPI_COMM_SELF, 0, 0, nullptr, SC_LP_SILENT);
     p4est_init(nullptr, SC_LP_SILENT);
     dealii::MultithreadInfo::set_thread_limit(1);
     return true;
 }
 
-/// Starts MPI and PETSc with the first footwall and ends them with the program.
-void start_once() {
+/// Starts MPI and PETSc with the first footwall and ends them with the program. Returns those that
+/// solve together: all that were started, or this one alone where MPI is already there for
+/// something else, as where processes share the discs.
+MPI_Comm start_once() {
     static const bool has_joined = join_those_who_started();
     if (has_joined)
-        return;
+        return MPI_COMM_SELF;
     static char name[] = "listric", quiet[] = "-no_signal_handler";
     static char* words[] = {name, quiet, nullptr};
     static int count = 2;
     static char** arguments = words;
     // The 1 keeps deal.II's own threads away.
     static dealii::Utilities::MPI::MPI_InitFinalize session(count, arguments, 1);
+    return MPI_COMM_WORLD;
 }
 
 } // namespace
@@ -140,8 +142,8 @@ void ElasticFootwall::set_up() {
 
     dealii::DynamicSparsityPattern pattern(relevant_);
     dealii::DoFTools::make_sparsity_pattern(unknowns_, pattern, constraints_, false);
-    dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned_, processes, relevant_);
-    stiffness_.reinit(owned_, owned_, pattern, processes);
+    dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned_, processes_, relevant_);
+    stiffness_.reinit(owned_, owned_, pattern, processes_);
     measure_mesh();
     find_interface();
     assemble();
@@ -164,8 +166,8 @@ void ElasticFootwall::measure_mesh() {
         least = std::min(least, small / large);
     });
     facts_ = {mesh_.cells->n_global_active_cells(), unknowns_.n_dofs(),
-              dealii::Utilities::MPI::sum(area, processes),
-              dealii::Utilities::MPI::min(least, processes)};
+              dealii::Utilities::MPI::sum(area, processes_),
+              dealii::Utilities::MPI::min(least, processes_)};
     if (!(facts_.least_jacobian > 0.0))
         throw FootwallError("no mesh: cells fold over; make cells or skin smaller");
 }
@@ -252,7 +254,7 @@ void ElasticFootwall::make_solver(bool keep_interface) {
     keeps_interface_ = keep_interface;
     const Mat matrix = stiffness_;
     PC preconditioner = nullptr;
-    must(KSPCreate(processes, &solver_), "no solver");
+    must(KSPCreate(processes_, &solver_), "no solver");
     must(KSPSetOperators(solver_, matrix, matrix), "no operator");
     must(KSPGetPC(solver_, &preconditioner), "no preconditioner");
     if (request_.solver == Solver::mumps)
@@ -273,7 +275,7 @@ void ElasticFootwall::use_factors(PC preconditioner, bool keep_interface) {
         for (const Index unknown : node)
             kept.push_back(static_cast<PetscInt>(unknown));
     IS interface = nullptr;
-    must(ISCreateGeneral(processes, static_cast<PetscInt>(kept.size()), kept.data(),
+    must(ISCreateGeneral(processes_, static_cast<PetscInt>(kept.size()), kept.data(),
                          PETSC_COPY_VALUES, &interface),
          "interface");
     must(PCFactorSetUpMatSolverType(preconditioner), "MUMPS");
@@ -297,7 +299,7 @@ void ElasticFootwall::use_multigrid(PC preconditioner) {
 }
 
 void ElasticFootwall::name_rigid_motions() {
-    GlobalVector places(owned_, processes);
+    GlobalVector places(owned_, processes_);
     const auto units = element_.base_element(0).get_unit_support_points();
     dealii::FEValues<2> values(mapping_, element_, dealii::Quadrature<2>(units),
                                dealii::update_quadrature_points);
@@ -323,7 +325,7 @@ void ElasticFootwall::name_rigid_motions() {
 
 /// The load's forces on all unknowns, and their sum.
 std::pair<GlobalVector, Vector> ElasticFootwall::forces_of(const Load& load) const {
-    GlobalVector forces(owned_, processes);
+    GlobalVector forces(owned_, processes_);
     const dealii::QGauss<2> points(static_cast<unsigned>(request_.degree) + 2);
     // Points enough for loads that bend inside an element, or end there unannounced.
     const dealii::QGauss<1> gauss(static_cast<unsigned>(request_.degree) + 3);
@@ -366,8 +368,8 @@ std::pair<GlobalVector, Vector> ElasticFootwall::forces_of(const Load& load) con
         cell->get_dof_indices(indices);
         constraints_.distribute_local_to_global(local, indices, forces);
     });
-    Vector sum{dealii::Utilities::MPI::sum(total.x, processes),
-               dealii::Utilities::MPI::sum(total.y, processes)};
+    Vector sum{dealii::Utilities::MPI::sum(total.x, processes_),
+               dealii::Utilities::MPI::sum(total.y, processes_)};
     if (!load.interface.empty())
         add_interface_forces(load.interface, forces, sum);
     forces.compress(dealii::VectorOperation::add);
@@ -391,7 +393,7 @@ void ElasticFootwall::add_interface_forces(const std::vector<double>& load, Glob
 GlobalVector ElasticFootwall::displacement_under(const GlobalVector& forces) {
     if (!solver_)
         make_solver(false);
-    GlobalVector solution(owned_, processes);
+    GlobalVector solution(owned_, processes_);
     const Vec right = forces, left = solution;
     must(KSPSolve(solver_, right, left), "no solution");
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
@@ -410,7 +412,7 @@ void ElasticFootwall::solve(const Load& load) {
     const auto [forces, sum] = forces_of(load);
     total_load_ = sum;
     const GlobalVector solution = displacement_under(forces);
-    displacement_.reinit(owned_, relevant_, processes);
+    displacement_.reinit(owned_, relevant_, processes_);
     displacement_ = solution;
 }
 
@@ -451,8 +453,7 @@ void ElasticFootwall::refine(double share_of_cells) {
 extern "C" __attribute__((visibility("default"))) listric::fem::Footwall*
 LISTRIC_FEM_ENTRY(const listric::fem::FootwallRequest& request, std::string& message) {
     try {
-        listric::fem::start_once();
-        return new listric::fem::ElasticFootwall(request);
+        return new listric::fem::ElasticFootwall(request, listric::fem::start_once());
     } catch (const std::exception& error) {
         message = error.what();
         return nullptr;

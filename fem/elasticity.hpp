@@ -24,10 +24,6 @@ namespace listric::fem {
 using Index = dealii::types::global_dof_index;
 using GlobalVector = dealii::PETScWrappers::MPI::Vector;
 
-/// Those that solve together: all that were started, or this one alone where MPI is already there
-/// for something else, as where processes share the discs.
-inline MPI_Comm processes = MPI_COMM_WORLD;
-
 inline void must(PetscErrorCode code, const char* what) {
     if (code)
         throw FootwallError(std::string("the solver failed: ") + what);
@@ -37,8 +33,9 @@ inline void must(PetscErrorCode code, const char* what) {
 /// elasticity.cpp, condensed to the interface in condensation.cpp, read off in solution.cpp.
 class ElasticFootwall final : public Footwall {
 public:
-    explicit ElasticFootwall(const FootwallRequest& request)
-        : request_(request), mesh_(make_mesh(request, processes)),
+    /// @param processes  those that solve together
+    ElasticFootwall(const FootwallRequest& request, MPI_Comm processes)
+        : processes_(processes), request_(request), mesh_(make_mesh(request, processes)),
           material_(request, mesh_.detachment),
           element_(dealii::FE_Q<2>(static_cast<unsigned>(request.degree)), 2),
           mapping_(static_cast<unsigned>(request.degree)), unknowns_(*mesh_.cells) {
@@ -52,7 +49,7 @@ public:
 
     MeshFacts mesh() const override { return facts_; }
     int process() const override {
-        return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(processes));
+        return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(processes_));
     }
     const std::vector<InterfaceNode>& interface() const override { return nodes_; }
     const std::vector<InterfaceFace>& interface_faces() const override { return faces_; }
@@ -155,6 +152,7 @@ private:
                 visit(cell);
     }
 
+    MPI_Comm processes_;
     FootwallRequest request_;
     Mesh mesh_;
     Material material_;

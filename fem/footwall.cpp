@@ -1,12 +1,12 @@
 #include "fem/footwall.hpp"
 
 #include "fem/blocks.hpp"
+#include "fem/plugin.hpp"
 
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -30,18 +30,6 @@ std::string number(double x) {
 
 [[noreturn]] void refuse(const std::string& message) { throw FootwallError(message); }
 
-/// The environment's LISTRIC_FEM_PLUGIN, else what is installed beside the executable, else what
-/// was built. Empty: there is none.
-std::string find_plugin() {
-    if (const char* path = std::getenv("LISTRIC_FEM_PLUGIN"); path && *path)
-        return path;
-    std::error_code error;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-    const auto installed = program.parent_path() / LISTRIC_FEM_INSTALLED;
-    return std::filesystem::is_regular_file(installed, error) ? installed.string()
-                                                              : LISTRIC_FEM_PLUGIN;
-}
-
 /// What brings the plug-in: an installed program has its files beside it.
 std::string cure() {
     std::error_code error;
@@ -55,19 +43,18 @@ std::string cure() {
 }
 
 MakeFootwall load_plugin() {
-    const std::string file = find_plugin();
     // Threads of the linear algebra would fight with those of the discs.
     setenv("OPENBLAS_NUM_THREADS", "1", 0);
-    void* library = file.empty() ? nullptr : dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!library) {
-        const char* reason = file.empty() ? "it is not there" : dlerror();
-        refuse(std::string("the plug-in for elastic bases cannot be loaded (") + reason + "); " +
+    const LoadedPlugin plugin = load({.variable = "LISTRIC_FEM_PLUGIN",
+                                      .installed = LISTRIC_FEM_INSTALLED,
+                                      .built = LISTRIC_FEM_PLUGIN,
+                                      .entry = LISTRIC_FEM_ENTRY});
+    if (!plugin.problem.empty())
+        refuse("the plug-in for elastic bases cannot be loaded (" + plugin.problem + "); " +
                cure());
-    }
-    const auto entry = reinterpret_cast<MakeFootwall>(dlsym(library, LISTRIC_FEM_ENTRY));
-    if (!entry)
-        refuse(file + ": is no plug-in for elastic bases of this build; build again");
-    return entry;
+    if (!plugin.entry)
+        refuse(plugin.file + ": is no plug-in for elastic bases of this build; build again");
+    return reinterpret_cast<MakeFootwall>(plugin.entry);
 }
 
 void check_layers(const FootwallRequest& r) {

@@ -95,7 +95,7 @@ Field ElasticFootwall::field() const {
     for (const auto& [index, row] : found)
         own.push_back(row);
     std::vector<std::array<double, 4>> rows;
-    for (const auto& part : dealii::Utilities::MPI::all_gather(processes, own))
+    for (const auto& part : dealii::Utilities::MPI::all_gather(processes_, own))
         rows.insert(rows.end(), part.begin(), part.end());
     // Places of one row of nodes agree to round-off only.
     const double grain = 1e-6 * request_.cell_size;
@@ -136,7 +136,7 @@ FieldError ElasticFootwall::error(const ExactField& exact) const {
         }
     });
     for (double& sum : sums)
-        sum = dealii::Utilities::MPI::sum(sum, processes);
+        sum = dealii::Utilities::MPI::sum(sum, processes_);
     return {std::sqrt(sums[0] / sums[1]), std::sqrt(sums[2] / sums[3])};
 }
 
@@ -204,8 +204,8 @@ Vector ElasticFootwall::reaction() const {
             }
         }
     });
-    return {dealii::Utilities::MPI::sum(sums[0], processes),
-            dealii::Utilities::MPI::sum(sums[1], processes)};
+    return {dealii::Utilities::MPI::sum(sums[0], processes_),
+            dealii::Utilities::MPI::sum(sums[1], processes_)};
 }
 
 Guard ElasticFootwall::guard(double rock_weight) const {
@@ -234,10 +234,10 @@ Guard ElasticFootwall::guard(double rock_weight) const {
                 guard.beyond_byerlee += values.JxW(q);
         }
     });
-    return {dealii::Utilities::MPI::max(guard.strong_strain, processes),
-            dealii::Utilities::MPI::max(guard.relaxed_strain, processes),
-            dealii::Utilities::MPI::max(guard.rotation, processes),
-            dealii::Utilities::MPI::sum(guard.beyond_byerlee, processes)};
+    return {dealii::Utilities::MPI::max(guard.strong_strain, processes_),
+            dealii::Utilities::MPI::max(guard.relaxed_strain, processes_),
+            dealii::Utilities::MPI::max(guard.rotation, processes_),
+            dealii::Utilities::MPI::sum(guard.beyond_byerlee, processes_)};
 }
 
 void ElasticFootwall::write(const std::string& folder, const std::string& name) const {
@@ -257,7 +257,7 @@ void ElasticFootwall::write(const std::string& folder, const std::string& name) 
     flags.print_date_and_time = false;
     out.set_flags(flags);
     const std::string file = folder + "/" + name + ".vtu";
-    out.write_vtu_in_parallel(file, processes);
+    out.write_vtu_in_parallel(file, processes_);
 }
 
 } // namespace listric::fem

@@ -5,9 +5,9 @@
 
 #include "coupling/base_memory.hpp"
 #include "coupling/elastic_base.hpp"
-#include "dem/base_place.hpp"
-#include "dem/contacts.hpp"
-#include "dem/genesis.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "tests/support.hpp"
 
 #include <cmath>
@@ -119,6 +119,33 @@ inline Coupled settled(Interface interface, CouplingParameters p = {}) {
 }
 inline Coupled settled(double compliance, CouplingParameters p = {}) {
     return settled(make_interface(compliance), p);
+}
+
+/// Length of the interface, m, and restoring stress of mantle below, Pa/m.
+constexpr double afloat = 6e3, mantle = 3300.0 * gravity;
+
+/// An elastic base that also floats, as one: its compliance over that of rock as stiff as the
+/// discs' (50 GPa: 2e-11 m per N/m over a kilometre), and its springs over the mantle's.
+inline Interface floating(double softness, double winkler) {
+    Interface interface = make_interface(2e-11 * softness);
+    const std::size_t n = interface.unknowns();
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = i % 2; k < n; k += 2)
+            interface.compliance[i * n + k] += 1.0 / (mantle * winkler * afloat);
+    return interface;
+}
+
+/// Takes from the reference load what moves the base by about a metre: strains stay small.
+inline void unload(Coupled& coupled) {
+    const auto load = coupled.state.base_nodes.get<double>("reference_load_y");
+    std::vector<double> forces(2 * load.size(), 0.0);
+    for (std::size_t k = 0; k < load.size(); ++k)
+        forces[2 * k + 1] = load[k];
+    double moves = 0.0;
+    for (const double u : coupled.elastic.displacement(forces))
+        moves = std::max(moves, std::abs(u));
+    for (double& f : load)
+        f *= 1.0 - std::min(0.1, 1.0 / moves);
 }
 
 } // namespace listric::support

@@ -2,7 +2,7 @@
 
 // Ranks that are threads of one process.
 
-#include "dem/ranks.hpp"
+#include "dem/ranks/ranks.hpp"
 
 #include <algorithm>
 #include <barrier>
@@ -18,7 +18,7 @@ class EmulatedRanks {
 public:
     explicit EmulatedRanks(int count)
         : count_(count), barrier_(count), bytes_(static_cast<std::size_t>(count)),
-          letters_(static_cast<std::size_t>(count)), numbers_(static_cast<std::size_t>(count)),
+          messages_(static_cast<std::size_t>(count)), numbers_(static_cast<std::size_t>(count)),
           bits_(static_cast<std::size_t>(count)), sums_(static_cast<std::size_t>(count)) {}
 
     /// Calls root(ranks) in this thread and other(ranks) in one for each of the others.
@@ -36,7 +36,7 @@ public:
     }
 
     std::size_t exchanged = 0; ///< numbers that the root has sent to others, in all
-    std::size_t trades = 0;
+    std::size_t exchanges = 0; ///< of messages between all
 
 private:
     class One : public dem::Ranks {
@@ -52,12 +52,12 @@ private:
             received_.assign(received.begin(), received.end());
         }
         void begin_exchange(std::span<const double> sent, std::span<double> received) override {
-            std::vector<std::vector<double>>& letters = of(all_.numbers_);
-            letters.clear();
+            std::vector<std::vector<double>>& numbers = of(all_.numbers_);
+            numbers.clear();
             std::size_t at = 0;
             for (const std::size_t size : sent_) {
-                const auto letter = sent.subspan(at, size);
-                letters.emplace_back(letter.begin(), letter.end());
+                const auto part = sent.subspan(at, size);
+                numbers.emplace_back(part.begin(), part.end());
                 at += size;
             }
             if (mine_ == 0)
@@ -68,11 +68,11 @@ private:
         void end_exchange() override {
             std::size_t at = 0;
             for (std::size_t rank = 0; rank < received_.size(); ++rank) {
-                const auto& letter = all_.numbers_[rank][static_cast<std::size_t>(mine_)];
-                if (letter.size() != received_[rank])
+                const auto& part = all_.numbers_[rank][static_cast<std::size_t>(mine_)];
+                if (part.size() != received_[rank])
                     std::abort();
-                std::ranges::copy(letter, to_.subspan(at).begin());
-                at += letter.size();
+                std::ranges::copy(part, to_.subspan(at).begin());
+                at += part.size();
             }
             wait();
         }
@@ -90,19 +90,19 @@ private:
             bytes = all_.bytes_[0];
             wait();
         }
-        std::vector<dem::Bytes> trade(std::vector<dem::Bytes> letters) override {
-            of(all_.letters_) = std::move(letters);
+        std::vector<dem::Bytes> all_to_all(std::vector<dem::Bytes> messages) override {
+            of(all_.messages_) = std::move(messages);
             if (mine_ == 0)
-                ++all_.trades;
+                ++all_.exchanges;
             wait();
             std::vector<dem::Bytes> received;
-            for (const auto& sent : all_.letters_)
+            for (const auto& sent : all_.messages_)
                 received.push_back(sent[static_cast<std::size_t>(mine_)]);
             wait();
             return received;
         }
-        void gather(dem::Bytes letter, const Take& take) override {
-            of(all_.bytes_) = std::move(letter);
+        void gather(dem::Bytes message, const Take& take) override {
+            of(all_.bytes_) = std::move(message);
             wait();
             if (mine_ == 0)
                 for (int rank = 0; rank < all_.count_; ++rank)
@@ -148,7 +148,7 @@ private:
     int count_;
     std::barrier<> barrier_;
     std::vector<dem::Bytes> bytes_;                         ///< by rank
-    std::vector<std::vector<dem::Bytes>> letters_;          ///< by rank, to rank
+    std::vector<std::vector<dem::Bytes>> messages_;         ///< by rank, to rank
     std::vector<std::vector<std::vector<double>>> numbers_; ///< by rank, to rank
     std::vector<std::vector<std::uint64_t>> bits_;
     std::vector<std::vector<std::int64_t>> sums_;

@@ -3,7 +3,7 @@
 // Small states and bases that tests start from.
 
 #include "dem/base.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/random.hpp"
 #include "dem/state.hpp"
 #include "dem/units.hpp"

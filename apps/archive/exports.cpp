@@ -1,11 +1,13 @@
 #include "apps/archive/exports.hpp"
 
+#include "apps/archive/fault_fields.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/horizons.hpp"
+#include "apps/measures/rock.hpp"
 #include "apps/support/fineness.hpp"
-#include "dem/base_place.hpp"
-#include "dem/monitor.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/monitor.hpp"
 
 #include <fmt/format.h>
 
@@ -62,18 +64,14 @@ Polyline points_of(const Chain& chain, double right, double spacing) {
 }
 
 Line fault_line(const ExportedMoment& at, std::size_t k, const std::set<int>& strata) {
-    const FaultReport& report = at.faults;
-    const Fault& f = report.faults[k];
-    const std::string main = k == report.main_antithetic  ? "antithetic"
-                             : k == report.main_synthetic ? "synthetic"
-                                                          : "";
-    Line line{{fmt::format("fault {}", k), static_cast<double>(k), main,
-               f.synthetic ? "synthetic" : "antithetic", f.normal ? "normal" : "reverse",
-               f.trace.length(), f.dip, f.rate, f.born_at, f.dip_at_birth, f.traced_since,
-               f.footwall_turn, f.width, f.curvature, f.foot.x, -f.foot.y,
-               f.pre_rift_throw.value_or(none)},
-              rounded(at, f.trace.points),
-              {}};
+    const Fault& f = at.faults.faults[k];
+    Line line{{}, rounded(at, f.trace.points)};
+    for (const FaultField* field : exported_fault_fields()) {
+        const nlohmann::ordered_json value = field->value({at.faults, k});
+        line.values.push_back(value.is_string()   ? LineValue(value.get<std::string>())
+                              : value.is_number() ? value.get<double>()
+                                                  : none);
+    }
     for (const int stratum : strata) {
         const auto found = f.throws.find(stratum);
         line.values.emplace_back(found == f.throws.end() ? none : found->second);
@@ -103,13 +101,9 @@ LineTable horizons_table(const ExportedMoment& at) {
 }
 
 LineTable faults_table(const ExportedMoment& at) {
-    LineTable table{"faults",
-                    "rate_mm_per_a",
-                    {"name", "fault", "main", "attitude", "sense", "length_m", "dip_deg",
-                     "rate_mm_per_a", "born_at_m", "dip_at_birth_deg", "traced_since_m",
-                     "footwall_turn_deg", "width_diameters", "curvature_per_m", "foot_x_m",
-                     "foot_z_m", "pre_rift_throw_m"},
-                    {"slip_m", "width_m"}};
+    LineTable table{"faults", std::string(field_rate), {}, {std::string(field_slip), "width_m"}};
+    for (const FaultField* field : exported_fault_fields())
+        table.columns.emplace_back(field->name);
     const FaultReport& report = at.faults;
     std::set<int> strata;
     for (const Fault& f : report.faults)
@@ -169,20 +163,6 @@ LineTable base_table(const ExportedMoment& at) {
     return table;
 }
 
-const std::vector<std::string>& rock_names() {
-    static const std::vector<std::string> names{"basement", "weak basement", "sediment",
-                                                "weak sediment"};
-    return names;
-}
-
-std::vector<std::uint32_t> rocks(const State& state) {
-    const ConstDiscColumns d = disc_columns(state);
-    std::vector<std::uint32_t> rocks;
-    for (std::size_t i = 0; i < d.x.size(); ++i)
-        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (d.material[i] == weak ? 1u : 0u));
-    return rocks;
-}
-
 std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
     const State& state = at.now.state;
     const ConstDiscColumns d = disc_columns(state);
@@ -232,8 +212,8 @@ LineTable discs_table(const ExportedMoment& at) {
     std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(rock[i], d.id[i]); });
     for (const std::size_t i : order) {
         if (table.lines.empty() ||
-            std::get<std::string>(table.lines.back().values.front()) != rock_names()[rock[i]])
-            table.lines.push_back({{rock_names()[rock[i]]}});
+            std::get<std::string>(table.lines.back().values.front()) != rock_names[rock[i]])
+            table.lines.push_back({{rock_names[rock[i]]}});
         Line& line = table.lines.back();
         line.points.push_back(rounded(at, {d.x[i], d.y[i]}));
         for (const DiscColumn& column : columns)

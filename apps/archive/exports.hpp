@@ -4,7 +4,6 @@
 #include "apps/measures/fault.hpp"
 #include "apps/scene/effect.hpp"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -44,11 +43,5 @@ struct DiscColumn {
 
 /// What discs_table says of the discs, besides rock and place.
 std::vector<DiscColumn> exported_columns(const ExportedMoment& at);
-
-/// Names of rocks, by what rocks() returns.
-const std::vector<std::string>& rock_names();
-
-/// Which rock each disc is of.
-std::vector<std::uint32_t> rocks(const dem::State& state);
 
 } // namespace listric::archive

@@ -80,4 +80,26 @@ std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const State& s
     return rows;
 }
 
+std::span<const ObservedField> observed_fields() {
+    using Json = nlohmann::ordered_json;
+    using H = const ObservedHorizon&;
+    static constexpr ObservedField fields[] = {
+        {"name", "", "of the picked horizon", [](H h) -> Json { return h.name; }},
+        {"outside", "", "why it is compared with nothing, if it is not",
+         [](H h) { return h.objection.empty() ? Json() : Json(h.objection); }},
+        {"stratum", "1", "whose top it is compared with",
+         [](H h) { return h.misfit ? Json(*h.stratum) : Json(); }},
+        {"mean_m", "m", "mean distance of its points from that top",
+         [](H h) { return h.misfit ? Json(h.misfit->mean) : Json(); }},
+        {"largest_m", "m", "largest distance",
+         [](H h) { return h.misfit ? Json(h.misfit->largest) : Json(); }},
+        {"largest_at_x_m", "m", "where that is",
+         [](H h) { return h.misfit ? Json(h.misfit->worst.x) : Json(); }},
+        {"points", "1", "picked", [](H h) { return h.misfit ? Json(h.points) : Json(); }},
+        {"points_compared", "1", "of these that lie beside the top",
+         [](H h) { return h.misfit ? Json(h.misfit->compared) : Json(); }},
+    };
+    return fields;
+}
+
 } // namespace listric::archive

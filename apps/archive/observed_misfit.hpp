@@ -3,10 +3,15 @@
 #include "apps/measures/horizons.hpp"
 #include "apps/measures/line_misfit.hpp"
 #include "apps/scene/scene.hpp"
+#include "apps/support/measure.hpp"
 #include "dem/state.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace listric::archive {
@@ -19,6 +24,20 @@ struct ObservedHorizon {
     std::size_t points = 0; ///< picked
     std::string objection;  ///< why it is compared with nothing, if it is not
 };
+
+/// What summary.json says of one under a name; null: nothing.
+struct ObservedField {
+    std::string_view name, unit, doc;
+    nlohmann::ordered_json (*value)(const ObservedHorizon& horizon);
+};
+std::span<const ObservedField> observed_fields();
+
+inline constexpr Quantity observed_horizons{
+    "observed", "", "picked horizons beside the model's tops; with `[observed]` only"};
+inline constexpr Quantity detachment_misfit{
+    "detachment_misfit_m", "m",
+    "largest distance of a picked fault's points from the arcs and lines fitted to them; only with "
+    "`detachment.csv` or `svg`"};
 
 /// Compares every picked horizon with the top that was deposited at its age, or without an age with
 /// the nearest of all. The age is before the end of the scene's extension: the section as it is.

@@ -5,6 +5,7 @@
 #include "apps/archive/scene_lines.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/archive/summary.hpp"
+#include "apps/model/model.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
@@ -114,7 +115,7 @@ void keep_what_is_read(const Scene& scene, const fs::path& output, ExistingRun e
 void keep_what_is_there(const Scene& scene, const fs::path& output) {
     if (!list_snapshots(output).empty())
         return;
-    const bool with_base = scene.flexure || has_effect(scene, "elastic_base");
+    const bool with_base = scene.flexure || make_parts(scene).base_moves;
     const bool with_series = scene.output.series == SeriesFormat::paraview;
     if (const auto file = file_in_the_way(output, with_base, with_series))
         throw UsageError(fmt::format("{}: is no file of a run, and one in {} would write over it; "

@@ -47,7 +47,7 @@ template <class AnyState, class Visit> void for_each_number(AnyState& s, Visit&&
     visit("searched_extension", s.searched_extension);
     visit("displacement_bound", s.displacement_bound);
     visit("window_speed", s.window_speed);
-    visit("look_interval", s.look_interval);
+    visit("look_interval", s.check_interval);
 }
 
 /// The same of a material.

@@ -1,14 +1,15 @@
 #include "apps/archive/summary.hpp"
 
+#include "apps/archive/fault_fields.hpp"
 #include "apps/archive/json_file.hpp"
-#include "apps/archive/traced_faults.hpp"
+#include "apps/measures/dictionary.hpp"
+#include "apps/measures/main_faults.hpp"
 #include "apps/support/fineness.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <map>
 
 namespace listric::archive {
@@ -21,8 +22,9 @@ namespace {
 /// Every measure that is a number; NaN: no meaning in this run.
 NamedNumbers numbers_of(const Measures& m) {
     NamedNumbers numbers;
-    for (const MeasureName& measure : measure_names())
-        numbers.emplace_back(measure.name, measure.value(m).value_or(std::nan("")));
+    for (const MeasureTable& table : measure_tables())
+        for (const Measure<Measures>& measure : table.measures)
+            numbers.emplace_back(measure.name, measure.value(m).value_or(std::nan("")));
     return numbers;
 }
 
@@ -48,23 +50,11 @@ Json list(const std::vector<NamedNumbers>& objects) {
 }
 
 Json summary_head(const SummaryContent& content) {
-    const RunRecord& record = content.record;
-    return {
-        {"scene", content.scene},
-        {"accuracy", content.accuracy},
-        {"seed", content.seed},
-        {"threads", content.threads},
-        {"ranks", content.ranks},
-        {"cycle_level", content.cycle},
-        {"discs", content.state.discs.rows()},
-        {"cycles", content.state.clock.cycle},
-        {"wall_s", content.wall_seconds},
-        {"predicted_wall_s", record.predicted_seconds},
-        {"disc_steps_per_s", record.disc_steps / content.wall_seconds},
-        {"finished", true},
-        {"state_hash", fmt::format("{:016x}", content.state_hash)},
-        {"extension_m", content.state.clock.extension},
-    };
+    Json json;
+    for (const HeadField& field : head_fields())
+        if (field.value)
+            json[std::string(field.name)] = field.value(content);
+    return json;
 }
 
 void add_numbers(Json& json, const SummaryContent& content) {
@@ -74,7 +64,7 @@ void add_numbers(Json& json, const SummaryContent& content) {
     for (const auto& [name, value] : content.numbers)
         put(json, name, value);
     if (m.quasi_static)
-        json["quasi_static"] = *m.quasi_static;
+        json[std::string(quasi_static.name)] = *m.quasi_static;
     for (const auto& [name, numbers] : content.objects)
         json[name] = object(numbers);
 }
@@ -91,81 +81,85 @@ Json seconds_by_part(const std::map<std::string, double>& parts, double wall_sec
     return json;
 }
 
-Json depocentre_list(const std::vector<Depocentre>& depocentres) {
-    std::vector<NamedNumbers> rows;
-    for (const Depocentre& d : depocentres)
-        rows.push_back(
-            {{"x_m", d.x}, {"thickness_m", d.thickness}, {"prominence_m", d.prominence}});
-    return list(rows);
-}
-
-Json bonded_list(const std::vector<BondedLayer>& layers) {
-    std::vector<NamedNumbers> rows;
-    for (const BondedLayer& layer : layers)
-        rows.push_back({{"depth_m", layer.depth}, {"bonded_fraction", layer.share}});
-    return list(rows);
-}
-
-/// @param steps  in a metre, of the trace's points
-Json fault_object(const Fault& f, double steps) {
-    Json throws = Json::object();
-    for (const auto& [stratum, value] : f.throws)
-        throws[fmt::format("{}", stratum)] = value;
-    Json points = Json::array();
-    for (Point p : f.trace.points)
-        points.push_back({std::round(steps * p.x) / steps, std::round(-steps * p.y) / steps});
-    Json json = trace_object(f.trace, f.dip, f.normal);
-    json.update({{"attitude", f.synthetic ? "synthetic" : "antithetic"},
-                 {"rate_mm_per_a", f.rate},
-                 {"width_diameters", f.width},
-                 {"curvature_per_m", f.curvature},
-                 {"born_at_m", f.born_at},
-                 {"dip_at_birth_deg", f.dip_at_birth},
-                 {"traced_since_m", f.traced_since},
-                 {"footwall_turn_deg", f.footwall_turn},
-                 {"foot_x_m", f.foot.x},
-                 {"foot_z_m", -f.foot.y},
-                 {"throw_m", throws},
-                 {"points_m", points}});
-    if (f.pre_rift_throw)
-        json["pre_rift_throw_m"] = *f.pre_rift_throw;
-    return json;
+/// A list of objects, which have the measures that have a meaning.
+template <class Subject>
+Json objects_of(const std::vector<Subject>& subjects, std::span<const Measure<Subject>> measures) {
+    Json all = Json::array();
+    for (const Subject& subject : subjects) {
+        Json& json = all.emplace_back(Json::object());
+        for (const Measure<Subject>& measure : measures)
+            put(json, std::string(measure.name), measure.value(subject));
+    }
+    return all;
 }
 
 /// The faults, and what they have in common.
 void add_faults(Json& json, const FaultReport& report, double steps) {
-    put(json, "fault_width_diameters", report.width);
-    put(json, "antithetic_foot_x_m", report.antithetic_foot);
-    if (report.main_antithetic)
-        json["main_antithetic_fault"] = *report.main_antithetic;
-    if (report.main_synthetic)
-        json["main_synthetic_fault"] = *report.main_synthetic;
-    put(json, "sediment_weak_off_fault_fraction", report.sediment_weak_off_fault_fraction);
+    for (const Measure<FaultReport>& measure : fault_report_measures())
+        if (const auto value = measure.value(report); value && measure.unit == index_unit)
+            json[std::string(measure.name)] = static_cast<std::size_t>(*value);
+        else
+            put(json, std::string(measure.name), value);
     Json& faults = json["faults"] = Json::array();
-    for (const Fault& f : report.faults)
-        faults.push_back(fault_object(f, steps));
+    for (std::size_t k = 0; k < report.faults.size(); ++k)
+        faults.push_back(fault_object({report, k, steps}, fault_fields()));
 }
 
 /// Picked horizons; those that are compared with nothing say why.
 Json observed_list(const std::vector<ObservedHorizon>& rows) {
     Json all = Json::array();
     for (const ObservedHorizon& row : rows) {
-        Json& json = all.emplace_back(Json{{"name", row.name}});
-        if (!row.objection.empty())
-            json["outside"] = row.objection;
-        if (!row.misfit)
-            continue;
-        json.update({{"stratum", *row.stratum},
-                     {"mean_m", row.misfit->mean},
-                     {"largest_m", row.misfit->largest},
-                     {"largest_at_x_m", row.misfit->worst.x},
-                     {"points", row.points},
-                     {"points_compared", row.misfit->compared}});
+        Json& json = all.emplace_back(Json::object());
+        for (const ObservedField& field : observed_fields())
+            if (Json value = field.value(row); !value.is_null())
+                json[std::string(field.name)] = std::move(value);
     }
     return all;
 }
 
 } // namespace
+
+std::span<const HeadField> head_fields() {
+    using C = const SummaryContent&;
+    static constexpr HeadField fields[] = {
+        {"scene", "", "what was run", [](C c) -> Json { return c.scene; }},
+        {"accuracy", "", "level of accuracy", [](C c) -> Json { return c.accuracy; }},
+        {"seed", "1", "of the packing and of everything random",
+         [](C c) -> Json { return c.seed; }},
+        {"threads", "1", "of each of the `ranks`", [](C c) -> Json { return c.threads; }},
+        {"ranks", "1", "processes that shared the discs", [](C c) -> Json { return c.ranks; }},
+        {"cycle_level", "", "level of the processor: `v4`, `v3`, or `plain`",
+         [](C c) -> Json { return c.cycle; }},
+        {"discs", "1", "at the end", [](C c) -> Json { return c.state.discs.rows(); }},
+        {"cycles", "1", "at the end", [](C c) -> Json { return c.state.clock.cycle; }},
+        {"wall_s", "s",
+         "the program's time: genesis, events, output, figures; summed over resumed sessions",
+         [](C c) -> Json { return c.wall_seconds; }},
+        {"predicted_wall_s", "s",
+         "what was expected before the run, with other programs running as they were then",
+         [](C c) -> Json { return c.record.predicted_seconds; }},
+        {"disc_steps_per_s", "1/s", "discs times cycles after genesis, over `wall_s`",
+         [](C c) -> Json { return c.record.disc_steps / c.wall_seconds; }},
+        {"finished", "", "the run reached its end", [](C) -> Json { return true; }},
+        {"state_hash", "",
+         "of every column and number of the state; equal for equal runs, whatever the threads",
+         [](C c) -> Json { return fmt::format("{:016x}", c.state_hash); }},
+        {"extension_m", "m", "displacement of base and right wall",
+         [](C c) -> Json { return c.state.clock.extension; }},
+        {"cycle", "1", "cycles so far (`history.csv`)"},
+        {"provenance", "",
+         "`version` `commit` `compiler` `instruction_set` of the program that finished the run "
+         "(the "
+         "widest vectors it is compiled for; of a cycle for all processors `cycle_level` tells), "
+         "`scene_hash` of every parameter in scene.toml, and `seed`; equal for equal programs and "
+         "scenes. Figures have it in their metadata, too"},
+        {"effects", "", "those that were on"},
+        {"time_by_part_s", "s",
+         "`wall_s` split: `genesis` `rebuild` `cycle`, each event, `output` `figures` `report` "
+         "`measures` `other`"},
+    };
+    return fields;
+}
 
 NamedNumbers history_row(const State& state, const Measures& m) {
     NamedNumbers row = {
@@ -202,14 +196,15 @@ std::string summary_json(const SummaryContent& content) {
     json["effects"] = content.effects;
     json["time_by_part_s"] = seconds_by_part(content.record.seconds_by_part, content.wall_seconds);
     if (content.measures.depocentres)
-        json["depocentres"] = depocentre_list(*content.measures.depocentres);
+        json[std::string(depocentres.name)] =
+            objects_of(*content.measures.depocentres, depocentre_measures());
     if (content.measures.old_sediment_bonded_profile)
-        json["old_sediment_bonded_profile"] =
-            bonded_list(*content.measures.old_sediment_bonded_profile);
+        json[std::string(old_sediment_bonded_profile.name)] =
+            objects_of(*content.measures.old_sediment_bonded_profile, bonded_layer_measures());
     for (const auto& [name, objects] : content.lists)
         json[name] = list(objects);
     if (!content.observed.empty())
-        json["observed"] = observed_list(content.observed);
+        json[std::string(observed_horizons.name)] = observed_list(content.observed);
     add_faults(json, content.faults, fineness(content.state.mean_radius));
     return to_text(json, 2) + "\n";
 }

@@ -13,7 +13,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,6 +48,13 @@ struct SummaryContent {
     std::uint64_t state_hash = 0;
     nlohmann::ordered_json provenance = {}; ///< provenance.hpp
 };
+
+/// Quantities of every run. One without a function is taken elsewhere.
+struct HeadField {
+    std::string_view name, unit, doc;
+    nlohmann::ordered_json (*value)(const SummaryContent& content) = nullptr;
+};
+std::span<const HeadField> head_fields();
 
 /// summary.json: names and units are part of the program's contract (docs/measures.md). Numbers
 /// that are not finite are left out.

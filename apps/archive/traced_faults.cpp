@@ -1,6 +1,9 @@
 #include "apps/archive/traced_faults.hpp"
 
+#include "apps/archive/fault_fields.hpp"
 #include "apps/support/json_text.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
@@ -8,28 +11,22 @@ namespace listric::archive {
 
 using namespace measures;
 
-nlohmann::ordered_json trace_object(const FaultTrace& trace, double dip, bool normal) {
-    const dem::Point top = trace.points.front(), bottom = trace.points.back();
-    return {{"x_top_m", top.x},
-            {"z_top_m", -top.y},
-            {"x_bottom_m", bottom.x},
-            {"z_bottom_m", -bottom.y},
-            {"length_m", trace.length()},
-            {"dip_deg", dip},
-            {"sense", normal ? "normal" : "reverse"}};
-}
-
 std::string to_json(std::span<const TracedFault> faults) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const TracedFault& f : faults) {
+        FaultReport alone;
+        Fault& only = alone.faults.emplace_back();
+        only.trace = f.trace;
+        only.dip = f.dip;
+        only.normal = f.normal;
         nlohmann::ordered_json points = nlohmann::ordered_json::array();
         for (const dem::Point p : f.trace.points)
             points.push_back({p.x, -p.y});
-        nlohmann::ordered_json fault = trace_object(f.trace, f.dip, f.normal);
-        fault["slip_m"] = f.slip;
-        fault["throw_m"] = f.throw_down;
-        fault["width_diameters"] = f.width;
-        fault["points_m"] = std::move(points);
+        nlohmann::ordered_json fault = fault_object({alone, 0}, trace_fields());
+        fault[field_slip] = f.slip;
+        fault[field_throw] = f.throw_down;
+        fault[field_width] = f.width;
+        fault[field_points] = std::move(points);
         list.push_back(std::move(fault));
     }
     return to_text(list, 2) + "\n";

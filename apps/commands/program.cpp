@@ -9,7 +9,7 @@
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
 #include "apps/support/version.hpp"
-#include "dem/cycle_choice.hpp"
+#include "dem/cycle/cycle_choice.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -74,9 +74,8 @@ Room room_of(const RunCall& call, const Scene& scene) {
     Room room = room_for(output_of(call, scene.name));
     if (call.options.resume || call.options.force)
         room.disk = std::numeric_limits<double>::infinity();
-    room.disk *=
-        scene.extension.distance /
-        std::min(scene.extension.distance, std::max(1.0, call.options.until.value_or(1e300)));
+    const double distance = scene.extension.distance;
+    room.disk *= distance / std::min(distance, std::max(1.0, call.options.end(distance)));
     return room;
 }
 

@@ -1,7 +1,9 @@
 #include "apps/scene/schema.hpp"
 
+#include "apps/archive/dictionary.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/support/json_text.hpp"
 
 #include <iostream>
 #include <memory>
@@ -10,9 +12,15 @@ namespace listric {
 
 Command add_schema(CLI::App& program) {
     const auto material = std::make_shared<bool>(false);
+    const auto measures = std::make_shared<bool>(false);
     CLI::App* command = program.add_subcommand("schema", "JSON schema of scene files, for editors");
     command->add_flag("--material", *material, "Of material files instead");
-    return {command, [material] {
+    command->add_flag("--measures", *measures, "What is measured: names, units, definitions");
+    return {command, [material, measures] {
+                if (*measures) {
+                    std::cout << to_text(archive::dictionary_json(program_effects()), 1) << '\n';
+                    return ExitCode::done;
+                }
                 std::cout << (*material ? material_schema() : scene_schema(program_effects()));
                 return ExitCode::done;
             }};

@@ -22,9 +22,7 @@ Command add_validate(CLI::App& program) {
         ->check(CLI::Range(0, 1'000'000'000));
     command->add_option("--jobs", request->jobs, "Runs at a time")->check(CLI::Range(1, 1024));
     command->add_option("--runs", request->runs, "Folder of the runs (out/validation-ACCURACY)");
-    command->add_option(
-        "--output", request->output,
-        "Document (docs/validation.md; not at standard or not all: beside the runs)");
+    command->add_option("--output", request->output, "Document (validation.md beside the runs)");
     command->add_option("--only", request->only, "One experiment");
     command->add_option("--plan", request->plan,
                         "Runs and expectations (apps/studies/validation.toml)");

@@ -3,7 +3,9 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/figures/figures.hpp"
-#include "apps/model/footwall_coupling.hpp"
+#include "apps/figures/vocabulary.hpp"
+#include "apps/model/base_driver.hpp"
+#include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/moment_names.hpp"
@@ -69,11 +71,12 @@ std::string uplift_rows(const State& state, const fem::Field& field, int decimal
 }
 
 /// Plain arrays for the drawing script: corners x, y and displacements of the patches, stress xx,
-/// yy, xy; discs x, y, radius, stratum, y at the start.
-void export_section(const State& state, const std::vector<fem::StressPatch>& patches,
+/// yy, xy; the end of the scale of their largest shear stress, MPa; discs x, y, radius, stratum, y
+/// at the start.
+void export_section(const Observation& now, const std::vector<fem::StressPatch>& patches,
                     const fs::path& folder) {
-    const ConstDiscColumns d = disc_columns(state);
-    const double right = *std::ranges::max_element(d.x) + margin;
+    const ConstDiscColumns d = disc_columns(now.state);
+    const double right = now.right_end() + margin;
     std::vector<double> rows;
     for (const fem::StressPatch& p : patches) {
         if (p.corner[0].x < -margin || p.corner[0].x > right)
@@ -84,6 +87,7 @@ void export_section(const State& state, const std::vector<fem::StressPatch>& pat
         rows.insert(rows.end(), {p.xx, p.yy, p.xy});
     }
     write_npy<double>(folder / "patches.npy", rows, 19);
+    write_npy<double>(folder / "end.npy", std::vector{shear_end(patches, now.right_end())});
     rows.clear();
     for (std::size_t i = 0; i < d.x.size(); ++i)
         rows.insert(rows.end(),
@@ -92,21 +96,26 @@ void export_section(const State& state, const std::vector<fem::StressPatch>& pat
 }
 
 /// Recovers the footwall's field at the moments that are shown, and leaves the arrays of the last.
-void export_footwall(const RunFolder& run, const fs::path& folder) {
+/// False if there is no such field.
+bool export_footwall(const RunFolder& run, const fs::path& folder) {
     std::vector<std::unique_ptr<Event>> events;
-    FootwallCoupling coupling(run.scene, run.parts, events);
+    const std::unique_ptr<BaseDriver> driver = make_base_driver(run.scene, run.parts, events);
     const int decimals = decimals_for(run.scene.output.interval);
     std::string table = uplift_header;
     const std::vector<fs::path> moments = shown(run.snapshots);
     for (const fs::path& path : moments) {
         Snapshot snapshot = read_snapshot(path);
         hand_over(snapshot, events);
-        const RecoveredField field = coupling.recover(snapshot.state);
-        table += uplift_rows(snapshot.state, field.field(), decimals);
+        const fem::Footwall* footwall = driver ? driver->recover(snapshot.state) : nullptr;
+        if (!footwall)
+            return false;
+        table += uplift_rows(snapshot.state, footwall->field(), decimals);
         if (path == moments.back())
-            export_section(snapshot.state, field.stress(), folder);
+            export_section({run.scene, run.parts, snapshot.state, events}, footwall->stress(),
+                           folder);
     }
     write_table(run.output / "footwall.csv", uplift_header, table);
+    return true;
 }
 
 } // namespace
@@ -125,12 +134,10 @@ void draw_base(const RunFolder& run, const PictureOrder& order) {
     write_table(run.output / "base.csv", base_header, table);
     const fs::path folder = fs::absolute(run.output), figures = folder / "figures";
     run_drawing_script("base.py", {folder.string(), figures.string(), order.text()});
-    if (!has_effect(run.scene, "elastic_base"))
-        return;
     const TemporaryFolder data(figures);
-    export_footwall(run, data.path);
-    run_drawing_script("footwall.py",
-                       {folder.string(), data.path.string(), figures.string(), order.text()});
+    if (export_footwall(run, data.path))
+        run_drawing_script("footwall.py",
+                           {folder.string(), data.path.string(), figures.string(), order.text()});
 }
 
 } // namespace listric

@@ -11,8 +11,6 @@
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,12 +19,6 @@ namespace listric {
 using namespace archive;
 
 namespace fs = std::filesystem;
-
-bool is_drawn_at(const Scene& scene, double extension) {
-    return std::ranges::any_of(scene.output.figures, [&](double mark) {
-        return std::abs(mark - extension) <= 0.5 * scene.output.interval;
-    });
-}
 
 namespace {
 

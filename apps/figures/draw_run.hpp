@@ -3,7 +3,6 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
 #include "apps/figures/frame.hpp"
-#include "apps/scene/scene.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -11,9 +10,6 @@
 #include <vector>
 
 namespace listric {
-
-/// Whether a scene wants pictures at this extension (m), to half a window.
-bool is_drawn_at(const Scene& scene, double extension);
 
 /// Draws the figures of all snapshots of a run's folder at the scene's figure extensions and of
 /// the newest one. Throws UsageError if there is nothing to draw, SceneError, StorageError.

@@ -5,9 +5,11 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
-#include "apps/figures/trajectory.hpp"
+#include "apps/measures/rock.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/npy.hpp"
+#include "apps/support/python.hpp"
 #include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
@@ -16,11 +18,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 namespace listric {
 
 using namespace archive;
+using namespace dem;
 
 namespace fs = std::filesystem;
 
@@ -79,6 +83,45 @@ std::vector<fs::path> chosen(const RunFolder& run, const std::vector<double>& ex
                 paths.push_back(path);
         }
     return paths;
+}
+
+/// Discs and bonds of several moments as one GSD file, which OVITO opens: the arrays that the
+/// script reads, in a folder that vanishes with this object.
+class Trajectory {
+public:
+    explicit Trajectory(const fs::path& folder) : data_(folder) {}
+    void add(const ExportedMoment& at);
+    void write(const fs::path& file) const;
+
+private:
+    TemporaryFolder data_;
+    int frames_ = 0;
+};
+
+void Trajectory::add(const ExportedMoment& at) {
+    const fs::path folder = data_.path / fmt::format("{:06d}", frames_++);
+    make_folder(folder);
+    const State& state = at.now.state;
+    const ConstDiscColumns d = disc_columns(state);
+    write_npy<double>(folder / "x_m.npy", d.x);
+    write_npy<double>(folder / "y_m.npy", d.y);
+    write_npy<std::uint32_t>(folder / "rock.npy", measures::rocks(state));
+    for (const DiscColumn& column : exported_columns(at))
+        write_npy<double>(folder / ("of-" + column.name + ".npy"), column.values);
+    const ConstContactColumns c = contact_columns(state);
+    std::vector<std::int32_t> bonded;
+    for (std::size_t k = 0; k < c.first.size(); ++k)
+        if (c.bonded[k])
+            bonded.insert(bonded.end(), {c.first[k], c.second[k]});
+    write_npy<std::int32_t>(folder / "bonded.npy", bonded, 2);
+    write_npy<double>(folder / "moment.npy",
+                      std::vector{static_cast<double>(state.clock.cycle), state.clock.extension});
+}
+
+void Trajectory::write(const fs::path& file) const {
+    std::vector<std::string> words{fs::absolute(data_.path).string(), fs::absolute(file).string()};
+    words.insert(words.end(), std::begin(measures::rock_names), std::end(measures::rock_names));
+    run_script_with("gsd", "python3-gsd", "trajectory.py", words);
 }
 
 std::string written(const LineTable& table, const std::string& format) {

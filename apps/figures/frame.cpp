@@ -3,7 +3,9 @@
 #include "apps/archive/observed_misfit.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/figures/predicted_tops.hpp"
+#include "apps/figures/vocabulary.hpp"
 #include "apps/figures/window_strain.hpp"
+#include "apps/measures/dictionary.hpp"
 #include "apps/measures/horizons.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/profile.hpp"
@@ -12,10 +14,10 @@
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
 #include "apps/support/npy.hpp"
-#include "dem/base_place.hpp"
-#include "dem/contacts.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/power_cell.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -195,23 +197,15 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         {"mean_radius_m", state.mean_radius},
         {"right_wall_x_m", now.right_end()},
         {"strata", d.stratum.empty() ? 0 : *std::ranges::max_element(d.stratum)},
-        {"layer_m", 1000.0},
         {"seed", scene.seed},
         {"accuracy", scene.accuracy},
         {"effects", effect_names(scene)},
         {"strain_window_m", strain_window},
-        {"thickness_m", scene.hanging_wall->thickness},
     };
-    const auto add = [&](const char* name, const std::optional<double>& value) {
-        if (value)
-            frame[name] = *value;
-    };
-    add("inclined_shear_angle_deg", m.inclined_shear_angle);
-    add("area_balance", m.area_balance);
-    add("halfgraben_area_share", m.halfgraben_area_share);
-    add("predicted_halfgraben_area_share", m.predicted_halfgraben_area_share);
-    add("rollover_tilt_deg", m.rollover_tilt);
-    add("predicted_tilt_deg", m.predicted_tilt);
+    for (const MeasureTable& table : measure_tables())
+        for (const Measure<Measures>& measure : table.measures)
+            if (const auto value = measure.value(m))
+                frame[measure.name] = *value;
     if (now.parts.sediment)
         frame["level_m"] = now.parts.sediment->level;
     return frame;
@@ -223,7 +217,8 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
                  const std::optional<Underlay>& underlay, const std::optional<MomentNames>& names) {
     const FrameWriter writer(folder);
     write_discs(writer, now.state);
-    writer.array("discs_shear_strain", window_strain(now));
+    const std::vector<double> strain = window_strain(now);
+    writer.array("discs_shear_strain", strain);
     if (now.parts.bonds) {
         write_bonds(writer, now.state);
         write_behaviour(writer, now.state);
@@ -245,11 +240,12 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
             points.push_back({picked->x[k], -picked->depth[k]});
         writer.points("picked_fault", points);
     }
-    for (const EffectPart& part : now.scene.effects)
-        if (part.effect->draw)
-            for (const FigureLayer& layer : part.effect->draw(now))
-                writer.array(layer.name, layer.rows, layer.columns);
+    constexpr std::size_t columns[] = {3, 2, 0}; // by LayerKind
+    for (const FigureLayer& layer : figure_layers(now.scene))
+        writer.array(data_name(layer), layer.rows(now), columns[static_cast<int>(layer.kind)]);
     nlohmann::json frame = frame_json(now, m);
+    frame["strain_end"] = scale_end(strain);
+    frame["layers"] = declared_layers(now.scene);
     const double extension = now.state.clock.extension;
     frame["extension_km"] = names.value_or(MomentNames(now.scene.output.interval, {&extension, 1}))
                                 .kilometres(extension);

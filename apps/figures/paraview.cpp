@@ -1,14 +1,17 @@
 #include "apps/figures/paraview.hpp"
 
+#include "apps/figures/vocabulary.hpp"
 #include "apps/figures/vtk_array.hpp"
 #include "apps/measures/cohesion.hpp"
+#include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/json_text.hpp"
 #include "apps/support/resources.hpp"
-#include "dem/base_place.hpp"
-#include "dem/contacts.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
-#include "dem/monitor.hpp"
 
 #include <fmt/format.h>
 
@@ -16,10 +19,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace listric {
@@ -203,33 +208,44 @@ std::string base_file(const State& state, const RigidBase& given) {
     return file.text();
 }
 
-/// Of all moments in output/paraview that are ends of windows, and of the present.
-/// @param extension_rate  m/a
-void write_series(const fs::path& output, const MomentNames& names, double now,
-                  double extension_rate) {
+/// Files in output/paraview whose names are `begin`, a moment and `ending`, with its extension, m:
+/// of the ends of windows and of the present moment.
+std::vector<std::pair<double, std::string>> files_of_moments(const fs::path& output,
+                                                             const std::string& begin,
+                                                             const std::string& ending,
+                                                             const MomentNames& names, double now) {
     const std::string present = names.metres(now);
-    std::set<std::tuple<double, std::size_t, std::string>> files; // in the series' order
+    std::vector<std::pair<double, std::string>> files;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(output / "paraview", error)) {
         const std::string name = entry.path().filename().string();
-        for (std::size_t part = 0; part < parts.size(); ++part) {
-            const std::string begin = fmt::format("{}-", parts[part]);
-            if (!name.starts_with(begin) || !name.ends_with("m.vtp"))
-                continue;
-            const std::string moment = name.substr(begin.size(), name.size() - begin.size() - 5);
-            const std::optional<double> end =
-                moment == present ? std::optional(now) : names.window_end(moment);
-            if (end)
-                files.emplace(*end, part, name);
-        }
+        if (!name.starts_with(begin) || !name.ends_with(ending))
+            continue;
+        const std::string moment =
+            name.substr(begin.size(), name.size() - begin.size() - ending.size());
+        const std::optional<double> extension =
+            moment == present ? std::optional(now) : names.window_end(moment);
+        if (extension)
+            files.emplace_back(*extension, "paraview/" + name);
     }
+    std::ranges::sort(files);
+    return files;
+}
+
+/// @param extension_rate  m/a
+void write_series(const fs::path& output, const MomentNames& names, double now,
+                  double extension_rate) {
+    std::set<std::tuple<double, std::size_t, std::string>> files; // in the series' order
+    for (std::size_t part = 0; part < parts.size(); ++part)
+        for (const auto& [extension, name] :
+             files_of_moments(output, fmt::format("{}-", parts[part]), "m.vtp", names, now))
+            files.emplace(extension, part, name);
     std::string series = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
                          "<Collection>\n";
     // ParaView names a block after `name`; it goes by the order of the lines, not by `part`.
     for (const auto& [extension, part, name] : files)
-        series +=
-            fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"paraview/{}\"/>\n",
-                        extension / extension_rate / 1e6, part, parts[part], name);
+        series += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+                              extension / extension_rate / 1e6, part, parts[part], name);
     write_text(output / "paraview.pvd", series + "</Collection>\n</VTKFile>\n");
 }
 
@@ -248,10 +264,34 @@ void write_paraview(const fs::path& output, const State& state, const RigidBase&
     copy_view(output);
 }
 
+void write_footwall(const fs::path& output, const fem::Footwall& footwall, double extension,
+                    const MomentNames& names, double extension_rate) {
+    const fs::path folder = output / "paraview";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    footwall.write(folder.string(), "footwall-" + names.metres(extension) + "m");
+    auto moments = files_of_moments(output, "footwall-", "m.vtu", names, extension);
+    for (auto& [time, file] : moments)
+        time = time / extension_rate / 1e6;
+    try {
+        fem::write_series((output / "footwall.pvd").string(), moments);
+    } catch (const fem::FootwallError& failure) {
+        throw StorageError(failure.what());
+    }
+}
+
 void copy_view(const fs::path& output) {
-    const std::string script = read_text_if_there(resource_folder() / "figures/python/paraview.py");
-    if (!script.empty())
-        write_text(output / "paraview.py", script);
+    std::string script = read_text_if_there(resource_folder() / "figures/python/paraview.py");
+    constexpr std::string_view none = "LOOK = {}";
+    const std::size_t place = script.find(none);
+    if (place == script.npos)
+        return;
+    const auto words = vocabulary();
+    const std::string palette = words["strata"]["palette"];
+    const nlohmann::json look{{"pre_rift", words["pre_rift"]},
+                              {"strata", words["strata"]},
+                              {"rows", words["palettes"][palette]["rows"]}};
+    write_text(output / "paraview.py", script.replace(place + 7, 2, to_text(look)));
 }
 
 } // namespace listric

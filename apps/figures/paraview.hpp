@@ -3,6 +3,7 @@
 #include "apps/support/moment_names.hpp"
 #include "dem/base.hpp"
 #include "dem/state.hpp"
+#include "fem/footwall.hpp"
 
 #include <filesystem>
 
@@ -17,6 +18,11 @@ namespace listric {
 /// @param extension_rate  m/a. Throws StorageError.
 void write_paraview(const std::filesystem::path& output, const dem::State& state,
                     const dem::RigidBase& base, const MomentNames& names, double extension_rate);
+
+/// Writes the footwall's present field, of that moment: a file in output/paraview, and the series
+/// output/footwall.pvd of this moment and the ends of windows. Throws StorageError.
+void write_footwall(const std::filesystem::path& output, const fem::Footwall& footwall,
+                    double extension, const MomentNames& names, double extension_rate);
 
 /// Writes output/paraview.py, which opens the series there in ParaView. Throws StorageError.
 void copy_view(const std::filesystem::path& output);

@@ -1,21 +1,24 @@
 #include "apps/figures/report_moments.hpp"
 
 #include "apps/archive/exports.hpp"
+#include "apps/archive/fault_fields.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/figures/predicted_tops.hpp"
+#include "apps/figures/vocabulary.hpp"
 #include "apps/figures/window_strain.hpp"
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/measures.hpp"
+#include "apps/measures/rock.hpp"
 #include "apps/measures/rock_behaviour.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/deflate.hpp"
 #include "apps/support/fineness.hpp"
 #include "apps/support/json_text.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/monitor.hpp"
-#include "dem/power_cell.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -139,9 +142,9 @@ json faults_of(const ExportedMoment& at, bool followed) {
     json faults = lines_of(faults_table(at), steps_of(at.now));
     if (!followed)
         for (json& fault : faults)
-            for (const char* past :
-                 {"born_at_m", "dip_at_birth_deg", "traced_since_m", "footwall_turn_deg"})
-                fault[past] = nullptr;
+            for (const archive::FaultField& field : archive::fault_fields())
+                if (field.of_past)
+                    fault[field.name] = nullptr;
     return faults;
 }
 
@@ -158,19 +161,19 @@ json predictions_of(const Observation& now) {
 /// Corners (m) and change of largest shear stress (MPa) of the patches near the section, as they
 /// stand.
 json footwall_of(std::span<const fem::StressPatch> patches, double right) {
-    constexpr double beside = 60e3, deepest = 60e3; // m
     json corners = json::array(), shear = json::array();
     for (const fem::StressPatch& patch : patches) {
-        const fem::Vector at = patch.corner[0];
-        if (at.x < -beside || at.x > right + beside || at.y < -deepest)
+        if (!is_near(patch, right))
             continue;
         for (std::size_t k = 0; k < 4; ++k) {
             corners.push_back(std::round(patch.corner[k].x + patch.displacement[k].x));
             corners.push_back(-std::round(patch.corner[k].y + patch.displacement[k].y));
         }
-        shear.push_back(short_number(1e-6 * hypotenuse(0.5 * (patch.xx - patch.yy), patch.xy)));
+        shear.push_back(short_number(largest_shear(patch)));
     }
-    return {{"corners", std::move(corners)}, {"shear_mpa", std::move(shear)}};
+    return {{"corners", std::move(corners)},
+            {"shear_mpa", std::move(shear)},
+            {"end_mpa", shear_end(patches, right)}};
 }
 
 } // namespace
@@ -188,10 +191,9 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
     }
     if (!footwall.empty())
         lines["footwall"] = footwall_of(footwall, now.right_end());
-    for (const EffectPart& part : now.scene.effects)
-        if (part.effect->draw)
-            for (const FigureLayer& layer : part.effect->draw(now))
-                lines["layers"][layer.name] = {{"columns", layer.columns}, {"rows", layer.rows}};
+    for (const FigureLayer& layer : figure_layers(now.scene))
+        if (layer.kind != LayerKind::discs)
+            lines["layers"][data_name(layer)] = layer.rows(now);
     const std::string text = to_text(lines);
     const auto* const bytes = reinterpret_cast<const unsigned char*>(text.data());
     return {base64(deflated({bytes, text.size()}, compression)), followed};
@@ -246,7 +248,9 @@ std::string ReportMoments::bonds(const State& state) {
 }
 
 /// None reads what another one changes.
-std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now) {
+/// @param ends  gets where the scales of their colours end
+std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now,
+                                                          std::map<std::string, double>& ends) {
     const State& state = now.state;
     const ConstDiscColumns d = disc_columns(state);
     const std::map<std::string, Scale> all_scales = scales(state.mean_radius);
@@ -262,13 +266,23 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
             return stream(name, std::move(codes), before);
         });
     };
+    const auto add_scaled = [&](const std::string& name, std::vector<double> values) {
+        ends[name] = scale_end(values);
+        add(name, [values = std::move(values)](std::size_t i) { return values[i]; });
+    };
+    const auto by_disc = [&](auto value) {
+        std::vector<double> values;
+        for (std::size_t i = 0; i < d.x.size(); ++i)
+            values.push_back(value(i));
+        return values;
+    };
     streams.push_back([&state, d, &before = before_["present"]] {
         std::vector<std::int32_t> present(static_cast<std::size_t>(state.next_id));
         for (const std::int64_t id : d.id)
             present[static_cast<std::size_t>(id)] = 1;
         return stream("present", std::move(present), before);
     });
-    const std::vector<double> radius = rock_radii(state), strain = window_strain(now);
+    const std::vector<double> radius = rock_radii(state);
     const std::vector<std::uint32_t> rock = rocks(state);
     add("x_m", [d](std::size_t i) { return d.x[i]; });
     add("depth_m", [d](std::size_t i) { return -d.y[i]; });
@@ -278,11 +292,18 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
     add("start_depth_m", [d](std::size_t i) { return -d.start_y[i]; });
     add("start_extension_m", [d](std::size_t i) { return d.start_extension[i]; });
     add("rock", [rock](std::size_t i) { return rock[i]; });
-    add("window_strain", [strain](std::size_t i) { return strain[i]; });
+    ends["displacement_m"] = scale_end(by_disc(
+        [d](std::size_t i) { return hypotenuse(d.x[i] - d.start_x[i], d.y[i] - d.start_y[i]); }));
+    add_scaled("window_strain", window_strain(now));
     if (state.discs.has("total_strain")) {
         const auto total = state.discs.get<double>("total_strain");
-        add("total_strain", [total](std::size_t i) { return total[i]; });
+        add_scaled("total_strain", {total.begin(), total.end()});
     }
+    for (const FigureLayer& layer : figure_layers(now.scene))
+        if (layer.kind == LayerKind::discs)
+            add(data_name(layer), [shares = layer.rows(now)](std::size_t i) {
+                return 255.0 * std::clamp(shares[i], 0.0, 1.0);
+            });
     if (now.parts.bonds) {
         const auto classes =
             rock_behaviour(measures::unbonded_shares(state), d.stratum, d.material);
@@ -294,11 +315,11 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
     }
     if (detail_.stress) {
         const std::vector<Stress> stress = disc_stresses(state, now.parts.base);
-        add("mean_stress_pa",
-            [stress](std::size_t i) { return -0.5 * (stress[i].xx + stress[i].yy); });
-        add("shear_stress_pa", [stress](std::size_t i) {
-            return hypotenuse(0.5 * (stress[i].xx - stress[i].yy), stress[i].xy);
-        });
+        add_scaled("mean_stress_pa",
+                   by_disc([&](std::size_t i) { return -0.5 * (stress[i].xx + stress[i].yy); }));
+        add_scaled("shear_stress_pa", by_disc([&](std::size_t i) {
+                       return hypotenuse(0.5 * (stress[i].xx - stress[i].yy), stress[i].xy);
+                   }));
     }
     return streams;
 }
@@ -306,14 +327,16 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
 void ReportMoments::add(const Observation& now, const SectionLines& lines) {
     const Clock& clock = now.state.clock;
     if (extension_ != clock.extension) {
-        const std::vector<Stream> to_pack = streams(now);
+        std::map<std::string, double> ends;
+        const std::vector<Stream> to_pack = streams(now, ends);
         std::vector<std::string> packed(to_pack.size());
         for_each_shared(to_pack.size(), [&](std::size_t k) { packed[k] = to_pack[k](); });
-        moments_.push_back(
-            {fmt::format("\"extension_m\":{},\"time_a\":{},\"discs\":{},\"streams\":{{{}}}",
-                         clock.extension, clock.extension / now.scene.extension.rate,
-                         now.state.discs.rows(), fmt::join(packed, ",")),
-             ""});
+        moments_.push_back({fmt::format("\"extension_m\":{},\"time_a\":{},\"discs\":{},\"ends\":{},"
+                                        "\"streams\":{{{}}}",
+                                        clock.extension, clock.extension / now.scene.extension.rate,
+                                        now.state.discs.rows(), to_text(nlohmann::json(ends)),
+                                        fmt::join(packed, ",")),
+                            ""});
     }
     extension_ = clock.extension;
     moments_.back().lines = lines.packed;

@@ -65,7 +65,7 @@ private:
     };
 
     using Stream = std::function<std::string()>; ///< makes the text of some numbers
-    std::vector<Stream> streams(const Observation& now);
+    std::vector<Stream> streams(const Observation& now, std::map<std::string, double>& ends);
     std::string bonds(const dem::State& state);
 
     ReportDetail detail_;

@@ -1,9 +1,14 @@
 #include "apps/figures/report_page.hpp"
 
+#include "apps/archive/dictionary.hpp"
+#include "apps/archive/fault_fields.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/figures/vocabulary.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/json_text.hpp"
 #include "apps/support/png.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/version.hpp"
@@ -13,7 +18,6 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 namespace listric {
 
@@ -71,7 +75,7 @@ json head_of(const ReportPage::Run& run) {
               {"description", scene.description},
               {"accuracy", scene.accuracy},
               {"seed", scene.seed},
-              {"effects", effect_names(scene)},
+              {"layers", declared_layers(scene)},
               {"length_m", scene.hanging_wall->length},
               {"thickness_m", scene.hanging_wall->thickness},
               {"extension_m", scene.extension.distance},
@@ -93,16 +97,34 @@ json underlay_of(const Underlay& underlay) {
             {"corners_m", {underlay.left, underlay.top, underlay.right, underlay.bottom}}};
 }
 
+/// The program's effects and the runs' own.
+std::vector<const Effect*> effects_of(const ReportPage& page) {
+    std::vector<const Effect*> all(program_effects().begin(), program_effects().end());
+    for (const ReportPage::Run& run : page.runs)
+        for (const EffectPart& part : run.scene.effects)
+            if (std::ranges::find(all, part.effect) == all.end())
+                all.push_back(part.effect);
+    return all;
+}
+
+/// "dip at birth (°)"
+std::string label_of(const archive::FaultField& field) {
+    if (field.unit.empty() || field.unit == "1")
+        return std::string(field.label);
+    return fmt::format("{} ({})", field.label, field.unit == "deg" ? "°" : field.unit);
+}
+
 std::string data_of(const ReportPage& page) {
     json head{{"program", "listric " + std::string(version)},
               {"left_out", page.left_out},
               {"lacks", lacks_of(page)},
               {"live", page.live}};
-    const fs::path resources = resource_folder();
-    std::string measures = read_text_if_there(resources / "measures.md");
-    if (measures.empty())
-        measures = read_text_if_there(resources / "../docs/measures.md"); // the source tree's
-    head["definitions"] = json::parse(definitions_of(measures));
+    for (const archive::DictionaryEntry& entry : archive::dictionary(effects_of(page)))
+        head["definitions"].emplace(entry.quantity.name, entry.quantity.doc);
+    for (const archive::FaultField* field : archive::exported_fault_fields())
+        if (!field->label.empty())
+            head["fault_columns"].push_back(
+                {{"name", field->name}, {"label", label_of(*field)}, {"doc", field->doc}});
     if (page.underlay)
         head["underlay"] = underlay_of(*page.underlay);
     const auto dumped = [](const json& value) {
@@ -133,25 +155,6 @@ std::vector<std::string> lacks_of(const ReportPage& page) {
     return lacks;
 }
 
-std::string definitions_of(const std::string& document) {
-    json definitions = json::object();
-    std::istringstream in(document);
-    for (std::string row; std::getline(in, row);) {
-        if (!row.starts_with("| `"))
-            continue;
-        const std::size_t bar = row.find(" | ", 2), end = row.rfind(" |");
-        if (bar == row.npos || end <= bar + 3)
-            continue;
-        const std::string what = row.substr(bar + 3, end - bar - 3);
-        for (std::size_t at = row.find('`'); at < bar; at = row.find('`', at + 1)) {
-            const std::size_t close = row.find('`', at + 1);
-            definitions[row.substr(at + 1, close - at - 1)] = what;
-            at = close;
-        }
-    }
-    return definitions.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 std::string report_html(const ReportPage& page) {
     const fs::path folder = resource_folder() / "figures/report";
     std::string scripts;
@@ -162,7 +165,7 @@ std::string report_html(const ReportPage& page) {
         {"style", read_text(folder / "report.css")},
         {"charts_style", read_text_if_there(charts_folder() / "dygraph.min.css")},
         {"charts", as_script(read_text_if_there(charts_folder() / "dygraph.min.js"))},
-        {"palettes", read_text(folder / "palettes.json")},
+        {"vocabulary", as_data(to_text(vocabulary()))},
         {"data", data_of(page)},
         {"scripts", as_script(scripts)}};
     const std::string frame = read_text(folder / "report.html");

@@ -35,7 +35,4 @@ std::string report_html(const ReportPage& page);
 /// What a page lacks that the runs' folders should have, a sentence each; the page says so, too.
 std::vector<std::string> lacks_of(const ReportPage& page);
 
-/// What a table of docs/measures.md says of its names, as a JSON object.
-std::string definitions_of(const std::string& document);
-
 } // namespace listric

@@ -5,9 +5,9 @@
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/archive/summary.hpp"
-#include "apps/figures/draw_run.hpp"
 #include "apps/figures/report_page.hpp"
-#include "apps/model/footwall_coupling.hpp"
+#include "apps/model/base_driver.hpp"
+#include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 
@@ -80,29 +80,28 @@ struct Drawn {
     std::future<SectionLines> lines = {};
 };
 
-/// The stress below the base of a run's snapshots; none where the base is rigid.
+/// The stress below the base of a run's snapshots; none where it is not known.
 class FootwallReader {
 public:
     explicit FootwallReader(const RunFolder& folder) {
-        if (!has_effect(folder.scene, "elastic_base"))
-            return;
         try {
-            coupling_.emplace(folder.scene, folder.parts, events_);
+            driver_ = make_base_driver(folder.scene, folder.parts, events_);
         } catch (const UsageError&) { // without its plug-in the report has the discs alone
         }
     }
 
     std::vector<fem::StressPatch> read(const fs::path& path) {
-        if (!coupling_)
+        if (!driver_)
             return {};
         Snapshot snapshot = read_snapshot(path);
         hand_over(snapshot, events_);
-        return coupling_->recover(snapshot.state).stress();
+        const fem::Footwall* footwall = driver_->recover(snapshot.state);
+        return footwall ? footwall->stress() : std::vector<fem::StressPatch>();
     }
 
 private:
     std::vector<std::unique_ptr<dem::Event>> events_;
-    std::optional<FootwallCoupling> coupling_;
+    std::unique_ptr<BaseDriver> driver_;
 };
 
 } // namespace

@@ -2,10 +2,10 @@
 
 #include "apps/laboratory/servo.hpp"
 #include "apps/support/statistics.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/genesis/packing.hpp"
 #include "dem/law.hpp"
-#include "dem/monitor.hpp"
-#include "dem/packing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,11 @@
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
+#include "apps/measures/dictionary.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/toml.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>
@@ -123,12 +125,15 @@ StretchedSlab stretch_slab(const Scene& scene, RunOptions options) {
     if (run_scene(scene, options) != RunOutcome::finished)
         throw Interrupted{};
     const JsonObject summary = read_object(options.output / "summary.json");
-    const auto number = [&](const char* key) { return number_at(summary, key).value_or(0.0); };
+    const auto number = [&](const std::string& name) {
+        return number_at(summary, name.c_str()).value_or(0.0);
+    };
     StretchedSlab slab;
-    slab.strain_top10 = number("strain_top10");
-    slab.strain_top10_cumulative = number("strain_top10_cumulative");
-    slab.weak_fraction = number("weak_fraction");
-    slab.unbalanced_ratio = number("unbalanced_ratio_mean");
+    slab.strain_top10 = number(measures::name_of<&measures::Measures::strain_top10>());
+    slab.strain_top10_cumulative =
+        number(measures::name_of<&measures::Measures::strain_top10_cumulative>());
+    slab.weak_fraction = number(effects::weak_fraction);
+    slab.unbalanced_ratio = number(measures::name_of<&measures::Measures::unbalanced_ratio_mean>());
     const auto snapshots = run_moments(options.output).snapshots;
     std::vector<DiscPlaces> states;
     for (const auto& path : snapshots)

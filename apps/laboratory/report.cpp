@@ -2,7 +2,7 @@
 
 #include "apps/laboratory/envelope.hpp"
 #include "apps/support/file.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 
 #include <fmt/format.h>
 

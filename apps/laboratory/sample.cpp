@@ -1,9 +1,9 @@
 #include "apps/laboratory/sample.hpp"
 
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/genesis/packing.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/monitor.hpp"
-#include "dem/packing.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

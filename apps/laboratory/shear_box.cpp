@@ -2,9 +2,9 @@
 
 #include "apps/laboratory/servo.hpp"
 #include "dem/bond.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
 #include "dem/law.hpp"
-#include "dem/monitor.hpp"
 
 #include <algorithm>
 #include <cmath>

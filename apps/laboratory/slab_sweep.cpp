@@ -1,7 +1,10 @@
 #include "apps/laboratory/slab_sweep.hpp"
 
+#include "apps/archive/fault_fields.hpp"
 #include "apps/laboratory/envelope.hpp"
+#include "apps/measures/dictionary.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/support/file.hpp"
 
 #include <fmt/format.h>
@@ -134,16 +137,18 @@ Json to_json(const SweepPoint& p) {
     const auto of = [&](double StretchedSlab::*member) {
         return to_json(spread(p.values(member)));
     };
-    Json row = {{"weakening_rate_per_s", p.rates.weakening},
-                {"healing_rate_per_s", p.rates.healing},
-                {"faults", to_json(spread(p.fault_counts()))},
-                {"conjugate_seeds", p.conjugate()},
-                {"strain_top10", of(&StretchedSlab::strain_top10)},
-                {"strain_top10_cumulative", of(&StretchedSlab::strain_top10_cumulative)},
-                {"weak_fraction", of(&StretchedSlab::weak_fraction)},
-                {"healed_share", of(&StretchedSlab::healed_share)}};
+    Json row = {
+        {"weakening_rate_per_s", p.rates.weakening},
+        {"healing_rate_per_s", p.rates.healing},
+        {"faults", to_json(spread(p.fault_counts()))},
+        {"conjugate_seeds", p.conjugate()},
+        {measures::name_of<&measures::Measures::strain_top10>(), of(&StretchedSlab::strain_top10)},
+        {measures::name_of<&measures::Measures::strain_top10_cumulative>(),
+         of(&StretchedSlab::strain_top10_cumulative)},
+        {effects::weak_fraction, of(&StretchedSlab::weak_fraction)},
+        {"healed_share", of(&StretchedSlab::healed_share)}};
     if (const auto dip = p.dip())
-        row["dip_at_birth_deg"] = {{"mean", *dip}, {"sd", p.dip_deviation()}};
+        row[archive::field_dip_at_birth] = {{"mean", *dip}, {"sd", p.dip_deviation()}};
     if (const auto dips = p.segment_dips(); !dips.empty())
         row["segment_dip_deg"] = to_json(spread(dips));
     return row;

@@ -1,6 +1,6 @@
 #include "apps/laboratory/specimen.hpp"
 
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 
 namespace listric {
 

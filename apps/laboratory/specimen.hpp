@@ -2,7 +2,7 @@
 
 #include "apps/support/stop.hpp"
 #include "dem/base.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/state.hpp"
 
 #include <cstddef>

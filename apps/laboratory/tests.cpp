@@ -1,7 +1,7 @@
 #include "apps/laboratory/tests.hpp"
 
 #include "apps/support/memory.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>
 

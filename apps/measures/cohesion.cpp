@@ -1,6 +1,6 @@
 #include "apps/measures/cohesion.hpp"
 
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,10 +1,23 @@
 #include "apps/measures/dilation.hpp"
 
-#include "dem/power_cell.hpp"
+#include "dem/contacts/power_cell.hpp"
 
 namespace listric::measures {
 
 using namespace dem;
+
+namespace {
+
+constexpr Quantity dilation{
+    "rock_dilation_m2", "m2",
+    "growth of the pre-rift discs' power cells (the part of the plane that is nearer to a disc "
+    "than to any other) since the start, of those that are closed then and now, scaled to all: "
+    "dilation of the rock, measured without its surface"};
+constexpr Quantity dilation_fraction{
+    "rock_dilation_fraction", "1",
+    "`rock_dilation_m2` over extension × thickness, to compare with 1 - `area_balance`"};
+
+} // namespace
 
 std::vector<double> rock_cells(const State& state, const RigidBase& base) {
     const ConstDiscColumns d = disc_columns(state);
@@ -38,9 +51,14 @@ NamedNumbers measure_dilation(const RunSoFar& run) {
     }
     NamedNumbers numbers; // not finite without closed cells
     const double grown = growth * all / closed;
-    add(numbers, "rock_dilation_m2", grown);
-    add(numbers, "rock_dilation_fraction", grown / (run.extension * run.setting.thickness));
+    add(numbers, dilation, grown);
+    add(numbers, dilation_fraction, grown / (run.extension * run.setting.thickness));
     return numbers;
+}
+
+std::span<const Quantity> dilation_quantities() {
+    static constexpr Quantity all[] = {dilation, dilation_fraction};
+    return all;
 }
 
 } // namespace listric::measures

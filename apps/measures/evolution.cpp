@@ -39,4 +39,13 @@ NamedNumbers measure_evolution(const Setting& setting, const RigidBase& base, co
     return numbers;
 }
 
+std::vector<Quantity> evolution_quantities() {
+    std::vector<Quantity> all = main_fault_quantities();
+    for (const std::span<const Quantity> some :
+         {rock_quantities(), graben_quantities(), hinge_quantities(), dilation_quantities(),
+          kink_quantities(), syncline_quantities(), lower_block_quantities()})
+        all.insert(all.end(), some.begin(), some.end());
+    return all;
+}
+
 } // namespace listric::measures

@@ -4,9 +4,10 @@
 #include "apps/measures/kink.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/run_so_far.hpp"
-#include "apps/support/named_numbers.hpp"
+#include "apps/support/measure.hpp"
 
 #include <span>
+#include <vector>
 
 namespace listric::measures {
 
@@ -22,5 +23,8 @@ NamedNumbers measure_evolution(const Setting& setting, const dem::RigidBase& bas
                                const dem::State& now, const FaultReport& faults,
                                const Measures& measures, std::span<const FaultSegment> segments,
                                std::span<const Past> past);
+
+/// All that they can be, but those of the fault report.
+std::vector<Quantity> evolution_quantities();
 
 } // namespace listric::measures

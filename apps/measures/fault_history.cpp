@@ -4,9 +4,9 @@
 #include "apps/measures/rigid_motion.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/support/statistics.hpp"
-#include "dem/base_place.hpp"
-#include "dem/cells.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/cells.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

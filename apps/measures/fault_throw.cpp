@@ -2,7 +2,7 @@
 
 #include "apps/measures/rigid_motion.hpp"
 #include "apps/support/statistics.hpp"
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <algorithm>

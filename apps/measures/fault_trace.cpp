@@ -2,9 +2,9 @@
 
 #include "apps/measures/shear_profile.hpp"
 #include "apps/measures/strain_ridges.hpp"
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>

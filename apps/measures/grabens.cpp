@@ -9,6 +9,23 @@ namespace listric::measures {
 
 namespace {
 
+constexpr Quantity basin_count{"basins", "1",
+                               "maxima of the depth of the pre-rift top (smoothed over 1 km) with "
+                               "a prominence of 250 m or more"};
+constexpr Quantity graben_count{"collapse_grabens", "1",
+                                "the basins but the one nearest the breakaway"};
+constexpr Quantity graben_prominence{"collapse_graben_prominence_m", "m",
+                                     "the largest prominence of a collapse graben"};
+constexpr Quantity first_graben{"first_graben_at_m", "m",
+                                "extension of the first snapshot with a collapse graben"};
+constexpr Quantity second_graben{
+    "second_graben_at_m", "m",
+    "extension of the first snapshot with two collapse grabens that are 2 km apart"};
+constexpr Quantity outer_first{
+    "outer_graben_first", "1",
+    "1 if the first collapse graben was where the outer one is when there are two (both less the "
+    "extension, as they move with the right wall), 0 if the inner one"};
+
 /// When a collapse graben first appears, when there first are two, and whether the one before is
 /// then the outer one.
 NamedNumbers measure_order(std::span<const Past> past) {
@@ -25,12 +42,11 @@ NamedNumbers measure_order(std::span<const Past> past) {
             continue;
         const auto [inner, outer] = std::ranges::minmax(places);
         if (!alone)
-            add(numbers, "first_graben_at_m", e);
+            add(numbers, first_graben, e);
         if (outer - inner >= apart) {
-            add(numbers, "second_graben_at_m", e);
+            add(numbers, second_graben, e);
             if (alone)
-                add(numbers, "outer_graben_first",
-                    std::abs(outer - *alone) < std::abs(inner - *alone));
+                add(numbers, outer_first, std::abs(outer - *alone) < std::abs(inner - *alone));
             break;
         }
         alone = outer;
@@ -47,11 +63,17 @@ NamedNumbers measure_grabens(const RunSoFar& run) {
     for (const Depocentre& b : grabens)
         most = std::max(most, b.prominence);
     NamedNumbers numbers;
-    add(numbers, "basins", static_cast<double>(basins.size()));
-    add(numbers, "collapse_grabens", static_cast<double>(grabens.size()));
-    add(numbers, "collapse_graben_prominence_m", most);
+    add(numbers, basin_count, static_cast<double>(basins.size()));
+    add(numbers, graben_count, static_cast<double>(grabens.size()));
+    add(numbers, graben_prominence, most);
     append(numbers, measure_order(run.past));
     return numbers;
+}
+
+std::span<const Quantity> graben_quantities() {
+    static constexpr Quantity all[] = {basin_count,  graben_count,  graben_prominence,
+                                       first_graben, second_graben, outer_first};
+    return all;
 }
 
 } // namespace listric::measures

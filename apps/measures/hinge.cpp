@@ -14,6 +14,14 @@ using namespace dem;
 
 namespace {
 
+constexpr Quantity hinge_start{
+    "hinge_start_x_m", "m",
+    "tenth percentile, by strain, of the start x of discs that started 5 to 10 km deep and are "
+    "strained by 0.05 per 500 m or more, in the last window"};
+constexpr Quantity hinge_step{"hinge_step_m", "m",
+                              "what `hinge_start_x_m` is less than the median of the windows from "
+                              "a tenth to four tenths of the extension"};
+
 constexpr double shallowest = 5e3, deepest = 10e3;  ///< start of the discs looked at, m of depth
 constexpr double nearest_share = 0.1;               ///< of the strain, nearest to the breakaway
 constexpr double early_from = 0.1, early_to = 0.42; ///< of the extension
@@ -55,9 +63,14 @@ NamedNumbers measure_hinge(const RunSoFar& run) {
     if (early.empty() || !late)
         return {};
     NamedNumbers numbers;
-    add(numbers, "hinge_start_x_m", late);
-    add(numbers, "hinge_step_m", median(early) - *late);
+    add(numbers, hinge_start, late);
+    add(numbers, hinge_step, median(early) - *late);
     return numbers;
+}
+
+std::span<const Quantity> hinge_quantities() {
+    static constexpr Quantity all[] = {hinge_start, hinge_step};
+    return all;
 }
 
 } // namespace listric::measures

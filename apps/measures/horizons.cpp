@@ -2,7 +2,7 @@
 
 #include "apps/measures/contour.hpp"
 #include "apps/measures/owner_map.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>

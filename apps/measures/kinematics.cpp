@@ -1,7 +1,7 @@
 #include "apps/measures/kinematics.hpp"
 
 #include "dem/hypotenuse.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

@@ -12,6 +12,22 @@ using namespace dem;
 
 namespace {
 
+constexpr Quantity strain_share{
+    "kink_reverse_strain_share", "1",
+    "ramp-flat-ramp, rock and old sediment above the flat's level from 3 km before the kink to 6 "
+    "km beyond, the windows since half of the extension: share of the shear strain on reverse "
+    "planes that dip toward the breakaway by 20 to 80 degrees. Of the two planes of largest shear "
+    "a disc's is the one whose simple shear turns the way its surroundings do"};
+constexpr Quantity fault_share{
+    "kink_reverse_fault_share", "1",
+    "the part of `kink_reverse_strain_share` on faults: within the measure circle of a segment of "
+    "that kind that fault detection found in the same window. 0 without fault detection"};
+constexpr Quantity synrift_shortening{
+    "kink_synrift_shortening", "1",
+    "mean horizontal shortening of the sediment above the kink, summed over those windows"};
+constexpr Quantity reverse_trace{"kink_reverse_trace_m", "m",
+                                 "length of the traced reverse faults above the kink"};
+
 constexpr double before_kink = 3e3, beyond_kink = 6e3; ///< along x, m
 constexpr double gentlest = 20.0, steepest = 80.0;     ///< dip of reverse faults, degrees
 
@@ -80,9 +96,9 @@ NamedNumbers measure_above_kink(const RunSoFar& run, std::span<const FaultSegmen
     if (!(strain > 0.0))
         return {};
     NamedNumbers numbers;
-    add(numbers, "kink_reverse_strain_share", reverse / strain);
-    add(numbers, "kink_reverse_fault_share", on_faults / strain);
-    add(numbers, "kink_synrift_shortening", shortening);
+    add(numbers, strain_share, reverse / strain);
+    add(numbers, fault_share, on_faults / strain);
+    add(numbers, synrift_shortening, shortening);
     return numbers;
 }
 
@@ -115,8 +131,14 @@ NamedNumbers measure_kink(const RunSoFar& run, const RampFlatRamp& parts,
         if (const Point middle = f.trace.points[f.trace.points.size() / 2];
             !f.normal && middle.x > kink - before_kink && middle.x < kink + beyond_kink)
             traced += f.trace.length();
-    add(numbers, "kink_reverse_trace_m", traced);
+    add(numbers, reverse_trace, traced);
     return numbers;
+}
+
+std::span<const Quantity> kink_quantities() {
+    static constexpr Quantity all[] = {strain_share, fault_share, synrift_shortening,
+                                       reverse_trace};
+    return all;
 }
 
 } // namespace listric::measures

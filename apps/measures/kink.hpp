@@ -3,7 +3,7 @@
 #include "apps/measures/blocks.hpp"
 #include "apps/measures/fault.hpp"
 #include "apps/measures/run_so_far.hpp"
-#include "apps/support/named_numbers.hpp"
+#include "apps/support/measure.hpp"
 
 #include <span>
 
@@ -31,5 +31,7 @@ struct FaultSegment {
 /// @param segments  all that were found so far
 NamedNumbers measure_kink(const RunSoFar& run, const RampFlatRamp& parts,
                           std::span<const Fault> faults, std::span<const FaultSegment> segments);
+
+std::span<const Quantity> kink_quantities();
 
 } // namespace listric::measures

@@ -1,6 +1,6 @@
 #include "apps/measures/lower_block.hpp"
 
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
@@ -13,6 +13,14 @@ namespace listric::measures {
 using namespace dem;
 
 namespace {
+
+constexpr Quantity bounded_on{
+    "lower_block_bounded_share", "1",
+    "share of 72 directions in which, from the lower block's middle, the detachment or a strain of "
+    "0.05 in the last window comes within 12 km"};
+constexpr Quantity low_angle_fault{
+    "lower_block_low_angle_fault_m", "m",
+    "length of the normal traces' parts that dip by less than 30 degrees within 3 km of the block"};
 
 Point centre_of(const ConstDiscColumns& d, const std::vector<std::size_t>& block) {
     Point middle;
@@ -85,9 +93,14 @@ NamedNumbers measure_lower_block(const RunSoFar& run, const RampFlatRamp& parts,
     if (block.size() < fewest)
         return {};
     NamedNumbers numbers;
-    add(numbers, "lower_block_bounded_share", bounded_share(run, centre_of(run.discs, block)));
-    add(numbers, "lower_block_low_angle_fault_m", low_angle_length(run, block, faults));
+    add(numbers, bounded_on, bounded_share(run, centre_of(run.discs, block)));
+    add(numbers, low_angle_fault, low_angle_length(run, block, faults));
     return numbers;
+}
+
+std::span<const Quantity> lower_block_quantities() {
+    static constexpr Quantity all[] = {bounded_on, low_angle_fault};
+    return all;
 }
 
 } // namespace listric::measures

@@ -3,7 +3,7 @@
 #include "apps/measures/blocks.hpp"
 #include "apps/measures/fault.hpp"
 #include "apps/measures/run_so_far.hpp"
-#include "apps/support/named_numbers.hpp"
+#include "apps/support/measure.hpp"
 
 #include <span>
 
@@ -13,5 +13,7 @@ namespace listric::measures {
 /// ones are near it. Nothing if hardly any of the block is left.
 NamedNumbers measure_lower_block(const RunSoFar& run, const RampFlatRamp& parts,
                                  std::span<const Fault> faults);
+
+std::span<const Quantity> lower_block_quantities();
 
 } // namespace listric::measures

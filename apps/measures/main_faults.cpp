@@ -66,26 +66,83 @@ std::optional<double> turn_over_head_block(const RunSoFar& run, const Fault& f,
     return turned > least ? std::optional(f.footwall_turn / turned) : std::nullopt;
 }
 
-NamedNumbers measure_main_fault(const RunSoFar& run, const std::string& name, const Fault& f,
-                                std::optional<double> rollover_tilt) {
-    constexpr std::size_t fewest = 8; // points
-    const Polyline& trace = f.trace.points;
-    const Polyline basement = in_basement(trace, run.profile);
-    NamedNumbers numbers;
-    add(numbers, name + "_born_at_m", f.born_at);
-    add(numbers, name + "_dip_at_birth_deg", f.dip_at_birth);
-    add(numbers, name + "_turn_deg", f.footwall_turn);
-    add(numbers, name + "_throw_m", f.pre_rift_throw);
-    add(numbers, name + "_rate_mm_per_a", f.rate);
-    add(numbers, name + "_x_at_half_depth_m", x_at(trace, 0.5 * run.detachment.back().end.y));
-    add(numbers, name + "_bow", bow(with_scarp(trace, run.profile)));
-    if (basement.size() >= fewest) {
-        add(numbers, name + "_dip_deg", dip_of(basement));
-        add(numbers, name + "_bow_in_basement", bow(basement));
+/// A main fault, and what its measures look at.
+struct MainFault {
+    const RunSoFar& run;
+    const Fault& fault;
+    std::optional<double> rollover_tilt; ///< of the head block, degrees
+    Polyline basement = in_basement(fault.trace.points, run.profile);
+
+    bool crosses_basement() const {
+        constexpr std::size_t fewest = 8; // points
+        return basement.size() >= fewest;
     }
-    add(numbers, name + "_turn_over_head_block", turn_over_head_block(run, f, rollover_tilt));
+};
+
+using Value = std::optional<double>;
+using F = const MainFault&;
+
+// Names begin with the fault's attitude.
+constexpr Measure<MainFault> of_main_fault[] = {
+    {"_born_at_m", "m", "`born_at_m` of the main fault of that attitude",
+     [](F f) -> Value { return f.fault.born_at; }},
+    {"_dip_at_birth_deg", "deg", "`dip_at_birth_deg` of the main fault of that attitude",
+     [](F f) -> Value { return f.fault.dip_at_birth; }},
+    {"_turn_deg", "deg", "`footwall_turn_deg` of the main fault of that attitude",
+     [](F f) -> Value { return f.fault.footwall_turn; }},
+    {"_throw_m", "m", "`pre_rift_throw_m` of the main fault of that attitude",
+     [](F f) { return f.fault.pre_rift_throw; }},
+    {"_rate_mm_per_a", "mm/a", "`rate_mm_per_a` of the main fault of that attitude",
+     [](F f) -> Value { return f.fault.rate; }},
+    {"_x_at_half_depth_m", "m",
+     "where the trace is half as deep as the flat; its change over the extension's is 1 for a "
+     "fault "
+     "that moves with the right wall",
+     [](F f) { return x_at(f.fault.trace.points, 0.5 * f.run.detachment.back().end.y); }},
+    {"_bow", "1",
+     "greatest distance of the best parabola from its chord, over the chord, positive convex "
+     "upward: of the fault with its scarp (the pre-rift top from the trace's upper end up to 250 m "
+     "of depth)",
+     [](F f) -> Value { return bow(with_scarp(f.fault.trace.points, f.run.profile)); }},
+    {"_dip_deg", "deg", "`dip_deg` of the part below the pre-rift top",
+     [](F f) { return f.crosses_basement() ? Value(dip_of(f.basement)) : std::nullopt; }},
+    {"_bow_in_basement", "1", "bow of the trace's part below the pre-rift top",
+     [](F f) { return f.crosses_basement() ? Value(bow(f.basement)) : std::nullopt; }},
+    {"_turn_over_head_block", "1",
+     "`footwall_turn_deg` over the rotation of the head block since the fault's birth: 0 "
+     "translated, 1 rotated with it",
+     [](F f) { return turn_over_head_block(f.run, f.fault, f.rollover_tilt); }},
+};
+
+constexpr const char* attitudes[] = {"antithetic", "synthetic"};
+
+NamedNumbers measure_main_fault(const MainFault& fault) {
+    NamedNumbers numbers;
+    for (const Measure<MainFault>& measure : of_main_fault)
+        add(numbers, std::string(attitudes[fault.fault.synthetic]).append(measure.name),
+            measure.value(fault));
     return numbers;
 }
+
+constexpr Quantity fault_count{"faults", "1", "number of traces"};
+constexpr Quantity foot_beyond_sole{
+    "antithetic_foot_beyond_sole_m", "m",
+    "`antithetic_foot_x_m` less the x at which the detachment soles out"};
+constexpr Quantity throw_over_throw{"antithetic_over_synthetic_throw", "1",
+                                    "`antithetic_throw_m` over `synthetic_throw_m`"};
+constexpr Quantity inner_step{
+    "inner_fault_step_m", "m",
+    "distance of a normal fault steeper than 45 degrees from the nearest such fault that was born "
+    "2 km of extension before it or earlier, where it is nearer to the breakaway than all of "
+    "those: "
+    "the largest, at the height of its middle. 0: no such fault"};
+constexpr Quantity throw_age{
+    "throw_age_correlation", "1",
+    "rank correlation (Spearman) of throw with stratum, -1 where each younger stratum has less: "
+    "median over all normal traces of 30 degrees or more in all windows so far that offset five "
+    "strata or more"};
+constexpr Quantity throw_age_count{"throw_age_faults", "1",
+                                   "number of the traces of `throw_age_correlation`"};
 
 /// Of the two main faults' pre-rift throws. None unless both are there.
 std::optional<double> throw_ratio(const FaultReport& report) {
@@ -110,9 +167,9 @@ NamedNumbers measure_throws_by_age(const RunSoFar& run) {
         correlations.insert(correlations.end(), last.begin(), last.end());
     }
     NamedNumbers numbers;
-    add(numbers, "throw_age_faults", static_cast<double>(correlations.size()));
+    add(numbers, throw_age_count, static_cast<double>(correlations.size()));
     if (!correlations.empty())
-        add(numbers, "throw_age_correlation", median(correlations));
+        add(numbers, throw_age, median(correlations));
     return numbers;
 }
 
@@ -121,23 +178,59 @@ NamedNumbers measure_throws_by_age(const RunSoFar& run) {
 NamedNumbers measure_main_faults(const RunSoFar& run, const FaultReport& report,
                                  std::optional<double> rollover_tilt) {
     NamedNumbers numbers;
-    add(numbers, "faults", static_cast<double>(report.faults.size()));
-    add(numbers, "fault_width_diameters", report.width);
-    add(numbers, "sediment_weak_off_fault_fraction", report.sediment_weak_off_fault_fraction);
-    add(numbers, "antithetic_foot_x_m", report.antithetic_foot);
+    add(numbers, fault_count, static_cast<double>(report.faults.size()));
+    for (const Measure<FaultReport>& measure : fault_report_measures())
+        if (measure.unit != index_unit)
+            add(numbers, measure.quantity(), measure.value(report));
     if (report.antithetic_foot)
-        add(numbers, "antithetic_foot_beyond_sole_m",
-            *report.antithetic_foot - run.detachment.back().start.x);
-    if (report.main_antithetic)
-        append(numbers, measure_main_fault(run, "antithetic",
-                                           report.faults[*report.main_antithetic], rollover_tilt));
-    if (report.main_synthetic)
-        append(numbers, measure_main_fault(run, "synthetic", report.faults[*report.main_synthetic],
-                                           rollover_tilt));
-    add(numbers, "antithetic_over_synthetic_throw", throw_ratio(report));
-    add(numbers, "inner_fault_step_m", inner_fault_step(report.faults));
+        add(numbers, foot_beyond_sole, *report.antithetic_foot - run.detachment.back().start.x);
+    for (const auto& main : {report.main_antithetic, report.main_synthetic})
+        if (main)
+            append(numbers, measure_main_fault({run, report.faults[*main], rollover_tilt}));
+    add(numbers, throw_over_throw, throw_ratio(report));
+    add(numbers, inner_step, inner_fault_step(report.faults));
     append(numbers, measure_throws_by_age(run));
     return numbers;
+}
+
+std::span<const Measure<FaultReport>> fault_report_measures() {
+    using R = FaultReport;
+    static constexpr Measure<R> all[] = {
+        {"fault_width_diameters", "diameters", "median width of all traces, weighted by length",
+         taken<&R::width>},
+        {antithetic_foot, "m",
+         "where the main antithetic fault nucleated: `foot_x_m` of the line whose dip is "
+         "`dip_at_birth_deg`, less the extension from `born_at_m` to `traced_since_m`",
+         taken<&R::antithetic_foot>},
+        {"main_antithetic_fault", index_unit,
+         "index in `faults` of the normal antithetic fault steeper than 30 degrees with most slip "
+         "rate × length, of those that reach the lower half of the hanging wall if there are any",
+         taken<&R::main_antithetic>},
+        {"main_synthetic_fault", index_unit, "index in `faults` of the synthetic one likewise",
+         taken<&R::main_synthetic>},
+        {"sediment_weak_off_fault_fraction", "1",
+         "share of the sediment, by area, that is weakened and further than 5 diameters from every "
+         "trace",
+         taken<&R::sediment_weak_off_fault_fraction>},
+    };
+    return all;
+}
+
+std::vector<Quantity> main_fault_quantities() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> composed;
+        for (const char* attitude : attitudes)
+            for (const Measure<MainFault>& measure : of_main_fault)
+                composed.push_back(std::string(attitude).append(measure.name));
+        return composed;
+    }();
+    std::vector<Quantity> all{fault_count, foot_beyond_sole, throw_over_throw,
+                              inner_step,  throw_age,        throw_age_count};
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const Measure<MainFault>& measure = of_main_fault[k % std::size(of_main_fault)];
+        all.push_back({names[k], measure.unit, measure.doc});
+    }
+    return all;
 }
 
 double inner_fault_step(const std::vector<Fault>& faults) {

@@ -2,10 +2,12 @@
 
 #include "apps/measures/fault.hpp"
 #include "apps/measures/run_so_far.hpp"
-#include "apps/support/named_numbers.hpp"
+#include "apps/support/measure.hpp"
 
 #include <map>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace listric::measures {
@@ -14,6 +16,17 @@ namespace listric::measures {
 /// @param rollover_tilt  of the head block, degrees
 NamedNumbers measure_main_faults(const RunSoFar& run, const FaultReport& report,
                                  std::optional<double> rollover_tilt);
+
+/// Unit of a fault's index in a list, a whole number.
+inline constexpr std::string_view index_unit = "index";
+
+inline constexpr std::string_view antithetic_foot = "antithetic_foot_x_m";
+
+/// Measures of the report alone.
+std::span<const Measure<FaultReport>> fault_report_measures();
+
+/// Quantities that measure_main_faults adds.
+std::vector<Quantity> main_fault_quantities();
 
 /// How far nearer to the breakaway a steep normal fault has come up than those born 2 km of
 /// extension before it, m: distance from the nearest of them, at the height of its middle. Steep:

@@ -5,7 +5,7 @@
 #include "apps/measures/kinematics.hpp"
 #include "apps/measures/localisation.hpp"
 #include "apps/measures/profile.hpp"
-#include "dem/base_place.hpp"
+#include "dem/base/place.hpp"
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/strain.hpp"
 
@@ -126,13 +126,6 @@ void add_conservation(Measures& m, const State& state) {
         std::abs(mass - (ledger.initial + ledger.deposited - ledger.removed)) / ledger.initial;
 }
 
-std::optional<double> x_of(const std::optional<Point>& p) {
-    return p ? std::optional(p->x) : std::nullopt;
-}
-std::optional<double> y_of(const std::optional<Point>& p) {
-    return p ? std::optional(p->y) : std::nullopt;
-}
-
 } // namespace
 
 Measures measure(const Setting& setting, const State& state, const RigidBase& base, Events events) {
@@ -155,44 +148,6 @@ Measures measure(const Setting& setting, const State& state, const RigidBase& ba
     add_conservation(m, state);
     add_quietness(m, setting, events);
     return m;
-}
-
-std::span<const MeasureName> measure_names() {
-    using M = const Measures&;
-    using Value = std::optional<double>;
-    static constexpr MeasureName names[] = {
-        {"basin_area_m2", "m2", [](M m) -> Value { return m.basin_area; }},
-        {"area_balance", "1", [](M m) { return m.area_balance; }},
-        {"cutoff_x_m", "m", [](M m) { return x_of(m.cutoff); }},
-        {"cutoff_z_m", "m", [](M m) { return y_of(m.cutoff); }},
-        {"rollover_tilt_deg", "deg", [](M m) { return m.rollover_tilt; }},
-        {"breakaway_rotation_deg", "deg", [](M m) { return m.breakaway_rotation; }},
-        {"toe_rotation_deg", "deg", [](M m) { return m.toe_rotation; }},
-        {"lower_block_rotation_deg", "deg", [](M m) { return m.lower_block_rotation; }},
-        {"intervening_high_x_m", "m", [](M m) { return x_of(m.intervening_high); }},
-        {"intervening_high_z_m", "m", [](M m) { return y_of(m.intervening_high); }},
-        {"halfgraben_area_share", "1", [](M m) { return m.halfgraben_area_share; }},
-        {"dilation_area_m2", "m2", [](M m) { return m.dilation_area; }},
-        {"depth_to_detachment_m", "m", [](M m) { return m.depth_to_detachment; }},
-        {"inclined_shear_angle_deg", "deg", [](M m) { return m.inclined_shear_angle; }},
-        {"inclined_shear_misfit_m", "m", [](M m) { return m.inclined_shear_misfit; }},
-        {"normals_misfit_m", "m", [](M m) { return m.normals_misfit; }},
-        {"predicted_tilt_deg", "deg", [](M m) { return m.predicted_tilt; }},
-        {"predicted_cutoff_x_m", "m", [](M m) { return x_of(m.predicted_cutoff); }},
-        {"predicted_cutoff_z_m", "m", [](M m) { return y_of(m.predicted_cutoff); }},
-        {"predicted_halfgraben_area_share", "1",
-         [](M m) { return m.predicted_halfgraben_area_share; }},
-        {"strain_top10", "1", [](M m) { return m.strain_top10; }},
-        {"strain_top10_cumulative", "1", [](M m) { return m.strain_top10_cumulative; }},
-        {"strain_gini", "1", [](M m) { return m.strain_gini; }},
-        {"basement_unbonded_fraction", "1", [](M m) { return m.basement_unbonded_fraction; }},
-        {"old_sediment_bonded_fraction", "1", [](M m) { return m.old_sediment_bonded_fraction; }},
-        {"mass_error_fraction", "1", [](M m) -> Value { return m.mass_error_fraction; }},
-        {"unbalanced_ratio_mean", "1", [](M m) -> Value { return m.unbalanced_ratio_mean; }},
-        {"unbalanced_ratio_max", "1", [](M m) -> Value { return m.unbalanced_ratio_max; }},
-        {"inertial_number", "1", [](M m) -> Value { return m.inertial_number; }},
-    };
-    return names;
 }
 
 } // namespace listric::measures

@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace listric::measures {
@@ -56,15 +55,5 @@ inline constexpr double greatest_unbalanced_ratio = 1e-2, greatest_inertial_numb
 /// @param events  what remembers the run's past
 Measures measure(const Setting& setting, const dem::State& state, const dem::RigidBase& base,
                  std::span<const std::unique_ptr<dem::Event>> events);
-
-/// A measure that is a number, as summary.json, history.csv and docs/measures.md name it.
-struct MeasureName {
-    std::string_view name;
-    std::string_view unit; ///< "1": a ratio
-    std::optional<double> (*value)(const Measures&);
-};
-
-/// All of them, in the order of history.csv.
-std::span<const MeasureName> measure_names();
 
 } // namespace listric::measures

@@ -1,7 +1,7 @@
 #include "apps/measures/moved_points.hpp"
 
 #include "apps/support/statistics.hpp"
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
 #include "dem/events/strain.hpp"
 #include "dem/hypotenuse.hpp"
 

@@ -1,7 +1,7 @@
 #include "apps/measures/owner_map.hpp"
 
-#include "dem/base_place.hpp"
-#include "dem/power_cell.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/power_cell.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -22,9 +22,9 @@ struct Room {
 };
 
 /// The section as a grid that knows which disc each of its places belongs to: power cells, each as
-/// the places within it. Unlike those of dem/power_cell it has a free surface: the discs' outline
-/// with every gap closed that is narrower than a mean radius: then rock has as large a share of the
-/// topmost cells as of others.
+/// the places within it. Unlike those of dem/contacts/power_cell it has a free surface: the discs'
+/// outline with every gap closed that is narrower than a mean radius: then rock has as large a
+/// share of the topmost cells as of others.
 struct OwnerMap {
     static constexpr std::int32_t air = -1;     ///< above the free surface
     static constexpr std::int32_t outside = -2; ///< beyond the base, or a large pore

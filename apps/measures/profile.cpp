@@ -1,6 +1,6 @@
 #include "apps/measures/profile.hpp"
 
-#include "dem/base_place.hpp"
+#include "dem/base/place.hpp"
 
 #include <algorithm>
 #include <cassert>

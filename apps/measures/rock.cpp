@@ -1,11 +1,11 @@
 #include "apps/measures/rock.hpp"
 
 #include "apps/measures/polyline.hpp"
-#include "dem/contacts.hpp"
+#include "dem/base/ground_level.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "dem/events/property_update.hpp"
-#include "dem/genesis.hpp"
-#include "dem/ground_level.hpp"
-#include "dem/power_cell.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -17,6 +17,26 @@ namespace listric::measures {
 using namespace dem;
 
 namespace {
+
+constexpr Quantity basement_weak{"basement_weak_fraction", "1",
+                                 "share of the pre-rift rock, by area, that is weakened"};
+constexpr Quantity sediment_weak{"sediment_weak_fraction", "1",
+                                 "share of the sediment, by area, that is weakened"};
+constexpr Quantity porosity_error{
+    "porosity_error", "1",
+    "mean of abs(porosity / Phi(depth) - 1) over the sediment's mass, porosity by mass and radius "
+    "of a disc, depth below the surface of the discs, without discs laid down in the last 100 m, "
+    "which still compact and count for no burial yet"};
+constexpr Quantity porosity_off{
+    "porosity_off_fraction", "1",
+    "share of that mass whose porosity is more than 2 % off: what has risen keeps its porosity"};
+constexpr Quantity superposition_share{
+    "superposition_fraction", "1",
+    "share of touching pairs of sediment discs of different strata, one within 45 degrees above "
+    "the other, whose upper disc is the younger"};
+constexpr Quantity above_target{
+    "discs_above_target", "1",
+    "discs that lie wholly above the line that the surface is adapted to"};
 
 /// A layer compacts, and what is below it, in this extension after it was laid down, m: in four
 /// looks of Compaction (its `approach`). Until then it is left out, as it counts for no burial yet.
@@ -44,6 +64,14 @@ std::optional<double> superposition(const State& state) {
 
 } // namespace
 
+std::vector<std::uint32_t> rocks(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::uint32_t> rocks;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (d.material[i] == weak ? 1u : 0u));
+    return rocks;
+}
+
 NamedNumbers weak_shares(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const std::vector<double> rock = rock_radii(state);
@@ -54,8 +82,8 @@ NamedNumbers weak_shares(const State& state) {
         weak_area[kind] += d.material[i] == weak ? rock[i] * rock[i] : 0.0;
     }
     NamedNumbers shares;
-    add(shares, "basement_weak_fraction", weak_area[0] / area[0]);
-    add(shares, "sediment_weak_fraction", weak_area[1] / area[1]); // not finite without sediment
+    add(shares, basement_weak, weak_area[0] / area[0]);
+    add(shares, sediment_weak, weak_area[1] / area[1]); // not finite without sediment
     return shares;
 }
 
@@ -79,11 +107,11 @@ std::optional<double> weak_off_faults(const State& state, std::span<const Fault>
 NamedNumbers measure_layering(const State& state, const TargetLine& surface) {
     const ConstDiscColumns d = disc_columns(state);
     NamedNumbers numbers;
-    add(numbers, "superposition_fraction", superposition(state));
+    add(numbers, superposition_share, superposition(state));
     double above = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i)
         above += surface.above({d.x[i], d.y[i]}) > d.radius[i];
-    add(numbers, "discs_above_target", above);
+    add(numbers, above_target, above);
     return numbers;
 }
 
@@ -109,8 +137,8 @@ NamedNumbers measure_porosity(const State& state, const Sediment& sediment) {
         beyond += off > porosity_tolerance ? d.mass[i] : 0.0;
     }
     NamedNumbers numbers; // not finite without sediment
-    add(numbers, "porosity_error", error / all);
-    add(numbers, "porosity_off_fraction", beyond / all);
+    add(numbers, porosity_error, error / all);
+    add(numbers, porosity_off, beyond / all);
     return numbers;
 }
 
@@ -126,6 +154,12 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
         append(numbers, measure_porosity(state, sediment));
     append(numbers, measure_layering(state, surface));
     return numbers;
+}
+
+std::span<const Quantity> rock_quantities() {
+    static constexpr Quantity all[] = {basement_weak, sediment_weak,       porosity_error,
+                                       porosity_off,  superposition_share, above_target};
+    return all;
 }
 
 } // namespace listric::measures

@@ -2,15 +2,24 @@
 
 #include "apps/measures/fault.hpp"
 #include "apps/measures/setting.hpp"
-#include "apps/support/named_numbers.hpp"
+#include "apps/support/measure.hpp"
 #include "dem/state.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace listric::measures {
 
 // What faults and burial have made of rock and sediment.
+
+/// Names of rocks, by what rocks() returns.
+inline constexpr const char* rock_names[] = {"basement", "weak basement", "sediment",
+                                             "weak sediment"};
+
+/// Which rock each disc is of.
+std::vector<std::uint32_t> rocks(const dem::State& state);
 
 /// Weak share, by area, of the pre-rift rock and of the sediment: basement_weak_fraction,
 /// sediment_weak_fraction.
@@ -32,5 +41,7 @@ NamedNumbers measure_porosity(const dem::State& state, const Sediment& sediment)
 
 /// All of these that have a meaning in the setting.
 NamedNumbers measure_rock(const Setting& setting, const dem::State& state);
+
+std::span<const Quantity> rock_quantities();
 
 } // namespace listric::measures

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/target_line.hpp"
+#include "dem/base/target_line.hpp"
 
 #include <optional>
 

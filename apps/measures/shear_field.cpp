@@ -1,8 +1,8 @@
 #include "apps/measures/shear_field.hpp"
 
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
 #include "dem/gradient.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <limits>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/measures/shear_field.hpp"
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
 
 #include <cstddef>
 #include <vector>

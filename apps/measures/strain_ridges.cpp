@@ -1,6 +1,6 @@
 #include "apps/measures/strain_ridges.hpp"
 
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

@@ -17,6 +17,21 @@ using namespace dem;
 
 namespace {
 
+constexpr Quantity rollover_count{
+    "rollovers", "1",
+    "ramp-flat-ramp: maxima with a prominence of 10 degrees of the rotation along x of the "
+    "uppermost 4 km of pre-rift rock (columns of 1 km, mean of three)"};
+constexpr Quantity syncline_turn{
+    "syncline_turn_deg", "deg", "ramp-flat-ramp: least rotation between the two largest rollovers"};
+constexpr Quantity upper_graben{"upper_graben_prominence_m", "m",
+                                "ramp-flat-ramp: largest prominence of the basins beyond the first "
+                                "up to 3 km beyond the kink. 0: none"};
+constexpr Quantity syncline_basin{
+    "syncline_basin_prominence_m", "m",
+    "ramp-flat-ramp: largest prominence of the basins further beyond the kink. 0: none"};
+constexpr Quantity lower_graben{"lower_graben_prominence_m", "m",
+                                "ramp-flat-ramp: second largest prominence there. 0: none"};
+
 /// Beyond the kink the most prominent basin is the syncline's, the next a collapse graben.
 NamedNumbers measure_basins(const RunSoFar& run, double kink) {
     constexpr double beyond_kink = 3e3; // m
@@ -30,9 +45,9 @@ NamedNumbers measure_basins(const RunSoFar& run, double kink) {
             lower = std::max(lower, b.prominence);
     }
     NamedNumbers numbers;
-    add(numbers, "upper_graben_prominence_m", upper);
-    add(numbers, "syncline_basin_prominence_m", syncline);
-    add(numbers, "lower_graben_prominence_m", lower);
+    add(numbers, upper_graben, upper);
+    add(numbers, syncline_basin, syncline);
+    add(numbers, lower_graben, lower);
     return numbers;
 }
 
@@ -71,7 +86,7 @@ NamedNumbers measure_rollovers(const RunSoFar& run) {
     const auto [x, turn] = turns_of_top(run);
     std::vector<Depocentre> maxima = find_depocentres(x, turn, least);
     NamedNumbers numbers;
-    add(numbers, "rollovers", static_cast<double>(maxima.size()));
+    add(numbers, rollover_count, static_cast<double>(maxima.size()));
     if (maxima.size() < 2)
         return numbers;
     maxima.resize(2); // the two that turned most
@@ -80,7 +95,7 @@ NamedNumbers measure_rollovers(const RunSoFar& run) {
     for (std::size_t k = 0; k < x.size(); ++k)
         if (x[k] > left && x[k] < right)
             lowest = std::min(lowest, turn[k]);
-    add(numbers, "syncline_turn_deg", lowest);
+    add(numbers, syncline_turn, lowest);
     return numbers;
 }
 
@@ -90,6 +105,12 @@ NamedNumbers measure_syncline(const RunSoFar& run, const RampFlatRamp& parts) {
     NamedNumbers numbers = measure_basins(run, point_at(run.detachment, parts.flat_end).x);
     append(numbers, measure_rollovers(run));
     return numbers;
+}
+
+std::span<const Quantity> syncline_quantities() {
+    static constexpr Quantity all[] = {rollover_count, syncline_turn, upper_graben, syncline_basin,
+                                       lower_graben};
+    return all;
 }
 
 } // namespace listric::measures

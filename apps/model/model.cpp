@@ -1,10 +1,12 @@
 #include "apps/model/model.hpp"
 
+#include "apps/model/base_driver.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/strain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace listric {
@@ -59,24 +61,58 @@ std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
     return loads;
 }
 
-BaseDriver make_base_driver(const Scene& scene, const ModelParts& parts) {
+std::unique_ptr<BaseDriver> make_base_driver(const Scene& scene, const ModelParts& parts,
+                                             std::vector<std::unique_ptr<Event>>& events) {
     for (const EffectPart& part : scene.effects)
         if (part.effect->drive_base)
-            return part.effect->drive_base(scene, parts);
-    return {};
+            return part.effect->drive_base(scene, parts, events);
+    return nullptr;
 }
 
 EffectMeasures measure_effects(const Observation& now) {
     EffectMeasures all;
     for (const EffectPart& part : now.scene.effects) {
-        if (!part.effect->measure)
-            continue;
-        EffectMeasures measures = part.effect->measure(now);
-        std::ranges::move(measures.numbers, std::back_inserter(all.numbers));
-        std::ranges::move(measures.groups, std::back_inserter(all.groups));
-        std::ranges::move(measures.lists, std::back_inserter(all.lists));
+        for (const Measure<Observation>& measure : part.effect->measures)
+            if (const auto value = measure.value ? measure.value(now) : std::nullopt)
+                all.numbers.emplace_back(measure.name, *value);
+        for (const MeasuredObjects& objects : part.effect->objects) {
+            auto value = objects.value(now);
+            if (value && objects.is_list)
+                all.lists.emplace_back(objects.name, std::move(*value));
+            else if (value)
+                all.groups.emplace_back(objects.name, std::move(value->front()));
+        }
     }
     return all;
+}
+
+namespace {
+
+/// Values that are not there do not count.
+double over_time(OverTime over, std::span<const double> values) {
+    double sum = 0.0, largest = 0.0, count = 0.0;
+    for (const double value : values)
+        if (!std::isnan(value)) {
+            sum += value;
+            largest = std::max(largest, std::abs(value));
+            count += 1.0;
+        }
+    return over == OverTime::last      ? values.back()
+           : over == OverTime::largest ? largest
+                                       : sum / std::max(1.0, count);
+}
+
+} // namespace
+
+NamedNumbers summarise_effects(const Scene& scene, const Table& history) {
+    NamedNumbers numbers;
+    for (const EffectPart& part : scene.effects)
+        for (const auto& [name, unit, doc, value, over] : part.effect->measures) {
+            const bool is_known = value && over == OverTime::last; // as measured at the end
+            if (!is_known && over != OverTime::none && history.has(name))
+                numbers.emplace_back(name, over_time(over, history.get<double>(name)));
+        }
+    return numbers;
 }
 
 Scene genesis_of(const Scene& scene) {

@@ -5,6 +5,8 @@
 #include "coupling/footwall_loads.hpp"
 
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace listric {
@@ -16,19 +18,31 @@ ModelParts make_parts(const Scene& scene);
 double gravity_of(const Scene& scene);
 
 /// The events of a scene, in the order in which they are applied at the same moment. An effect that
-/// is not in the scene has no event, so it has no memory and no cost. Those of the loads on an
-/// elastic footwall come with the footwall.
+/// is not in the scene has no event, so it has no memory and no cost. Those of the loads on a base
+/// that deforms come with its driver.
 std::vector<std::unique_ptr<dem::Event>> make_events(const Scene& scene, const ModelParts& parts);
 
 /// The loads on an elastic footwall, in the order in which they are applied.
 std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
                                                         const ModelParts& parts);
 
-/// The prescribed motion of the base's nodes; without a response where none is.
-BaseDriver make_base_driver(const Scene& scene, const ModelParts& parts);
+/// What moves the base's nodes; null where nothing does. The events of the loads on the base are
+/// appended to `events`, for the run to apply: they and the driver refer to each other.
+std::unique_ptr<BaseDriver> make_base_driver(const Scene& scene, const ModelParts& parts,
+                                             std::vector<std::unique_ptr<dem::Event>>& events);
+
+/// Measures of effects, by their names.
+struct EffectMeasures {
+    NamedNumbers numbers = {};                                     ///< also columns of history.csv
+    std::vector<std::pair<std::string, NamedNumbers>> groups = {}; ///< objects of summary.json
+    std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {}; ///< of such objects
+};
 
 /// Measures of all effects that are on.
 EffectMeasures measure_effects(const Observation& now);
+
+/// Numbers of summary.json that follow from the columns that these effects have in history.csv.
+NamedNumbers summarise_effects(const Scene& scene, const dem::Table& history);
 
 /// The scene as far as the hanging wall before extension depends on it.
 Scene genesis_of(const Scene& scene);

@@ -6,7 +6,7 @@
 #include "apps/run/run.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/memory.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/memory.hpp"
 #include "apps/support/text.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "fem/footwall.hpp"
 
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/version.hpp"
-#include "dem/genesis.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "dem/hash.hpp"
 
 #include <fmt/format.h>

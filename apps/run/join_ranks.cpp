@@ -3,6 +3,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/text.hpp"
+#include "fem/plugin.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
-#include <dlfcn.h>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -42,35 +42,23 @@ int number_of(const std::string& text) {
     return error == std::errc() && stopped == end ? number : -1;
 }
 
-/// The environment's LISTRIC_RANKS_PLUGIN, else what is installed beside the program, else what was
-/// built. Empty: there is none.
-std::string find_plugin() {
-    if (const char* path = std::getenv("LISTRIC_RANKS_PLUGIN"); path && *path)
-        return path;
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    for (const fs::path& file :
-         {program.parent_path() / LISTRIC_RANKS_INSTALLED, fs::path(LISTRIC_RANKS_PLUGIN)})
-        if (fs::is_regular_file(file, error))
-            return file.string();
-    return "";
-}
-
 JoinRanks load_plugin(const Launch& launch) {
-    const std::string file = find_plugin();
-    void* library = file.empty() ? nullptr : dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!library)
+    const LoadedPlugin plugin = load({.variable = "LISTRIC_RANKS_PLUGIN",
+                                      .installed = LISTRIC_RANKS_INSTALLED,
+                                      .built = LISTRIC_RANKS_PLUGIN,
+                                      .entry = LISTRIC_RANKS_ENTRY});
+    if (!plugin.problem.empty())
         throw UsageError(fmt::format(
             "{} processes were started together, but the plug-in for runs over MPI cannot be "
             "loaded ({}); {}, or start one, by --ranks=1",
-            launch.count, file.empty() ? "it is not there" : dlerror(),
+            launch.count, plugin.problem,
             is_installed() ? "install the package listric-ranks, or libopenmpi-dev openmpi-bin "
                              "petsc-dev where you build it yourself, and build again"
                            : "install libopenmpi-dev openmpi-bin petsc-dev and build again"));
-    const auto join = reinterpret_cast<JoinRanks>(dlsym(library, LISTRIC_RANKS_ENTRY));
-    if (!join)
-        throw UsageError(file + ": is no plug-in for runs over MPI of this build; build again");
-    return join;
+    if (!plugin.entry)
+        throw UsageError(plugin.file +
+                         ": is no plug-in for runs over MPI of this build; build again");
+    return reinterpret_cast<JoinRanks>(plugin.entry);
 }
 
 } // namespace

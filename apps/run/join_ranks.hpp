@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/ranks.hpp"
+#include "dem/ranks/ranks.hpp"
 
 #include <memory>
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "apps/support/stop.hpp"
+#include "dem/cycle/cycle.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -25,6 +27,13 @@ struct RunOptions {
     bool report = true;  ///< report.html is written at the end
     bool live = false;   ///< and after every window
     StopToken stop;      ///< where it is requested, the run saves and stops as soon as it can
+
+    dem::Execution execution() const {
+        return {threads, plain ? dem::Cycle::plain : dem::best_cycle()};
+    }
+
+    /// Extension at which the run ends of a scene that goes so far, m.
+    double end(double distance) const { return std::min(distance, until.value_or(distance)); }
 };
 
 enum class RunOutcome { finished, interrupted };

@@ -1,11 +1,11 @@
 #include "apps/run/prediction.hpp"
 
+#include "apps/figures/report_run.hpp"
 #include "apps/model/model.hpp"
-#include "apps/run/run_report.hpp"
 #include "apps/support/statistics.hpp"
 #include "apps/support/stopwatch.hpp"
-#include "dem/contacts.hpp"
-#include "dem/cycle.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -217,6 +217,13 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     p.disk = p.snapshots * disk_of_snapshot(scene, work.discs);
     p.memory += memory_of_report(scene, p.snapshots, work.discs);
     return p;
+}
+
+double seconds_from_now(const Scene& scene, int threads, int ranks) {
+    CycleSpeed speed =
+        measure_speed(estimated_discs(scene), threads, 0.1, make_parts(scene).accounts_energy);
+    speed.team *= ranks;
+    return speed.busy * predict(scene, speed).seconds;
 }
 
 } // namespace listric

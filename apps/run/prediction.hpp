@@ -35,4 +35,8 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed = {});
 /// tells the speed, so that other programs do not change it.
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted);
 
+/// Predicted wall time of a run that begins now, beside other programs, s.
+/// @param threads  of each rank
+double seconds_from_now(const Scene& scene, int threads, int ranks);
+
 } // namespace listric

@@ -79,8 +79,8 @@ std::vector<CallPart> call_of(const Scene& scene, const RunOptions& options) {
     std::vector<CallPart> call{{"is another program", "version", std::string(version)},
                                {"is another program", "sources of dem", std::string(source_hash)}};
     add_scene(call, scene);
-    const double until = std::min(scene.extension.distance, options.until.value_or(1e300));
-    call.push_back({"was called with another target", "--until", fmt::format("{}m", until)});
+    call.push_back({"was called with another target", "--until",
+                    fmt::format("{}m", options.end(scene.extension.distance))});
     call.push_back({"was called with another output", "--output", place_of(options.output)});
     const auto yes_or_no = [](bool given) { return given ? "yes" : "no"; };
     call.push_back({"was called otherwise", "--resume", yes_or_no(options.resume)});

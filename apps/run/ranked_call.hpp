@@ -2,7 +2,7 @@
 
 #include "apps/run/options.hpp"
 #include "apps/scene/scene.hpp"
-#include "dem/ranks.hpp"
+#include "dem/ranks/ranks.hpp"
 
 #include <optional>
 #include <string>

@@ -5,7 +5,7 @@
 #include "apps/run/rank_reports.hpp"
 #include "apps/run/ranked_call.hpp"
 #include "apps/run/run.hpp"
-#include "dem/ranked_cycles.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
 
@@ -125,8 +125,7 @@ RunOutcome run_on_ranks(Ranks& ranks, const RankedRun& run) {
         const auto [scene, given] = agreed_call(ranks, run);
         RunOptions options = given;
         const ModelParts parts = make_parts(scene);
-        RankedCycles cycles(ranks, parts.base, parts.physics,
-                            {options.threads, options.plain ? Cycle::plain : best_cycle()});
+        RankedCycles cycles(ranks, parts.base, parts.physics, options.execution());
         options.on_ranks = &cycles;
         try {
             if (ranks.mine() == 0)

@@ -2,7 +2,7 @@
 
 #include "apps/run/options.hpp"
 #include "apps/scene/effect.hpp"
-#include "dem/ranks.hpp"
+#include "dem/ranks/ranks.hpp"
 
 #include <functional>
 #include <optional>

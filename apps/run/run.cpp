@@ -2,7 +2,7 @@
 
 #include "apps/archive/output_folder.hpp"
 #include "apps/archive/run_folder.hpp"
-#include "apps/model/footwall_coupling.hpp"
+#include "apps/model/base_driver.hpp"
 #include "apps/run/flexure.hpp"
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
@@ -11,14 +11,12 @@
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/memory.hpp"
-#include "apps/support/moment_names.hpp"
 #include "apps/support/version.hpp"
 #include "dem/nothing_left.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <new>
 
@@ -30,23 +28,6 @@ using namespace dem;
 namespace {
 
 namespace fs = std::filesystem;
-
-RunOutcome run_session(const Scene& scene, const RunOptions& options, Log& log) {
-    const dem::Team team(options.threads);
-    Session session(scene, options, log);
-    try {
-        if (!options.resume || !session.resume())
-            session.begin();
-        session.extend();
-        session.finish();
-        return RunOutcome::finished;
-    } catch (const Interrupted&) {
-        log.say(fmt::format("stopped at {} of extension; {}",
-                            length_text(session.extension(), scene.output.interval),
-                            resume_hint(options.output)));
-        return RunOutcome::interrupted;
-    }
-}
 
 /// What to do about a run that ended early, after what was wrong.
 std::string with_hint(const std::exception& error, const fs::path& output, std::string_view what) {
@@ -66,13 +47,12 @@ MemoryError memory_error(const Scene& scene) {
 
 } // namespace
 
-RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
+RunOutcome run_scene(const Scene& scene, const RunOptions& options, OutputList outputs) {
     const fs::path& output = options.output;
     const ExistingRun existing = options.force    ? ExistingRun::replaced
                                  : options.resume ? ExistingRun::resumed
                                                   : ExistingRun::refused;
-    const double target = std::min(scene.extension.distance, options.until.value_or(1e300));
-    if (check_output(scene, output, existing, target))
+    if (check_output(scene, output, existing, options.end(scene.extension.distance)))
         return RunOutcome::finished;
     std::error_code error;
     fs::create_directories(output, error);
@@ -85,8 +65,10 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options) {
     if (scene.hanging_wall)
         note_memory_need(predict(scene).memory);
     try {
-        if (!scene.flexure)
-            return run_session(scene, options, log);
+        if (!scene.flexure) {
+            const Team team(options.threads);
+            return Session(scene, options, log, outputs).run();
+        }
         write_text(output / "scene.toml", to_toml(scene));
         bend_base(scene, options.threads, output, [&](const std::string& text) { log.say(text); });
         return RunOutcome::finished;

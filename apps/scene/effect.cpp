@@ -17,4 +17,11 @@ std::vector<std::string> effect_names(const Scene& scene) {
     return names;
 }
 
+std::vector<FigureLayer> figure_layers(const Scene& scene) {
+    std::vector<FigureLayer> layers;
+    for (const EffectPart& part : scene.effects)
+        std::ranges::copy(part.effect->layers, std::back_inserter(layers));
+    return layers;
+}
+
 } // namespace listric

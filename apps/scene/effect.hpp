@@ -4,11 +4,10 @@
 #include "apps/scene/material_file.hpp"
 #include "apps/scene/parameter.hpp"
 #include "apps/scene/scene.hpp"
-#include "apps/support/figure_layer.hpp"
-#include "apps/support/named_numbers.hpp"
-#include "dem/cycle.hpp"
+#include "apps/support/measure.hpp"
+#include "dem/base/target_line.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
-#include "dem/target_line.hpp"
 #include "dem/units.hpp"
 
 #include <any>
@@ -30,6 +29,8 @@ struct FootwallLoad;
 }
 
 namespace listric {
+
+class BaseDriver;
 
 /// Refuses a scene because of the value at a path of keys ("table.key"). Throws SceneError.
 using Refuse = std::function<void(const std::string& path, const std::string& message)>;
@@ -108,12 +109,6 @@ struct ModelParts {
     bool accounts_energy = false; ///< the cycle is the plain one, on one thread
 };
 
-/// A base whose nodes move as an effect wants.
-struct BaseDriver {
-    std::unique_ptr<dem::BaseResponse> response;
-    std::vector<dem::Point> nodes; ///< before extension, m
-};
-
 /// A moment of a run, for what is measured and drawn of it.
 struct Observation {
     const Scene& scene;
@@ -125,11 +120,29 @@ struct Observation {
     double right_end() const { return scene.hanging_wall->length + state.clock.extension; }
 };
 
-/// Measures of an effect, by the names of docs/measures.md.
-struct EffectMeasures {
-    NamedNumbers numbers = {};                                     ///< also columns of history.csv
-    std::vector<std::pair<std::string, NamedNumbers>> groups = {}; ///< objects of summary.json
-    std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {}; ///< of such objects
+/// An object of summary.json, or a list of such objects.
+struct MeasuredObjects {
+    std::string_view name, unit, doc;
+    std::vector<Quantity> parts = {}; ///< of an object; none: named by what is measured
+    /// None: it has no meaning there.
+    std::optional<std::vector<NamedNumbers>> (*value)(const Observation& now) = nullptr;
+    bool is_list = true; ///< else the one object itself
+};
+
+/// How a figure draws a layer.
+enum class LayerKind {
+    band, ///< an area behind the discs; rows x, bottom, top (m, y up)
+    line, ///< over the discs; rows x, y (m, y up)
+    discs ///< ink on the discs; a row per disc, the ink's share from 0 to 1
+};
+
+/// What figures and the report show of an effect besides what they show of every run.
+struct FigureLayer {
+    std::string_view name; ///< no other layer's
+    LayerKind kind;
+    std::string_view label;                              ///< in legends
+    std::string_view ink;                                ///< "#rrggbb"
+    std::vector<double> (*rows)(const Observation& now); ///< one after the other
 };
 
 /// What a prediction multiplies prices with.
@@ -174,7 +187,11 @@ struct Effect {
     std::vector<StagedEvent> (*make_events)(const Scene& scene, const ModelParts& parts,
                                             std::span<const StagedEvent> others) = nullptr;
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
-    BaseDriver (*drive_base)(const Scene& scene, const ModelParts& parts) = nullptr;
+    /// Moves the base's nodes; of a scene's effects at most one does.
+    /// @param events  to which those of the loads on the base are appended, for the run to apply
+    std::unique_ptr<BaseDriver> (*drive_base)(const Scene& scene, const ModelParts& parts,
+                                              std::vector<std::unique_ptr<dem::Event>>& events) =
+        nullptr;
 
     /// Lines for `explain`. @param list  all effects that there are
     std::string (*explain)(const Scene& scene, EffectList list) = nullptr;
@@ -187,10 +204,12 @@ struct Effect {
     /// Area that comes as discs, m^2 of the packing at the start.
     double (*new_area)(const Scene& scene) = nullptr;
 
-    EffectMeasures (*measure)(const Observation& now) = nullptr;
-    /// Numbers of summary.json that follow from columns of history.csv.
-    NamedNumbers (*summarise)(const dem::Table& history, const dem::State& now) = nullptr;
-    std::vector<FigureLayer> (*draw)(const Observation& now) = nullptr;
+    /// Columns of history.csv and numbers of summary.json. One without a function is taken
+    /// elsewhere: by the loads on the footwall, in the order in which they stand here, or by the
+    /// run.
+    std::vector<Measure<Observation>> measures = {};
+    std::vector<MeasuredObjects> objects = {};
+    std::vector<FigureLayer> layers = {};
 };
 
 /// Whether the effect of that name is on.
@@ -198,6 +217,9 @@ bool has_effect(const Scene& scene, std::string_view name);
 
 /// Names of the effects that are on.
 std::vector<std::string> effect_names(const Scene& scene);
+
+/// Layers of the effects that are on.
+std::vector<FigureLayer> figure_layers(const Scene& scene);
 
 /// Default parameters of a type, and where an object of it is in a std::any.
 template <class Parameters> std::any make_defaults() { return Parameters{}; }

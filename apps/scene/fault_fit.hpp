@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/detachment.hpp"
+#include "dem/genesis/detachment.hpp"
 
 #include <span>
 #include <vector>

@@ -18,7 +18,7 @@ std::vector<RockSource> rock_sources(EffectList effects) {
     return sources;
 }
 
-std::vector<Parameter> rock_names(EffectList effects) {
+std::vector<Parameter> rock_file_names(EffectList effects) {
     std::vector<Parameter> names;
     std::ranges::transform(rock_sources(effects), std::back_inserter(names),
                            [](const RockSource& rock) { return file_name(rock.key, rock.doc); });

@@ -26,7 +26,7 @@ inline constexpr RockSource basement_source{
 std::vector<RockSource> rock_sources(EffectList effects);
 
 /// Their parameters, of a FileName.
-std::vector<Parameter> rock_names(EffectList effects);
+std::vector<Parameter> rock_file_names(EffectList effects);
 
 /// Parameters of a table that name files and are no part of a scene, of a FileName.
 std::vector<Parameter> file_names(const SceneTable& table);

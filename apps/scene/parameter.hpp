@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/scene/observed.hpp"
-#include "dem/detachment.hpp"
-#include "dem/target_line.hpp"
+#include "dem/base/target_line.hpp"
+#include "dem/genesis/detachment.hpp"
 #include "fem/footwall.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/scene/fault_source.hpp"
-#include "dem/detachment.hpp"
+#include "dem/genesis/detachment.hpp"
 
 #include <filesystem>
 #include <optional>

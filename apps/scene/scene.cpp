@@ -1,8 +1,17 @@
 #include "apps/scene/scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace listric {
 
 using namespace dem;
+
+bool is_drawn_at(const Scene& scene, double extension) {
+    return std::ranges::any_of(scene.output.figures, [&](double mark) {
+        return std::abs(mark - extension) <= 0.5 * scene.output.interval;
+    });
+}
 
 RigidBase make_rigid_base(const Scene& scene) {
     const Extent extent{scene.hanging_wall->length, scene.hanging_wall->thickness,

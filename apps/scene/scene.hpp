@@ -2,8 +2,8 @@
 
 #include "apps/scene/observed.hpp"
 #include "apps/scene/picked_fault.hpp"
-#include "dem/detachment.hpp"
-#include "dem/genesis.hpp"
+#include "dem/genesis/detachment.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "dem/material.hpp"
 
 #include <any>
@@ -99,6 +99,9 @@ private:
         return nullptr;
     }
 };
+
+/// Whether a scene wants pictures at this extension (m), to half a window.
+bool is_drawn_at(const Scene& scene, double extension);
 
 /// Detachment or stretching base, backstop or left wall, and right wall, where nothing deforms.
 dem::RigidBase make_rigid_base(const Scene& scene);

@@ -146,6 +146,19 @@ void check_needs(const Scene& scene, const toml::table& document, EffectList eff
         }
 }
 
+/// That at most one effect moves the base's nodes.
+void check_drivers(const Scene& scene, const toml::table& document) {
+    const Effect* first = nullptr;
+    for (const EffectPart& part : scene.effects) {
+        if (!part.effect->drive_base)
+            continue;
+        if (first)
+            fail(entry_at(document, std::string(part.effect->name)),
+                 fmt::format("beside [{}]; both move the detachment, give one", first->name));
+        first = part.effect;
+    }
+}
+
 /// That picked points have both coordinates: files have them, but a scene.toml may be edited.
 void check_picks(const Scene& scene, const toml::table& document) {
     const auto check = [&](const char* path, std::size_t x, std::size_t depth) {
@@ -172,6 +185,7 @@ void check_scene(const Scene& scene, const toml::table& document, EffectList eff
     } else {
         check_base(scene, document);
         check_needs(scene, document, effects);
+        check_drivers(scene, document);
         check_resolution(scene, document);
     }
     const Refuse refuse = [&](const std::string& path, const std::string& message) {

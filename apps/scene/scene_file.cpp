@@ -89,7 +89,7 @@ public:
             return;
         if (!table_->is_table())
             fail_type({*table_, "materials"}, "table");
-        const std::vector<Parameter> names = rock_names(effects);
+        const std::vector<Parameter> names = rock_file_names(effects);
         for (const auto& [key, node] : *table_->as_table()) {
             const Entry entry{node, fmt::format("materials.{}", key.str())};
             const auto declared = std::ranges::find(names, key.str(), &Parameter::key);

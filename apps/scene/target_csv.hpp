@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/scene/scene.hpp"
-#include "dem/target_line.hpp"
+#include "dem/base/target_line.hpp"
 
 #include <filesystem>
 #include <string_view>

@@ -5,8 +5,8 @@
 #include "apps/support/json_text.hpp"
 #include "apps/support/memory.hpp"
 #include "apps/support/stopwatch.hpp"
-#include "dem/contacts.hpp"
-#include "dem/cycle.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/units.hpp"
 
 #include <fmt/format.h>

@@ -3,9 +3,10 @@
 
 #include "apps/studies/study.hpp"
 
+#include "apps/measures/dictionary.hpp"
 #include "apps/support/stopwatch.hpp"
-#include "dem/contacts.hpp"
-#include "dem/cycle.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/material.hpp"
 #include "dem/units.hpp"
@@ -257,10 +258,11 @@ StudyResult study_time_step(const StudyRequest& request) {
             {fmt::format("mass_floor={:g}", mass),
              {fmt::format("cycle.inertial_mass_floor={}", mass), "extension.distance_m=3000.0"},
              "draft"});
-    const std::vector<StudyQuantity> quantities{{"rollover_tilt_deg"},
-                                                {"area_balance"},
-                                                {"strain_top10"},
-                                                {"unbalanced_ratio_mean", 0.0, true}};
+    const std::vector<StudyQuantity> quantities{
+        {measures::name_of<&measures::Measures::rollover_tilt>()},
+        {measures::name_of<&measures::Measures::area_balance>()},
+        {measures::name_of<&measures::Measures::strain_top10>()},
+        {measures::name_of<&measures::Measures::unbalanced_ratio_mean>(), 0.0, true}};
     sweep_runs(runs, runs.scene + " 3 km time step: runs", steps, steps.size() - 1, quantities,
                result);
     sweep_runs(runs, runs.scene + " 3 km density scaling: runs", masses, masses.size() - 1,
@@ -311,7 +313,10 @@ StudyResult study_precision(const StudyRequest& request) {
                          {fmt::format("cycle.skin={}", skin), "extension.distance_m=2000.0"},
                          "draft"});
     sweep_runs(runs, runs.scene + " 2 km neighbour lists: runs", skins, skins.size() - 1,
-               {{"rollover_tilt_deg"}, {"area_balance"}, {"strain_top10"}}, result);
+               {{measures::name_of<&measures::Measures::rollover_tilt>()},
+                {measures::name_of<&measures::Measures::area_balance>()},
+                {measures::name_of<&measures::Measures::strain_top10>()}},
+               result);
     return result;
 }
 

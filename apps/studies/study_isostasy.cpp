@@ -6,6 +6,7 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/toml.hpp"
 #include "apps/support/file.hpp"
@@ -125,12 +126,13 @@ struct IsostasyRun {
         return fmt::format(
             "{},{:g},{},{:.1f},{:.1f},{:.4g},{:.3g},{:.4g},{:.1f},{:.1f},{:.0f},{:.0f},"
             "{:.3f},{:.0f},{:.3f},{:.3g},{:.3g}\n",
-            fill.name, plate.thickness, seed, value("footwall_uplift_m"),
-            value("base_deflection_max_m"), value("net_wall_load_n_per_m"),
-            value("net_wall_load_error"), number_at(summary, water_load.c_str()).value_or(0.0),
-            at_breakaway(continuous), at_breakaway(broken), local_compensation(plate, last.loads),
-            end.thickness, end.misfit, whole.thickness, whole.misfit,
-            value("strong_rock_strain_max"), value("relaxed_rock_strain_max"));
+            fill.name, plate.thickness, seed, value(effects::footwall_uplift),
+            value(effects::base_deflection), value(effects::net_wall_load),
+            value(effects::net_wall_load_error),
+            number_at(summary, water_load.c_str()).value_or(0.0), at_breakaway(continuous),
+            at_breakaway(broken), local_compensation(plate, last.loads), end.thickness, end.misfit,
+            whole.thickness, whole.misfit, value(effects::strong_rock_strain),
+            value(effects::relaxed_rock_strain));
     }
 
     StudyPoint point() const {
@@ -138,7 +140,7 @@ struct IsostasyRun {
         return {fmt::format("{} fill: from the continuous plate", fill.name),
                 fmt::format("elastic_thickness_m={:g}", plate.thickness),
                 "uplift",
-                std::abs(value("footwall_uplift_m") / plates - 1.0),
+                std::abs(value(effects::footwall_uplift) / plates - 1.0),
                 wall,
                 wall * value("disc_steps_per_s")};
     }

@@ -3,11 +3,14 @@
 #include "apps/studies/study.hpp"
 
 #include "apps/archive/json_file.hpp"
+#include "apps/measures/dictionary.hpp"
+#include "apps/measures/main_faults.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/support/log.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 
 #include <fmt/format.h>
 
@@ -30,9 +33,13 @@ constexpr double graben_from = 12e3; ///< x beyond which a depocentre is the col
 /// A quantity of a finished run; nothing where it has no meaning.
 std::optional<Values> value_in(const Json& summary, const std::string& quantity) {
     if (quantity == "cutoff")
-        return Values{need_number(summary, "cutoff_x_m"), need_number(summary, "cutoff_z_m")};
+        return Values{
+            need_number(summary,
+                        measures::name_of<&measures::Measures::cutoff, &Point::x>().c_str()),
+            need_number(summary,
+                        measures::name_of<&measures::Measures::cutoff, &Point::y>().c_str())};
     if (quantity == "depocentre") {
-        const auto found = summary.find("depocentres");
+        const auto found = summary.find(std::string(measures::depocentres.name));
         if (found == summary.end())
             return std::nullopt;
         std::optional<Values> best;
@@ -208,15 +215,15 @@ namespace {
 /// Geometry, and what faults are judged by. Lengths over the thickness of the hanging wall.
 std::vector<StudyQuantity> basin_quantities(const Scene& scene) {
     const double thickness = scene.hanging_wall->thickness;
-    return {{"rollover_tilt_deg", 0.0},
+    return {{measures::name_of<&measures::Measures::rollover_tilt>(), 0.0},
             {"cutoff", thickness},
-            {"area_balance", 0.0},
+            {measures::name_of<&measures::Measures::area_balance>(), 0.0},
             {"depocentre", thickness},
-            {"antithetic_foot_x_m", thickness},
-            {"strain_top10", 0.0},
-            {"basement_unbonded_fraction", 1.0},
-            {"unbalanced_ratio_mean", 0.0, true},
-            {"inertial_number", 0.0, true}};
+            {std::string(measures::antithetic_foot), thickness},
+            {measures::name_of<&measures::Measures::strain_top10>(), 0.0},
+            {measures::name_of<&measures::Measures::basement_unbonded_fraction>(), 1.0},
+            {measures::name_of<&measures::Measures::unbalanced_ratio_mean>(), 0.0, true},
+            {measures::name_of<&measures::Measures::inertial_number>(), 0.0, true}};
 }
 
 } // namespace
@@ -247,10 +254,10 @@ StudyResult study_coupling(const StudyRequest& asked) {
     result.title = fmt::format("Coupling: {} at draft to 2 km against all modes at every cycle",
                                request.scene);
     // Of the base: how far it is from where the last window's mean loads want it.
-    const std::vector<StudyQuantity> quantities{{"footwall_uplift_m"},
-                                                {"base_deflection_max_m"},
-                                                {"base_resolved_difference", 0.0, true},
-                                                {"base_reaction_error", 0.0, true}};
+    const std::vector<StudyQuantity> quantities{{effects::footwall_uplift},
+                                                {effects::base_deflection},
+                                                {effects::base_resolved_difference, 0.0, true},
+                                                {effects::base_reaction_error, 0.0, true}};
     const auto run = [](const std::string& scheme, int interval, int modes,
                         const std::string& parameter) {
         return StudyRun{parameter,

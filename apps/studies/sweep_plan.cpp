@@ -1,5 +1,6 @@
 #include "apps/studies/sweep_plan.hpp"
 
+#include "apps/archive/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/oversize.hpp"
 #include "apps/scene/shelf.hpp"
@@ -134,7 +135,7 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     return parameter;
 }
 
-SweepMeasure read_measure(const Entry& entry) {
+SweepMeasure read_measure(const Entry& entry, const std::vector<std::string>& on) {
     const auto* text = entry.node.as_string();
     if (!text)
         fail_type(entry, "the name of a measure, NAME or NAME@METRES");
@@ -143,12 +144,16 @@ SweepMeasure read_measure(const Entry& entry) {
     if (measure.text.empty() || measure.text.find_first_of(", \"") != std::string::npos ||
         shown(measure.text) != measure.text)
         fail(entry, "is no name of a measure (docs/measures.md)");
-    if (sign == std::string::npos)
-        return measure;
-    measure.name = measure.text.substr(0, sign);
-    measure.at = parse_number(std::string_view(measure.text).substr(sign + 1));
-    if (!measure.at || !(*measure.at >= 0.0))
-        fail(entry, "after @ comes an extension in metres, such as strain_top10@5000");
+    if (sign != std::string::npos) {
+        measure.name = measure.text.substr(0, sign);
+        measure.at = parse_number(std::string_view(measure.text).substr(sign + 1));
+        if (!measure.at || !(*measure.at >= 0.0))
+            fail(entry, "after @ comes an extension in metres, such as strain_top10@5000");
+    }
+    const std::string objection =
+        archive::objection_to_measure(measure.name, measure.at.has_value(), on, program_effects());
+    if (!objection.empty())
+        fail(entry, fmt::format("{} {}", measure.name, objection));
     return measure;
 }
 
@@ -228,11 +233,17 @@ SweepPlan load_sweep_plan(const std::filesystem::path& file) {
     need(top, "scene", !plan.scene.empty());
     if (is_path(plan.scene))
         plan.scene = (file.parent_path() / plan.scene).string();
+    std::vector<std::string> on = effect_names(scene_at(plan, {}, plan.first_seed));
+    for (const Entry& entry : tables(top, "vary")) { // "table.key" switches an effect on
+        const std::string name = entry.node.as_table()->get_as<std::string>("parameter")
+                                     ? **entry.node.as_table()->get_as<std::string>("parameter")
+                                     : std::string();
+        on.push_back(name.substr(0, name.find('.')));
+    }
     const toml::node* const measures = document.get("measures");
     need(top, "measures", measures);
     for (const Entry& element : elements({*measures, "measures"}, "an array of names of measures"))
-        plan.measures.push_back(read_measure(element));
-    scene_at(plan, {}, plan.first_seed);
+        plan.measures.push_back(read_measure(element, on));
     const std::vector<Entry> varied = tables(top, "vary");
     need(top, "[[vary]]", !varied.empty());
     check_number(top, plan, varied);

@@ -60,10 +60,7 @@ FinishedRun finished_run(const fs::path& folder, const std::string& accuracy, in
 }
 
 fs::path document_of(const ValidationRequest& request, const fs::path& runs) {
-    if (!request.output.empty())
-        return request.output;
-    return request.accuracy == "standard" && !request.only ? fs::path("docs/validation.md")
-                                                           : runs / "validation.md";
+    return request.output.empty() ? runs / "validation.md" : request.output;
 }
 
 ValidationPlan plan_of(const ValidationRequest& request) {

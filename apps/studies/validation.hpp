@@ -16,8 +16,7 @@ struct ValidationRequest {
     int jobs = 1;                    ///< runs at a time
     int threads = 1;                 ///< of a run
     std::filesystem::path runs;      ///< folder of the runs; empty: out/validation-ACCURACY
-    std::filesystem::path output;    ///< document; empty: docs/validation.md at standard, else
-                                     ///< validation.md beside the runs
+    std::filesystem::path output;    ///< document; empty: validation.md beside the runs
     std::filesystem::path plan;      ///< empty: apps/studies/validation.toml
     std::optional<std::string> only; ///< one experiment
     bool remeasure = false;          ///< even runs that are measured already

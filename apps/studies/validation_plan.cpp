@@ -1,5 +1,7 @@
 #include "apps/studies/validation_plan.hpp"
 
+#include "apps/archive/dictionary.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/scene/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/spelling.hpp"
@@ -8,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace listric {
 
@@ -127,9 +130,11 @@ std::vector<Expectation> expectations_of(const ValidationExperiment& experiment,
     return expectations;
 }
 
-/// @param before  experiments whose expectations this one may share
-ValidationExperiment read_experiment(const Entry& entry,
-                                     const std::vector<ValidationExperiment>& before) {
+/// @param before         experiments whose expectations this one may share
+/// @param check_measure  refuses a name
+ValidationExperiment
+read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& before,
+                const std::function<void(const Entry&, const std::string&)>& check_measure) {
     using T = ExperimentText;
     using X = ValidationExperiment;
     static const std::vector<Parameter> parameters{
@@ -154,12 +159,24 @@ ValidationExperiment read_experiment(const Entry& entry,
     }
     for (const Entry& item : tables(entry, "expect")) {
         x.expectations.push_back(read_expectation(item));
+        check_measure({*item.node.as_table()->get("measure"), item.path + ".measure"},
+                      x.expectations.back().measure);
         if (x.expectations.back().run.empty())
             x.expectations.back().run = x.runs.front();
     }
     for (const Entry& item : tables(entry, "picture"))
         x.pictures.push_back(read_picture(item));
     return x;
+}
+
+/// Names of the effects that any of the runs has.
+std::vector<std::string> effects_of(const ValidationPlan& plan) {
+    std::vector<std::string> names;
+    for (const ValidationRun& run : plan.runs)
+        for (std::string& name :
+             effect_names(load_scene({.scene = run.scene, .set = run.set, .without = run.without})))
+            names.push_back(std::move(name));
+    return names;
 }
 
 /// A plan's own keys.
@@ -198,8 +215,18 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
         if (!name.empty() && std::ranges::find(names, name) == names.end())
             fail(entry, fmt::format("no run {}, {}", name, advice(name, names)));
     };
+    std::optional<std::vector<std::string>> on; // effects of any run
+    const auto check_measure = [&](const Entry& entry, const std::string& name) {
+        if (archive::objection_to_measure(name, true, {}, program_effects()).empty())
+            return;
+        if (!on)
+            on = effects_of(plan);
+        const std::string why = archive::objection_to_measure(name, true, *on, program_effects());
+        if (!why.empty())
+            fail(entry, fmt::format("{} {}", name, why));
+    };
     for (const Entry& entry : tables(top, "experiment")) {
-        const ValidationExperiment x = read_experiment(entry, known);
+        const ValidationExperiment x = read_experiment(entry, known, check_measure);
         known.push_back(x);
         plan.experiments.push_back(x);
         for (const std::string& name : x.runs)

@@ -1,9 +1,9 @@
 #include "dem/events/bond_healing.hpp"
 
 #include "dem/bond.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "dem/events/compaction.hpp"
 
-#include "dem/ground_level.hpp"
+#include "dem/base/ground_level.hpp"
 #include "dem/radius_rates.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/energy.hpp"
+#include "dem/contacts/energy.hpp"
 #include "dem/event.hpp"
 
 #include <optional>

@@ -1,6 +1,6 @@
 #include "dem/events/equilibrium.hpp"
 
-#include "dem/monitor.hpp"
+#include "dem/contacts/monitor.hpp"
 
 #include <algorithm>
 

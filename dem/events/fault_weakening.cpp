@@ -1,12 +1,12 @@
 #include "dem/events/fault_weakening.hpp"
 
-#include "dem/cells.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/cells.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "dem/events/measure_circle.hpp"
 #include "dem/events/weakened_discs.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/power_cell.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

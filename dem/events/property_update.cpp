@@ -1,9 +1,9 @@
 #include "dem/events/property_update.hpp"
 
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/power_cell.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "dem/events/sediment_stress.hpp"
 
+#include "dem/contacts/monitor.hpp"
 #include "dem/damping.hpp"
-#include "dem/monitor.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "dem/events/sedimentation.hpp"
 
-#include "dem/ground.hpp"
+#include "dem/base/ground.hpp"
 #include "dem/nothing_left.hpp"
 #include "dem/random.hpp"
 #include "dem/units.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "dem/base/target_line.hpp"
 #include "dem/event.hpp"
-#include "dem/target_line.hpp"
 
 namespace listric::dem {
 

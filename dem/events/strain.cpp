@@ -1,9 +1,9 @@
 #include "dem/events/strain.hpp"
 
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
 #include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "dem/events/weakened_discs.hpp"
 
-#include "dem/power_cell.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/contacts/power_cell.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@ Usage: pictures.py RUNS, from the root of the sources
 RUNS has folders of finished runs: lis1, lis2, rfr, lis1-elastic, and lis1-seed2 (lis1 with --seed 2).
 Needs python3-selenium, python3-pil, chromium and chromium-driver.
 """
+import io
 import subprocess
 import sys
 import tempfile
@@ -65,8 +66,10 @@ def draw(file, moment, colour, size, picked, picture):
         driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
             "width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": False})
         time.sleep(1.0)
-        driver.save_screenshot(str(picture))
-        Image.open(picture).convert("RGB").quantize(256).save(picture, optimize=True)
+        screen = io.BytesIO(driver.get_screenshot_as_png())
+        image = Image.open(screen).convert("RGB")
+        image.thumbnail((1000, 1000), Image.LANCZOS)
+        image.save(picture, quality=64, method=6)
     finally:
         driver.quit()
 
@@ -78,7 +81,7 @@ def main(runs):
             if not file.exists():
                 subprocess.run(["./listric", "report", *(runs / folder for folder in folders),
                                 "--output", file], check=True)
-            draw(file, *view, HERE / f"{name}.png")
+            draw(file, *view, HERE / f"{name}.webp")
 
 
 if __name__ == "__main__":

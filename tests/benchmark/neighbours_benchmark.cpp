@@ -1,7 +1,7 @@
 // What a neighbour search costs per disc, beside the cycle's 10 ns: of all discs, of one that ran
 // ahead, and packing the fast cycle's records after it.
 
-#include "dem/fast_cycle.hpp"
+#include "dem/cycle/fast_cycle.hpp"
 #include "tests/support.hpp"
 
 #include <benchmark/benchmark.h>
@@ -51,9 +51,9 @@ void pack(benchmark::State& run) {
     const State state = packing(static_cast<std::size_t>(run.range(0)));
     const RigidBase base;
     FastCycle cycle(1, fast_cycle());
-    cycle.pack(state, base, {});
+    cycle.pack(state, base, {}, nullptr);
     for (auto _ : run)
-        cycle.pack_updated(state, true);
+        cycle.pack_updated(state, true, nullptr);
     per_disc(run, state);
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A program for any x86-64 processor has instructions beyond SSE2 only in what is compiled for a
-level (dem/fast_cycle_kernels.cpp) and called on processors that have it; and fused multiply-add,
+level (dem/cycle/fast_cycle_kernels.cpp) and called on processors that have it; and fused multiply-add,
 whose results differ, nowhere.
 
     python3 tests/checks/instructions.py PROGRAM      prints the violations

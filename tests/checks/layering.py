@@ -5,6 +5,9 @@ those above it, keeps a rigid scene free of deal.II, and the measures free of sc
     python3 tests/checks/layering.py      prints the violations
 """
 
+import re
+from pathlib import PurePosixPath
+
 from source_tree import cycles, includes, is_cpp, is_ours, main, room, unit, unit_graph
 
 # Beside the rooms: the package that reads what the program writes. It includes nothing of ours.
@@ -20,8 +23,19 @@ LIBRARIES = {"dem": {"dem"}, "fem": {"fem"}, "coupling": {"dem", "fem", "couplin
 ELEMENTS = {f"fem/{name}" for name in ("mesh", "elasticity", "condensation", "solution", "material")}
 
 # The other plug-in: discs over MPI. It sees dem, and nothing sees it.
-RANKS = {f"dem/ranks/{name}" for name in ("mailboxes", "mpi_ranks", "require")}
+RANKS = {f"dem/ranks/mpi/{name}" for name in ("mpi_ranks", "require")}
 RANKS_LIBRARIES = ("mpi.h", "petscsys.h")
+
+# Floors of dem, from the ground: a file sees those before its own. The nouns lie in dem itself, and
+# so does the roof, which drives all of it.
+FLOORS_OF_DEM = ("dem/threads", "dem", "dem/base", "dem/contacts", "dem/cycle", "dem/genesis",
+                 "dem/events", "dem/ranks", "dem/ranks/mpi", "roof of dem")
+ROOF_OF_DEM = {"dem/simulation"}
+MOST_IN_DEM = 35  # files
+# The cycle as it is specified, which is written to be read: alone in the world, on one page or two.
+SPECIFICATION = {"dem/cycle/plain_cycle.hpp", "dem/cycle/plain_cycle.cpp"}
+MOST_LINES = 250
+WORDS_OF_RANKS = {"rank", "ranks", "ranked", "ghost", "ghosts", "halo", "subdomain", "subdomains", "mpi"}
 
 # Headers that are neither ours nor of the C++ standard, whose names have no dot and no slash.
 SYSTEM = ("dlfcn.h", "fcntl.h", "poll.h", "sched.h", "sys/", "unistd.h", "immintrin.h")
@@ -63,9 +77,42 @@ def is_allowed(path, name):
     return name.startswith(FOREIGN.get(room(path), FOREIGN["apps"]))
 
 
-def violations(tree):
-    """Every forbidden include, file in no room and cycle of units of a tree, one line each."""
+def floor_of_dem(path):
+    """The floor of dem that a file lies on."""
+    return "roof of dem" if unit(path) in ROOF_OF_DEM else str(PurePosixPath(path).parent)
+
+
+def violations_in_dem(tree):
+    """Includes of dem that go up, files that lie on none of its floors or are too many in dem itself,
+    and what is wrong with the specification."""
     found = []
+    for path, text in tree.items():
+        if room(path) != "dem" or not is_cpp(path):
+            continue
+        floor = floor_of_dem(path)
+        if floor not in FLOORS_OF_DEM:
+            found.append(f"{path}: lies on no floor of dem")
+            continue
+        below = FLOORS_OF_DEM[:FLOORS_OF_DEM.index(floor) + 1]
+        found += [f"{path}: must not include {name}, of a floor above" for name in includes(text)
+                  if is_ours(name) and room(name) == "dem" and ".." not in name
+                  and floor_of_dem(name) not in below]
+    in_dem = sum(PurePosixPath(path).parent == PurePosixPath("dem") for path in tree)
+    if in_dem > MOST_IN_DEM:
+        found.append(f"dem: {in_dem} files, at most {MOST_IN_DEM}; floors below it have more")
+    for path in sorted(SPECIFICATION & tree.keys()):
+        lines = tree[path].count("\n")
+        if lines > MOST_LINES:
+            found.append(f"{path}: {lines} lines, at most {MOST_LINES}: it is to be read")
+        words = {word.lower() for word in re.findall("[A-Z]*[a-z]+|[A-Z]+", tree[path])}
+        found += [f"{path}: {word}: that is for dem/ranks" for word in sorted(words & WORDS_OF_RANKS)]
+    return found
+
+
+def violations(tree):
+    """Every forbidden include, file in no room and cycle of units of a tree, one line each, and what
+    violations_in_dem() finds."""
+    found = violations_in_dem(tree)
     for path, text in tree.items():
         if room(path) == READER and not is_cpp(path):
             continue

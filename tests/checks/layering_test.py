@@ -46,25 +46,25 @@ class PlantedViolations(unittest.TestCase):
 
     def test_a_cycle_of_units(self):
         self.assertEqual(
-            self.found(included("dem/cycle.cpp", '"dem/cycle.hpp"', '"dem/fast.hpp"'),
-                       included("dem/cycle.hpp", "<vector>"),
+            self.found(included("dem/base.cpp", '"dem/base.hpp"', '"dem/fast.hpp"'),
+                       included("dem/base.hpp", "<vector>"),
                        included("dem/fast.cpp", '"dem/fast.hpp"', '"dem/law.hpp"'),
                        included("dem/fast.hpp", '"dem/state.hpp"'),
                        included("dem/state.hpp"),
-                       included("dem/law.hpp", '"dem/cycle.hpp"')),
-            ["cycle of units: dem/cycle, dem/fast, dem/law"])
+                       included("dem/law.hpp", '"dem/base.hpp"')),
+            ["cycle of units: dem/base, dem/fast, dem/law"])
 
     def test_a_header_with_its_source_is_no_cycle(self):
-        self.assertEqual(self.found(included("dem/cycle.cpp", '"dem/cycle.hpp"'),
-                                    included("dem/cycle.hpp", '"dem/state.hpp"')), [])
+        self.assertEqual(self.found(included("dem/cycle/cycle.cpp", '"dem/cycle/cycle.hpp"'),
+                                    included("dem/cycle/cycle.hpp", '"dem/state.hpp"')), [])
 
     def test_dem_beyond_the_standard_library(self):
         self.assertEqual(
-            self.found(included("dem/cycle.cpp", "<vector>", "<cmath>", '"dem/events/strain.hpp"',
+            self.found(included("dem/cycle/cycle.cpp", "<vector>", "<cmath>", '"dem/state.hpp"',
                                 "<immintrin.h>", "<unistd.h>", '"fem/footwall.hpp"',
                                 "<fmt/core.h> // a comment", '"../apps/run.hpp"', '"state.hpp"',
                                 '"dem/../fem/mesh.hpp"', "HEADER")),
-            [f"dem/cycle.cpp: must not include {name}" for name in
+            [f"dem/cycle/cycle.cpp: must not include {name}" for name in
              ("unistd.h", "fem/footwall.hpp", "fmt/core.h", "../apps/run.hpp", "state.hpp",
               "dem/../fem/mesh.hpp", "HEADER")])
 
@@ -88,23 +88,66 @@ class PlantedViolations(unittest.TestCase):
 
     def test_mpi_outside_its_plug_in(self):
         self.assertEqual(
-            self.found(included("dem/ranks/mpi_ranks.cpp", "<mpi.h>", "<petscsys.h>", "<petscksp.h>",
-                                '"dem/ranks.hpp"', '"dem/ranks/mailboxes.hpp"', '"apps/run/run.hpp"'),
-                       included("dem/links.cpp", "<mpi.h>", '"dem/ranks.hpp"', '"dem/ranks/mpi_ranks.hpp"'),
+            self.found(included("dem/ranks/mpi/mpi_ranks.cpp", "<mpi.h>", "<petscsys.h>",
+                                "<petscksp.h>", '"dem/ranks/ranks.hpp"',
+                                '"dem/ranks/mpi/require.hpp"', '"apps/run/run.hpp"'),
+                       included("dem/ranks/halo_exchange.cpp", "<mpi.h>", '"dem/ranks/ranks.hpp"'),
+                       included("apps/run/ranked_run.cpp", '"dem/ranks/mpi/mpi_ranks.hpp"'),
                        included("apps/run/join_ranks.cpp", "<dlfcn.h>", "<mpi.h>")),
-            ["dem/ranks/mpi_ranks.cpp: must not include petscksp.h",
-             "dem/ranks/mpi_ranks.cpp: must not include apps/run/run.hpp",
-             "dem/links.cpp: must not include mpi.h",
-             "dem/links.cpp: must not include dem/ranks/mpi_ranks.hpp",
+            ["dem/ranks/mpi/mpi_ranks.cpp: must not include petscksp.h",
+             "dem/ranks/mpi/mpi_ranks.cpp: must not include apps/run/run.hpp",
+             "dem/ranks/halo_exchange.cpp: must not include mpi.h",
+             "apps/run/ranked_run.cpp: must not include dem/ranks/mpi/mpi_ranks.hpp",
              "apps/run/join_ranks.cpp: must not include mpi.h"])
 
+    def test_a_floor_of_dem_that_looks_up(self):
+        self.assertEqual(
+            self.found(included("dem/state.hpp", '"dem/column.hpp"', '"dem/threads/team.hpp"',
+                                '"dem/base/place.hpp"'),
+                       included("dem/cycle/fast_cycle.cpp", '"dem/contacts/contacts.hpp"',
+                                '"dem/cycle/surroundings.hpp"', '"dem/ranks/subdomain.hpp"'),
+                       included("dem/threads/team.cpp", '"dem/units.hpp"'),
+                       included("dem/genesis/genesis.cpp", '"dem/simulation.hpp"'),
+                       included("dem/simulation.cpp", '"dem/events/strain.hpp"',
+                                '"dem/cycle/cycle.hpp"')),
+            ["dem/state.hpp: must not include dem/base/place.hpp, of a floor above",
+             "dem/cycle/fast_cycle.cpp: must not include dem/ranks/subdomain.hpp, of a floor above",
+             "dem/threads/team.cpp: must not include dem/units.hpp, of a floor above",
+             "dem/genesis/genesis.cpp: must not include dem/simulation.hpp, of a floor above"])
+
+    def test_a_file_on_no_floor_of_dem(self):
+        self.assertEqual(self.found({"dem/helpers/sum.hpp": ""}),
+                         ["dem/helpers/sum.hpp: lies on no floor of dem"])
+
+    def test_too_many_files_in_dem_itself(self):
+        crowd = {f"dem/noun_{k}.hpp": "" for k in range(35)}
+        self.assertEqual(self.found(crowd), [])
+        self.assertEqual(self.found(crowd, {"dem/cycle/cycle.hpp": ""}), [])
+        self.assertEqual(self.found(crowd, {"dem/another.hpp": ""}),
+                         ["dem: 36 files, at most 35; floors below it have more"])
+
+    def test_a_specification_that_is_long(self):
+        path = "dem/cycle/plain_cycle.cpp"
+        self.assertEqual(self.found({path: "int f();\n" * 250}), [])
+        self.assertEqual(self.found({path: "int f();\n" * 251}),
+                         [f"{path}: 251 lines, at most 250: it is to be read"])
+
+    def test_ranks_in_the_specification(self):
+        path = "dem/cycle/plain_cycle.cpp"
+        self.assertEqual(self.found({path: "// frank words of a cranked shaft\n"}), [])
+        for line, word in (("// of all ranks\n", "ranks"), ("int rank_count;\n", "rank"),
+                           ("if (is_ghost) {}\n", "ghost"), ("Halo* all;\n", "halo"),
+                           ("RankedCycles c;\n", "ranked"), ("MPI_Comm c;\n", "mpi")):
+            with self.subTest(line):
+                self.assertEqual(self.found({path: line}), [f"{path}: {word}: that is for dem/ranks"])
+
     def test_what_is_no_include(self):
-        self.assertEqual(self.found({"dem/cycle.cpp": '// #include "apps/run/run.hpp"\n'
+        self.assertEqual(self.found({"dem/cycle/cycle.cpp": '// #include "apps/run/run.hpp"\n'
                                                       'int include;\n'}), [])
 
     def test_unusual_spelling_of_an_include(self):
-        self.assertEqual(self.found({"dem/cycle.cpp": ' #  include\t"fem/plate.hpp"'}),
-                         ["dem/cycle.cpp: must not include fem/plate.hpp"])
+        self.assertEqual(self.found({"dem/cycle/cycle.cpp": ' #  include\t"fem/plate.hpp"'}),
+                         ["dem/cycle/cycle.cpp: must not include fem/plate.hpp"])
 
 
 class Sources(unittest.TestCase):

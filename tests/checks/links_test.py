@@ -18,6 +18,10 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(self.found("![x](../b.png)"), ["docs/theory/a.md: ../b.png: no such file"])
         self.assertEqual(self.found("see docs/c.md"), ["docs/theory/a.md: docs/c.md: no such file"])
 
+    def test_the_lab_book_names_files_of_its_time(self):
+        text = "see docs/c.md"
+        self.assertEqual(violations({"docs/record/2026-11/a.md": text}, lambda path: False), [])
+
     def test_no_such_heading(self):
         for link in ("../b.md#faults-and-more", "#here", "../../dem/law.hpp#faults"):
             self.assertEqual(len(self.found(f"[x]({link})")), 1, link)

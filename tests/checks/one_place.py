@@ -4,7 +4,8 @@ lines of apps name it, by its table or by the type of its parameters?
 
     python3 tests/checks/one_place.py      prints these lines, and what is wrong with them
 
-Comments count, longer identifiers that hold the name (attach_base_motion), and names put together
+Painters, in Python, JavaScript and what these read, name none at all: effects declare what is drawn of
+them. Comments count, longer identifiers that hold the name (attach_base_motion), and names put together
 from pieces ("fault_" "weakening", or a format of them).
 """
 
@@ -12,13 +13,15 @@ import re
 import sys
 from fnmatch import fnmatch
 from itertools import count
+from pathlib import PurePosixPath
 from typing import NamedTuple
 
-from source_tree import is_cpp, read_tree, report
+from source_tree import CPP, PAGE, PYTHON, is_cpp, read_tree, report
 
 DESCRIPTIONS = "apps/model/effects/"
 LIST = "apps/model/effect_list.hpp"  # one line each
 MOST_EXCEPTIONS = 5
+GENERATED = ("apps/*.schema.json", "apps/python/listric/dictionary.json")  # from the descriptions
 
 
 class Effect(NamedTuple):
@@ -26,6 +29,7 @@ class Effect(NamedTuple):
     parameters: str      # their type
     own: str = ""        # files beside those that the table's name begins
     trade: bool = False  # the table's name is a word of the trade: the type alone counts
+    known_to: tuple = () # other files that may name it
 
 
 EFFECTS = (
@@ -36,7 +40,13 @@ EFFECTS = (
     Effect("sedimentation", "SedimentationParameters"),
     Effect("compaction", "CompactionParameters"),
     Effect("energy", "EnergyParameters", trade=True),
-    Effect("elastic_base", "ElasticBaseParameters", trade=True),
+    Effect("elastic_base", "ElasticBaseParameters", known_to=(
+        DESCRIPTIONS + "*",               # of effects that load it
+        "apps/studies/study_runs.cpp",    # studies of it
+        "apps/studies/study_isostasy.cpp",
+        "apps/run/flexure.cpp",           # [flexure] bends it alone, without discs
+        "apps/commands/explain.cpp", "apps/scene/scene_checks.cpp", "apps/scene/schema.cpp",
+        "apps/scene/scene_file.hpp")),
     Effect("lower_crust_thinning", "LowerCrustThinningParameters"),
     Effect("basin_water", "BasinWaterParameters"),
     Effect("footwall_erosion", "FootwallErosionParameters"),
@@ -73,6 +83,10 @@ LITERAL = re.compile(r'"((?:\\.|[^"\\\n])*)"|\'((?:\\.|[^\'\\\n])*)\'')
 def is_own(effect, path):
     return (fnmatch(path, f"{DESCRIPTIONS}{effect.table}*")
             or bool(effect.own) and fnmatch(path, effect.own))
+
+
+def is_painter(path):
+    return PurePosixPath(path).suffix in PYTHON | PAGE
 
 
 def whole(word):
@@ -120,14 +134,23 @@ def pasted(word, text):
 def mentions(effect, tree):
     """Lines of apps outside the effect's own files that name it."""
     for path, text in tree.items():
-        if not path.startswith("apps/") or is_own(effect, path):
+        if not path.startswith("apps/") or is_own(effect, path) or any(fnmatch(path, made) for made in GENERATED):
+            continue
+        if any(fnmatch(path, known) for known in effect.known_to):
             continue
         numbers = lines_with_word(effect.parameters, text)
-        if not effect.trade:
+        if is_painter(path) and "_" in effect.table:
+            first, *others = effect.table.split("_")
+            numbers |= lines_with_word(first + "".join(map(str.capitalize, others)), text)
+        if not effect.trade or is_painter(path) and "_" in effect.table:
             numbers |= lines_with_word(effect.table, text) | lines_with_pieces(effect.table, text)
             numbers |= pasted(effect.table, text)
         lines = text.split("\n")
         yield from (Line(effect.table, path, number, lines[number - 1]) for number in sorted(numbers))
+
+
+def read_sources():
+    return read_tree(layers=("apps",), suffixes=CPP | PYTHON | PAGE)
 
 
 def violations(tree, effects=EFFECTS, exceptions=EXCEPTIONS):
@@ -155,7 +178,7 @@ def violations(tree, effects=EFFECTS, exceptions=EXCEPTIONS):
 
 
 if __name__ == "__main__":
-    sources = read_tree(layers=("apps",))
+    sources = read_sources()
     for known in EFFECTS:
         for mention in mentions(known, sources):
             print(mention)

@@ -1,7 +1,6 @@
 import unittest
 
-from one_place import EFFECTS, EXCEPTIONS, LIST, Effect, Exempt, violations
-from source_tree import read_tree
+from one_place import EFFECTS, EXCEPTIONS, LIST, Effect, Exempt, read_sources, violations
 
 WEAKENING = Effect("fault_weakening", "FaultWeakeningParameters")
 BONDS = Effect("bonds", "BondStrength", trade=True)
@@ -40,10 +39,29 @@ class PlantedViolations(unittest.TestCase):
     def test_a_table_of_the_trade_counts_by_its_type_alone(self):
         self.assertEqual(self.found('auto bonds = count("bonds");'), [])
 
+    def test_a_painter_names_none(self):
+        base = Effect("elastic_base", "ElasticBaseParameters", trade=True)
+        for path, line in (("section.js", 'of: run => run.head.effects.includes("elastic_base")'),
+                           ("section.js", "layers.elasticBase"), ("panels.py", 'frame["elastic_base"]'),
+                           ("section.js", '"elastic" + "_base"'), ("look.json", '{"elastic_base": 1}')):
+            with self.subTest(line):
+                self.assertEqual(len(self.found(line, "apps/figures/" + path, (base,))), 1)
+        self.check_found('water: run.head.effects.includes("fault_weakening")', "faultWeakening(run)",
+                         path="apps/figures/report/section.js")
+        self.assertEqual(self.found('find("elastic_base");', effects=(base,)), [])
+        self.assertEqual(self.found('run.has("bonds_left")', "apps/figures/report/section.js"), [])
+
     def test_one_line_of_the_list(self):
         line = "    &effects::fault_weakening,\n"
         self.assertEqual(self.found(line, LIST), [])
         self.assertEqual(len(self.found(line + line, LIST)), 1)
+
+    def test_what_drives_the_base_is_known_to_few(self):
+        base = next(effect for effect in EFFECTS if effect.table == "elastic_base")
+        asks = 'if (has_effect(scene, "elastic_base"))'
+        for path in ("apps/run/session.cpp", "apps/figures/base_figure.cpp", "apps/model/model.cpp"):
+            self.assertEqual(len(self.found(asks, path, (base,))), 1, path)
+        self.assertEqual(self.found(asks, "apps/model/effects/basin_water.cpp", EFFECTS), [])
 
     def test_own_files(self):
         self.assertEqual(self.found("FaultWeakeningParameters fault_weakening;",
@@ -67,7 +85,12 @@ class PlantedViolations(unittest.TestCase):
 
 class Sources(unittest.TestCase):
     def test_an_effect_is_in_one_place(self):
-        self.assertEqual(violations(read_tree(layers=("apps",))), [])
+        self.assertEqual(violations(read_sources()), [])
+
+    def test_painters_are_read(self):
+        sources = read_sources()
+        for path in ("apps/figures/report/section.js", "apps/figures/python/panels.py", "apps/figures/vocabulary.json"):
+            self.assertIn(path, sources)
 
     def test_exceptions_have_reasons(self):
         for exception in EXCEPTIONS:

@@ -56,6 +56,17 @@ class PlantedViolations(unittest.TestCase):
                          ["apps/figures/python/plot.py: draw: 82 lines",
                           "apps/figures/python/plot.py: inner: 81 lines"])
 
+    def test_a_session_that_knows_every_trade(self):
+        header, source = "apps/run/session.hpp", "apps/run/session.cpp"
+        lines = "int step();\n"
+        self.assertEqual(violations({header: lines * 50, source: lines * 150}), [])
+        self.assertEqual(violations({header: lines * 50, source: lines * 151}),
+                         ["apps/run/session: 201 lines, at most 200"])
+        includes = "".join(f'#include "apps/run/part{i}.hpp"\n' for i in range(15))
+        self.assertEqual(violations({source: includes}),
+                         ["apps/run/session: includes 15 headers of ours, at most 14"])
+        self.assertEqual(violations({source: "#include <cmath>\n" + includes.replace("part3", "part4")}), [])
+
     def test_a_text_that_cannot_be_read(self):
         self.assertEqual(self.found("dem/cycle.cpp", "void f() { {"),
                          ["dem/cycle.cpp: cannot be read: a brace is not closed"])

@@ -13,14 +13,15 @@ ROOT = Path(__file__).resolve().parents[2]
 LAYERS = ("dem", "fem", "coupling", "apps")
 CPP = {".hpp", ".cpp"}
 PYTHON = {".py"}
+PAGE = {".js", ".json"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"\n]*)"|<([^>\n]*)>|(\S+))', re.MULTILINE)
 
 
-def read_tree(root=ROOT, layers=LAYERS):
-    """All C++ and Python files of the layers, in the order of their paths."""
+def read_tree(root=ROOT, layers=LAYERS, suffixes=CPP | PYTHON):
+    """All C++ and Python files of the layers, or those with these suffixes, in the order of their paths."""
     files = (file for layer in layers for file in (Path(root) / layer).rglob("*"))
     return {file.relative_to(root).as_posix(): file.read_text(encoding="utf-8")
-            for file in sorted(files) if file.suffix in CPP | PYTHON}
+            for file in sorted(files) if file.suffix in suffixes}
 
 
 def is_cpp(path):

@@ -3,13 +3,13 @@
 // there was a state, bytes per disc; or the hash at the end, for which the state is collected.
 //   mpirun -n 2 ranked_cycles SCENE ACCURACY RADIUS_M CYCLES REPEATS THREADS [hash]
 
-#include "dem/ranked_cycles.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
 #include "apps/run/join_ranks.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 
 #include <chrono>
 #include <cstdio>
@@ -63,14 +63,14 @@ int main(int count, char** words) {
             std::ofstream("/proc/self/clear_refs") << 5; // the greatest memory from here on
             discs = static_cast<std::int64_t>(state.discs.rows());
             const std::int64_t cycles = std::atoll(words[4]);
-            Packed known;
+            Packed packed;
             for (int repeat = 0; repeat < std::atoi(words[5]); ++repeat) {
                 const auto begin = std::chrono::steady_clock::now();
                 if (ranks->count() > 1)
-                    on_ranks.advance(state, cycles, known);
+                    on_ranks.advance(state, cycles, repeat > 0);
                 else
                     advance(state, parts.base, parts.physics, cycles,
-                            {.threads = how.threads, .packed = &known});
+                            {.threads = how.threads, .packed = &packed});
                 const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
                 std::printf("%.2f\n", static_cast<double>(discs * cycles) / took.count() / 1e6);
             }

@@ -1,7 +1,7 @@
 // A detachment that moves as prescribed, from the scene to the discs.
 
-#include "dem/base_motion.hpp"
-#include "dem/base_place.hpp"
+#include "dem/base/motion.hpp"
+#include "dem/base/place.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>

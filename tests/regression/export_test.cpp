@@ -4,7 +4,7 @@
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/measures/horizons.hpp"
-#include "dem/power_cell.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 

@@ -84,14 +84,5 @@ TEST_F(CoupledRun, NearlyIncompressibleRockCarriesDiscs) {
     EXPECT_LT(locked, 0.7 * hard); // what quadratic elements are for
 }
 
-TEST_F(CoupledRun, RefusesToBlowUp) {
-    try {
-        run("staggered", 1, {}, false, {"elastic_base.scheme=staggered"});
-        FAIL() << "not refused";
-    } catch (const UsageError& error) {
-        EXPECT_NE(std::string(error.what()).find("staggered would blow up"), std::string::npos);
-    }
-}
-
 } // namespace
 } // namespace listric

@@ -2,7 +2,7 @@
 
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/footwall_request.hpp"
+#include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/model.hpp"
 #include "coupling/base_memory.hpp"
 #include "coupling/interface_loads.hpp"

@@ -3,8 +3,8 @@
 #include "apps/laboratory/pure_shear.hpp"
 #include "apps/laboratory/tests.hpp"
 #include "apps/run/run.hpp"
-#include "dem/contacts.hpp"
-#include "dem/monitor.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>

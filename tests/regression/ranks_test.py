@@ -122,10 +122,6 @@ class SameBits(Ranks):
     def test_a_rigid_scene_on_any_number(self):
         self.assertSameBits("lis1", "120m", (1, 2, 3, 5))
 
-    def test_messages_alone_as_between_machines(self):
-        self.environment["LISTRIC_MAILBOXES"] = "0"
-        self.assertSameBits("lis1", "60m", (3,))
-
     def test_a_ramp_and_a_flat(self):
         self.assertSameBits("rfr", "40m", (3,))
 
@@ -153,7 +149,6 @@ class Ends(Ranks):
         energies.write_text((SOURCES / "apps/scenes/lis1.toml").read_text() + "\n[energy]\n")
         for words, message in ((("lis9",), "did you mean lis1?"),
                                (("lis1", "--set", "compacton.x=1"), "did you mean compaction?"),
-                               (("lis1-elastic", "--set", "elastic_base.scheme='strong'"), "takes cycles back"),
                                ((energies,), "one process"), (("flexure",), "no discs")):
             with self.subTest(message):
                 self.assertRefused(message, *words)

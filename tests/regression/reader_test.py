@@ -24,7 +24,7 @@ os.environ["LISTRIC_PROGRAM"] = str(PROGRAM)
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(SOURCES / "apps/python"))
 import listric
-from listric import table
+from listric import dictionary
 from listric.snapshot import FORMAT
 
 # 565 discs, sediment of two events, a base that moves as prescribed: every table but of events.
@@ -111,7 +111,7 @@ class Reader(unittest.TestCase):
                         self.assertEqual(read[name].dtype, stored.dtype)
                         self.assertEqual(read[name].tobytes(), stored[()].tobytes(), stored)
                         unit = stored.attrs["unit"].decode()
-                        self.assertEqual(read[name].units, unit or table.unit_of(name))
+                        self.assertEqual(read[name].units, unit or dictionary.unit_of(name))
                     tables.add(path)
                 for name in ("discs", "contacts", "base_contacts", "base_nodes"):
                     self.assertEqual(list(getattr(snapshot, name)), list(snapshot.table(name)))
@@ -138,19 +138,28 @@ class Reader(unittest.TestCase):
         history["extension_m"][:] = -1.0  # nobody else's
         self.assertEqual(history["extension_m"][0], 0.0)
 
-    def test_units_are_those_that_measures_declare(self):
-        declared = re.findall(r'^\s*\{"(\w+)", "([^"]*)", \[\]',
-                              (SOURCES / "apps/measures/measures.cpp").read_text(), re.MULTILINE)
-        self.assertGreater(len(declared), 20)
-        for name, unit in declared:
-            self.assertEqual(table.unit_of(name).replace("^", ""), unit, name)
-        # Of the rest the documents say that names end with their unit.
-        for name, unit in {"net_wall_load_n_per_m": "N/m", "energy_friction_j_per_m": "J/m",
-                           "fault": "1", "rate_mm_per_a": "mm/a", "curvature_per_m": "1/m",
-                           "rotation_rad": "rad", "restoring_pa_per_m": "Pa/m", "wall_s": "s",
-                           "deposited_at_a": "a", "strain_top10": "1", "mass_kg_per_m": "kg/m",
-                           "disc_steps_per_s": "1/s", "young_modulus_pa": "Pa"}.items():
-            self.assertEqual(table.unit_of(name), unit, name)
+    def test_units_and_definitions_are_the_dictionarys(self):
+        history = self.run_.history
+        for name in history:
+            entry = dictionary.dictionary()[name]
+            self.assertEqual(history[name].units, entry["unit"], name)
+            self.assertEqual(history[name].doc, entry["doc"], name)
+        x = history["area_balance"]
+        self.assertEqual((x.units, x[1:].doc, (2.0 * x).__class__), ("1", x.doc, np.ndarray))
+        self.assertIsNone(dictionary.unit_of("lithology_m"))  # nothing is guessed
+        self.assertEqual(dictionary.unit_of("antithetic_turn_deg"), "deg")
+        self.assertEqual(dictionary.unit_of("dip_at_birth_deg"), "deg")
+
+    def test_snapshots_have_the_history_s_units(self):
+        with h5py.File(self.run_.snapshots[-1].path) as file:
+            for name, values in file["run/history"].items():
+                self.assertEqual(values.attrs["unit"].decode(), dictionary.unit_of(name), name)
+
+    def test_what_the_run_says_is_declared(self):
+        declared = dictionary.dictionary()
+        self.assertEqual([name for name in self.run_.summary if name not in declared], [])
+        for fault in self.run_.summary["faults"]:
+            self.assertEqual([name for name in fault if name not in declared], [])
 
     def test_pandas(self):
         import pandas

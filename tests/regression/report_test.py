@@ -5,9 +5,12 @@
 
 import csv
 import json
+import os
 import random
 import re
+import shutil
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -21,6 +24,14 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from program import PROGRAM, SOURCES
+
+sys.path.insert(0, str(SOURCES / "apps/figures/python"))
+import plot  # without which the figures' modules do not find Matplotlib's backend
+import frame as frames
+import sections
+from matplotlib.collections import EllipseCollection
+from matplotlib.colors import to_hex
+from vocabulary import VOCABULARY, stratum_colours
 
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 
@@ -54,6 +65,29 @@ def lightness(colour, seen_by):
                     [0.0193, 0.1192, 0.9505]]) @ np.clip(linear, 0.0, 1.0)
     f = np.cbrt(xyz / np.array([0.9505, 1.0, 1.089]))
     return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
+
+
+def figure_frames(run_folder, place):
+    """The frames of a run's figures as the program writes them for the scripts that draw."""
+    keeper = place / "keeper"
+    keeper.write_text('#!/bin/sh\nfor word; do if [ -f "$word/000000/frame.json" ]; then '
+                      f"rm -rf '{place}/frames'; cp -r \"$word\" '{place}/frames'; fi; done\n")
+    keeper.chmod(0o755)
+    ended = listric("figures", run_folder, env={**os.environ, "LISTRIC_PYTHON": str(keeper)})
+    assert ended.returncode == 0, ended.stdout
+    return sorted((place / "frames").iterdir())
+
+
+def drawn(frame, panel):
+    """The colours of the discs of a figure, and the end of its colour bar."""
+    figure = sections.draw_figure(frame, [panel], 20)
+    [discs] = [shapes for shapes in figure.axes[0].collections if isinstance(shapes, EllipseCollection)]
+    return list(map(to_hex, discs.get_facecolors())), figure.axes[1].get_ylim()[1]
+
+
+def counted(colours):
+    """How many discs have the colour of each class of rock."""
+    return [colours.count(rock["colour"]) for rock in VOCABULARY["rock_classes"]]
 
 
 class Report(unittest.TestCase):
@@ -203,7 +237,7 @@ class Report(unittest.TestCase):
         self.open(words="#colour=rock&shown=")
         pixels = self.script(
             "const s = page.sections[0], k = page.t, run = page.runs[0], d = s.discs(k), found = [];"
-            "const colours = discColours(run, k, 'rock', 'batlow', 1, 1), c = s.discCanvas;"
+            "const colours = discColours(run, k, 'rock', 'figures', 1, 1), c = s.discCanvas;"
             "for (let id = 0; id < d.present.length && found.length < 50; id += 61) if (d.present[id]) {"
             "  const [x, y] = s.toPixel(page.view, d.x[id], d.depth[id]).map(Math.floor);"
             "  found.push([cssColour(colours[id]), Array.from(c.getContext('2d').getImageData(x, y, 1, 1).data)]); }"
@@ -211,13 +245,81 @@ class Report(unittest.TestCase):
         self.assertEqual(len(pixels), 50)
         for wanted, pixel in pixels:
             self.assertEqual(wanted, "#%02x%02x%02x" % tuple(pixel[:3]))
-        named = {rock["name"]: [rock["colour"] >> shift & 255 for shift in (0, 8, 16)]
-                 for rock in self.script("return rocks;")}
-        weak = named.pop("weak: major faults")
+        named = {rock["name"]: list(bytes.fromhex(rock["colour"][1:])) for rock in VOCABULARY["rock_classes"]}
+        weak = named.pop("weakened")
         self.assertEqual(max(weak), weak[0])  # a red brown
         for other in named.values():
             for eye in ("everybody", "deuteranope"):
                 self.assertGreaterEqual(np.linalg.norm(lightness(weak, eye) - lightness(other, eye)), 10.0)
+
+    def check_one_truth(self, run_folder, place, file=None):
+        """Classes of rock, ends of scales and strata are the same in the program, figures and page."""
+        self.open(file or run_folder / "report.html")
+        folders = figure_frames(run_folder, place)
+        self.assertGreater(len(folders), 1)
+        found = []
+        for folder in folders:
+            frame = frames.load_frame(str(folder))
+            measured = np.bincount(np.load(folder / "discs_behaviour.npy"), minlength=4).tolist()
+            k, present, rock, strata, end, weak = self.script(
+                "const [run] = page.runs, k = run.nearest(a[0]); page.t = k;"
+                "await run.load(['behaviour', 'start_depth_m', 'layer_weak']);"
+                "const colours = mode => Array.from(discColours(run, k, mode, 'figures', 1, a[1]), cssColour);"
+                "return [k, Array.from(run.codes[k].present), colours('rock'), colours('strata'),"
+                "run.moments[k].ends.window_strain, Array.from(run.codes[k].layer_weak)];",
+                frame.meta["extension_m"], frame.strata)
+            there = np.flatnonzero(present)
+            self.assertEqual(counted(drawn(frame, "behaviour")[0]), measured)
+            self.assertEqual(counted([rock[i] for i in there]), measured)
+            self.assertEqual(sum(measured), len(there))
+            self.assertEqual(end, json.loads((folder / "frame.json").read_text())["strain_end"])
+            self.assertEqual(drawn(frame, "strain")[1], end)
+            in_page, in_figure = (np.sort([list(bytes.fromhex(colour[1:])) for colour in colours], axis=0)
+                                  for colours in ([strata[i] for i in there], drawn(frame, "strata")[0]))
+            differ = np.abs(in_page - in_figure).max(axis=1) > 1
+            self.assertLess(differ.mean(), 0.01)   # whose depth in the page, rounded, is of another layer
+            [layer] = [layer for layer in frame.layers if layer.label == "weakened"]
+            self.assertEqual(sum(weak[i] == 255 for i in there), layer.rows.sum())
+            found.append((frame.extension, measured, end))
+        self.script("page.mode = 'window'; await draw(); return 0;")
+        legend = self.driver.find_element("id", "legend").text
+        self.assertAlmostEqual(float(re.search(r"([\d.]+) or more", legend)[1]), found[-1][2])
+        return found
+
+    def test_05b_page_and_figures_tell_one_truth(self):
+        found = self.check_one_truth(self.run_folder, self.folder)
+        self.assertGreater(min(map(len, (f[1] for f in found))), 3)
+        self.assertGreater(sum(n > 0 for n in found[-1][1]), 2)   # discs of several classes
+
+    def test_05c_strain_is_light_where_nothing_happens(self):
+        self.open(words="#colour=window")
+        first, last = self.script("const table = paletteOf('window', page.palette);"
+                                  "return [cssColour(table[0]), cssColour(table[255])];")
+        self.assertGreater(lightness(list(bytes.fromhex(first[1:])), "everybody")[0], 95.0)
+        self.assertLess(lightness(list(bytes.fromhex(last[1:])), "everybody")[0], 20.0)
+
+    def test_05d_a_layer_that_the_page_does_not_know_is_drawn_by_its_kind(self):
+        self.open(words="#shown=")
+        self.script(
+            "const [run] = page.runs, lines = await run.loadLines(page.t);"
+            "for (const [name, kind, ink, rows] of [['shore', 'line', '#00ff00', [0, -2000, 20000, -2000]],"
+            "['lake', 'band', '#0000ff', [0, 500, 900, 20000, 500, 900]]]) {"
+            "  run.head.layers.push({name, kind, label: 'the ' + name, ink}); (lines.layers ??= {})[name] = rows; }"
+            "run.head.layers.push({name: 'marked', kind: 'discs', label: 'the marked', ink: '#ff0000'});"
+            "run.codes[page.t].marked = run.codes[page.t].present.map(there => 255 * there);"
+            "run.moments[0].streams.marked = 0; run.codes[0].marked = [];"
+            "page.layers = layersOf(page.runs); $('layers').textContent = ''; addLayers();"
+            "for (const box of $('layers').querySelectorAll('input')) if (box.parentElement.textContent"
+            ".includes('the ')) box.click(); await draw(); return 0;")
+        shown = self.driver.find_element("id", "layers").text
+        for label in ("the shore", "the lake", "the marked"):
+            self.assertIn(label, shown)
+        pixel = ("const s = page.sections[0], [x, y] = s.toPixel(page.view, a[0], a[1]).map(Math.round), found = [];"
+                 "for (let dy = -2; dy <= 2; ++dy) found.push(Array.from(s[a[2]].getContext('2d')"
+                 ".getImageData(x, y + dy, 1, 1).data.slice(0, 3))); return found;")
+        self.assertIn([0, 255, 0], self.script(pixel, 10000, 2000, "lineCanvas"))
+        self.assertIn([0, 0, 255], self.script(pixel, 10000, -700, "discCanvas"))
+        self.assertIn([255, 0, 0], self.script(pixel, 10000, 3000, "discCanvas"))
 
     def test_06_slider_and_chart_move_together(self):
         self.open()
@@ -352,7 +454,7 @@ class Report(unittest.TestCase):
         script = text.index('"use strict";', data)
         for k, broken in enumerate((text[:script + 5000], text[:data + 3000],
                                     text[:data + 12] + "nonsense" + text[data + 12:],
-                                    text.replace('id="palettes">{', 'id="palettes">', 1))):
+                                    text.replace('id="vocabulary">{', 'id="vocabulary">', 1))):
             page = self.folder / f"broken-{k}.html"
             page.write_text(broken)
             self.driver.get(f"file://{page}")   # returns when it is loaded

@@ -6,7 +6,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/run.hpp"
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/program.hpp"
 #include "tests/small_halfgraben.hpp"
 

@@ -85,18 +85,34 @@ inline const Effect& speed_gauge() {
             [](const Scene& scene, const Workload& work) {
                 return work.years / scene.find<P>()->interval * work.discs;
             },
-        .measure =
-            [](const Observation& now) {
-                const auto& gauge = *dem::find<const SpeedGauge>(now.events);
-                return EffectMeasures{
-                    .numbers = {{"greatest_speed_m_per_s", gauge.greatest()}},
-                    .groups = {{"speed_gauge", {{"looks", static_cast<double>(gauge.applied)}}}}};
-            },
-        .draw =
-            [](const Observation& now) {
-                const auto speeds = now.state.discs.get<double>("greatest_speed");
-                return std::vector<FigureLayer>{
-                    {"greatest_speed", 0, {speeds.begin(), speeds.end()}}};
+        .measures = {{"greatest_speed_m_per_s", "m/s", "greatest speed that a disc was seen at",
+                      [](const Observation& now) -> std::optional<double> {
+                          return dem::find<const SpeedGauge>(now.events)->greatest();
+                      }}},
+        .objects =
+            {{"speed_gauge",
+              "",
+              "what the gauge has done",
+              {{"looks", "1", "at speeds"}},
+              [](const Observation& now) -> std::optional<std::vector<NamedNumbers>> {
+                  const auto& gauge = *dem::find<const SpeedGauge>(now.events);
+                  return std::vector<NamedNumbers>{{{"looks", static_cast<double>(gauge.applied)}}};
+              },
+              false}},
+        .layers =
+            {
+                {"fast_discs", LayerKind::discs, "greatest speed", "#8e24aa",
+                 [](const Observation& now) {
+                     const auto speeds = now.state.discs.get<double>("greatest_speed");
+                     std::vector<double> shares(speeds.begin(), speeds.end());
+                     for (double& share : shares)
+                         share /= std::max(std::ranges::max(speeds), 1e-300);
+                     return shares;
+                 }},
+                {"gauge_level", LayerKind::line, "level of the gauge", "#00695c",
+                 [](const Observation& now) {
+                     return std::vector<double>{0.0, -250.0, now.right_end(), -250.0};
+                 }},
             },
     };
     return effect;

@@ -238,7 +238,7 @@ class Names(TextTest):
             self.assert_refused(self.call("validate", "--plan", "plan.toml"), "plan.toml:9:", "name")
         self.assert_refused(self.call("calibrate", "--name", "../up"), "--name", "has a /")
         for text in ("a\\u001bb", "a\\rb", "a,b"):
-            self.write("plan.toml", 'scene = "small.toml"\nmeasures = ["hinge_x_m"]\n[[vary]]\n'
+            self.write("plan.toml", 'scene = "small.toml"\nmeasures = ["strain_top10"]\n[[vary]]\n'
                        f'parameter = "description"\nvalues = ["{text}"]\n')
             self.assert_refused(self.call("sweep", "plan.toml"), "plan.toml:5:")
 

@@ -4,7 +4,7 @@
 // The remedy of genesis is to let discs grow where they are while they push each other apart,
 // stopped again and again. Without it, discs of full size at random places fly away.
 
-#include "dem/packing.hpp"
+#include "dem/genesis/packing.hpp"
 #include "tests/stability/hard_case.hpp"
 
 namespace listric {

@@ -1,6 +1,5 @@
 // Bases much softer and much stiffer than the discs on them, afloat on strong and on weak springs.
 
-#include "coupling/strong_scheme.hpp"
 #include "tests/coupled_discs.hpp"
 #include "tests/stability/hard_case.hpp"
 
@@ -13,33 +12,6 @@ using namespace coupling;
 namespace {
 
 using namespace support;
-
-/// Length of the interface, m, and restoring stress of mantle below, Pa/m.
-constexpr double afloat = 6e3, mantle = 3300.0 * gravity;
-
-/// An elastic base that also floats, as one: its compliance over that of rock as stiff as the
-/// discs' (50 GPa: 2e-11 m per N/m over a kilometre), and its springs over the mantle's.
-Interface floating(double softness, double winkler) {
-    Interface interface = make_interface(2e-11 * softness);
-    const std::size_t n = interface.unknowns();
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = i % 2; k < n; k += 2)
-            interface.compliance[i * n + k] += 1.0 / (mantle * winkler * afloat);
-    return interface;
-}
-
-/// Takes from the reference load what moves the base by about a metre: strains stay small.
-void unload(Coupled& coupled) {
-    const auto load = coupled.state.base_nodes.get<double>("reference_load_y");
-    std::vector<double> forces(2 * load.size(), 0.0);
-    for (std::size_t k = 0; k < load.size(); ++k)
-        forces[2 * k + 1] = load[k];
-    double moves = 0.0;
-    for (const double u : coupled.elastic.displacement(forces))
-        moves = std::max(moves, std::abs(u));
-    for (double& f : load)
-        f *= 1.0 - std::min(0.1, 1.0 / moves);
-}
 
 struct HardBase {
     double softness, winkler;
@@ -132,25 +104,6 @@ TEST(FootwallUnstable, WithATenthOfTheMass) {
     EXPECT_THROW(go_until_the_base_leaves(coupled), NumericalFailure);
 }
 
-TEST(FootwallUnstable, StaggeredAsItsCheckPredicts) {
-    for (const double softness : {1.0, 100.0}) {
-        CouplingParameters p;
-        p.scheme = CouplingScheme::staggered;
-        Coupled coupled = settled(floating(softness, 1.0), p);
-        EXPECT_GT(coupled.elastic.staggered_growth(), 1.0);
-        unload(coupled);
-        EXPECT_THROW(go_until_the_base_leaves(coupled), NumericalFailure) << softness;
-    }
-    // Rigid enough, held fast: the check is content, and rightly.
-    CouplingParameters p;
-    p.scheme = CouplingScheme::staggered;
-    Coupled coupled = settled(make_interface(2e-14), p);
-    EXPECT_LT(coupled.elastic.staggered_growth(), 1.0);
-    unload(coupled);
-    coupled.go(10000);
-    EXPECT_LT(coupled.greatest_displacement(), 1.0);
-}
-
 TEST(Footwall, RestartsInTheMiddleOfABlow) {
     CouplingParameters p;
     p.interval = 20;
@@ -166,23 +119,6 @@ TEST(Footwall, RestartsInTheMiddleOfABlow) {
     parts.go(793);
     EXPECT_EQ(hash(parts.state), hash(whole.state));
     EXPECT_GT(whole.greatest_displacement(), 1e-3);
-}
-
-TEST(Strong, FindsThePlaceThatModalComesTo) {
-    CouplingParameters iterated;
-    iterated.scheme = CouplingScheme::strong;
-    iterated.interval = 20;
-    Coupled modal = settled(floating(1.0, 1.0)), strong = settled(floating(1.0, 1.0), iterated);
-    for (Coupled* c : {&modal, &strong})
-        unload(*c);
-    modal.go(60000);
-    const double computed =
-        advance_iterated(strong.elastic, strong.state, strong.base, strong.physics, 60000, {});
-    std::printf("modal %.4f m, strong %.4f m, every interval computed %.1f times\n",
-                modal.greatest_displacement(), strong.greatest_displacement(), computed);
-    EXPECT_GT(strong.greatest_displacement(), 0.1);
-    EXPECT_NEAR(strong.greatest_displacement() / modal.greatest_displacement(), 1.0, 0.03);
-    EXPECT_LT(computed, 20.0);
 }
 
 } // namespace

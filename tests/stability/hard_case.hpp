@@ -4,8 +4,8 @@
 // that a restart in the middle changes nothing.
 
 #include "apps/archive/snapshot.hpp"
-#include "dem/cycle.hpp"
-#include "dem/monitor.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

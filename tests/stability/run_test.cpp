@@ -2,8 +2,8 @@
 // run that goes wrong stops, names what and where, and leaves a state from which it can go on.
 
 #include "apps/model/effects.hpp"
-#include "dem/cycle.hpp"
-#include "dem/share.hpp"
+#include "dem/cycle/cycle.hpp"
+#include "dem/ranks/subdomain.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>

@@ -5,7 +5,7 @@
 //   stiff material carries N = c / sum(1 / K), with K of every contact.
 // The remedy: the least of the materials' time steps. Without it, that of the softest.
 
-#include "dem/genesis.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "tests/stability/hard_case.hpp"
 
 namespace listric {

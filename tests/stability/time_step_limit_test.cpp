@@ -10,7 +10,7 @@
 //   inertial mass floor f: as if every lighter disc had the mass f, sqrt(f / m) times.
 // Bonds are unbreakable and displacements tiny, so that the system stays linear.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/verification/every_cycle.hpp"
 #include "tests/verification/settled_packing.hpp"
 

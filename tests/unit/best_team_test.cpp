@@ -1,6 +1,6 @@
 // A team has as many threads as do most. Machines are formulas here; speeds and windows are theirs.
 
-#include "dem/best_team.hpp"
+#include "dem/threads/best_team.hpp"
 
 #include <gtest/gtest.h>
 

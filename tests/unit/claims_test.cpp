@@ -1,5 +1,5 @@
-#include "dem/shared_loop.hpp"
-#include "dem/team.hpp"
+#include "dem/threads/shared_loop.hpp"
+#include "dem/threads/team.hpp"
 
 #include <gtest/gtest.h>
 

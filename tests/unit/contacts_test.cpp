@@ -1,7 +1,7 @@
 // The neighbour search lists exactly the pairs closer than the skin, and what a pair remembers
 // survives it. Comparisons are exact: the brute force below decides with the same arithmetic.
 
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>

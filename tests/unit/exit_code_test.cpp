@@ -1,11 +1,11 @@
-// What exceptions mean for the call that they end: README's table of exit codes.
+// What exceptions mean for the call that they end: docs/exit-codes.md.
 
 #include "apps/run/exit_code.hpp"
 
 #include "apps/support/error.hpp"
 #include "apps/support/memory.hpp"
-#include "dem/cycle.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/cycle/cycle.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "fem/footwall.hpp"
 
 #include <gmock/gmock.h>

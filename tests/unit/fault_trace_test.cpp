@@ -10,7 +10,7 @@
 #include "apps/measures/fault_trace.hpp"
 #include "apps/measures/rock.hpp"
 #include "dem/events/property_update.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

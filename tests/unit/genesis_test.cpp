@@ -3,9 +3,9 @@
 // 0.15-0.18 allows for a small sample. Weight: settling stops at one percent, bonding changes no
 // force. Level: trimming is exact, the settling after it moves the top by less than half a radius.
 
-#include "dem/genesis.hpp"
-#include "dem/monitor.hpp"
-#include "dem/power_cell.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/contacts/power_cell.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

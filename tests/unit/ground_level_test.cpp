@@ -1,7 +1,7 @@
 // The surface over columns one mean diameter wide, averaged over five: exact for level ground and,
 // in the middle, for a slope of discs that lie in the middle of their columns.
 
-#include "dem/ground_level.hpp"
+#include "dem/base/ground_level.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // the base to 1e-7 m; slopes in the pockets below are at most a few, so gaps stay below 1e-5 radii
 // and nothing overlaps by more than 1e-6 radii = 1e-4 m.
 
-#include "dem/ground.hpp"
+#include "dem/base/ground.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 
 #include "apps/measures/contour.hpp"
 #include "apps/measures/horizons.hpp"
-#include "dem/power_cell.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/contacts/power_cell.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 #include "tests/support.hpp"
 

@@ -308,12 +308,13 @@ TEST(Measures, OfWeakenedVolumeAreNoneWhereThereIsMoreSedimentThanRock) {
     State state = lattice(scene, parts.base);
     add_weakened_columns(state);
     const auto known = [&] {
-        NamedNumbers numbers;
-        for (const EffectPart& part : scene.effects)
-            if (part.effect->name == "fault_weakening")
-                numbers = part.effect->measure({scene, parts, state, {}}).numbers;
-        EXPECT_EQ(numbers.at(0).first, "weak_fraction");
-        return numbers.size() == 2 && numbers[1].first == "volume_error_fraction";
+        const auto effect =
+            std::ranges::find(scene.effects, "fault_weakening",
+                              [](const EffectPart& part) { return part.effect->name; });
+        const std::vector<Measure<Observation>>& declared = effect->effect->measures;
+        EXPECT_EQ(declared.at(0).name, "weak_fraction");
+        EXPECT_EQ(declared.at(1).name, "volume_error_fraction");
+        return declared.at(1).value({scene, parts, state, {}}).has_value();
     };
     EXPECT_TRUE(known());
     state.ledger.deposited = 1.2 * state.ledger.initial;

@@ -1,5 +1,6 @@
 // docs/parameters.md and the schemas are what the program says of its parameters.
 
+#include "apps/archive/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/schema.hpp"
 
@@ -29,6 +30,12 @@ TEST(ParametersDocument, SchemasAreCurrent) {
     EXPECT_EQ(contents("apps/scene.schema.json"), scene_schema(program_effects()))
         << "make it anew: docs/parameters.sh";
     EXPECT_EQ(contents("apps/material.schema.json"), material_schema())
+        << "make it anew: docs/parameters.sh";
+}
+
+TEST(ParametersDocument, DictionaryIsCurrent) {
+    EXPECT_EQ(contents("apps/python/listric/dictionary.json"),
+              archive::dictionary_json(program_effects()).dump(1) + "\n")
         << "make it anew: docs/parameters.sh";
 }
 

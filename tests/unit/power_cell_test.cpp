@@ -2,7 +2,7 @@
 // their radical axis, and cells fill a box. Cells are cut by a few lines each, so areas are good to
 // about 1e-14 of their size; 1e-12 leaves a margin.
 
-#include "dem/power_cell.hpp"
+#include "dem/contacts/power_cell.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

@@ -39,10 +39,14 @@ import script
 import sections
 import sheet
 import study
+import vocabulary
 
 META = {"scene": "lis1", "title": "a title", "extension_m": 2000.0, "time_a": 2e5,
-        "level_m": -100.0, "right_wall_x_m": 4000.0, "strata": 2, "layer_m": 1000.0,
+        "level_m": -100.0, "right_wall_x_m": 4000.0, "strata": 2, "strain_end": 0.2,
         "strain_window_m": 500.0}
+WATER = {"name": "layer_water", "kind": "band", "label": "water", "ink": "#c6dcef"}
+SHORE = {"name": "layer_shore", "kind": "line", "label": "old shore", "ink": "#00ff00"}
+MARKED = {"name": "layer_marked", "kind": "discs", "label": "marked", "ink": "#ff0000"}
 ARRAYS = {
     "discs_x": [500.0, 1500.0, 2500.0, 3500.0], "discs_y": [-500.0, -500.0, -500.0, -100.0],
     "discs_radius": [400.0, 400.0, 400.0, 100.0], "discs_stratum": [0, 0, 1, 2],
@@ -311,8 +315,9 @@ class Frames(Folder):
 
     def test_what_a_run_does_not_know_is_none(self):
         frame = self.frame()
-        for name in ("weak", "behaviour", "bonded", "profile", "water", "faults"):
+        for name in ("behaviour", "bonded", "profile", "faults"):
             self.assertIsNone(getattr(frame, name), name)
+        self.assertEqual(frame.layers, ())
 
     def test_the_target_level_is_there_where_the_frame_has_it(self):
         self.assertEqual(self.frame().level, -0.1)
@@ -330,14 +335,13 @@ class Frames(Folder):
     def test_bad_numbers_of_the_frame_are_named(self):
         for key, value in (("time_a", None), ("time_a", "1"), ("strata", True),
                            ("extension_m", float("nan")), ("level_m", "0"), ("scene", 1),
-                           ("layer_m", 0)):
+                           ("strain_end", 0)):
             with self.assertRaisesRegex(plot.InputError, key):
                 self.frame({key: value})
 
     def test_bad_arrays_are_named(self):
         for name, value, problem in (
                 ("discs_y", [1.0], "discs_y.npy has 1 values, discs_x.npy 4"),
-                ("discs_weak", [1], "discs_weak.npy has 1 values"),
                 ("discs_behaviour", [1], "discs_behaviour.npy has 1 values"),
                 ("discs_behaviour", [0, 1, 2, 4], "unknown class"),
                 ("discs_radius", [1.0, 1.0, 0.0, 1.0], "not positive"),
@@ -345,9 +349,11 @@ class Frames(Folder):
                 ("discs_x", [[1.0]], "expected one dimension"),
                 ("discs_stratum", [0, 0, 0, 10_001], "10,000 strata"),
                 ("detachment", [[0.0, 0.0]], "at least two points"),
-                ("water", [[0.0, 0.0]], "expected 3 columns")):
+                ("layer_water", [[0.0, 0.0]], "expected 3 columns"),
+                ("layer_marked", [1.0], "layer_marked.npy has 1 values")):
+            declared = [layer for layer in (WATER, MARKED) if name == layer["name"]]
             with self.assertRaisesRegex(plot.InputError, problem):
-                self.frame(**{name: value})
+                self.frame({"layers": declared}, **{name: value})
 
     def test_behaviour_is_what_the_frame_says(self):
         frame = self.frame(discs_behaviour=np.array([3, 2, 1, 0], dtype=np.int32))
@@ -355,11 +361,6 @@ class Frames(Folder):
 
 
 class Scales(Folder):
-    def test_the_strain_scale_ends_at_a_plain_number_above_its_99th_percentile(self):
-        for strain, limit in (([0.011], 0.012), ([0.13, np.nan], 0.15), ([9.0], 10.0), ([2.0], 2.0),
-                              ([0.0], 0.01), ([np.nan], 0.01), ([], 0.01)):
-            self.assertAlmostEqual(scales.strain_limit(np.array(strain)), limit)
-
     def test_ticks_of_strain_are_plain_numbers(self):
         np.testing.assert_allclose(scales.strain_ticks(0.12), [0.0, 0.03, 0.06, 0.09, 0.12])
         np.testing.assert_allclose(scales.strain_ticks(0.15), [0.0, 0.05, 0.1, 0.15])
@@ -372,16 +373,35 @@ class Scales(Folder):
 
     def test_every_stratum_has_its_colour(self):
         for count in (1, 2, 6, 50):
-            self.assertEqual(len(np.unique(scales.stratum_colours(count), axis=0)), count)
+            self.assertEqual(len(np.unique(vocabulary.stratum_colours(count), axis=0)), count)
+
+    def test_younger_strata_are_lighter_and_paraview_has_their_colours(self):
+        text = Path(script.__file__).with_name("paraview.py").read_text(encoding="utf-8")
+        names = {"LOOK": {**vocabulary.VOCABULARY, "rows": vocabulary.VOCABULARY["palettes"]
+                          [vocabulary.VOCABULARY["strata"]["palette"]]["rows"]}}
+        exec(text[text.index("def layer_colour"):text.index("def colour_by_layer")], names)
+        for count in (1, 2, 5, 6, 20, 21):
+            colours = vocabulary.stratum_colours(count)
+            np.testing.assert_allclose(colours, [names["layer_colour"](k + 1, count) for k in range(count)])
+            self.assertTrue((np.diff(colours[::2] @ (0.2126, 0.7152, 0.0722)) > 0.0).all())
+        np.testing.assert_allclose(vocabulary.layer_colours(np.array([0.5, 1.5, 2.5])),
+                                   [names["layer_colour"](k, 20) for k in (-1, -2, -3)])
 
     def test_frames_share_the_largest_scale(self):
-        first = self.frame({"strata": 0}, discs_stratum=[0] * 4, discs_shear_strain=[1.0] * 4)
+        first = self.frame({"strata": 0}, discs_stratum=[0] * 4)
+        first.strain_end = 1.0
         second = self.frame()
         scales.share_scales([first, second])
         self.assertEqual((first.strata, second.strata), (2, 2))
-        self.assertEqual((first.strain_top, second.strain_top), (1.0, 1.0))
+        self.assertEqual((first.strain_end, second.strain_end), (1.0, 1.0))
         scales.share_scales([first], 0.5)
-        self.assertEqual(first.strain_top, 0.5)
+        self.assertEqual(first.strain_end, 0.5)
+
+    def test_strain_is_light_where_nothing_happens(self):
+        lightness = vocabulary.palette(vocabulary.VOCABULARY["scale"]["palette"]) @ (0.2126, 0.7152, 0.0722)
+        self.assertGreater(lightness[0], 0.95)
+        self.assertTrue((np.diff(lightness) < 0.01).all())
+        self.assertLess(lightness[-1], 0.1)
 
 
 class Drawing(Folder):
@@ -422,7 +442,7 @@ class Drawing(Folder):
         self.assertTrue((image[1:] == 0).all())
 
     def test_layers_change_colour_with_start_depth(self):
-        rgb = panels.layer_colours(np.array([0.5, 1.5, 2.5, np.nan]), 1.0)
+        rgb = vocabulary.layer_colours(np.array([0.5, 1.5, 2.5, np.nan]))
         np.testing.assert_array_equal(rgb[0], rgb[2])
         np.testing.assert_array_equal(rgb[0], rgb[3])
         self.assertTrue((rgb[0] != rgb[1]).any())
@@ -444,21 +464,41 @@ class Drawing(Folder):
         self.assertEqual(known["overview"], overview)
 
     def test_every_figure_can_be_drawn_of_little_and_of_much(self):
-        much = {"discs_weak": [0, 1, 0, 0], "discs_behaviour": np.array([0, 2, 1, 1], dtype=np.int32),
+        much = {"layer_marked": [0.0, 1.0, 0.5, 0.0], "discs_behaviour": np.array([0, 2, 1, 1], dtype=np.int32),
                 "bonded": [[500.0, -500.0, 1500.0, -500.0, 0.0]],
                 "faults": [[0.0, 1000.0, -500.0, 2.0], [0.0, 1500.0, -900.0, 2.0]],
                 "profile": [[1000.0, -200.0, np.nan], [2000.0, -400.0, 400.0]],
                 "depocentres": [[2000.0, 400.0, 300.0]],
-                "water": [[0.0, -50.0, 0.0], [4000.0, -50.0, 0.0]],
+                "layer_water": [[0.0, -50.0, 0.0], [4000.0, -50.0, 0.0]],
+                "layer_shore": [[0.0, -50.0], [4000.0, -150.0]],
                 "predicted_shear": [[0.0, 0.0], [4000.0, -300.0]],
                 "predicted_normals": [[0.0, 0.0], [300.0, -300.0]]}
         for arrays in ({}, much):
-            frame = self.frame(**arrays)
+            meta = {"layers": [WATER, SHORE, MARKED] if arrays else []}
+            frame = self.frame(meta, **arrays)
             known = [name for name in panels.PANELS if name != "underlay"]
             self.assertEqual(len(sections.draw_figure(frame, known, 20).axes), 12)
             rows = 4 if arrays else 2
-            self.assertEqual(len(sheet.draw_sheet([frame, self.frame(**arrays)]).axes), 4 * rows)
+            self.assertEqual(len(sheet.draw_sheet([frame, self.frame(meta, **arrays)]).axes), 4 * rows)
 
+
+    def test_layers_of_effects_are_drawn_by_their_kind(self):
+        frame = self.frame({"layers": [WATER, SHORE, MARKED]}, layer_marked=[0.0, 1.0, 0.0, 0.0],
+                           layer_water=[[0.0, -50.0, 300.0], [4000.0, -50.0, 300.0]],
+                           layer_shore=[[0.0, -1300.0], [4000.0, -1300.0]],
+                           bonded=[[500.0, -500.0, 1500.0, -500.0, 0.0]])
+        for panel, places in (("strata", {WATER["ink"]: (2.0, 0.1), SHORE["ink"]: (2.0, -1.3)}),
+                              ("bonds", {MARKED["ink"]: (1.5, -0.7)})):
+            figure = sections.draw_figure(frame, [panel], dpi=100)
+            figure.canvas.draw()
+            pixels = np.asarray(figure.canvas.buffer_rgba())
+            for ink, place in places.items():
+                across, up = figure.axes[0].transData.transform(place)
+                found = pixels[pixels.shape[0] - 1 - int(up), int(across), :3] / 255.0
+                np.testing.assert_allclose(found, plot.matplotlib.colors.to_rgb(ink), atol=0.3)   # edges are soft
+            legend = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+            labels = {layer["label"] for layer in (WATER, SHORE, MARKED) if layer["ink"] in places}
+            self.assertLessEqual(labels, set(legend))
 
     def test_a_users_words_are_no_formulas(self):
         space = "{http://www.w3.org/2000/svg}"
@@ -490,7 +530,8 @@ class Drawing(Folder):
         plot.name_powers(ax)
         figure.draw_without_rendering()
         labels = {text.get_text() for text in ax.get_xticklabels() + ax.get_yticklabels(which="both")}
-        self.assertLess({"10⁻⁴", "10²", "4×10⁰"}, labels)
+        self.assertLess({"10²", "4×10⁰"}, labels)
+        self.assertTrue([label for label in labels if label.startswith("10⁻")])  # which, Matplotlib decides
         self.assertFalse([label for label in labels if "$" in label])
 
 

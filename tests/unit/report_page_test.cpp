@@ -1,4 +1,6 @@
+#include "apps/archive/dictionary.hpp"
 #include "apps/figures/report_page.hpp"
+#include "apps/model/effects.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -9,12 +11,17 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(ReportPage, TakesDefinitionsFromTables) {
-    const auto found = nlohmann::json::parse(definitions_of("# Measures\n"
-                                                            "| name | what |\n|---|---|\n"
-                                                            "| `a_m` `b_m` | two `c` | of it |\n"
-                                                            "| plain | no |\n| `d` |\n"));
-    EXPECT_EQ(found, (nlohmann::json{{"a_m", "two `c` | of it"}, {"b_m", "two `c` | of it"}}));
+TEST(ReportPage, HasTheDictionarysDefinitionsAndFaultColumns) {
+    Scene scene;
+    scene.hanging_wall.emplace();
+    const ReportMoments moments;
+    const std::string html = report_html({.runs = {{scene, moments, 75.0, "extension_m\n0\n"}}});
+    for (const archive::DictionaryEntry& entry : archive::dictionary(program_effects()))
+        if (entry.quantity.name != "faults") { // a number from snapshots, a list in summary.json
+            EXPECT_THAT(html, HasSubstr(nlohmann::json(entry.quantity.name).dump() + ":" +
+                                        nlohmann::json(entry.quantity.doc).dump()));
+        }
+    EXPECT_THAT(html, HasSubstr(R"j("label":"dip at birth (°)","name":"dip_at_birth_deg")j"));
 }
 
 TEST(ReportPage, NothingOfASceneIsATag) {

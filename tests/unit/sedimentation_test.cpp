@@ -3,7 +3,7 @@
 // fill's bulk density is that of the grains at surface porosity, to ten percent since a tenth of
 // the discs touches a wall or the surface, where packing is looser.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/events/bond_healing.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/sedimentation.hpp"

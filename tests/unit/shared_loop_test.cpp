@@ -1,6 +1,6 @@
 // Loops that threads share give what one loop gives, whatever the threads. Exact comparisons.
 
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 
 #include <gtest/gtest.h>
 

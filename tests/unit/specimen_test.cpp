@@ -1,8 +1,8 @@
 #include "apps/laboratory/specimen.hpp"
 
 #include "apps/laboratory/servo.hpp"
-#include "dem/contacts.hpp"
-#include "dem/monitor.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>

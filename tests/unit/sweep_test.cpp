@@ -128,6 +128,28 @@ TEST_F(SweepPlanFile, BadOnesAreRefusedWithLineAndCure) {
     EXPECT_THAT(complaint("scene = \"lis1\"", "scene = \"lis9\""), HasSubstr("did you mean"));
 }
 
+TEST_F(SweepPlanFile, AMeasureThatNoRunCanHaveIsRefused) {
+    const std::string measures = "\"strain_top10\", \"strain_top10@50\"";
+    const auto refusal = [&](const std::string& name) {
+        return complaint(measures, "\"" + name + "\"");
+    };
+    EXPECT_THAT(refusal("rollover_tlt_deg"),
+                HasSubstr(":7: measures[0]: rollover_tlt_deg is no measure, did you mean "
+                          "rollover_tilt_deg?"));
+    EXPECT_THAT(refusal("antithetic_turn_dg@50"), HasSubstr("did you mean antithetic_turn_deg?"));
+    EXPECT_THAT(refusal("antithetic_turn_deg"), HasSubstr("antithetic_turn_deg@5000"));
+    EXPECT_THAT(refusal("energy_residual"), HasSubstr("a measure of [energy], which no run"));
+    EXPECT_THAT(refusal("wall_s@50"), HasSubstr("at the end of a run only"));
+    EXPECT_THAT(refusal("depocentres"), HasSubstr("no number"));
+    for (const char* name : {"antithetic_turn_deg@50", "weak_fraction", "wall_s", "extension_m@50"})
+        EXPECT_EQ(refusal(name), "accepted");
+    // An effect that the plan varies is on in some of its runs.
+    std::string text = replaced(plan_text, measures, "\"base_reaction_error\"");
+    EXPECT_THROW(load(text), SceneError);
+    text = replaced(text, "scene = \"lis1\"", "scene = \"lis1-elastic\"");
+    EXPECT_NO_THROW(load(text));
+}
+
 TEST_F(SweepPlanFile, ATableIsReadAsItWasWritten) {
     const SweepPlan plan = load(plan_text);
     const auto points = sweep_points(plan);

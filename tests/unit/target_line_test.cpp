@@ -4,8 +4,8 @@
 #include "apps/model/effects.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/scene/target_csv.hpp"
+#include "dem/base/target_line.hpp"
 #include "dem/events/sedimentation.hpp"
-#include "dem/target_line.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // The wall of a base that deforms: closest points, corners, ends, shape functions.
 
-#include "dem/base_place.hpp"
-#include "dem/trace.hpp"
+#include "dem/base/place.hpp"
+#include "dem/base/trace.hpp"
 #include "dem/units.hpp"
 
 #include <gtest/gtest.h>

@@ -33,9 +33,9 @@ at_m = [10]
 name = "one"
 runs = "a b"
 expect = [
-    {measure = "x", what = "first", expected = 2, tolerance = 0.5, at_m = 5},
-    {measure = "y", what = "second", run = "b", least = 1, needed = "most"},
-    {measure = "z", what = "third", minus = "b", most = 3},
+    {measure = "area_balance", what = "first", expected = 2, tolerance = 0.5, at_m = 5},
+    {measure = "weak_fraction", what = "second", run = "b", least = 1, needed = "most"},
+    {measure = "antithetic_turn_deg", what = "third", minus = "b", most = 3},
 ]
 [[experiment]]
 name = "two"
@@ -83,8 +83,16 @@ TEST_F(Plan, SaysWhatIsRunAndExpected) {
     // Of the other's expectations those of its first run alone, now of this one's.
     const ValidationExperiment& two = plan.experiments[1];
     ASSERT_EQ(two.expectations.size(), 1u);
-    EXPECT_EQ(two.expectations[0].measure, "x");
+    EXPECT_EQ(two.expectations[0].measure, "area_balance");
     EXPECT_EQ(two.expectations[0].run, "b");
+}
+
+TEST_F(Plan, AMeasureThatNoRunCanHaveIsRefused) {
+    EXPECT_THAT(complaint("area_balance", "area_balence"),
+                HasSubstr("measure: area_balence is no measure, did you mean area_balance?"));
+    EXPECT_THAT(complaint("area_balance", "energy_residual"),
+                HasSubstr("is a measure of [energy], which no run of the plan has"));
+    EXPECT_EQ(complaint("area_balance", "deposited_fraction"), "none");
 }
 
 TEST_F(Plan, MayExtendAnother) {

@@ -11,8 +11,8 @@
 // forces swing by 3e-4 as the walls move on: 1e-3. In larger specimens some rods begin to roll at
 // mu = 0.3 before all contacts slip, which costs 1 to 3 % of the strength; none do at 0.05.
 
-#include "dem/cycle.hpp"
-#include "dem/monitor.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

@@ -6,7 +6,7 @@
 // prescribed. With overlaps near 0.1 m at radii of 1 m round-off is 1e-14 of the force, and 1e-12
 // decides a break.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/law.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"

@@ -2,9 +2,9 @@
 // the event. Bonds hold 20 kPa, some hundredths of a millimetre of gap; discs of 100 m overlap by
 // up to 0.3 m at 5 km and shrink by 0.4 m.
 
-#include "dem/cycle.hpp"
+#include "dem/base/ground_level.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/events/compaction.hpp"
-#include "dem/ground_level.hpp"
 #include "tests/verification/settled_packing.hpp"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 // The damping force jumps where the velocity changes sign, known to half a step only: an error of
 // first order in dt, below 1 % with 1000 steps in the shortest quarter cycle.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

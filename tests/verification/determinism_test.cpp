@@ -1,7 +1,7 @@
 // The state is all that the next cycle depends on: neither the cutting of a run into calls nor a
 // copy of the state changes a bit. Exact comparisons.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

@@ -2,7 +2,7 @@
 // the transfer keeps force, moment and work, that the rigid base is the limit, that the schemes are
 // stable and that neither threads nor the kind of cycle change a bit.
 
-#include "dem/monitor.hpp"
+#include "dem/contacts/monitor.hpp"
 #include "dem/order_free.hpp"
 #include "tests/coupled_discs.hpp"
 

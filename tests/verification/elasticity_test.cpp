@@ -1,5 +1,5 @@
 #include "apps/laboratory/compression.hpp"
-#include "dem/contacts.hpp"
+#include "dem/contacts/contacts.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

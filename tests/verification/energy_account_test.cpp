@@ -1,9 +1,9 @@
-// The program's account of energy, dem/energy.hpp, against problems with a known answer and against
-// the account that energy_test.cpp keeps with a contact law of its own.
+// The program's account of energy, dem/contacts/energy.hpp, against problems with a known answer
+// and against the account that energy_test.cpp keeps with a contact law of its own.
 
-#include "dem/contacts.hpp"
-#include "dem/cycle.hpp"
-#include "dem/energy.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/energy.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

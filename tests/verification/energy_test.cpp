@@ -10,7 +10,7 @@
 // Without losses, the usual energy 1/2 m ((v- + v+) / 2)^2 + 1/2 K x^2 of a bonded lattice swings
 // by O(dt^2).
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 #include "tests/verification/shaken_lattice.hpp"

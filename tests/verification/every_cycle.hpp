@@ -2,7 +2,7 @@
 
 // Verification problems are solved by every way to compute the cycle.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 
 #include <gtest/gtest.h>
 

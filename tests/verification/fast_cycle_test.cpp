@@ -2,7 +2,7 @@
 // number of threads. Exact comparisons, over contacts that form, slip and break, over neighbour
 // searches, and with a base that moves.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@
 // least) shall be found and one of 45 m (0.73) not. Across a band of simple shear of three
 // diameters the halves of a circle of five see 0.63 of its slip: 120 m are 75 m, 80 m are 50 m.
 
-#include "dem/cells.hpp"
+#include "dem/contacts/cells.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/measure_circle.hpp"
 #include "dem/events/weakened_discs.hpp"

@@ -7,7 +7,7 @@
 // mean. Both change distances by less than one contact period (2 ms here) in the second that is
 // looked at: 1 %.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

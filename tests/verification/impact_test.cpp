@@ -4,7 +4,7 @@
 // Contact begins on a step. Leapfrog's amplitude is off by (omega dt)^2 / 8, everything else is of
 // the same order: with N steps in contact (pi / N)^2, i.e. 1e-3 for N = 100.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

@@ -4,8 +4,8 @@
 //   E = 2 sqrt(3) K (K + K_s) / (3 K + K_s),  nu = (K - K_s) / (3 K + K_s) under one stress.
 // Stress is the sum of force times arm over a disc's area times the solid fraction pi / (2 sqrt 3).
 
-#include "dem/cycle.hpp"
-#include "dem/monitor.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

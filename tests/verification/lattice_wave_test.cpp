@@ -6,7 +6,7 @@
 // omega into sin(theta / 2) = omega dt / 2 per step, exactly, and strains of
 // 1e-5 are small. Together 1e-5.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

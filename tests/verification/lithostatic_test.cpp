@@ -8,8 +8,8 @@
 // sigma_h differs by a tenth between layers, their mean by 5 %. Floor and walls balance the weight
 // and each other to what is left of the motion, 1e-6.
 
+#include "dem/contacts/monitor.hpp"
 #include "dem/law.hpp"
-#include "dem/monitor.hpp"
 #include "tests/verification/every_cycle.hpp"
 #include "tests/verification/settled_packing.hpp"
 

@@ -3,7 +3,7 @@
 // to round-off: forces come in pairs at one place, and leapfrog moves along the velocity. Each
 // step rounds to 1e-16 of what moves, so 1e4 steps stay below 1e-12 even if errors add up.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "apps/run/genesis_cache.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "dem/base_motion.hpp"
-#include "dem/ranked_cycles.hpp"
+#include "dem/base/motion.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
 #include "dem/simulation.hpp"
 #include "tests/emulated_ranks.hpp"
 #include "tests/scene_runs.hpp"
@@ -91,13 +91,13 @@ protected:
                 hash = hash_at_end(
                     [&](State& state, const RigidBase&, const CyclePhysics&, std::int64_t n,
                         const Execution& asked) {
-                        on_ranks.advance(state, n, *asked.packed, response);
+                        on_ranks.advance(state, n, asked.state_is_untouched, response);
                     },
                     [&](State& state) { on_ranks.collect(state); }, nodes);
             },
             [&](Ranks& other) { RankedCycles(other, parts.base, parts.physics, how).serve(); });
         EXPECT_EQ(ranks.exchanged > 0, count > 1);
-        EXPECT_GT(ranks.trades, 10u); // two for every update of lists
+        EXPECT_GT(ranks.exchanges, 10u); // two for every update of lists
         return hash;
     }
 
@@ -160,8 +160,7 @@ std::uint64_t hash_of_fallen(const State& start, int count, const Execution& how
     ranks.run(
         [&](Ranks& root) {
             RankedCycles on_ranks(root, base, physics, how);
-            Packed known;
-            on_ranks.advance(state, cycles, known);
+            on_ranks.advance(state, cycles, false);
             on_ranks.collect(state);
         },
         [&](Ranks& other) { RankedCycles(other, base, physics, how).serve(); });

@@ -2,7 +2,7 @@
 // weight above it but for shear on the column's sides and what is left of the motion:
 //   ratio = 1 - (shear on the sides + unbalanced force) / weight above.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "dem/events/sediment_stress.hpp"
 #include "tests/verification/settled_packing.hpp"
 

@@ -2,7 +2,7 @@
 
 // A packing of unequal discs that genesis settles in a box.
 
-#include "dem/genesis.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "tests/support.hpp"
 
 namespace listric::support {

@@ -2,7 +2,7 @@
 
 // A bonded lattice that vibrates without losses.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 
 namespace listric::support {

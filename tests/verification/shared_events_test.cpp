@@ -6,7 +6,7 @@
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/property_update.hpp"
 #include "dem/events/strain.hpp"
-#include "dem/shared_loop.hpp"
+#include "dem/threads/shared_loop.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

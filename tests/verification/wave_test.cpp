@@ -4,7 +4,7 @@
 // to round-off: positions of 2e4 m hold displacements of 1 mm to 1e-8 of it, over some thousand
 // steps 1e-6. Long waves travel with c = d sqrt(K / m), short of it by (k d)^2 / 24.
 
-#include "dem/cycle.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

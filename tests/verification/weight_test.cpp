@@ -3,8 +3,8 @@
 //   sum F + m g = 0 of every disc, and the floor carries sum m g.
 // Its reward, a stable step that rises as the root of the mass, is in time_step_limit_test.
 
-#include "dem/cycle.hpp"
-#include "dem/monitor.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/cycle/cycle.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/every_cycle.hpp"
 

@@ -80,7 +80,8 @@ def describe(ax, frame: Frame, text: str, handles=()) -> None:
                 textcoords="offset points", fontsize=10.5, weight="semibold",
                 va="bottom", annotation_clip=False)
     if handles:
-        crowded = {"fontsize": 7.5, "columnspacing": 0.9} if len(handles) > 5 else {}
+        is_crowded = len(handles) > 5 or sum(len(label) for _, label in handles) > 90
+        crowded = {"fontsize": 7.5, "columnspacing": 0.9} if is_crowded else {}
         ax.legend([h for h, _ in handles], [t for _, t in handles], ncol=len(handles),
                   bbox_to_anchor=(1.004, 1.0), **{**LEGEND, **crowded})
 

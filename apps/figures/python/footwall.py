@@ -6,6 +6,7 @@ Usage: footwall.py RUN_DIR DATA_DIR FIGURES_DIR ORDER
 Reads, in SI units,
   RUN_DIR/footwall.csv  extension_m, x_m (negative on the surface, else on the detachment), uplift_m
   DATA_DIR/patches.npy  patches of elements: x, y, ux, uy of four corners, stresses xx, yy, xy
+  DATA_DIR/end.npy      where the scale of the largest shear stress ends, MPa
   DATA_DIR/discs.npy    x, y, radius, stratum, y at the start
 Writes footwall.png under a temporary name and renames it.  Vertical displacement is exaggerated, of
 the discs by that of the base below them.  On bad input: one line on stderr, exit status 2.
@@ -18,13 +19,15 @@ sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from frame import load_array
 from plot import (FAINT, InputError, colormaps, new_figure, read_order, read_table, run, save,
                   without_frame)
+from vocabulary import VOCABULARY, layer_colours, palette, stratum_colours
 
 import numpy as np
 from matplotlib.collections import EllipseCollection, PolyCollection
+from matplotlib.colors import ListedColormap
 
-LAYERS = np.array([(0.84, 0.78, 0.67), (0.66, 0.58, 0.47)])   # pre-rift rock by depth
-SEDIMENT = np.array([(0.97, 0.86, 0.45), (0.88, 0.66, 0.22)])  # syn-rift strata in turn
-LAYER = 1.5        # km
+FOOTWALL = VOCABULARY["layers"]["footwall"]
+# Not to black, so that lines on it are seen.
+FOOTWALL_COLOURS = ListedColormap(palette(FOOTWALL["palette"])[:round(256 * FOOTWALL["darkest"])])
 DRAWN_UPLIFT = 5.0  # km, about, of the largest uplift
 
 
@@ -44,9 +47,9 @@ def exaggeration(largest: float) -> int:
                default=1)
 
 
-def draw_section(figure, axes, patches: np.ndarray, discs: np.ndarray, uplift: np.ndarray,
-                 factor: int) -> None:
-    rock, bottom = draw_rock(axes, patches, factor)
+def draw_section(figure, axes, patches: np.ndarray, end: float, discs: np.ndarray,
+                 uplift: np.ndarray, factor: int) -> None:
+    rock, bottom = draw_rock(axes, patches, end, factor)
     top = draw_discs(axes, discs, uplift, factor)
     surface = uplift[uplift[:, 0] < 0.0]
     axes.set_xlim(-60.0, discs[:, 0].max() / 1e3 + 25.0)
@@ -62,16 +65,16 @@ def draw_section(figure, axes, patches: np.ndarray, discs: np.ndarray, uplift: n
     bar.set_label("largest shear stress, MPa\n(change since the start)", fontsize=9)
 
 
-def draw_rock(axes, patches: np.ndarray, factor: int) -> tuple[PolyCollection, float]:
+def draw_rock(axes, patches: np.ndarray, end: float, factor: int) -> tuple[PolyCollection, float]:
     """Patches coloured by their largest shear stress; these and their lowest height in km."""
     corners = patches[:, :16].reshape(-1, 4, 4)
     shape = np.stack((corners[..., 0] + corners[..., 2],
                       corners[..., 1] + factor * corners[..., 3]), axis=-1) / 1e3
     xx, yy, xy = patches[:, 16:].T
     shear = np.hypot(0.5 * (xx - yy), xy) / 1e6
-    rock = PolyCollection(shape, array=shear, cmap="magma_r", edgecolors="face", linewidths=0.2,
-                          rasterized=True)
-    rock.set_clim(0.0, np.ceil(np.percentile(shear, 99.0) / 50.0) * 50.0)
+    rock = PolyCollection(shape, array=shear, cmap=FOOTWALL_COLOURS, edgecolors="face",
+                          linewidths=0.2, rasterized=True)
+    rock.set_clim(0.0, end)
     axes.add_collection(rock, autolim=False)
     return rock, shape[..., 1].min()
 
@@ -81,8 +84,9 @@ def draw_discs(axes, discs: np.ndarray, uplift: np.ndarray, factor: int) -> floa
     x, y, radius, stratum, start = discs.T
     below = uplift[uplift[:, 0] >= 0.0]
     lifted = y + (factor - 1) * np.interp(x, below[:, 0], below[:, 1])
-    colours = np.where((stratum > 0)[:, None], SEDIMENT[stratum.astype(int) % 2],
-                       LAYERS[np.clip(-start / 1e3 // LAYER, 0, None).astype(int) % 2])
+    stratum = stratum.astype(int)
+    colours = layer_colours(-start / 1e3)
+    colours[stratum > 0] = stratum_colours(stratum.max())[stratum[stratum > 0] - 1]
     axes.add_collection(EllipseCollection(
         2e-3 * radius, 2e-3 * radius, np.zeros(len(x)), units="xy",
         offsets=np.column_stack((x, lifted)) / 1e3, offset_transform=axes.transData,
@@ -108,13 +112,13 @@ def draw_uplift(axes, moments: dict[float, np.ndarray]) -> None:
     axes.legend(frameon=False, fontsize=9, title="extension", loc="upper left")
 
 
-def draw(moments: dict[float, np.ndarray], patches: np.ndarray, discs: np.ndarray):
+def draw(moments: dict[float, np.ndarray], patches: np.ndarray, end: float, discs: np.ndarray):
     figure = new_figure(13, 8.0, 120)
     figure.set_layout_engine("constrained")
     section, profile = figure.subplots(2, 1, height_ratios=(1.5, 1.0))
     last = max(moments)
     factor = exaggeration(np.abs(moments[last][:, 1]).max())
-    draw_section(figure, section, patches, discs, moments[last], factor)
+    draw_section(figure, section, patches, end, discs, moments[last], factor)
     scale = "true to scale" if factor == 1 else f"vertical displacement × {factor}"
     section.set_title(f"After {last / 1e3:.1f} km of extension, {scale}", loc="left", fontsize=11)
     draw_uplift(profile, moments)
@@ -126,7 +130,8 @@ def draw(moments: dict[float, np.ndarray], patches: np.ndarray, discs: np.ndarra
 def main(folder: str, data: str, figures: str, order: str) -> None:
     patches = load_array(data, "patches", columns=19, finite=False)
     discs = load_array(data, "discs", columns=5, finite=False)
-    save(draw(load(folder), patches, discs), figures, "footwall", read_order(order))
+    end = float(load_array(data, "end")[0])
+    save(draw(load(folder), patches, end, discs), figures, "footwall", read_order(order))
 
 
 if __name__ == "__main__":

@@ -7,19 +7,20 @@ origin), n discs:
     discs_stratum                    0 before the rift, then 1 for the oldest stratum
     discs_start_depth                m, NaN for sediment
     discs_shear_strain               of the last window of extension, NaN for younger discs
-    discs_weak                       0 or 1; only where faults weaken rock
     discs_behaviour                  class of rock behaviour; only where there are bonds
     bonded                           contacts: x, y of both discs, 1 where both are sediment
     detachment                       x, y
     profile                          x, height of the pre-rift top, thickness of sediment
     depocentres                      x, thickness, prominence
     faults                           number of the fault, x, y, slip rate in m/a
-    water                            x, floor, level; only where the basin holds water
     picked_fault                     x, y of the points that the detachment was fitted to
     picked_horizons, picked_faults   number of the line, x, y; only where there are picks
     horizons                         all tops of the model, likewise; only with an underlay
     compared_horizons                the model's tops that they are compared with, likewise
     predicted_shear, predicted_normals  x, y of the pre-rift top by kinematic constructions
+
+    layer_NAME                       of an effect, which frame.json declares: of a band x, bottom, top,
+                                     of a line x, y, of discs the share of ink from 0 to 1
 
 An array that is not there says that the run knows no such thing.
 """
@@ -28,15 +29,23 @@ import os
 from dataclasses import dataclass
 
 from plot import InputError, read_json
+from vocabulary import ROCK_CLASSES
 
 import numpy as np
 
-NUMBERS = ("extension_m", "time_a", "right_wall_x_m", "strata", "layer_m", "strain_window_m")
+NUMBERS = ("extension_m", "time_a", "right_wall_x_m", "strata", "strain_end", "strain_window_m")
 MOST_STRATA = 10_000
 
-# Classes of rock behaviour [paper, Fig. 5]: elastic, plastic with minor faults, weakened by major
-# faults, unconsolidated.
-CLASSES = ELASTIC, PLASTIC, WEAKENED, UNCONSOLIDATED = range(4)
+COLUMNS = {"band": 3, "line": 2, "discs": None}   # of layers, by kind
+
+
+@dataclass(frozen=True)
+class Layer:
+    """What an effect shows besides what all frames do."""
+    kind: str
+    label: str
+    ink: str
+    rows: np.ndarray      # lengths in km; of discs the share of ink
 
 
 @dataclass
@@ -51,13 +60,13 @@ class Frame:
     strain: np.ndarray
     detachment: np.ndarray
     strata: int                                # number that the colours are for
-    weak: np.ndarray | None = None
+    strain_end: float                          # of the colour scale
+    layers: tuple[Layer, ...] = ()
     behaviour: np.ndarray | None = None
     bonded: np.ndarray | None = None
     profile: np.ndarray | None = None
     depocentres: np.ndarray | None = None
     faults: np.ndarray | None = None
-    water: np.ndarray | None = None
     picked_fault: np.ndarray | None = None
     picked_horizons: np.ndarray | None = None
     picked_faults: np.ndarray | None = None
@@ -68,7 +77,6 @@ class Frame:
     level: float | None = None                 # that sediment is filled up to
     view: tuple = ()                           # xmin, xmax, ymin, ymax
     owner: np.ndarray | None = None            # disc of each cell of an image, -1: none
-    strain_top: float | None = None            # end of the colour scale, where frames share it
     legends: dict | None = None                # collects legend entries by panel, undrawn
 
     @property
@@ -105,8 +113,8 @@ def load_meta(folder: str) -> dict:
         raise InputError(f"{path}: 'level_m' is not a finite number")
     if not isinstance(meta.get("scene"), str):
         raise InputError(f"{path}: 'scene' is missing or not a string")
-    if meta["layer_m"] <= 0 or meta["right_wall_x_m"] <= 0:
-        raise InputError(f"{path}: 'layer_m' and 'right_wall_x_m' must be positive")
+    if meta["strain_end"] <= 0 or meta["right_wall_x_m"] <= 0:
+        raise InputError(f"{path}: 'strain_end' and 'right_wall_x_m' must be positive")
     for key in ("scene", "title"):
         if isinstance(meta.get(key), str):
             meta[key] = printable(meta[key])
@@ -149,8 +157,7 @@ def load_discs(folder: str) -> dict[str, np.ndarray | None]:
     discs = {name: load_array(folder, "discs_" + name) for name in ("x", "y", "radius", "stratum")}
     for name in ("start_depth", "shear_strain"):  # not defined for all discs
         discs[name] = load_array(folder, "discs_" + name, finite=False)
-    for name in ("weak", "behaviour"):
-        discs[name] = load_array(folder, "discs_" + name, optional=True)
+    discs["behaviour"] = load_array(folder, "discs_behaviour", optional=True)
     count = len(discs["x"])
     if count == 0:
         raise InputError(f"{folder}: discs_x.npy holds no discs")
@@ -162,11 +169,22 @@ def load_discs(folder: str) -> dict[str, np.ndarray | None]:
         raise InputError(f"{folder}: discs_radius.npy holds radii that are not positive")
     if discs["stratum"].max() > MOST_STRATA:
         raise InputError(f"{folder}: more than {MOST_STRATA:,} strata")
-    if discs["behaviour"] is not None and not np.isin(discs["behaviour"], CLASSES).all():
+    if discs["behaviour"] is not None and not np.isin(discs["behaviour"], range(len(ROCK_CLASSES))).all():
         raise InputError(f"{folder}: discs_behaviour.npy holds an unknown class")
-    if discs["weak"] is not None:
-        discs["weak"] = discs["weak"].astype(bool)
     return discs
+
+
+def load_layers(folder: str, meta: dict, count: int) -> tuple[Layer, ...]:
+    """Layers of effects in a frame of so many discs."""
+    layers = []
+    for words in meta.get("layers", ()):
+        rows = load_array(folder, words["name"], columns=COLUMNS[words["kind"]])
+        if words["kind"] == "discs" and len(rows) != count:
+            raise InputError(f"{folder}: {words['name']}.npy has {len(rows)} values, "
+                             f"discs_x.npy {count}")
+        layers.append(Layer(words["kind"], printable(words["label"]), words["ink"],
+                            np.clip(rows, 0.0, 1.0) if words["kind"] == "discs" else km(rows)))
+    return tuple(layers)
 
 
 def scaled(array: np.ndarray | None, factors) -> np.ndarray | None:
@@ -199,11 +217,12 @@ def load_frame(folder: str) -> Frame:
         stratum=discs["stratum"].astype(int), start_depth=km(discs["start_depth"]),
         strain=np.asarray(discs["shear_strain"], dtype=float), detachment=km(detachment),
         strata=max(int(meta["strata"]), int(discs["stratum"].max()), 0),
-        weak=discs["weak"], behaviour=behaviour(discs),
+        strain_end=meta["strain_end"], layers=load_layers(folder, meta, len(discs["x"])),
+        behaviour=behaviour(discs),
         bonded=scaled(table("bonded", 5), [1e-3] * 4 + [1.0]),
         profile=profile if profile is not None and len(profile) > 1 else None,
         depocentres=km(table("depocentres", 3)),
-        faults=scaled(table("faults", 4), [1.0, 1e-3, 1e-3, 1.0]), water=km(table("water", 3)),
+        faults=scaled(table("faults", 4), [1.0, 1e-3, 1e-3, 1.0]),
         picked_fault=km(table("picked_fault", 2)),
         **{name: scaled(table(name, 3), [1.0, 1e-3, 1e-3])
            for name in ("picked_horizons", "picked_faults", "compared_horizons", "horizons")},

@@ -11,7 +11,9 @@ from discs import draw_discs
 from frame import Frame
 from page import PANEL_WIDTH, PROFILE_HEIGHT
 from plot import FAINT, INK, InputError
-from scales import (strain_colours, strain_limit, strain_ticks, stratum_colours, stratum_ticks)
+from scales import strain_colours, strain_ticks, stratum_ticks
+from vocabulary import (INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, layer_colours,
+                        stratum_colours)
 
 import numpy as np
 from matplotlib import image as plt_image
@@ -21,25 +23,19 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter
 
-LAYER_COLOURS = ("#cdbfa6", "#9c8b72")
 SEDIMENT, SEDIMENT_EDGE, SEDIMENT_PALE = "#fbeab4", "#b07d00", "#fdf6dc"
-WEAK, WEAK_PALE = "#d7301f", "#e9a59a"
-BOND, BOND_SEDIMENT = "#3a3a3a", "#a87a10"
+WEAK = "#d7301f"
+BOND, BOND_SEDIMENT = INKS["bonds"], "#a87a10"
 UNDEFINED = "#e2e8ee"
-PICK, HORIZON = "#7a0177", "#d95f0e"
-NORMALS_BLUE = "#1f5fb4"
-LEVEL_BLUE, TOP_GREEN, WATER = "#1f6fb4", "#2b8a3e", "#c6dcef"
-# Classes of rock behaviour in their order [paper, Fig. 9b]: colour, label.
-BEHAVIOUR = (("#4b5560", "elastic"), ("#98a3ad", "plastic: minor faults"),
-             ("#e8b48c", "weakened: major faults"), ("#f6f1df", "unconsolidated"))
+PICK, HORIZON, NORMALS_BLUE = INKS["picks"], INKS["horizons"], INKS["predictions"]
+LEVEL_BLUE, TOP_GREEN = INKS["target"], "#2b8a3e"
 MOST_DEPOCENTRES = 10     # that are labelled
 
 
 def strata_panel(ax, cax, frame: Frame) -> None:
     """Sediment strata by age, pre-rift layers by start depth (km), faults (mm/a)."""
     section_axes(ax, frame)
-    layer = frame.meta["layer_m"] / 1000.0
-    rgb = layer_colours(frame.start_depth, layer)
+    rgb = layer_colours(frame.start_depth)
     sediment = frame.stratum > 0
     if sediment.any():
         colours = stratum_colours(frame.strata)
@@ -48,15 +44,12 @@ def strata_panel(ax, cax, frame: Frame) -> None:
     else:
         cax.set_axis_off()
     draw_discs(ax, frame, rgb)
-    handles = [(tuple(swatch(c) for c in LAYER_COLOURS), f"pre-rift, {layer:g} km layers"),
+    handles = [(tuple(swatch(c) for c in LAYER_COLOURS), f"pre-rift, {LAYER:g} km layers"),
                (stroke(INK, 1.5), "detachment")]
     if frame.level is not None:
         ax.axhline(frame.level, color=LEVEL_BLUE, linewidth=1.0, dashes=(6, 3), zorder=6)
         handles.append((stroke(LEVEL_BLUE, 1.0, dashes=(4, 2)), "target level of sediments"))
-    if frame.water is not None:
-        x, floor, level = frame.water.T
-        ax.fill_between(x, floor, level, color=WATER, linewidth=0, zorder=1.5)
-        handles.append((swatch(WATER), "water"))
+    handles += draw_layers(ax, frame)
     if frame.picked_fault is not None:
         x, y = frame.picked_fault.T
         ax.plot(x, y, linestyle="none", marker="o", markersize=2.5, markerfacecolor="none",
@@ -66,6 +59,19 @@ def strata_panel(ax, cax, frame: Frame) -> None:
     handles += draw_observed(ax, frame)
     handles += draw_faults(ax, frame.faults)
     describe(ax, frame, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
+
+
+def draw_layers(ax, frame: Frame) -> list:
+    """Bands and lines of effects; returns legend entries."""
+    handles = []
+    for layer in frame.layers:
+        if layer.kind == "band":
+            ax.fill_between(*layer.rows.T, color=layer.ink, linewidth=0, zorder=1.5)
+            handles.append((swatch(layer.ink), layer.label))
+        elif layer.kind == "line":
+            ax.plot(*layer.rows.T, color=layer.ink, linewidth=1.2, zorder=6)
+            handles.append((stroke(layer.ink, 1.2), layer.label))
+    return handles
 
 
 def underlay_panel(ax, cax, frame: Frame) -> None:
@@ -116,13 +122,6 @@ def draw_observed(ax, frame: Frame) -> list:
     return handles
 
 
-def layer_colours(start_depth: np.ndarray, layer: float) -> np.ndarray:
-    """Colours (n x 3) of pre-rift rock in layers of that thickness, by turns."""
-    depth = np.nan_to_num(start_depth, nan=0.0, posinf=0.0, neginf=0.0)
-    return np.array([to_rgb(c) for c in LAYER_COLOURS])[
-        np.floor(np.maximum(depth, 0.0) / layer).astype(int) % 2]
-
-
 def strata_bar(cax, colours: np.ndarray) -> None:
     count = len(colours)
     norm = BoundaryNorm(np.arange(count + 1) + 0.5, count)
@@ -143,12 +142,14 @@ def bonds_panel(ax, cax, frame: Frame) -> None:
     points = 2 * np.median(frame.radius) * PANEL_WIDTH * 72 / frame.span
     young = frame.bonded[:, 4] > 0.5
     sediment = frame.stratum > 0
-    rgb = np.tile(to_rgb(WEAK_PALE), (len(frame.x), 1))
+    rgb = np.ones((len(frame.x), 3))
     rgb[sediment] = to_rgb(SEDIMENT_PALE)
     alpha = sediment.astype(float)
-    if frame.weak is not None:
-        alpha[frame.weak] = 1.0
-        rgb[frame.weak] = to_rgb(WEAK_PALE)
+    inked = [layer for layer in frame.layers if layer.kind == "discs"]
+    for layer in inked:
+        share = layer.rows[:, np.newaxis]
+        rgb = (1.0 - share) * rgb + share * np.array(to_rgb(layer.ink))
+        alpha[layer.rows > 0.0] = 1.0
     draw_discs(ax, frame, rgb,
                ((frame.bonded[~young, :4], BOND), (frame.bonded[young, :4], BOND_SEDIMENT)),
                segment_width=float(np.clip(0.17 * points, 0.25, 0.9)), alpha=alpha)
@@ -156,8 +157,7 @@ def bonds_panel(ax, cax, frame: Frame) -> None:
     if sediment.any():
         handles.append((stroke(BOND_SEDIMENT, 1.2), "bond, sediment"))
         handles.append((swatch(SEDIMENT_PALE), "sediment"))
-    if frame.weak is not None:
-        handles.append((swatch(WEAK_PALE), "weakened"))
+    handles += [(swatch(layer.ink), layer.label) for layer in inked]
     describe(ax, frame, "Contact-bond pattern", handles)
 
 
@@ -169,8 +169,8 @@ def behaviour_panel(ax, cax, frame: Frame) -> None:
     if kind is None:
         describe(ax, frame, "Rock behaviour (bonds off)")
         return
-    draw_discs(ax, frame, np.array([to_rgb(colour) for colour, _ in BEHAVIOUR])[kind])
-    handles = [(swatch(colour), label) for k, (colour, label) in enumerate(BEHAVIOUR)
+    draw_discs(ax, frame, np.array([to_rgb(rock["colour"]) for rock in ROCK_CLASSES])[kind])
+    handles = [(swatch(rock["colour"]), rock["label"]) for k, rock in enumerate(ROCK_CLASSES)
                if (kind == k).any() or k < 2]
     handles += draw_faults(ax, frame.faults)
     describe(ax, frame, "Rock behaviour", handles)
@@ -179,7 +179,7 @@ def behaviour_panel(ax, cax, frame: Frame) -> None:
 def strain_panel(ax, cax, frame: Frame) -> None:
     """Shear strain (no unit) of the last window of extension."""
     section_axes(ax, frame)
-    limit = frame.strain_top or strain_limit(frame.strain)
+    limit = frame.strain_end
     finite = np.isfinite(frame.strain)
     cmap, norm = strain_colours(), Normalize(0.0, limit, clip=True)
     rgb = cmap(norm(np.where(finite, frame.strain, 0.0)))[:, :3]

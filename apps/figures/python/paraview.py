@@ -27,8 +27,7 @@ if __name__ == "paraview":
     del sys.modules["paraview"]
 import paraview.simple as pv
 
-ROCK = ((0.77, 0.70, 0.59), (0.59, 0.51, 0.41))   # bands of 1 km of depth before the rift
-SEDIMENT = ((0.96, 0.78, 0.26), (0.89, 0.52, 0.19), (0.47, 0.67, 0.31), (0.27, 0.51, 0.71))
+LOOK = {}   # the program writes the colours of its figures here
 
 
 def opened(name):
@@ -47,6 +46,20 @@ def part(series, name):
     return block
 
 
+def layer_colour(k, strata):
+    """Of band or stratum k, as in the figures: every second stratum slightly lighter."""
+    if k < 0:
+        return rgb(LOOK["pre_rift"]["colours"][(-k - 1) % 2][1:])
+    place = int(255 * (k - 1) / max(strata - 1, 1) + 0.5) if k > 0 else 0
+    colour = rgb(LOOK["rows"][6 * place:6 * place + 6])
+    lighter = LOOK["strata"]["lighter"] if strata >= LOOK["strata"]["lighter_from"] and k % 2 == 0 else 0
+    return [part + lighter * (1 - part) for part in colour]
+
+
+def rgb(digits):
+    return [part / 255 for part in bytes.fromhex(digits)]
+
+
 def colour_by_layer(display, layers):
     """A colour for every band of rock (..., -2, -1) and every stratum (1, 2, ...)."""
     low, high = (int(end) for end in layers.PointData["layer"].GetRange())
@@ -54,8 +67,7 @@ def colour_by_layer(display, layers):
     colours = pv.GetColorTransferFunction("layer")
     colours.AutomaticRescaleRangeMode = "Never"
     colours.NumberOfTableValues = high - low + 1
-    colours.RGBPoints = [number for k in range(low, high + 1)
-                         for number in (k, *(SEDIMENT[k % 4] if k > 0 else ROCK[-k % 2]))]
+    colours.RGBPoints = [number for k in range(low, high + 1) for number in (k, *layer_colour(k, high))]
     pv.ColorBy(display, ("POINTS", "layer"))
 
 
@@ -63,7 +75,8 @@ def show_discs(series, view, array):
     """Discs; the sole and the walls; unbroken bonds, which are hidden."""
     discs = pv.Calculator(registrationName="layers", Input=part(series, "discs"),
                           ResultArrayName="layer",
-                          Function="if(stratum > 0, stratum, -1 - floor(start_depth_m / 1000))")
+                          Function="if(stratum > 0, stratum, -1 - floor(start_depth_m / "
+                                   f"{LOOK['pre_rift']['layer_m']}))")
     discs.UpdatePipeline(max(series.TimestepValues))
     display = pv.Show(discs, view)
     display.SetRepresentationType("Point Gaussian")

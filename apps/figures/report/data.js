@@ -79,6 +79,13 @@ class Run {
     return this.lines[k];
   }
 
+  /** Lines of the last moment that has all kinds of them. */
+  async loadKnown() {
+    let k = this.moments.length - 1;
+    while (k > 0 && !(await this.loadLines(k)).followed) --k;
+    this.known = await this.loadLines(k);
+  }
+
   /** Numbers by id in their unit. */
   values(k, name) {
     const key = `${k} ${name}`;

@@ -50,7 +50,7 @@ function svgOf(section, view, lines) {
     points.map(([x, depth]) => section.toPixel(view, x, depth).map(v => v.toFixed(1)).join(",")).join(" ") + `"/>`;
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}">\n` +
     `<image width="${width}" height="${height}" href="${section.discCanvas.toDataURL()}"/>\n` +
-    [...lines.surfaces.map(line => path(line.points, inks.detachment, 1.5)),
-      ...(lines.horizons || []).map(line => path(line.points, inks.horizons, 1)),
-      ...lines.faults.map(line => path(line.points, inks.faults, 2))].join("\n") + "\n</svg>\n";
+    [...lines.surfaces.map(line => path(line.points, inkOf("detachment"), 1.5)),
+      ...(lines.horizons || []).map(line => path(line.points, inkOf("horizons"), 1)),
+      ...lines.faults.map(line => path(line.points, inkOf("faults"), 2))].join("\n") + "\n</svg>\n";
 }

@@ -3,7 +3,7 @@
 const page = {
   data: dataOf("data"),
   runs: [], sections: [],
-  t: 0, mode: "strata", palette: "batlow", shown: new Set(), picked: null, opacity: 0.5,
+  t: 0, mode: "strata", palette: "figures", layers: {}, shown: new Set(), picked: null, opacity: 0.5,
   view: {left: 0, top: 0, scale: 1, height: 1},
 };
 
@@ -26,7 +26,7 @@ function layOut() {
   }
 }
 
-function hasFootwall() { return page.shown.has("footwall") && page.runs.some(layers.footwall.of); }
+function hasFootwall() { return page.shown.has("footwall") && "footwall" in page.layers; }
 
 function showWhole() {
   const canvas = page.sections[0].discCanvas;
@@ -43,14 +43,17 @@ let drawing = 0;
 async function draw() {
   const turn = ++drawing;
   const needs = modes[page.mode].needs.filter(name => page.runs[0].has(name));
-  await Promise.all(page.runs.map(run => run.load([...needs, ...(page.shown.has("bonds") ? bondStreams : [])])));
+  const inked = run => shownLayers(run, "discs", page.shown);
+  await Promise.all(page.runs.map(run => run.load([...needs, ...(page.shown.has("bonds") ? bondStreams : []),
+    ...inked(run).map(([name]) => name)])));
   if (turn !== drawing) return;
-  const top = modes[page.mode].scale ? upperEnd(page.runs, page.mode) : 1;
+  const top = scaleEnd(page.runs, page.mode);
   const strata = Math.max(...page.runs.map(run => run.codes.at(-1).stratum.reduce((a, b) => Math.max(a, b), 0)));
   const others = page.runs.length > 1 ? await page.runs[1].loadLines(momentOf(page.runs[1])) : null;
   for (const section of page.sections) {
     const k = momentOf(section.run);
-    section.painter.paint(page.view, section.discs(k), discColours(section.run, k, page.mode, page.palette, top, strata));
+    const colours = discColours(section.run, k, page.mode, page.palette, top, strata);
+    section.painter.paint(page.view, section.discs(k), inkDiscs(colours, section.run, k, inked(section.run)));
     await section.draw(k, page.view, page.shown, page.picked, section.run === page.runs[0] ? others : null);
   }
   drawLegend(top, strata);
@@ -63,31 +66,37 @@ function drawLegend(top, strata) {
   const host = $("legend");
   host.textContent = "";
   if (page.mode === "rock") {
-    for (const {name, colour} of rocks) {
-      const swatch = host.appendChild(document.createElement("span"));
-      swatch.className = "swatch";
-      swatch.style.background = cssColour(colour);
-      host.append(name);
+    for (const {label, colour} of vocabulary.rock_classes) {
+      addSwatch(host, colour);
+      host.append(label);
     }
     return;
   }
-  const canvas = document.createElement("canvas"), {root, unit} = modes[page.mode];
+  const canvas = document.createElement("canvas"), {unit} = modes[page.mode], table = paletteOf(page.mode, page.palette);
   [canvas.width, canvas.height] = [160, 14];
   const context = canvas.getContext("2d");
   for (let column = 0; column < 160; ++column) {
-    context.fillStyle = cssColour(palettes[page.palette][Math.round(255 * column / 159)]);
+    context.fillStyle = cssColour(page.mode !== "strata" ? table[Math.round(255 * column / 159)]
+      : stratumColour(1 + Math.floor(column * strata / 160), strata, table));
     context.fillRect(column, 0, 1, 14);
   }
-  const end = plain(top / (unit || 1)), middle = plain(top / (unit || 1) * (root ? 0.25 : 0.5));
-  host.append(...(page.mode === "strata" ? ["oldest sediment ", canvas, ` youngest (${strata}); grey: pre-rift, layers of 1 km`]
-    : ["0 ", canvas, ` ${end} (middle: ${middle})`]));
+  if (page.mode !== "strata") return void host.append("0 ", canvas, ` ${plain(top / (unit || 1))} or more`);
+  if (strata) host.append("oldest sediment ", canvas, ` youngest (${strata})`);
+  for (const colour of vocabulary.pre_rift.colours) addSwatch(host, colour);
+  host.append(`pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km`);
+}
+
+function addSwatch(host, colour) {
+  const swatch = host.appendChild(document.createElement("span"));
+  swatch.className = "swatch";
+  swatch.style.background = colour;
 }
 
 async function addFootwallLegend() {
-  const run = page.runs.find(layers.footwall.of);
+  const run = page.runs.find(isIn.footwall);
   const lines = run && page.shown.has("footwall") && await run.loadLines(momentOf(run));
   if (lines?.footwall)
-    $("legend").append(`; footwall: change of shear stress, white 0, dark ${plain(footwallLimit(lines.footwall.shear_mpa))} MPa or more`);
+    $("legend").append(`; footwall: change of shear stress, white 0, dark ${plain(lines.footwall.end_mpa)} MPa or more`);
   else if (lines) $("legend").append("; the footwall's stress is there at the figures' moments and at the end");
 }
 
@@ -273,9 +282,9 @@ function readAddress() {
   const words = new URLSearchParams(location.hash.slice(1) || location.search);
   page.t = words.has("t") ? Math.min(Number(words.get("t")) || 0, page.runs[0].moments.length - 1) : page.runs[0].moments.length - 1;
   if (words.get("colour") in modes) page.mode = words.get("colour");
-  if (words.get("palette") in palettes) page.palette = words.get("palette");
+  if (Object.hasOwn(palettes, words.get("palette"))) page.palette = words.get("palette");
   page.shown = new Set(words.has("shown") ? words.get("shown").split(",")
-    : Object.keys(layers).filter(name => layers[name].on));
+    : Object.keys(page.layers).filter(name => page.layers[name].on));
   const view = (words.get("view") || "").split(",").map(Number);
   return view.length === 4 && view.every(Number.isFinite) && view[2] > 0 && view[3] > 0 ? view : null;
 }
@@ -287,8 +296,7 @@ function addOptions(select, entries, chosen) {
 }
 
 function addLayers() {
-  for (const [name, layer] of Object.entries(layers)) {
-    if (!page.runs.some(layer.of)) continue;
+  for (const [name, layer] of Object.entries(page.layers)) {
     const label = $("layers").appendChild(document.createElement("label"));
     const box = label.appendChild(document.createElement("input"));
     box.type = "checkbox";
@@ -301,6 +309,7 @@ function addLayers() {
       }
       draw().catch(trouble);
     });
+    if (layer.ink) addSwatch(label, layer.ink);
     label.append(` ${layer.label}`);
   }
   if (!page.data.underlay) return;
@@ -315,7 +324,7 @@ function addControls() {
   const [run] = page.runs;
   addOptions($("colour"), Object.entries(modes).filter(([, mode]) => mode.needs.every(name => run.has(name)))
     .map(([name, mode]) => [name, mode.label]), page.mode);
-  addOptions($("palette"), Object.keys(palettes).map(name => [name, name]), page.palette);
+  addOptions($("palette"), [["figures", "as in the figures"], ...Object.keys(palettes).map(name => [name, name])], page.palette);
   $("height").value = page.view.height;
   const measures = Object.keys(run.history).filter(name => name !== "extension_m" && run.history[name].some(Number.isFinite));
   addOptions($("column"), measures.map(name => [name, name]), measures.includes("rollover_tilt_deg") ? "rollover_tilt_deg" : measures[0]);
@@ -374,7 +383,7 @@ function addWords() {
   const hashes = page.runs.map(run => run.head.summary?.state_hash).filter(Boolean);
   const words = Object.entries(page.runs[0].head.summary?.provenance || {}).map(([name, value]) => `${name} ${value}`);
   $("footer").textContent = `${words.length ? `Run: ${words.join(", ")}. Page: ` : ""}${page.data.program}${hashes.length ? `; state_hash ${hashes.join(", ")}` : ""}. To cite: ` +
-    "CITATION.cff of the program. Colours: batlow, Crameri (2021), doi 10.5281/zenodo.5501399.";
+    "CITATION.cff of the program. Palettes: viridis and magma, Smith and van der Walt (2015); batlow, Crameri (2021), doi 10.5281/zenodo.5501399.";
 }
 
 /** Says what the page lacks. */
@@ -388,6 +397,8 @@ async function start() {
   (page.data.lacks || []).forEach(say);
   page.runs = page.data.runs.map(head => new Run(head));
   if (page.runs[0].moments.length === 0) throw new Error("there is no snapshot yet");
+  await Promise.all(page.runs.map(run => run.loadKnown()));
+  page.layers = layersOf(page.runs);
   const view = readAddress();
   page.sections = page.runs.map((run, r) => {
     const host = $("sections").appendChild(document.createElement("div"));
@@ -423,4 +434,4 @@ async function start() {
   if (page.data.live) setTimeout(() => location.reload(), 10000);
 }
 
-if (page.data) start().catch(trouble);
+if (page.data && vocabulary) start().catch(trouble);

@@ -1,26 +1,34 @@
 // One run's section: discs as an image, everything else as lines over it.
 
-/** What can be shown over the discs: label, whether it is at first, whether a run has it. */
-const layers = {
-  faults: {label: "faults", on: true, of: () => true},
-  horizons: {label: "horizons", on: true, of: () => true},
-  bonds: {label: "bonds", on: false, of: run => run.has("bonds_left")},
-  detachment: {label: "detachment", on: true, of: () => true},
-  unbent: {label: "base before bending", on: false, of: run => run.head.effects.includes("elastic_base")},
-  footwall: {label: "footwall's stress", on: true, of: run => run.head.effects.includes("elastic_base")},
-  target: {label: "target line", on: false, of: run => run.head.effects.includes("sedimentation")},
-  water: {label: "water", on: true, of: run => run.head.effects.includes("basin_water")},
-  predictions: {label: "kinematic predictions", on: false, of: run => run.has("start_x_m")},
-  picks: {label: "picks", on: true, of: run => Boolean(run.head.picks)},
-  underlay: {label: "picture", on: true, of: () => Boolean(page.data.underlay)},
+/** Whether a run has what a layer of the vocabulary shows; what is not named here every run has. */
+const isIn = {
+  bonds: run => run.has("bonds_left"),
+  unbent: run => run.known.base.length > 0,
+  footwall: run => Boolean(run.known.footwall),
+  target: run => run.known.surfaces.some(line => line.name === "target line"),
+  predictions: run => run.has("start_x_m"),
+  picks: run => Boolean(run.head.picks),
+  underlay: () => Boolean(page.data.underlay),
 };
 
-const inks = {faults: "#000", horizons: "#0b3d5c", detachment: "#7a1f1f", unbent: "#7a1f1f", target: "#1b5e20",
-  predictions: "#6a1b9a", picks: "#b30059", other: "#b35900"};
+/** Layers that a run of these has, by name: those of every run, and what its effects declare. */
+function layersOf(runs) {
+  const own = runs.flatMap(run => run.head.layers).map(layer => [layer.name, {...layer, on: layer.kind !== "discs"}]);
+  const known = Object.entries(vocabulary.layers).filter(([name]) => runs.some(isIn[name] || (() => true)));
+  return Object.fromEntries([...known, ...own]);
+}
 
-/** 95 of 100 patches are below it, MPa. */
-function footwallLimit(shear) {
-  return [...shear].sort((a, b) => a - b)[Math.floor(0.95 * (shear.length - 1))] || 1;
+/** Layers of a kind that a run's effects declare, as far as they are shown. */
+function shownLayers(run, kind, shown) {
+  return run.head.layers.filter(layer => layer.kind === kind && shown.has(layer.name)).map(layer => [layer.name, layer]);
+}
+
+const otherInk = "#b35900"; // of faults of the other run
+
+function inkOf(name) { return vocabulary.layers[name].ink; }
+
+function rowsOf(numbers, columns) {
+  return Array.from({length: numbers.length / columns}, (_, k) => numbers.slice(columns * k, columns * (k + 1)));
 }
 
 class Section {
@@ -86,33 +94,35 @@ class Section {
     pen.clearRect(0, 0, this.lineCanvas.width, this.lineCanvas.height);
     if (shown.has("footwall") && lines.footwall) this.drawFootwall(view, lines.footwall);
     if (shown.has("underlay") && page.underlay) this.drawUnderlay(view);
-    if (shown.has("water") && lines.layers?.water) this.drawWater(view, lines.layers.water);
+    for (const [name, {ink}] of shownLayers(this.run, "band", shown)) this.drawBand(view, lines.layers[name], ink);
     if (shown.has("bonds") && this.run.has("bonds_left")) this.drawBonds(k, view);
     this.drawAxes(view);
     const surfaces = name => lines.surfaces.filter(line => line.name === name);
     if (shown.has("horizons"))
       for (const line of lines.horizons || [])
-        this.line(view, line.points, inks.horizons, line.stratum === 0 ? 2 : 0.9);
+        this.line(view, line.points, inkOf("horizons"), line.stratum === 0 ? 2 : 0.9);
     if (shown.has("detachment"))
       for (const name of ["detachment", "floor", "original surface"])
-        for (const line of surfaces(name)) this.line(view, line.points, inks.detachment, 1.6);
+        for (const line of surfaces(name)) this.line(view, line.points, inkOf("detachment"), 1.6);
     if (shown.has("unbent"))
       for (const line of lines.base)
-        this.line(view, line.start_x_m.map((x, i) => [x, line.start_depth_m[i]]), inks.unbent, 1.2, [6, 4]);
+        this.line(view, line.start_x_m.map((x, i) => [x, line.start_depth_m[i]]), inkOf("unbent"), 1.2, [6, 4]);
     if (shown.has("target"))
-      for (const line of surfaces("target line")) this.line(view, line.points, inks.target, 1.4, [8, 4]);
+      for (const line of surfaces("target line")) this.line(view, line.points, inkOf("target"), 1.4, [8, 4]);
     if (shown.has("predictions"))
       for (const line of lines.predictions || []) {
-        this.line(view, line.points, inks.predictions, 1.6, [3, 3]);
+        this.line(view, line.points, inkOf("predictions"), 1.6, [3, 3]);
         const end = line.points[Math.floor(line.points.length / 2)];
-        this.label(view, line.name, end[0], end[1], inks.predictions);
+        this.label(view, line.name, end[0], end[1], inkOf("predictions"));
       }
     if (shown.has("picks") && this.run.head.picks)
       for (const line of [...this.run.head.picks.horizons, ...this.run.head.picks.faults])
-        this.line(view, line.points, inks.picks, 2, [2, 3]);
+        this.line(view, line.points, inkOf("picks"), 2, [2, 3]);
+    for (const [name, {ink}] of shownLayers(this.run, "line", shown))
+      this.line(view, rowsOf(lines.layers[name], 2).map(([x, height]) => [x, -height]), ink, 1.6);
     if (shown.has("faults")) this.drawFaults(view, lines.faults, picked);
     if (shown.has("faults") && other)
-      for (const fault of other.faults) this.line(view, fault.points, inks.other, 1.6, [7, 4]);
+      for (const fault of other.faults) this.line(view, fault.points, otherInk, 1.6, [7, 4]);
     if (picked?.kind === "disc" && picked.run === this.run) this.drawPath(k, view, picked.id);
     this.lineCanvas.setAttribute("aria-label", `Section of ${this.run.head.scene} at ` +
       `${(this.run.moments[k].extension_m / 1000).toFixed(2)} km of extension, ${lines.faults.length} faults`);
@@ -123,10 +133,10 @@ class Section {
     faults.forEach((fault, index) => {
       const chosen = picked?.kind === "fault" && picked.run === this.run && picked.index === index;
       this.line(view, fault.points, "#fff", 2.5 + 3 * fault.rate_mm_per_a / fastest);
-      this.line(view, fault.points, chosen ? "#d4006a" : inks.faults,
+      this.line(view, fault.points, chosen ? "#d4006a" : inkOf("faults"),
         (chosen ? 2 : 1) + 2 * fault.rate_mm_per_a / fastest);
       const [x, depth] = fault.points[0];
-      this.label(view, String(index), x, depth, chosen ? "#d4006a" : inks.faults);
+      this.label(view, String(index), x, depth, chosen ? "#d4006a" : inkOf("faults"));
     });
   }
 
@@ -155,32 +165,31 @@ class Section {
       pen.moveTo(...this.toPixel(view, x[pairs[i]], depth[pairs[i]]));
       pen.lineTo(...this.toPixel(view, x[pairs[i + 1]], depth[pairs[i + 1]]));
     }
-    pen.strokeStyle = "#0008";
+    pen.strokeStyle = inkOf("bonds") + "88";
     pen.lineWidth = 0.6 * this.ratio;
     pen.stroke();
   }
 
-  /** Rows x, floor, level; heights, not depths. */
-  drawWater(view, {columns, rows}) {
-    const pen = this.pen, floor = [], level = [];
-    for (let i = 0; i < rows.length; i += columns) {
-      floor.push(this.toPixel(view, rows[i], -rows[i + 1]));
-      level.unshift(this.toPixel(view, rows[i], -rows[i + 2]));
-    }
+  /** Rows x, bottom, top; heights, not depths. Behind the discs. */
+  drawBand(view, rows, ink) {
+    const pen = this.painter.context, points = rowsOf(rows, 3);
+    pen.globalCompositeOperation = "destination-over";
+    pen.fillStyle = ink;
     pen.beginPath();
-    for (const point of [...floor, ...level]) pen.lineTo(...point);
-    pen.fillStyle = "#5aa9e666";
+    for (const [x, bottom] of points) pen.lineTo(...this.toPixel(view, x, -bottom));
+    for (const [x, , top] of points.reverse()) pen.lineTo(...this.toPixel(view, x, -top));
     pen.fill();
+    pen.globalCompositeOperation = "source-over";
   }
 
   /** Patches below the base, the darker the more their shear stress has changed; behind the discs. */
-  drawFootwall(view, {corners, shear_mpa: shear}) {
-    const pen = this.pen, most = footwallLimit(shear);
+  drawFootwall(view, {corners, shear_mpa: shear, end_mpa: end}) {
+    const pen = this.pen, {palette, darkest} = vocabulary.layers.footwall;
     shear.forEach((value, n) => {
       pen.beginPath();
       for (let i = 8 * n; i < 8 * n + 8; i += 2) pen.lineTo(...this.toPixel(view, corners[i], corners[i + 1]));
       pen.closePath();
-      const ink = cssColour(palettes.greys[Math.round(180 * Math.min(value / most, 1))]);
+      const ink = cssColour(palettes[palette][Math.round(255 * darkest * Math.min(value / end, 1))]);
       pen.fillStyle = pen.strokeStyle = ink;
       pen.lineWidth = 1;
       pen.fill();

@@ -23,19 +23,16 @@ function plain(value) {
     ? value.toExponential(3) : String(Number(value.toPrecision(5)));
 }
 
-const faultColumns = {fault: "", main: "", attitude: "", sense: "", dip_deg: "dip (°)", rate_mm_per_a: "rate (mm/a)",
-  length_m: "length (m)", born_at_m: "born at (m)", dip_at_birth_deg: "dip at birth (°)",
-  footwall_turn_deg: "turn (°)", pre_rift_throw_m: "pre-rift throw (m)", width_diameters: "width (diameters)"};
-
 function drawFaultTable(table, faults, chosen, choose) {
   table.textContent = "";
-  head(table, Object.entries(faultColumns).map(([name, label]) => label || name));
+  const columns = page.data.fault_columns;
+  head(table, columns.map(column => column.label), Object.fromEntries(columns.map(column => [column.label, column.doc])));
   const body = table.appendChild(document.createElement("tbody"));
   faults.forEach((fault, index) => {
     const row = body.appendChild(document.createElement("tr"));
     row.tabIndex = 0;
     row.classList.toggle("chosen", index === chosen);
-    for (const name of Object.keys(faultColumns)) cell(row, plain(fault[name]));
+    for (const {name} of columns) cell(row, plain(fault[name]));
     row.addEventListener("click", () => choose(index));
     row.addEventListener("keydown", event => { if (event.key === "Enter") choose(index); });
   });

@@ -1,5 +1,6 @@
-#include "dem/base_motion.hpp"
+#include "dem/base/motion.hpp"
 
+#include "apps/model/base_driver.hpp"
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/csv.hpp"
@@ -31,9 +32,6 @@ void check(const Scene& scene, const Refuse& refuse) {
     // Discs follow a base that moves as fast as the right wall; much faster is an impact.
     constexpr double fastest = 5.0;
     const P& motion = *scene.find<P>();
-    if (has_effect(scene, "elastic_base"))
-        refuse("base_motion",
-               "beside [elastic_base]; the detachment is either prescribed or responds, give one");
     if (motion.uplift.empty() && motion.shift.empty())
         refuse("base_motion", "needs csv, or uplift or shift");
     const double speed = dem::greatest_base_speed(motion, scene.extension.rate);
@@ -44,12 +42,27 @@ void check(const Scene& scene, const Refuse& refuse) {
                            speed, fastest));
 }
 
-BaseDriver drive_base(const Scene& scene, const ModelParts& parts) {
-    constexpr double face = 1000.0; // m: arcs are followed to millimetres
-    return {std::make_unique<dem::BaseMotion>(*scene.find<P>(), parts.base.motion,
-                                              scene.extension.rate),
-            dem::detachment_nodes(parts.base.surfaces.front().chain, face)};
-}
+class BaseMotionDriver final : public BaseDriver {
+public:
+    BaseMotionDriver(const Scene& scene, const ModelParts& parts)
+        : motion_(*scene.find<P>(), parts.base.motion, scene.extension.rate) {}
+
+    dem::BaseResponse& response() override { return motion_; }
+
+    void settle(dem::State& state, const dem::RigidBase& base, const dem::CyclePhysics&,
+                const dem::Execution&, const Progress&) const override {
+        constexpr double face = 1000.0; // m: arcs are followed to millimetres
+        std::vector<double> x, y;
+        for (const dem::Point& node : dem::detachment_nodes(base.surfaces.front().chain, face)) {
+            x.push_back(node.x);
+            y.push_back(node.y);
+        }
+        dem::add_base_nodes(state, x, y);
+    }
+
+private:
+    dem::BaseMotion motion_;
+};
 
 } // namespace
 
@@ -76,7 +89,10 @@ const Effect& base_motion() {
                 dem::follow_nodes(parts.base, 2);
                 parts.base_moves = true;
             },
-        .drive_base = drive_base,
+        .drive_base = [](const Scene& scene, const ModelParts& parts,
+                         std::vector<std::unique_ptr<dem::Event>>&) -> std::unique_ptr<BaseDriver> {
+            return std::make_unique<BaseMotionDriver>(scene, parts);
+        },
         .explain =
             [](const Scene& scene, EffectList) {
                 return fmt::format(

@@ -2,7 +2,6 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/footwall_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -24,17 +23,17 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
         base.infill_density > 0.0 ? std::nullopt : std::optional(base.left));
 }
 
-/// Rows x, floor and level, m, from the shore at the breakaway on.
-std::vector<FigureLayer> draw(const Observation& now) {
+/// Floor and level of the water from the shore at the breakaway on.
+std::vector<double> water_band(const Observation& now) {
     const double width = coupling::water_column_width(now.scene.hanging_wall->mean_radius);
     const double level = now.scene.find<P>()->level;
-    FigureLayer layer{"water", 3, {0.0, level, level}};
+    std::vector<double> rows{0.0, level, level};
     double x = 0.5 * width;
     for (const double water : coupling::water_depths(now.state, level, width)) {
-        layer.rows.insert(layer.rows.end(), {x, level - water, level});
+        rows.insert(rows.end(), {x, level - water, level});
         x += width;
     }
-    return {layer};
+    return rows;
 }
 
 } // namespace
@@ -63,12 +62,15 @@ const Effect& basin_water() {
                                    water.level);
             },
         .absence = "water",
-        .summarise =
-            [](const dem::Table& history, const dem::State&) {
-                return last_values(
-                    history, {"basin_water_n_per_m", "pore_water_n_per_m", "flank_water_n_per_m"});
-            },
-        .draw = draw,
+        .measures = {{coupling::basin_water_name, "N/m",
+                      "weight of the water on the detachment per metre of strike, with that in the "
+                      "sediment's pores"},
+                     {coupling::pore_water_name, "N/m",
+                      "weight of the water in the sediment's pores"},
+                     {coupling::flank_water_name, "N/m",
+                      "weight of the water where the footwall left of the breakaway has sunk below "
+                      "its level; negative where what was flooded has risen"}},
+        .layers = {{"water", LayerKind::band, "water", "#c6dcef", water_band}},
     };
     return effect;
 }

@@ -1,8 +1,9 @@
+#include "apps/model/base_driver.hpp"
+#include "apps/model/effects/elastic_base_driver.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-
 #include "apps/model/effect_list.hpp"
-#include "apps/model/footwall_request.hpp"
-#include "apps/model/footwall_summary.hpp"
+#include "apps/model/effects/elastic_base_request.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/spelling.hpp"
 #include "fem/blocks.hpp"
@@ -143,7 +144,7 @@ std::vector<Parameter> footwall_parameters() {
 std::vector<Parameter> coupling_parameters() {
     return {
         {"scheme",
-         one_of<&P::scheme>({"modal", "lumped", "staggered", "strong"}),
+         one_of<&P::scheme>({"modal", "lumped"}),
          "",
          {},
          "",
@@ -257,7 +258,7 @@ void contribute(const Scene& scene, ModelParts& parts) {
 /// What the footwall feels and what it does not.
 std::string explain(const Scene& scene, EffectList list) {
     const P& base = *elastic_base(scene);
-    constexpr const char* schemes[] = {"modal", "lumped", "staggered", "strong"};
+    constexpr const char* schemes[] = {"modal", "lumped"};
     std::string text = fmt::format(
         "elastic base\n"
         "  Te {:g} km, {:g} km thick, from x = {:g} to {:g} km; below Te the shear modulus is "
@@ -314,11 +315,79 @@ double memory(const Scene& scene) {
            8.0 * on_detachment * on_detachment;
 }
 
-std::optional<Objection> on_ranks(const Scene& scene) {
-    if (elastic_base(scene)->scheme != coupling::CouplingScheme::strong)
-        return std::nullopt;
-    return Objection{"elastic_base.scheme", "strong takes cycles back, which one process can; use "
-                                            "modal, or start one process"};
+/// Where the base is now: the run may have been ended within a window.
+std::vector<Measure<Observation>> of_nodes() {
+    using V = std::optional<double>;
+    return {
+        {footwall_uplift, "m", "vertical displacement of the breakaway, positive up",
+         [](const Observation& now) -> V { return base_node_columns(now.state).uy[0]; }},
+        {breakaway_shift, "m",
+         "horizontal displacement of the breakaway, positive toward the hanging wall",
+         [](const Observation& now) -> V { return base_node_columns(now.state).ux[0]; }},
+        {base_deflection, "m", "largest vertical displacement of the detachment, up or down",
+         [](const Observation& now) -> V {
+             const auto size = [](double u) { return std::abs(u); };
+             return size(std::ranges::max(base_node_columns(now.state).uy, {}, size));
+         }},
+    };
+}
+
+/// Those without a function are taken when a window ends, or at the end of the run.
+std::vector<Measure<Observation>> measures() {
+    using enum OverTime;
+    std::vector<Measure<Observation>> all = of_nodes();
+    std::ranges::move(
+        std::vector<Measure<Observation>>{
+            {interface_force_error, "1",
+             "forces on the nodes against those on the discs: sum, over the sum of magnitudes. "
+             "Round-off; largest of the windows",
+             nullptr, largest},
+            {interface_moment_error, "1",
+             "forces on the nodes against those on the discs: moment about the breakaway in the "
+             "deformed wall, over the sum of magnitudes. Round-off; largest of the windows",
+             nullptr, largest},
+            {interface_work_error, "1",
+             "forces on the nodes against those on the discs: power, over the sum of magnitudes. "
+             "Round-off; largest of the windows",
+             nullptr, largest},
+            {base_reaction_error, "1",
+             "base reaction over the discs' weight, less 1: mean over the run (in `history.csv`: "
+             "over the window). What is missing is carried by inertia and damping",
+             nullptr, mean},
+            {net_wall_load, "N/m",
+             "vertical load that the footwall is relieved of, mean over the last window"},
+            {weight_change, "N/m",
+             "removed minus added weight: rock that the right wall took along, less sediment, plus "
+             "what was eroded (`history.csv`)",
+             nullptr, none},
+            {net_wall_load_error, "1",
+             "`net_wall_load_n_per_m` over `weight_change_n_per_m`, less 1, in the last window"},
+            {strong_rock_strain, "1",
+             "largest principal strain, without sign, in rock that bends; above 2 % it would break",
+             nullptr, largest},
+            {relaxed_rock_strain, "1",
+             "largest principal strain, without sign, in rock below the elastic thickness. Above "
+             "10 % in either the run stops",
+             nullptr, largest},
+            {rock_rotation, "deg",
+             "largest rotation of the footwall's rock. Linear elasticity overlooks a strain of "
+             "half "
+             "its square; above 11.5 degrees, 2 %, the run stops",
+             nullptr, largest},
+            {beyond_byerlee, "m2",
+             "area of rock that bends where its stress, on lithostatic pressure, exceeds Byerlee's "
+             "law: rock that is stronger here than in nature",
+             nullptr, largest},
+            {base_elements_difference, "1",
+             "the mean forces of the last window, put as tractions on a mesh with elements half as "
+             "large: displacement of the detachment from that of the run's elements under the same "
+             "forces, root mean square over root mean square"},
+            {base_resolved_difference, "1",
+             "difference from the base's mean displacement in that window, so that it also holds "
+             "how far the base lags behind its load"},
+        },
+        std::back_inserter(all));
+    return all;
 }
 
 } // namespace
@@ -341,12 +410,12 @@ const Effect& elastic_base() {
         .scale = [](Scene& scene,
                     const AccuracyLevel& level) { scene.find<P>()->cell_size = level.cell_size; },
         .check = check,
-        .on_ranks = on_ranks,
         .contribute = contribute,
+        .drive_base = make_elastic_base_driver,
         .explain = explain,
         .price = price,
         .memory = memory,
-        .summarise = footwall_summary,
+        .measures = measures(),
     };
     return effect;
 }

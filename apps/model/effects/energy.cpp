@@ -4,6 +4,7 @@
 #include "apps/model/effect_list.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace listric::effects {
 
@@ -23,32 +24,78 @@ std::vector<StagedEvent> make_events(const Scene&, const ModelParts& parts,
     return events;
 }
 
-EffectMeasures measure(const Observation& now) {
+using E = dem::EnergyBalance;
+
+std::optional<E> balance(const Observation& now) {
     const auto* account = dem::find<const dem::EnergyAccount>(now.events);
-    if (!account)
-        return {};
-    const dem::EnergyBalance e = account->balance(now.state, now.parts.base);
-    EffectMeasures measures;
-    measures.numbers = {
-        {"energy_boundary_work_j_per_m", e.boundary_work},
-        {"energy_gravity_work_j_per_m", e.gravity_work},
-        {"energy_events_j_per_m", e.events},
-        {"energy_kinetic_j_per_m", e.stored.kinetic},
-        {"energy_strain_normal_j_per_m", e.stored.normal_strain},
-        {"energy_strain_shear_j_per_m", e.stored.shear_strain},
-        {"energy_stored_change_j_per_m", e.stored_change},
-        {"energy_friction_j_per_m", e.friction},
-        {"energy_damping_j_per_m", e.damping},
-        {"energy_bond_breaking_j_per_m", e.bond_breaking},
-        {"energy_stepping_j_per_m", e.stepping},
+    return account ? std::optional(account->balance(now.state, now.parts.base)) : std::nullopt;
+}
+
+/// A member of the balance; not a number where that is not known.
+template <auto... Member> std::optional<double> of(const Observation& now) {
+    const auto e = balance(now);
+    return e ? std::optional(taken<Member...>(*e).value_or(std::nan(""))) : std::nullopt;
+}
+
+std::optional<double> residual(const Observation& now) {
+    const auto e = balance(now);
+    if (!e)
+        return std::nullopt;
+    const double work = e->boundary_work + e->gravity_work;
+    return work != 0.0 ? e->residual() / work : std::nan("");
+}
+
+std::vector<Measure<Observation>> measures() {
+    using Stored = dem::StoredEnergy;
+    constexpr std::string_view unit = "J/m";
+    return {
+        {"energy_boundary_work_j_per_m", unit,
+         "work of base and right wall on the discs by extension; negative where they are pulled "
+         "along",
+         of<&E::boundary_work>},
+        {"energy_gravity_work_j_per_m", unit, "work of weight, over the cycles",
+         of<&E::gravity_work>},
+        {"energy_events_j_per_m", unit,
+         "change of kinetic and strain energy by events: radii, stiffnesses and masses that "
+         "change, "
+         "bonds made, sediment that comes and goes",
+         of<&E::events>},
+        {"energy_kinetic_j_per_m", unit, "kinetic energy now", of<&E::stored, &Stored::kinetic>},
+        {"energy_strain_normal_j_per_m", unit, "in the contacts' normal springs now",
+         of<&E::stored, &Stored::normal_strain>},
+        {"energy_strain_shear_j_per_m", unit, "in the contacts' shear springs now",
+         of<&E::stored, &Stored::shear_strain>},
+        {"energy_stored_change_j_per_m", unit,
+         "change of kinetic and strain energy since extension began", of<&E::stored_change>},
+        {"energy_friction_j_per_m", unit, "lost by slip, between discs and on the base",
+         of<&E::friction>},
+        {"energy_damping_j_per_m", unit,
+         "lost by local damping; where it is relative to a mean motion or to a stretching base, "
+         "less "
+         "what its force gives to that motion",
+         of<&E::damping>},
+        {"energy_bond_breaking_j_per_m", unit, "what the springs of bonds held when they broke",
+         of<&E::bond_breaking>},
+        {"energy_stepping_j_per_m", unit,
+         "lost by the integration where contacts close or open within a step; it shrinks with the "
+         "step",
+         of<&E::stepping>},
+        {"energy_base_work_j_per_m", unit,
+         "work of a base that deforms, by moving; negative where it gives way to the discs. The "
+         "elastic energy, the reference load and the virtual loads are the base's own affair",
+         of<&E::base_work>},
+        {"energy_residual", "1",
+         "(stored change + friction + damping + bond breaking + stepping - boundary, base and "
+         "gravity work - events) over boundary and gravity work",
+         residual},
     };
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    const double work = e.boundary_work + e.gravity_work;
-    measures.numbers.emplace_back("energy_base_work_j_per_m", e.base_work.value_or(nan));
-    measures.numbers.emplace_back("energy_residual", work != 0.0 ? e.residual() / work : nan);
-    measures.groups.emplace_back("energy_by_event_j_per_m",
-                                 NamedNumbers(e.by_event.begin(), e.by_event.end()));
-    return measures;
+}
+
+std::optional<std::vector<NamedNumbers>> by_event(const Observation& now) {
+    const auto e = balance(now);
+    if (!e)
+        return std::nullopt;
+    return std::vector<NamedNumbers>{e->by_event};
 }
 
 } // namespace
@@ -66,7 +113,13 @@ const Effect& energy() {
         },
         .contribute = [](const Scene&, ModelParts& parts) { parts.accounts_energy = true; },
         .make_events = make_events,
-        .measure = measure,
+        .measures = measures(),
+        .objects = {{"energy_by_event_j_per_m",
+                     "J/m",
+                     "change of kinetic and strain energy by each event",
+                     {},
+                     by_event,
+                     false}},
     };
     return effect;
 }

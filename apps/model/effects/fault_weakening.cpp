@@ -1,5 +1,6 @@
 #include "dem/events/fault_weakening.hpp"
 
+#include "apps/model/measure_names.hpp"
 #include "dem/events/property_update.hpp"
 
 #include "apps/model/effect_list.hpp"
@@ -109,28 +110,33 @@ std::string explain(const Scene& scene, EffectList) {
                        p.circle_diameters * diameter);
 }
 
-/// Share of weak discs, and how far weakening has changed the volume of rock. The latter is over
-/// the hanging wall's area at the start, of which nothing is told once there is more sediment.
-EffectMeasures measure(const Observation& now) {
-    const dem::ConstDiscColumns d = dem::disc_columns(now.state);
-    NamedNumbers numbers;
-    add(numbers, "weak_fraction",
-        static_cast<double>(std::ranges::count(d.material, dem::weak)) /
-            static_cast<double>(d.x.size()));
+/// Over the hanging wall's area at the start, of which nothing is told once there is more sediment.
+std::optional<double> volume_error(const Observation& now) {
     const dem::Ledger& ledger = now.state.ledger;
-    if (ledger.deposited - ledger.removed <= ledger.initial)
-        add(numbers, "volume_error_fraction",
-            std::abs(dem::weakened_volume_change(now.state, now.parts.base)) /
-                dem::hanging_wall_area(*now.scene.hanging_wall,
-                                       now.parts.base.surfaces.front().chain));
-    return {.numbers = std::move(numbers)};
+    if (ledger.deposited - ledger.removed > ledger.initial)
+        return std::nullopt;
+    return std::abs(dem::weakened_volume_change(now.state, now.parts.base)) /
+           dem::hanging_wall_area(*now.scene.hanging_wall, now.parts.base.surfaces.front().chain);
 }
 
-std::vector<FigureLayer> draw(const Observation& now) {
-    FigureLayer layer{"discs_weak", 0, {}};
+std::vector<Measure<Observation>> measures() {
+    return {{weak_fraction, "1", "share of discs weakened by fault detection",
+             [](const Observation& now) -> std::optional<double> {
+                 const auto material = dem::disc_columns(now.state).material;
+                 return static_cast<double>(std::ranges::count(material, dem::weak)) /
+                        static_cast<double>(material.size());
+             }},
+            {"volume_error_fraction", "1",
+             "power-cell area of the weakened discs less what it was before weakening, over the "
+             "hanging wall's area; ends where there is more sediment than rock",
+             volume_error}};
+}
+
+std::vector<double> weak_discs(const Observation& now) {
+    std::vector<double> weak;
     for (const std::uint8_t material : dem::disc_columns(now.state).material)
-        layer.rows.push_back(material == dem::weak ? 1.0 : 0.0);
-    return {layer};
+        weak.push_back(material == dem::weak ? 1.0 : 0.0);
+    return weak;
 }
 
 } // namespace
@@ -168,8 +174,8 @@ const Effect& fault_weakening() {
                 return work.years / p.interval * 330.0 * work.discs +
                        work.years / p.update_interval * 18.0 * work.discs;
             },
-        .measure = measure,
-        .draw = draw,
+        .measures = measures(),
+        .layers = {{"weak", LayerKind::discs, "weakened", "#e9a59a", weak_discs}},
     };
     return effect;
 }

@@ -2,7 +2,6 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/footwall_summary.hpp"
 #include "apps/scene/target_csv.hpp"
 
 #include <fmt/format.h>
@@ -78,10 +77,9 @@ const Effect& footwall_erosion() {
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = "erosion of the footwall",
-        .summarise =
-            [](const dem::Table& history, const dem::State&) {
-                return last_values(history, {"footwall_eroded_m2", "footwall_deposited_m2"});
-            },
+        .measures = {{coupling::footwall_eroded_name, "m2",
+                      "rock that is gone from the footwall left of the breakaway"},
+                     {coupling::footwall_deposited_name, "m2", "sediment that lies there"}},
     };
     return effect;
 }

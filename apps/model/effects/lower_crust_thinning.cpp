@@ -2,7 +2,6 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/footwall_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -64,10 +63,9 @@ const Effect& lower_crust_thinning() {
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = "thinning of the lower crust",
-        .summarise =
-            [](const dem::Table& history, const dem::State&) {
-                return last_values(history, {"lower_crust_thinning_m"});
-            },
+        .measures =
+            {{coupling::lower_crust_thinning_name, "m",
+              "h e / (b + e) of the lower crust's thickness h and width b, and extension e"}},
     };
     return effect;
 }

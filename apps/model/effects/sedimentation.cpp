@@ -4,7 +4,7 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
-#include "dem/genesis.hpp"
+#include "dem/genesis/genesis.hpp"
 
 #include <fmt/format.h>
 
@@ -115,27 +115,74 @@ void check(const Scene& scene, const Refuse& refuse) {
                         text(lowest), text(-thickness)));
 }
 
-EffectMeasures measure(const Observation& now) {
-    const dem::Ledger& ledger = now.state.ledger;
-    EffectMeasures measures{.numbers = {{"deposited_fraction", ledger.deposited / ledger.initial},
-                                        {"eroded_fraction", ledger.removed / ledger.initial}}};
-    const auto* stress = dem::find<const dem::SedimentStress>(now.events);
+const dem::SedimentStress* stress_in(const Observation& now) {
+    return dem::find<const dem::SedimentStress>(now.events);
+}
+
+/// Not a number without layers.
+std::optional<double> stress_ratio(const Observation& now) {
+    const auto* stress = stress_in(now);
     if (!stress)
-        return measures;
-    double sum = 0.0; // not a number without layers
-    std::vector<NamedNumbers> layers;
+        return std::nullopt;
+    double sum = 0.0, layers = 0.0;
     for (const dem::LayerStress& layer : stress->profile()) {
         sum += layer.ratio;
-        NamedNumbers& numbers = layers.emplace_back();
-        numbers = {{"depth_m", layer.depth}, {"ratio", layer.ratio}};
-        if (layer.after_event_ratio)
-            numbers.emplace_back("after_event_ratio", *layer.after_event_ratio);
-        numbers.emplace_back("damping_share", layer.damping_share);
+        layers += 1.0;
     }
-    measures.numbers.emplace_back("sediment_stress_ratio",
-                                  sum / static_cast<double>(layers.size()));
-    measures.lists.emplace_back("sediment_stress_profile", std::move(layers));
-    return measures;
+    return sum / layers;
+}
+
+constexpr Measure<dem::LayerStress> of_layer[] = {
+    {"depth_m", "m", "of the layer's middle below the surface", taken<&dem::LayerStress::depth>},
+    {"ratio", "1", "vertical contact stress over the weight above",
+     taken<&dem::LayerStress::ratio>},
+    {"after_event_ratio", "1",
+     "the ratio in the first 0.5 m of extension after sediment has compacted",
+     taken<&dem::LayerStress::after_event_ratio>},
+    {"damping_share", "1", "vertical force of local damping on the discs above, over their weight",
+     taken<&dem::LayerStress::damping_share>},
+};
+
+std::optional<std::vector<NamedNumbers>> stress_profile(const Observation& now) {
+    const auto* stress = stress_in(now);
+    if (!stress)
+        return std::nullopt;
+    std::vector<NamedNumbers> layers;
+    for (const dem::LayerStress& layer : stress->profile()) {
+        NamedNumbers& numbers = layers.emplace_back();
+        for (const auto& measure : of_layer)
+            if (const auto value = measure.value(layer))
+                numbers.emplace_back(measure.name, *value);
+    }
+    return layers;
+}
+
+std::vector<Measure<Observation>> measures() {
+    return {{"deposited_fraction", "1", "mass that sedimentation brought, over the initial mass",
+             [](const Observation& now) -> std::optional<double> {
+                 return now.state.ledger.deposited / now.state.ledger.initial;
+             }},
+            {"eroded_fraction", "1", "mass that sedimentation took, over the initial mass",
+             [](const Observation& now) -> std::optional<double> {
+                 return now.state.ledger.removed / now.state.ledger.initial;
+             }},
+            {"sediment_stress_ratio", "1",
+             "vertical contact stress in the sediment over the weight above, time mean of the last "
+             "window: mean over the layers of `sediment_stress_profile`. 1: sediment carries its "
+             "weight",
+             stress_ratio}};
+}
+
+std::vector<MeasuredObjects> objects() {
+    MeasuredObjects profile{
+        "sediment_stress_profile",
+        "",
+        "whether sediment carries its weight, in layers 1 to 7 km below the surface",
+        {},
+        stress_profile};
+    for (const auto& measure : of_layer)
+        profile.parts.push_back(measure.quantity());
+    return {profile};
 }
 
 } // namespace
@@ -181,7 +228,8 @@ const Effect& sedimentation() {
         .make_events = make_events,
         .price = price,
         .new_area = new_area,
-        .measure = measure,
+        .measures = measures(),
+        .objects = objects(),
     };
     return effect;
 }

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .dictionary import dictionary, unit_of
 from .errors import Named, RunError, UnknownName
 from .snapshot import Snapshot
 from .table import Table, read_csv
@@ -48,8 +49,8 @@ class Run:
     @cached_property
     def history(self) -> Table:
         """history.csv: a row per snapshot, a column per measure (docs/measures.md), NaN where it has
-        no meaning; units by the names' ends."""
-        return read_csv(self.folder / "history.csv")
+        no meaning; units as the program declares them, or as the last snapshot has them."""
+        return read_csv(self.folder / "history.csv", self._unit_of)
 
     @cached_property
     def summary(self) -> Named:
@@ -87,6 +88,12 @@ class Run:
         `name`, `stratum`, `x_m`, `depth_m` and the others of docs/export.md, which says how they are
         found. `snapshot.lines("horizons")` has those of any moment, and says where they come from."""
         return self._some_snapshots()[-1].lines("horizons")
+
+    def _unit_of(self, name: str) -> str | None:
+        """Of a measure; one that this package does not know may be an effect's of one's own."""
+        if name not in dictionary() and self.snapshots:
+            return self.snapshots[-1].table("run/history").units.get(name)
+        return unit_of(name)
 
     def _some_snapshots(self) -> tuple[Snapshot, ...]:
         if not self.snapshots:

@@ -9,7 +9,8 @@ import numpy as np
 from .errors import Named, RunError, UnknownName
 from .lines import exported_lines
 from .raster import Raster, draw_raster
-from .table import Table, unit_of
+from .dictionary import unit_of
+from .table import Table
 
 try:
     import h5py

@@ -6,35 +6,30 @@ from pathlib import Path
 
 import numpy as np
 
+from .dictionary import doc_of, unit_of
 from .errors import RunError, UnknownName
 
-# Units as names of measures and of exported columns end (docs/measures.md), the longest first.
-_ENDINGS = {"_kg_per_m": "kg/m", "_mm_per_a": "mm/a", "_pa_per_m": "Pa/m", "_n_per_m": "N/m",
-            "_j_per_m": "J/m", "_per_m": "1/m", "_per_s": "1/s", "_deg": "deg", "_rad": "rad",
-            "_m2": "m^2", "_pa": "Pa", "_a": "a", "_m": "m", "_s": "s"}
 _WHOLE = {"cycle", "discs", "line", "stratum", "fault"}  # columns of CSV files that count
 
 
-def unit_of(name: str) -> str:
-    """Unit of a measure by the end of its name; "1" for a ratio or a count. a: years."""
-    return next((unit for ending, unit in _ENDINGS.items() if name.endswith(ending)), "1")
-
-
 class Column(np.ndarray):
-    """A column's numbers, an array of shape (rows,), with their `units`.
+    """A column's numbers, an array of shape (rows,), with their `units` and `doc`, its definition.
 
-    Parts and copies of a column keep its units; what is computed from it is a plain array.
+    Parts and copies of a column keep both; what is computed from it is a plain array.
     """
 
     units: str | None
+    doc: str
 
-    def __new__(cls, values, units: str):
+    def __new__(cls, values, units: str | None, doc: str = ""):
         column = np.asarray(values).view(cls)
         column.units = units
+        column.doc = doc
         return column
 
     def __array_finalize__(self, origin):
         self.units = getattr(origin, "units", None)
+        self.doc = getattr(origin, "doc", "")
 
     def __array_ufunc__(self, ufunc, method, *inputs, out=None, **options):
         if out is not None:
@@ -42,7 +37,7 @@ class Column(np.ndarray):
         return getattr(ufunc, method)(*(_plain(one) for one in inputs), **options)
 
     def __reduce__(self):
-        return Column, (_plain(self), self.units)
+        return Column, (_plain(self), self.units, self.doc)
 
 
 def _plain(values):
@@ -53,11 +48,11 @@ class Table(Mapping):
     """Columns by name, in their order; each is read when it is asked for, every time anew: keep in
     a variable what is used more than once.
 
-    `table["x"]` is a Column, `table.units` {name: unit}, `table.rows` the length of all columns,
+    `table["x"]` is a Column, `table.units` {name: unit}, None where it is not known, `table.rows` the length of all columns,
     `table.to_pandas()` a DataFrame.
     """
 
-    def __init__(self, where: str, rows: int, units: dict[str, str],
+    def __init__(self, where: str, rows: int, units: dict[str, str | None],
                  read: Callable[[str], np.ndarray]):
         self.rows = rows
         self.units = units
@@ -67,7 +62,7 @@ class Table(Mapping):
     def __getitem__(self, name: str) -> Column:
         if name not in self.units:
             raise UnknownName(name, self.units, self._where)
-        return Column(self._read(name), self.units[name])
+        return Column(self._read(name), self.units[name], doc_of(name))
 
     def __iter__(self):
         return iter(self.units)
@@ -79,7 +74,7 @@ class Table(Mapping):
         return name in self.units
 
     def __repr__(self) -> str:
-        columns = ", ".join(name if unit in ("1", "") else f"{name} ({unit})"
+        columns = ", ".join(name if unit in ("1", None) else f"{name} ({unit})"
                             for name, unit in self.units.items())
         return f"<{self._where}: {self.rows} rows of {columns}>"
 
@@ -93,7 +88,7 @@ class Table(Mapping):
         return pandas.DataFrame({name: np.asarray(self[name]) for name in self})
 
 
-def read_csv(path: Path) -> Table:
+def read_csv(path: Path, units: Callable[[str], str | None] = unit_of) -> Table:
     """Table of a CSV file that the program wrote: numbers, NaN where a cell is empty; int64 where a
     column counts; words, as objects, where it has no number. Throws RunError."""
     try:
@@ -105,7 +100,7 @@ def read_csv(path: Path) -> Table:
         raise RunError(f"{path}: is not there") from None
     except (OSError, ValueError) as error:
         raise RunError(f"{path}: cannot be read as a table: {error}") from error
-    return Table(str(path), len(rows), {name: unit_of(name) for name in names},
+    return Table(str(path), len(rows), {name: units(name) for name in names},
                  lambda name: columns[name].copy())
 
 

@@ -1,0 +1,177 @@
+#include "apps/measures/dictionary.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace listric::measures {
+
+using dem::Point;
+
+namespace {
+
+using M = Measures;
+
+constexpr Measure<M> of_structure[] = {
+    {"basin_area_m2", "m2",
+     "area of the basin: between the pre-rift top at the start and now (a packing's top is some "
+     "tens of metres from the original surface)",
+     taken<&M::basin_area>},
+    {"area_balance", "1",
+     "basin area over extension × thickness: 1 less `rock_dilation_fraction`; ends where rock is "
+     "eroded",
+     taken<&M::area_balance>},
+    {"cutoff_x_m", "m",
+     "where the pre-rift top meets the detachment: the shallowest pre-rift disc on it",
+     taken<&M::cutoff, &Point::x>},
+    {"cutoff_z_m", "m", "depth of that place", taken<&M::cutoff, &Point::y>},
+    {"rollover_tilt_deg", "deg",
+     "rotation of the least-squares rigid motion of the discs that started within 5 km of the "
+     "detachment in the upper half; ends beyond the arc",
+     taken<&M::rollover_tilt>},
+    {"breakaway_rotation_deg", "deg",
+     "ramp-flat-ramp only: rotation of the discs that started within 1.5 km of the breakaway, as "
+     "one rigid body",
+     taken<&M::breakaway_rotation>},
+    {"toe_rotation_deg", "deg",
+     "ramp-flat-ramp only: rotation, as one rigid body, of the upper block's toe, the discs that "
+     "started within 1.5 km of the last 15 degrees of the upper ramp; it turns back once over the "
+     "kink",
+     taken<&M::toe_rotation>},
+    {"lower_block_rotation_deg", "deg",
+     "ramp-flat-ramp only: mean rotation of patches of 1.5 km of the discs that started below the "
+     "flat's level, on the lower ramp and within half its height",
+     taken<&M::lower_block_rotation>},
+    {"intervening_high_x_m", "m",
+     "where the basin (smoothed over 1 km) is shallowest between the depocentre nearest the "
+     "breakaway and the most prominent one beyond",
+     taken<&M::intervening_high, &Point::x>},
+    {"intervening_high_z_m", "m", "depth of the basin there",
+     taken<&M::intervening_high, &Point::y>},
+    {"halfgraben_area_share", "1",
+     "share of the basin's area on the breakaway's side of the intervening high; the rest is the "
+     "collapse graben",
+     taken<&M::halfgraben_area_share>},
+};
+
+constexpr Measure<M> of_kinematics[] = {
+    {"dilation_area_m2", "m2",
+     "extension × thickness less basin area: what is missing in the balance of areas",
+     taken<&M::dilation_area>},
+    {"depth_to_detachment_m", "m",
+     "basin area over extension: where an area balance would look for the flat",
+     taken<&M::depth_to_detachment>},
+    {"inclined_shear_angle_deg", "deg",
+     "hanging wall sheared on parallel planes, `z(u) = F(u) - F(u - e)` with `F` the detachment's "
+     "depth where the plane `u = x + z tan(angle)` meets it: best-fitting angle from the vertical, "
+     "positive antithetic",
+     taken<&M::inclined_shear_angle>},
+    {"inclined_shear_misfit_m", "m",
+     "root mean square of the height differences at that angle of inclined shear",
+     taken<&M::inclined_shear_misfit>},
+    {"normals_misfit_m", "m",
+     "root mean square of the height differences for lines that stay normal to the detachment, up "
+     "to half way between the cutoff and the end of the detachment's first piece: the head block",
+     taken<&M::normals_misfit>},
+    {"predicted_tilt_deg", "deg",
+     "normals stay normal: the detachment's dip at the breakaway less that one extension further "
+     "down (extension / radius on an arc); to compare with `rollover_tilt_deg`",
+     taken<&M::predicted_tilt>},
+    {"predicted_cutoff_x_m", "m",
+     "the point of the detachment one extension down from the breakaway",
+     taken<&M::predicted_cutoff, &Point::x>},
+    {"predicted_cutoff_z_m", "m", "depth of that point", taken<&M::predicted_cutoff, &Point::y>},
+    {"predicted_halfgraben_area_share", "1",
+     "normals stay normal: area left of the rollover's crest over extension × depth; (1 + cos dip) "
+     "/ 2 for small slip on an arc",
+     taken<&M::predicted_halfgraben_area_share>},
+};
+
+constexpr Measure<M> of_strain[] = {
+    {"strain_top10", "1", "share of the strain in the most strained tenth of the area",
+     taken<&M::strain_top10>},
+    {"strain_top10_cumulative", "1",
+     "share of the strain since the start in the most strained tenth of the area",
+     taken<&M::strain_top10_cumulative>},
+    {"strain_gini", "1", "Gini coefficient of the strain", taken<&M::strain_gini>},
+};
+
+constexpr Measure<M> of_material[] = {
+    {"basement_unbonded_fraction", "1", "share of touching pre-rift pairs without bond",
+     taken<&M::basement_unbonded_fraction>},
+    {"old_sediment_bonded_fraction", "1",
+     "bonded share of the touching pairs of sediment discs deeper than 1.5 km and older than "
+     "200,000 a",
+     taken<&M::old_sediment_bonded_fraction>},
+};
+
+constexpr Measure<M> of_quality[] = {
+    {"mass_error_fraction", "1",
+     "(mass − (initial + deposited − removed)) / initial, without sign; zero up to round-off",
+     taken<&M::mass_error_fraction>},
+    {"unbalanced_ratio_mean", "1",
+     "unbalanced force on a disc over the mean contact force, sampled every 2,500 a: mean over "
+     "discs and samples",
+     taken<&M::unbalanced_ratio_mean>},
+    {"unbalanced_ratio_max", "1",
+     "unbalanced force on a disc over the mean contact force, sampled every 2,500 a: largest",
+     taken<&M::unbalanced_ratio_max>},
+    {"inertial_number", "1",
+     "strain rate × diameter × sqrt(density / pressure), mean over the tenth of the pre-rift area "
+     "that holds most of it, last window",
+     taken<&M::inertial_number>},
+};
+
+} // namespace
+
+std::span<const MeasureTable> measure_tables() {
+    static constexpr MeasureTable tables[] = {{"structure", of_structure},
+                                              {"kinematics", of_kinematics},
+                                              {"strain", of_strain},
+                                              {"material", of_material},
+                                              {"quality", of_quality}};
+    return tables;
+}
+
+std::string_view name_of(std::optional<double> (*value)(const Measures&)) {
+    for (const MeasureTable& table : measure_tables())
+        for (const Measure<M>& measure : table.measures)
+            if (measure.value == value)
+                return measure.name;
+    assert(false && "no measure is taken so");
+    return {};
+}
+
+constinit const Quantity quasi_static{
+    "quasi_static", "",
+    "whether `unbalanced_ratio_mean` is at most 1e-2 and `inertial_number` at most 2e-3, twice "
+    "what "
+    "`lis1` at draft has; else the run says so and `extension.speed_m_per_s` should be smaller. "
+    "Absent without gravity"};
+
+constinit const Quantity depocentres{
+    "depocentres", "",
+    "maxima of the sediment thickness (smoothed over 1 km) with a prominence of 250 m or more, "
+    "thickest first"};
+
+std::span<const Measure<Depocentre>> depocentre_measures() {
+    using D = Depocentre;
+    static constexpr Measure<D> all[] = {
+        {"x_m", "m", "where it is", taken<&D::x>},
+        {"thickness_m", "m", "of the sediment there", taken<&D::thickness>},
+        {"prominence_m", "m", "height above the saddle to a thicker one", taken<&D::prominence>}};
+    return all;
+}
+
+constinit const Quantity old_sediment_bonded_profile{
+    "old_sediment_bonded_profile", "",
+    "bonded share of the touching pairs of sediment discs older than 200,000 a, by depth"};
+
+std::span<const Measure<BondedLayer>> bonded_layer_measures() {
+    using B = BondedLayer;
+    static constexpr Measure<B> all[] = {
+        {"depth_m", "m", "below the level: middle of a layer 1 km high", taken<&B::depth>},
+        {"bonded_fraction", "1", "bonded share of the layer's pairs", taken<&B::share>}};
+    return all;
+}
+
+} // namespace listric::measures

@@ -1,0 +1,183 @@
+#include "apps/model/effects/elastic_base_driver.hpp"
+
+#include "apps/model/base_driver.hpp"
+#include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/effects/elastic_base_request.hpp"
+#include "apps/model/measure_names.hpp"
+#include "apps/model/model.hpp"
+#include "apps/support/error.hpp"
+#include "coupling/base_memory.hpp"
+#include "coupling/elastic_base.hpp"
+#include "coupling/footwall_loads.hpp"
+#include "coupling/independent_solution.hpp"
+#include "coupling/interface_loads.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/hypotenuse.hpp"
+#include "dem/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace listric {
+
+using namespace dem;
+using namespace coupling;
+
+namespace {
+
+// Where linear elasticity ends: rock that carries bending breaks beyond 2 %; what is relaxed flows,
+// and only its bulk is still meant. A rotation by r is a strain of r^2 / 2 that is overlooked.
+constexpr double strain_allowed = 0.10;
+constexpr double rotation_allowed = 0.20;
+
+/// What the footwall refuses is a scene's mistake.
+auto refusing(auto&& make) {
+    try {
+        return make();
+    } catch (const fem::FootwallError& error) {
+        throw UsageError(fmt::format("elastic_base: {}", error.what()));
+    }
+}
+
+std::unique_ptr<ElasticBase> make_elastic_base(const Scene& scene, const ModelParts& parts,
+                                               fem::Footwall& footwall) {
+    Interface interface = condense(footwall, elastic_base(scene)->degree);
+    const std::size_t last = interface.x.size() - 1;
+    const double spacing = hypotenuse(interface.x[last] - interface.x[last - 1],
+                                      interface.y[last] - interface.y[last - 1]);
+    return std::make_unique<ElasticBase>(std::move(interface),
+                                         make_coupling_parameters(scene, parts, spacing));
+}
+
+/// Why a field is not one of linear elasticity, if so.
+std::optional<std::string> beyond_elasticity(const fem::Guard& guard, double extension) {
+    const double strain = std::max(guard.strong_strain, guard.relaxed_strain);
+    if (!(strain > strain_allowed || guard.rotation > rotation_allowed))
+        return std::nullopt;
+    return fmt::format(
+        "the footwall is strained by {:.1f} % and turned by {:.1f} degrees at {:.0f} m of "
+        "extension; linear elasticity means up to {:.0f} % and {:.1f} degrees. A greater "
+        "elastic_base.young_modulus_pa, elastic_thickness_m or skin_thickness_m, or a smaller "
+        "relaxation, stiffens it",
+        100.0 * strain, guard.rotation * 180.0 / pi, extension, 100.0 * strain_allowed,
+        rotation_allowed * 180.0 / pi);
+}
+
+class ElasticBaseDriver final : public BaseDriver {
+public:
+    ElasticBaseDriver(const Scene& scene, const ModelParts& parts,
+                      std::vector<std::unique_ptr<Event>>& events)
+        : request_(make_footwall_request(scene, parts)),
+          rock_weight_(elastic_base(scene)->crust_density * parts.physics.gravity),
+          footwall_(refusing([&] { return fem::make_footwall(request_); })),
+          base_(refusing([&] { return make_elastic_base(scene, parts, *footwall_); })),
+          loads_(refusing([&] {
+              return FootwallLoads(*footwall_, *base_, make_footwall_loads(scene, parts), events);
+          })) {}
+
+    std::vector<std::string> description() const override {
+        const fem::MeshFacts mesh = footwall_->mesh();
+        return {fmt::format("elastic base: {} elements, {} unknowns, condensed to {} nodes of the "
+                            "detachment",
+                            mesh.cells, mesh.unknowns, base_->interface().x.size())};
+    }
+
+    BaseResponse& response() override { return *base_; }
+    double take_seconds() override { return std::exchange(base_->seconds, 0.0); }
+
+    void settle(State& state, const RigidBase& base, const CyclePhysics& physics,
+                const Execution& execution, const Progress& progress) const override {
+        base_->attach(state);
+        find_contacts(state, base);
+        base_->settle(state, base, physics, execution, progress);
+    }
+
+    BaseWindow end_window(State& state, const RigidBase& rigid) override;
+
+    const fem::Footwall* recover(const State& state) override {
+        fem::Load load = loads_.elsewhere(state);
+        load.interface = base_->interface_forces(state);
+        load.interface.resize(2 * footwall_->interface().size(), 0.0);
+        footwall_->solve(load);
+        return footwall_.get();
+    }
+
+    std::optional<BaseCheck> check(const State& state) const override;
+
+private:
+    fem::FootwallRequest request_;
+    double rock_weight_; ///< N/m^3
+    std::unique_ptr<fem::Footwall> footwall_;
+    std::unique_ptr<ElasticBase> base_;
+    FootwallLoads loads_;
+};
+
+std::optional<BaseCheck> ElasticBaseDriver::check(const State& state) const {
+    const std::optional<ConstInterfaceMeans> means = last_window_means(state);
+    if (!means)
+        return std::nullopt;
+    std::vector<double> all(means->force.begin(), means->force.end());
+    std::vector<double> on_interface = all;
+    add_footwall_loads(state, all);
+    // The effects' loads are solved for as they are now; through the window they have grown.
+    std::vector<double> grown(all.size(), 0.0);
+    if (!means->effects.empty()) {
+        add_footwall_loads(state, grown);
+        std::ranges::transform(grown, means->effects, grown.begin(), std::minus());
+    }
+    std::vector<double> now = base_->displacement(grown);
+    std::ranges::transform(now, means->displacement, now.begin(), std::plus());
+    const std::vector<double> water = interface_loads(state);
+    for (std::size_t k = 0; k < water.size(); ++k)
+        on_interface[k] += water[k];
+    const IndependentSolution fine = refusing([&] {
+        return solve_independently(request_, base_->interface(), on_interface,
+                                   loads_.elsewhere(state));
+    });
+    const double elements = relative_difference(base_->displacement(all), fine.displacement);
+    const double base = relative_difference(now, fine.displacement);
+    return BaseCheck{
+        {{effects::base_elements_difference, elements}, {effects::base_resolved_difference, base}},
+        fmt::format("the base under the last window's mean forces, solved again with {} unknowns: "
+                    "the run's elements are {:.2f} % off, its base {:.2f} %",
+                    fine.unknowns, 100.0 * elements, 100.0 * base)};
+}
+
+BaseWindow ElasticBaseDriver::end_window(State& state, const RigidBase& rigid) {
+    const WindowBalance window = base_->window(state);
+    const InterfaceBalance balance = interface_balance(state, rigid);
+    const fem::Guard guard = recover(state)->guard(rock_weight_);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const bool moved = window.cycles > 0.0, loaded = std::abs(window.weight_change) > 0.0;
+    BaseWindow end;
+    end.measures = {
+        {effects::interface_force_error, balance.force_error},
+        {effects::interface_moment_error, balance.moment_error},
+        {effects::interface_work_error, balance.work_error},
+        {effects::base_reaction_error, moved ? window.reaction_error : nan},
+        {effects::net_wall_load, moved ? window.net_load : nan},
+        {effects::weight_change, moved ? window.weight_change : nan},
+        {effects::net_wall_load_error, loaded ? window.net_load / window.weight_change - 1.0 : nan},
+        {effects::strong_rock_strain, guard.strong_strain},
+        {effects::relaxed_rock_strain, guard.relaxed_strain},
+        {effects::rock_rotation, guard.rotation * 180.0 / pi},
+        {effects::beyond_byerlee, guard.beyond_byerlee},
+    };
+    std::ranges::move(loads_.measures(state), std::back_inserter(end.measures));
+    end.beyond_elasticity = beyond_elasticity(guard, state.clock.extension);
+    base_->end_window(state);
+    return end;
+}
+
+} // namespace
+
+std::unique_ptr<BaseDriver> make_elastic_base_driver(const Scene& scene, const ModelParts& parts,
+                                                     std::vector<std::unique_ptr<Event>>& events) {
+    return std::make_unique<ElasticBaseDriver>(scene, parts, events);
+}
+
+} // namespace listric

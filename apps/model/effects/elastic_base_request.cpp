@@ -1,0 +1,66 @@
+#include "apps/model/effects/elastic_base_request.hpp"
+
+#include "apps/model/effects/elastic_base_parameters.hpp"
+
+#include <cmath>
+
+namespace listric {
+
+using namespace dem;
+using namespace coupling;
+
+fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts& parts) {
+    const auto& base = *elastic_base(scene);
+    const double gravity = parts.physics.gravity;
+    fem::FootwallRequest request;
+    for (const Segment& s : parts.base.surfaces.front().chain)
+        request.detachment.push_back({{s.start.x, s.start.y},
+                                      std::atan2(s.start_tangent.y, s.start_tangent.x),
+                                      s.length,
+                                      s.curvature});
+    request.left = base.left;
+    request.right = base.right;
+    request.depth = base.depth;
+    request.layers = base.layers;
+    if (request.layers.empty())
+        request.layers = {{0.0, base.young_modulus, base.poisson_ratio, base.crust_density}};
+    request.mesh_file = base.mesh_file;
+    request.left_side = base.left_side;
+    request.right_side = base.right_side;
+    request.solver = base.solver;
+    request.refinements = base.refinements;
+    request.elastic_thickness = base.elastic_thickness;
+    request.relaxation = base.relaxation;
+    request.skin_thickness = base.skin_thickness;
+    // Springs at the density contrasts. All of them at the base would leave the plate floating on
+    // rock that carries nothing.
+    request.surface_spring = (base.crust_density - base.infill_density) * gravity;
+    request.detachment_spring = base.crust_density * gravity;
+    request.base_spring = (base.mantle_density - base.crust_density) * gravity;
+    request.degree = base.degree;
+    request.cell_size = base.cell_size;
+    // Discs are left of the right wall; the last contact's face reaches a little further.
+    const double reach = scene.hanging_wall->length + scene.extension.distance;
+    request.interface_end = reach + 3.0 * base.cell_size;
+    request.fine_until = reach + 10.0 * base.cell_size;
+    return request;
+}
+
+CouplingParameters make_coupling_parameters(const Scene& scene, const ModelParts& parts,
+                                            double node_spacing) {
+    const auto& base = *elastic_base(scene);
+    CouplingParameters p;
+    p.scheme = base.scheme;
+    p.interval = base.update_interval;
+    p.modes = base.modes;
+    p.mass_factor = base.mass_factor;
+    p.swing_damping = base.swing_damping;
+    p.damping = scene.cycle.damping;
+    p.contact_stiffness = node_stiffness(scene.basement, parts.materials, node_spacing,
+                                         scene.hanging_wall->mean_radius);
+    p.gravity = parts.physics.gravity;
+    p.wall_x = scene.hanging_wall->length;
+    return p;
+}
+
+} // namespace listric

@@ -1,0 +1,24 @@
+"""What the program's files say under their names: units and definitions, as it declares them."""
+
+import json
+from functools import cache
+from pathlib import Path
+
+
+@cache
+def dictionary() -> dict[str, dict]:
+    """{name: {"table", "unit", "doc", ...}} of all measures (docs/measures.md); "parts" are what the
+    objects of a list have, by their names, too."""
+    entries = json.loads(Path(__file__).with_name("dictionary.json").read_text(encoding="utf-8"))
+    parts = {part["name"]: part for entry in entries for part in entry.get("parts", ())}
+    return parts | {entry["name"]: entry for entry in reversed(entries)}
+
+
+def unit_of(name: str) -> str | None:
+    """Unit of a measure; "1" for a ratio or a count, None where nothing declares the name. a: years."""
+    return dictionary().get(name, {}).get("unit") or None
+
+
+def doc_of(name: str) -> str:
+    """Definition of a measure; empty where nothing declares the name."""
+    return dictionary().get(name, {}).get("doc", "")

@@ -1,0 +1,68 @@
+#include "apps/run/build.hpp"
+
+#include "apps/model/model.hpp"
+#include "apps/run/genesis_cache.hpp"
+#include "dem/ranks/ranked_cycles.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace listric {
+
+using namespace dem;
+
+void add_events(Simulation& simulation, RunView& run) {
+    for (auto& event : make_events(run.scene, run.parts))
+        simulation.add(std::move(event));
+    simulation.report_times_to([&run](const std::string& part, double seconds) {
+        const double base = run.driver ? run.driver->take_seconds() : 0.0;
+        run.record.seconds_by_part[part] += seconds - base;
+        if (base > 0.0)
+            run.record.seconds_by_part[name(Part::base)] += base;
+    });
+}
+
+void drive(Simulation& simulation, RunView& run) {
+    if (run.parts.base_moves && !run.driver) {
+        const PartWatch time = run.watch(Part::base);
+        std::vector<std::unique_ptr<Event>> loads;
+        run.driver = make_base_driver(run.scene, run.parts, loads);
+        for (const std::string& line : run.driver->description())
+            run.log.say(line);
+        for (auto& event : loads)
+            simulation.add(std::move(event));
+    }
+    BaseResponse* const response = run.driver ? &run.driver->response() : nullptr;
+    if (RankedCycles* const on_ranks = run.options.on_ranks)
+        simulation.advance_by(
+            [on_ranks, response](State& state, const RigidBase&, const CyclePhysics&,
+                                 std::int64_t cycles, const Execution& how) {
+                on_ranks->advance(state, cycles, how.state_is_untouched, response);
+            },
+            [on_ranks](State& state) { on_ranks->collect(state); });
+    else if (response)
+        simulation.respond_by(*response);
+}
+
+void start(Simulation& simulation, RunView& run) {
+    drive(simulation, run);
+    State state;
+    {
+        const PartWatch time = run.watch(Part::genesis);
+        state = make_or_recall_hanging_wall(run.scene, run.parts, run.log, run.options.stop,
+                                            run.options.threads);
+    }
+    if (run.driver) {
+        const PartWatch time = run.watch(Part::base);
+        run.driver->settle(state, simulation.base(), simulation.physics(), run.options.execution(),
+                           [&](std::string_view stage, double share) {
+                               run.options.stop.check();
+                               run.log.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
+                           });
+    }
+    simulation.begin(std::move(state));
+    run.log.say(fmt::format("hanging wall: {} discs", run.state().discs.rows()));
+}
+
+} // namespace listric

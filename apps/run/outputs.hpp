@@ -1,0 +1,46 @@
+#pragma once
+
+#include "apps/run/output.hpp"
+
+#include <optional>
+
+// The program's outputs, each in outputs/NAME.cpp, in the order in which they are told:
+// - scene.toml comes first, for a folder is resumed by it.
+// - The history comes before all that is named by moments: its rows say where windows end. A
+//   snapshot holds it.
+// - Snapshots come before what can be made again from them, and takes longer.
+// - Pictures are drawn by a process beside what comes next. They follow faults back, which the
+//   report shows, too.
+// - The summary holds what outputs before it have added; the report shows the summary.
+// - The status comes last: it says that all the others are there.
+// clang-format off
+#define LISTRIC_OUTPUTS(OUTPUT) \
+    OUTPUT(scene_copy) \
+    OUTPUT(history) \
+    OUTPUT(haste) \
+    OUTPUT(snapshots) \
+    OUTPUT(pictures) \
+    OUTPUT(paraview) \
+    OUTPUT(base_check) \
+    OUTPUT(observed) \
+    OUTPUT(summary) \
+    OUTPUT(report) \
+    OUTPUT(status)
+// clang-format on
+
+namespace listric {
+
+namespace outputs {
+#define OUTPUT(name) std::optional<Output> name(const RunView& run);
+LISTRIC_OUTPUTS(OUTPUT)
+#undef OUTPUT
+} // namespace outputs
+
+inline OutputList program_outputs() {
+#define OUTPUT(name) outputs::name,
+    static constexpr MakeOutput list[] = {LISTRIC_OUTPUTS(OUTPUT)};
+#undef OUTPUT
+    return list;
+}
+
+} // namespace listric

@@ -1,0 +1,34 @@
+#include "apps/figures/paraview.hpp"
+
+#include "apps/run/outputs.hpp"
+#include "apps/run/run_view.hpp"
+
+namespace listric {
+
+namespace {
+
+/// Writes the discs of the present moment.
+void save(const RunView& run) {
+    write_paraview(run.options.output, run.state(), run.simulation.base(), run.names(),
+                   run.scene.extension.rate);
+}
+
+/// Where pictures are drawn, writes the field below the discs, too: a file of it is larger.
+void save_window(const RunView& run) {
+    save(run);
+    if (!run.is_drawn() || !run.is_window_end())
+        return;
+    if (const fem::Footwall* footwall = run.footwall())
+        write_footwall(run.options.output, *footwall, run.extension(), run.names(),
+                       run.scene.extension.rate);
+}
+
+} // namespace
+
+std::optional<Output> outputs::paraview(const RunView& run) {
+    if (run.scene.output.series != SeriesFormat::paraview)
+        return std::nullopt;
+    return Output{.begin = save, .resume = save_window, .window = save_window, .save = save};
+}
+
+} // namespace listric

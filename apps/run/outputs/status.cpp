@@ -1,0 +1,32 @@
+#include "apps/archive/json_file.hpp"
+#include "apps/run/outputs.hpp"
+#include "apps/run/run_view.hpp"
+
+#include <cstdint>
+
+namespace listric {
+
+namespace {
+
+const char* name(Phase phase) {
+    constexpr const char* names[] = {"genesis", "extension", "stopped", "finished"};
+    return names[static_cast<int>(phase)];
+}
+
+/// Writes how far the run is.
+void tell(const RunView& run) {
+    const double left = run.phase == Phase::finished ? 0.0 : run.seconds_left();
+    write_object(run.options.output / "status.json",
+                 {{"phase", name(run.phase)},
+                  {"extension_m", run.extension()},
+                  {"of_m", run.target()},
+                  {"seconds_left", static_cast<std::int64_t>(left + 0.5)}});
+}
+
+} // namespace
+
+std::optional<Output> outputs::status(const RunView&) {
+    return Output{.enter = tell, .window = tell};
+}
+
+} // namespace listric

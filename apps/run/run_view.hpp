@@ -1,0 +1,101 @@
+#pragma once
+
+#include "apps/archive/observed_misfit.hpp"
+#include "apps/archive/run_history.hpp"
+#include "apps/archive/snapshot.hpp"
+#include "apps/measures/fault.hpp"
+#include "apps/measures/measures.hpp"
+#include "apps/model/base_driver.hpp"
+#include "apps/run/options.hpp"
+#include "apps/run/part.hpp"
+#include "apps/scene/effect.hpp"
+#include "apps/support/log.hpp"
+#include "apps/support/moment_names.hpp"
+#include "dem/simulation.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+enum class Phase { genesis, extension, stopped, finished };
+
+/// A run as its outputs see it: what it is, where it has come to, and what several of them need,
+/// made once. Scene, options, log and simulation must outlive it.
+class RunView {
+public:
+    RunView(const Scene& scene, const RunOptions& options, Log& log,
+            const dem::Simulation& simulation);
+
+    const Scene& scene;
+    const RunOptions& options;
+    Log& log;
+    const dem::Simulation& simulation;
+    const ModelParts parts;
+    const measures::Setting setting;
+    std::unique_ptr<BaseDriver> driver; ///< null: nothing moves the base, or not yet
+
+    Phase phase = Phase::genesis;
+    archive::RunRecord record;
+    archive::RunHistory past;                       ///< ends of windows before the present one
+    BaseWindow window_of_base;                      ///< that has ended last
+    std::filesystem::path kept;                     ///< snapshot that was written last
+    NamedNumbers numbers;                           ///< of outputs, for summary.json
+    std::vector<archive::ObservedHorizon> observed; ///< the same of picked horizons
+    std::string summary;                            ///< summary.json, once the run is closed
+
+    const dem::State& state() const { return simulation.state(); }
+    double extension() const { return simulation.extension(); }             ///< m
+    double target() const { return options.end(scene.extension.distance); } ///< of extension, m
+    Observation now() const { return {scene, parts, state(), simulation.events()}; }
+
+    int ranks() const;
+
+    /// The footwall with the field of the present moment, until that of another one is recovered;
+    /// null: nothing is known below the base.
+    const fem::Footwall* footwall() const { return driver ? driver->recover(state()) : nullptr; }
+
+    /// By the windows that have ended.
+    MomentNames names() const;
+    bool is_window_end() const { return names().is_window_end(extension()); }
+    double next_window_end() const; ///< extension, m
+    bool is_drawn() const;          ///< whether the scene wants pictures of the present moment
+
+    /// Path of the present moment's snapshot, whether that file exists or not.
+    std::filesystem::path snapshot() const;
+
+    /// Snapshots at the ends of windows up to the present moment, oldest first.
+    std::vector<std::filesystem::path> ended_windows() const;
+
+    const measures::Measures& measured();
+    const measures::FaultReport& faults(); ///< followed back to their birth
+    bool knows_faults() const { return faults_.is_of(extension()); } ///< of the present moment
+
+    double wall_seconds() const { return seconds_before_ + seconds_since(started_); }
+    double seconds_left() const;
+    std::string progress() const; ///< a line about it
+
+    /// Takes over the record of the sessions that this one resumes; their wall time counts, too.
+    void go_on_with(archive::RunRecord earlier);
+
+    PartWatch watch(Part part) { return {record.seconds_by_part, part}; }
+
+private:
+    /// Measures and faults of a moment, as far as they have been made.
+    template <class T> struct Made {
+        std::optional<T> value;
+        double at = -1.0; ///< extension, m
+        bool is_of(double extension) const { return value && at == extension; }
+    };
+    template <class T, class Make> const T& made_once(Made<T>& made, Make&& make);
+
+    double seconds_before_ = 0.0;
+    SteadyClock::time_point started_ = SteadyClock::now();
+    Made<measures::Measures> measures_;
+    Made<measures::FaultReport> faults_;
+};
+
+} // namespace listric

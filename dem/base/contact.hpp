@@ -1,0 +1,174 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/base/place.hpp"
+#include "dem/law.hpp"
+#include "dem/order_free.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace listric::dem {
+
+/// The base in a cycle: what of it changes with time where it does not deform.
+struct BaseInstant {
+    double extension; ///< m
+    double speed;     ///< of extension, m/s
+};
+
+/// A disc as a surface sees it.
+struct BaseContactDisc {
+    double x, y, vx, vy, spin, radius; ///< m, m/s, rad/s, m
+};
+
+/// Force of a surface on a disc, N and N m.
+struct BaseContactForce {
+    double x, y, moment;
+};
+
+/// Speed at which a disc slips past the closest point of a surface, m/s.
+inline double slip_rate_on(const Foot& foot, Point wall_velocity, const BaseContactDisc& disc) {
+    return (disc.vy - wall_velocity.y) * foot.normal.x -
+           (disc.vx - wall_velocity.x) * foot.normal.y - disc.spin * foot.distance;
+}
+
+/// Force on a disc whose closest point of a surface is known and moves with `wall_velocity`, m/s.
+/// Updates the shear force.
+inline BaseContactForce surface_force(const Surface& surface, const Foot& foot, Point wall_velocity,
+                                      const BaseContactDisc& disc, ContactParameters parameters,
+                                      double& shear_force) {
+    const double nx = foot.normal.x, ny = foot.normal.y;
+    const double slip_rate = slip_rate_on(foot, wall_velocity, disc);
+    const auto friction = static_cast<float>(surface.friction);
+    parameters.friction = surface.friction_rule == FrictionRule::smaller
+                              ? std::min(friction, parameters.friction)
+                              : friction;
+    std::uint8_t bonded = 0;
+    const double normal = contact_force(disc.radius - foot.distance, slip_rate, parameters, 0.0f,
+                                        0.0f, shear_force, bonded);
+    return {normal * nx - shear_force * ny, normal * ny + shear_force * nx,
+            -(foot.distance * shear_force)};
+}
+
+/// Velocity of a surface where it has a normal, below a disc at x, m/s. The conveyor runs along the
+/// chain, whose direction is (n_y, -n_x).
+inline Point surface_velocity(const Surface& surface, BaseInstant now, double x, Point normal) {
+    double along = surface.translation.x + surface.conveyor * normal.y;
+    if (surface.stretched_length > 0.0)
+        along += x / (surface.stretched_length + now.extension);
+    return {now.speed * along, now.speed * (surface.translation.y - surface.conveyor * normal.x)};
+}
+
+/// Where a rigid surface and a disc meet and how they move past each other.
+struct BaseContactMotion {
+    Foot foot;
+    double slip_rate; ///< m/s
+};
+
+/// None where the surface has ended.
+inline std::optional<BaseContactMotion> base_contact_motion(const Surface& surface, BaseInstant now,
+                                                            const BaseContactDisc& disc) {
+    const auto foot = nearest(surface, now.extension, {disc.x, disc.y});
+    if (!foot)
+        return std::nullopt;
+    const Point velocity = surface_velocity(surface, now, disc.x, foot->normal);
+    return BaseContactMotion{*foot, slip_rate_on(*foot, velocity, disc)};
+}
+
+/// Force of one rigid surface on one disc; both cycles use it. `parameters` are the stiffness of
+/// surface and disc in series. Updates the shear force.
+inline BaseContactForce base_contact_force(const Surface& surface, BaseInstant now,
+                                           const BaseContactDisc& disc,
+                                           ContactParameters parameters, double& shear_force) {
+    const auto foot = nearest(surface, now.extension, {disc.x, disc.y});
+    if (!foot || foot->distance >= disc.radius) {
+        shear_force = 0.0;
+        return {0.0, 0.0, 0.0};
+    }
+    return surface_force(surface, *foot, surface_velocity(surface, now, disc.x, foot->normal), disc,
+                         parameters, shear_force);
+}
+
+/// Force of a surface that deforms, and to which nodes it goes back.
+struct NodeContactForce {
+    BaseContactForce force = {0.0, 0.0, 0.0};
+    std::size_t node = 0;              ///< first of the face
+    std::array<double, 3> weight = {}; ///< of its nodes; all 0: the force goes to none
+};
+
+/// Where a surface that deforms is closest to a disc, and how that point moves with the nodes.
+struct NodeContactMotion {
+    std::optional<Foot> foot;
+    std::size_t node = 0;              ///< first of the face
+    std::array<double, 3> weight = {}; ///< of its nodes; all 0: the force goes to none
+    Point velocity;                    ///< of the nodes there, m/s
+};
+
+/// `place` is the contact's place on the surface, found anew from there. What presses on the
+/// backstop goes to no node: it stands for nothing that bends.
+template <class NodeColumns>
+NodeContactMotion node_contact_motion(const Surface& surface, const NodeColumns& nodes,
+                                      double extension, const BaseContactDisc& disc,
+                                      double& place) {
+    const BasePlace base{extension, nodes.x, nodes.y, nodes.ux, nodes.uy};
+    NodeContactMotion motion;
+    if (surface.follows == Follows::breakaway) {
+        motion.foot = nearest(surface, base, {disc.x, disc.y});
+        motion.velocity = {nodes.vx[0], nodes.vy[0]};
+    } else if (const auto point = base.trace(surface).nearest({disc.x, disc.y}, place)) {
+        motion.foot = point->foot;
+        place = point->place;
+        motion.node = point->node;
+        motion.weight = point->weight;
+        for (std::size_t k = 0; k <= static_cast<std::size_t>(surface.degree); ++k) {
+            motion.velocity.x += motion.weight[k] * nodes.vx[motion.node + k];
+            motion.velocity.y += motion.weight[k] * nodes.vy[motion.node + k];
+        }
+    } else {
+        place = -1.0;
+    }
+    return motion;
+}
+
+/// How the disc moves past it; none where the surface has ended.
+inline std::optional<BaseContactMotion> surface_motion(const Surface& surface,
+                                                       const NodeContactMotion& motion,
+                                                       BaseInstant now,
+                                                       const BaseContactDisc& disc) {
+    if (!motion.foot)
+        return std::nullopt;
+    const Point runs = surface_velocity(surface, now, disc.x, motion.foot->normal);
+    const Point velocity{motion.velocity.x + runs.x, motion.velocity.y + runs.y};
+    return BaseContactMotion{*motion.foot, slip_rate_on(*motion.foot, velocity, disc)};
+}
+
+/// The force of a surface that deforms; updates shear force and place.
+inline NodeContactForce node_contact_force(const Surface& surface, const BaseNodeColumns& nodes,
+                                           BaseInstant now, const BaseContactDisc& disc,
+                                           ContactParameters parameters, double& shear_force,
+                                           double& place) {
+    const NodeContactMotion motion =
+        node_contact_motion(surface, nodes, now.extension, disc, place);
+    if (!motion.foot || motion.foot->distance >= disc.radius) {
+        shear_force = 0.0;
+        return {};
+    }
+    const Point runs = surface_velocity(surface, now, disc.x, motion.foot->normal);
+    const BaseContactForce force = surface_force(
+        surface, *motion.foot, {motion.velocity.x + runs.x, motion.velocity.y + runs.y}, disc,
+        parameters, shear_force);
+    return {force, motion.node, motion.weight};
+}
+
+/// Adds what a disc does to the wall to the loads of the nodes.
+inline void add_load(const BaseNodeColumns& nodes, const NodeContactForce& f, int degree) {
+    if (f.weight[0] == 0.0 && f.weight[1] == 0.0 && f.weight[2] == 0.0)
+        return;
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) {
+        nodes.load_x[f.node + k] -= load_units(f.weight[k] * f.force.x);
+        nodes.load_y[f.node + k] -= load_units(f.weight[k] * f.force.y);
+    }
+}
+
+} // namespace listric::dem

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "dem/base/place.hpp"
+#include "dem/state.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace listric::dem {
+
+/// The ground that a falling disc meets: how high its centre comes to lie over discs and base.
+class Ground {
+public:
+    /// @param largest_radius  of the discs that will be dropped, m
+    Ground(const State& state, const RigidBase& base, double largest_radius);
+
+    /// Resting place of a disc dropped at x, m: it rolls down to where two obstacles hold it. None
+    /// outside the base.
+    std::optional<Point> rest(double x, double radius) const;
+
+    /// Lowest height, m, of a centre dropped at x; infinite outside the base.
+    double height(double x, double radius) const;
+
+    /// Makes a disc part of the ground.
+    void add(Point centre, double radius);
+
+    double left() const { return left_; }
+    double right() const { return left_ + width_ * static_cast<double>(columns_.size()); }
+
+private:
+    struct Obstacle {
+        Point centre;
+        double radius;
+    };
+
+    std::size_t column(double x) const;
+    double clearance(Point p) const;
+
+    /// Of the base. Where one ends at the start of another, as the backstop does at the breakaway,
+    /// they are joined: then what lies beyond their corner is outside.
+    std::vector<Surface> surfaces_;
+    BasePlace place_;
+    double left_, width_, bottom_;
+    std::vector<std::vector<Obstacle>> columns_;
+};
+
+} // namespace listric::dem

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "dem/base/target_line.hpp"
+#include "dem/cycle_physics.hpp"
+
+namespace listric::dem {
+
+/// Motion of the detachment that is known beforehand: uplift, subsidence, tilt.
+struct BaseMotionParameters {
+    std::vector<TargetStage> uplift = {}; ///< upward displacement by x, at times, m
+    std::vector<TargetStage> shift = {};  ///< rightward, m; may be empty
+};
+
+/// Nodes along a chain, with a node where pieces meet, two for each face about `face` m long.
+std::vector<Point> detachment_nodes(const Chain& chain, double face);
+
+/// Moves the nodes of the base as prescribed, relative to where they are at the start. Between
+/// answers nodes run evenly, and each answer aims at the place itself, so that nothing accumulates.
+class BaseMotion final : public BaseResponse {
+public:
+    /// @param rate  of extension, m/a: the clock of the stages
+    BaseMotion(const BaseMotionParameters& parameters, const Motion& motion, double rate);
+
+    void respond(State& state, const Clock& clock) override;
+
+    Point displacement(double x, double time) const; ///< m at a time, a
+
+private:
+    Target uplift_, shift_;
+    Motion motion_;
+    double rate_;
+};
+
+/// Greatest speed of a node over that of extension: a stage's change of displacement over the
+/// extension during it.
+double greatest_base_speed(const BaseMotionParameters& parameters, double rate);
+
+} // namespace listric::dem

@@ -1,0 +1,103 @@
+#include "dem/contacts/energy.hpp"
+
+#include "dem/base/contact.hpp"
+#include "dem/hypotenuse.hpp"
+#include "dem/radius_rates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric::dem {
+
+namespace {
+
+/// Of a normal spring whose overlap was `before` at the last force and is `now`.
+double normal_energy(double before, double now, bool bonded, const ContactParameters& p) {
+    const double pressed = bonded ? before : std::max(before, 0.0);
+    return 0.5 * static_cast<double>(p.normal_stiffness) * pressed * now;
+}
+
+/// Of a shear spring that the next slip would bring from `force` elsewhere, N.
+double shear_energy(double force, double slip_rate, const ContactParameters& p, double time_step) {
+    if (force == 0.0)
+        return 0.0;
+    const double stiffness_times_step = static_cast<double>(p.shear_stiffness_times_step);
+    return 0.5 * force * (force - stiffness_times_step * slip_rate) * time_step /
+           stiffness_times_step;
+}
+
+} // namespace
+
+StoredEnergy stored_energy(const State& state, const RigidBase& base, double gravity) {
+    const ConstDiscColumns d = disc_columns(state);
+    const ConstContactColumns c = contact_columns(state);
+    const ConstBaseContactColumns b = base_contact_columns(state);
+    const Clock& clock = state.clock;
+    const double dt = clock.time_step;
+    StoredEnergy energy;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
+        const double surface = d.radius[i] * d.spin[i];
+        energy.kinetic +=
+            0.5 * inertia * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i] + 0.5 * surface * surface);
+        energy.potential += d.mass[i] * gravity * (d.y[i] - 0.5 * dt * d.vy[i]);
+    }
+
+    const RadiusRates radii(state);
+    const PairParameters pairs(state.materials, dt);
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
+        const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+        const double dvx = d.vx[j] - d.vx[i], dvy = d.vy[j] - d.vy[i];
+        const double reach = d.radius[i] + d.radius[j];
+        const double distance = std::sqrt(dx * dx + dy * dy);
+        const double before =
+            reach - (radii[i] + radii[j]) * dt - hypotenuse(dx - dvx * dt, dy - dvy * dt);
+        const double now = reach - distance;
+        const ContactParameters& p = pairs(d.material[i], d.material[j]);
+        energy.normal_strain += normal_energy(before, now, c.bonded[k], p);
+        const double slip_rate = (dvy * dx - dvx * dy) / distance -
+                                 (d.radius[i] - 0.5 * now) * d.spin[i] -
+                                 (d.radius[j] - 0.5 * now) * d.spin[j];
+        energy.shear_strain += shear_energy(c.shear_force[k], slip_rate, p, dt);
+    }
+
+    const double speed = base.motion.speed_at(clock.time());
+    const double speed_before = base.motion.speed_at(std::max(0.0, clock.time() - dt));
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    std::vector<double> ux_before(nodes.x.size()), uy_before(nodes.x.size());
+    for (std::size_t k = 0; k < nodes.x.size(); ++k) {
+        ux_before[k] = nodes.ux[k] - nodes.vx[k] * dt;
+        uy_before[k] = nodes.uy[k] - nodes.vy[k] * dt;
+    }
+    for (std::size_t k = 0; k < b.disc.size(); ++k) {
+        const auto i = static_cast<std::size_t>(b.disc[k]);
+        const Surface& surface = base.surfaces[static_cast<std::size_t>(b.surface[k])];
+        const ContactParameters p =
+            base_contact_parameters(base.material, state.materials[d.material[i]], dt);
+        const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
+        const BasePlace before{clock.extension - speed_before * dt, nodes.x, nodes.y, ux_before,
+                               uy_before};
+        std::optional<BaseContactMotion> motion;
+        if (before.deforms(surface)) {
+            double place = state.base_contacts.get<double>("place")[k];
+            motion = surface_motion(
+                surface, node_contact_motion(surface, nodes, clock.extension, disc, place),
+                {clock.extension, speed}, disc);
+        } else {
+            motion = base_contact_motion(surface, {clock.extension, speed}, disc);
+        }
+        const auto foot_before =
+            nearest(surface, before, {d.x[i] - d.vx[i] * dt, d.y[i] - d.vy[i] * dt});
+        if (motion && foot_before)
+            energy.normal_strain +=
+                normal_energy(d.radius[i] - radii[i] * dt - foot_before->distance,
+                              d.radius[i] - motion->foot.distance, false, p);
+        energy.shear_strain +=
+            shear_energy(b.shear_force[k], motion ? motion->slip_rate : 0.0, p, dt);
+    }
+    return energy;
+}
+
+} // namespace listric::dem

@@ -1,0 +1,108 @@
+#include "dem/cycle/plain_account.hpp"
+
+#include "dem/law.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace listric::dem {
+
+struct PlainAccount::BaseContact {
+    const Surface& surface;
+    const BaseContactDisc& disc;
+    const ContactParameters& parameters;
+    std::optional<BaseContactMotion> motion; ///< none where the surface has ended
+    Point node_velocity;                     ///< of the base's nodes there, m/s; 0 if it is rigid
+    BaseContactForce force;                  ///< on the disc
+    double shear_before, shear_after;        ///< shear force, N
+    double radius_rate;                      ///< of the disc, m/s
+};
+
+PlainAccount::PlainAccount(State& state, const RigidBase& base)
+    : state_(state),
+      base_(base), now_{state.clock.extension, base.motion.speed_at(state.clock.time())},
+      d_(disc_columns(state)), c_(contact_columns(state)), b_(base_contact_columns(state)),
+      nodes_(base_node_columns(state)), radii_(state), of_nodes_(state.base_nodes.rows()) {}
+
+void PlainAccount::enter(const BaseContact& contact) {
+    const auto& [surface, disc, p, motion, node_velocity, force, before, after, radius_rate] =
+        contact;
+    const Clock& clock = state_.clock;
+    const Motion& base = base_.motion;
+    const double dt = clock.time_step, time = clock.time();
+    const double speed = base.speed_at(time), next_speed = base.speed_at(time + dt);
+    if (!motion) {
+        flows_.friction += slip_loss(before, before, after, p, dt);
+        return;
+    }
+    const double trial =
+        before - static_cast<double>(p.shear_stiffness_times_step) * motion->slip_rate;
+    flows_.friction += slip_loss(before, trial, after, p, dt);
+
+    // The step before this force and the one after it. Slip knows the speed of the base a step
+    // later.
+    const double last_speed = clock.cycle == 0 ? 0.0 : base.speed_at(time - dt);
+    const Point n = motion->foot.normal, moves = surface.translation;
+    const double now = disc.radius - motion->foot.distance;
+    const double overlap_before =
+        now + dt * ((disc.vx - node_velocity.x - last_speed * moves.x) * n.x +
+                    (disc.vy - node_velocity.y - last_speed * moves.y) * n.y - radius_rate);
+    flows_.radii += (force.x * n.x + force.y * n.y) * radius_rate * dt;
+    flows_.stepping +=
+        normal_loss(std::max(overlap_before, 0.0), overlap_before, std::max(now, 0.0), now, p);
+    flows_.boundary_work +=
+        0.5 * dt *
+        ((last_speed + speed) * (force.x * moves.x + force.y * moves.y) +
+         (speed + next_speed) * surface.conveyor * (force.x * n.y - force.y * n.x));
+    if (surface.stretched_length > 0.0) {
+        const double length = surface.stretched_length + clock.extension;
+        flows_.boundary_work += 0.5 * dt * force.x *
+                                (speed * disc.x / length +
+                                 next_speed * (disc.x + dt * disc.vx) / (length + dt * speed));
+    }
+}
+
+const Surface& PlainAccount::surface_of(std::size_t k) const {
+    return base_.surfaces[static_cast<std::size_t>(b_.surface[k])];
+}
+
+double PlainAccount::radius_rate_of(std::size_t k) const {
+    return radii_[static_cast<std::size_t>(b_.disc[k])];
+}
+
+void PlainAccount::enter_base_contact(std::size_t k, const BaseContactDisc& disc,
+                                      const ContactParameters& p, double shear_before,
+                                      const BaseContactForce& force) {
+    const Surface& surface = surface_of(k);
+    enter({surface, disc, p, base_contact_motion(surface, now_, disc), Point{}, force, shear_before,
+           b_.shear_force[k], radius_rate_of(k)});
+}
+
+void PlainAccount::enter_node_contact(std::size_t k, const BaseContactDisc& disc,
+                                      const ContactParameters& p, double shear_before,
+                                      const NodeContactForce& on_nodes) {
+    const Surface& surface = surface_of(k);
+    // The contact's place has been found: to look again changes nothing.
+    double place = state_.base_contacts.get<double>("place")[k];
+    const NodeContactMotion at = node_contact_motion(surface, nodes_, now_.extension, disc, place);
+    enter({surface, disc, p, surface_motion(surface, at, now_, disc), at.velocity, on_nodes.force,
+           shear_before, b_.shear_force[k], radius_rate_of(k)});
+    if (surface.follows == Follows::breakaway) {
+        of_nodes_[0].x += on_nodes.force.x;
+        of_nodes_[0].y += on_nodes.force.y;
+    } else {
+        for (std::size_t m = 0; m <= static_cast<std::size_t>(surface.degree); ++m) {
+            of_nodes_[on_nodes.node + m].x += on_nodes.weight[m] * on_nodes.force.x;
+            of_nodes_[on_nodes.node + m].y += on_nodes.weight[m] * on_nodes.force.y;
+        }
+    }
+}
+
+void PlainAccount::enter_half_step() {
+    double power = 0.0;
+    for (std::size_t k = 0; k < of_nodes_.size(); ++k)
+        power += of_nodes_[k].x * nodes_.vx[k] + of_nodes_[k].y * nodes_.vy[k];
+    flows_.base_work += 0.5 * state_.clock.time_step * power;
+}
+
+} // namespace listric::dem

@@ -1,0 +1,243 @@
+#include "dem/cycle/plain_cycle.hpp"
+
+#include "dem/base/contact.hpp"
+#include "dem/base/place.hpp"
+#include "dem/contacts/contacts.hpp"
+#include "dem/cycle/plain_account.hpp"
+#include "dem/cycle/plain_pair.hpp"
+#include "dem/damping.hpp"
+#include "dem/law.hpp"
+#include "dem/order_free.hpp"
+#include "dem/radius_rates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace listric::dem {
+
+namespace {
+
+/// Forces of the base on the discs, which also starts their sum.
+template <class Account>
+void base_forces(State& state, const RigidBase& base, std::span<Force> force, Account& account) {
+    const DiscColumns d = disc_columns(state);
+    const BaseContactColumns c = base_contact_columns(state);
+    std::ranges::fill(force, Force{0.0, 0.0, 0.0});
+    const BaseInstant now{state.clock.extension, base.motion.speed_at(state.clock.time())};
+    const BaseNodeColumns nodes = base_node_columns(state);
+    const bool deforms = !nodes.x.empty();
+    const auto places = deforms ? state.base_contacts.get<double>("place") : std::span<double>();
+    for (std::size_t k = 0; k < c.disc.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.disc[k]);
+        const Surface& surface = base.surfaces[static_cast<std::size_t>(c.surface[k])];
+        const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
+        const ContactParameters p = base_contact_parameters(
+            base.material, state.materials[d.material[i]], state.clock.time_step);
+        const double shear_before = c.shear_force[k];
+        BaseContactForce f;
+        if (deforms && surface.follows != Follows::nothing) {
+            const NodeContactForce on_nodes =
+                node_contact_force(surface, nodes, now, disc, p, c.shear_force[k], places[k]);
+            add_load(nodes, on_nodes, surface.degree);
+            f = on_nodes.force;
+            account.enter_node_contact(k, disc, p, shear_before, on_nodes);
+        } else {
+            f = base_contact_force(surface, now, disc, p, c.shear_force[k]);
+            account.enter_base_contact(k, disc, p, shear_before, f);
+        }
+        force[i].x += f.x;
+        force[i].y += f.y;
+        force[i].moment += f.moment;
+    }
+}
+
+/// Forces of discs that touch or are bonded on each other.
+template <class Account>
+void contact_forces(State& state, const PairParameters& pairs, std::span<Force> force,
+                    Account& account) {
+    const DiscColumns d = disc_columns(state);
+    const ContactColumns c = contact_columns(state);
+    for (std::size_t k = 0; k < c.first.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.first[k]),
+                   j = static_cast<std::size_t>(c.second[k]);
+        const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+        const double reach = d.radius[i] + d.radius[j];
+        const double square = dx * dx + dy * dy;
+        const double shear_before = c.shear_force[k];
+        const bool was_bonded = c.bonded[k];
+        double normal = 0.0;
+        if (square >= reach * reach && !was_bonded) {
+            c.shear_force[k] = 0.0;
+        } else {
+            const Pair pair = pair_of(d, i, j, dx, dy, square);
+            normal = contact_force(pair.overlap, pair.slip_rate,
+                                   pairs(d.material[i], d.material[j]), c.tensile_strength[k],
+                                   c.shear_strength[k], c.shear_force[k], c.bonded[k]);
+            const double shear = c.shear_force[k];
+            const double fx = normal * pair.nx - shear * pair.ny;
+            const double fy = normal * pair.ny + shear * pair.nx;
+            force[i].x -= fx;
+            force[i].y -= fy;
+            force[i].moment -= pair.arm_i * shear;
+            force[j].x += fx;
+            force[j].y += fy;
+            force[j].moment -= pair.arm_j * shear;
+        }
+        account.enter_contact(k, pairs(d.material[i], d.material[j]), was_bonded, shear_before,
+                              normal);
+    }
+}
+
+/// The motion that damping leaves alone.
+class UndampedMotion {
+public:
+    /// @param thins  rate in 1/s
+    UndampedMotion(State& state, const CyclePhysics& physics, Stretching thins)
+        : averages_(physics.averaging_time > 0.0), thins_(thins) {
+        if (!averages_)
+            return;
+        mean_vx_ = state.discs.get<float>("mean_vx");
+        mean_vy_ = state.discs.get<float>("mean_vy");
+        if (state.clock.cycle % averaging_interval == 0)
+            weight_ = averaging_interval * state.clock.time_step / physics.averaging_time;
+    }
+
+    Point operator()(const DiscColumns& d, std::size_t i) const { // m/s
+        if (averages_)
+            return {mean_vx_[i], mean_vy_[i]};
+        if (thins_.rate > 0.0)
+            return {thins_.rate * d.x[i], -thins_.rate * (d.y[i] - thins_.floor)};
+        return {0.0, 0.0};
+    }
+
+    /// Takes a sample of the disc's velocity.
+    void learn(const DiscColumns& d, std::size_t i) {
+        if (weight_ == 0.0)
+            return;
+        const double vx = mean_vx_[i], vy = mean_vy_[i];
+        mean_vx_[i] = static_cast<float>(vx + (d.vx[i] - vx) * weight_);
+        mean_vy_[i] = static_cast<float>(vy + (d.vy[i] - vy) * weight_);
+    }
+
+private:
+    bool averages_;
+    Stretching thins_;
+    std::span<float> mean_vx_, mean_vy_;
+    double weight_ = 0.0; ///< of a sample in the mean
+};
+
+/// Newton's law for every disc. Returns the largest component of a velocity, m/s.
+template <class Account>
+double move_discs(State& state, const CyclePhysics& physics, UndampedMotion undamped,
+                  std::span<const Force> force, Account& account) {
+    const DiscColumns d = disc_columns(state);
+    const RadiusRates radii(state);
+    const double dt = state.clock.time_step;
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
+        const double acceleration_per_force = dt / inertia;
+        const double radius = radii.of_inertia(i, d.radius[i]);
+        const double spin_up = acceleration_per_force * (2.0 / (radius * radius));
+        const Force all{force[i].x, force[i].y - d.mass[i] * physics.gravity, force[i].moment};
+        const Point free = undamped(d, i);
+        const Force net{damped(all.x, d.vx[i] - free.x, physics.damping),
+                        damped(all.y, d.vy[i] - free.y, physics.damping),
+                        damped(all.moment, d.spin[i], physics.damping)};
+        const Force before{d.vx[i], d.vy[i], d.spin[i]};
+        d.vx[i] += net.x * acceleration_per_force;
+        d.vy[i] += net.y * acceleration_per_force;
+        d.spin[i] += net.moment * spin_up;
+        account.enter_motion(i, all, net, before);
+        d.x[i] += d.vx[i] * dt;
+        d.y[i] += d.vy[i] * dt;
+        d.rotation[i] += d.spin[i] * dt;
+        d.radius[i] += radii[i] * dt;
+        undamped.learn(d, i);
+        fastest = greater(fastest, greater(std::abs(d.vx[i]), std::abs(d.vy[i])));
+    }
+    return fastest;
+}
+
+/// One plain cycle. It is written to be read. Returns the largest component of a velocity, m/s.
+template <class Account>
+double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
+                     const PairParameters& pairs, std::span<Force> force, BaseResponse* response,
+                     Surroundings& around, Account&& account) {
+    Clock& clock = state.clock;
+    const double speed = base.motion.speed_at(clock.time());
+    base_forces(state, base, force, account);
+    contact_forces(state, pairs, force, account);
+    Stretching thins = stretching(base, clock.extension);
+    thins.rate *= speed;
+    const double disc_speed = move_discs(state, physics, {state, physics, thins}, force, account);
+    account.enter_half_step();
+    around.respond(state, clock, response);
+    account.enter_half_step();
+    const double node_speed = move_nodes(base_node_columns(state), clock.time_step);
+    const double base_speed = greater(greatest_translation(base) * speed, node_speed);
+    clock.extension += speed * clock.time_step;
+    ++clock.cycle;
+    return greater(around.after_cycle(state, disc_speed), base_speed);
+}
+
+/// Adds the greatest speeds of cycles, m/s, to what is known of the displacements.
+void enter_speeds(State& state, std::vector<double>& speeds, Surroundings& around) {
+    around.agree_on(speeds);
+    for (const double fastest : speeds) {
+        state.window_speed = greater(state.window_speed, fastest);
+        state.displacement_bound += std::numbers::sqrt2 * fastest * state.clock.time_step;
+    }
+    speeds.clear();
+}
+
+/// Keeps the neighbour lists good for the cycles up to the next check; false if that cannot be.
+bool check_lists(State& state, const RigidBase& base, Surroundings& around) {
+    if (is_measurement_due(state.displacement_bound, state.skin)) {
+        state.displacement_bound = greatest_displacement(state, base);
+        around.agree_on({&state.displacement_bound, 1});
+        if (is_update_due(state.displacement_bound, state.skin) &&
+            around.update_lists(state, base) == ListUpdate::runaway)
+            return false;
+    }
+    state.check_interval = next_check_interval(state.check_interval, state.window_speed,
+                                               state.clock.time_step, state.skin);
+    state.window_speed = 0.0;
+    return true;
+}
+
+} // namespace
+
+std::int64_t advance_plainly(State& state, const RigidBase& base, const CyclePhysics& physics,
+                             std::int64_t cycles, BaseResponse* response, EnergyFlows* total,
+                             Surroundings& around) {
+    std::vector<Force> force;
+    std::vector<double> speeds; // of cycles since the last check
+    const PairParameters pairs(state.materials, state.clock.time_step);
+    std::int64_t done = 0;
+    for (; done < cycles; ++done) {
+        if (state.clock.cycle % state.check_interval == 0) {
+            enter_speeds(state, speeds, around);
+            if (!check_lists(state, base, around))
+                return done;
+        }
+        force.resize(state.discs.rows()); // it may have changed with the lists
+        const auto cycle = [&](auto&& account) {
+            speeds.push_back(
+                cycle_plainly(state, base, physics, pairs, force, response, around, account));
+        };
+        if (total) {
+            PlainAccount account(state, base); // of one cycle, however calls are cut
+            cycle(account);
+            *total += account.flows();
+        } else {
+            cycle(NoAccount());
+        }
+    }
+    enter_speeds(state, speeds, around);
+    return done;
+}
+
+} // namespace listric::dem

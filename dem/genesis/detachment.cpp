@@ -1,0 +1,93 @@
+#include "dem/genesis/detachment.hpp"
+
+#include "dem/units.hpp"
+
+#include <cassert>
+#include <cmath>
+
+namespace listric::dem {
+
+namespace {
+
+constexpr double high = 1e5; // m, higher than anything piles up
+
+Surface right_wall(double length) {
+    return {"right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, {1.0, 0.0}};
+}
+
+} // namespace
+
+DetachmentSegment arc_to_dip(double end_dip, double radius, std::optional<double> start_dip) {
+    return {DetachmentSegment::Kind::arc, radius, end_dip, 0.0, start_dip};
+}
+
+DetachmentSegment straight(double length, std::optional<double> start_dip) {
+    return {DetachmentSegment::Kind::line, 0.0, 0.0, length, start_dip};
+}
+
+Chain detachment_chain(const DetachmentParameters& detachment, double reach) {
+    const double degree = pi / 180.0;
+    Chain chain;
+    Point start{0.0, 0.0};
+    double dip = detachment.start_dip;
+    for (const DetachmentSegment& piece : detachment.segments) {
+        dip = piece.start_dip.value_or(dip);
+        const Point along{std::cos(dip * degree), -std::sin(dip * degree)};
+        if (piece.kind == DetachmentSegment::Kind::arc) {
+            chain.push_back(arc(start, along, piece.radius, (dip - piece.end_dip) * degree));
+            dip = piece.end_dip;
+        } else {
+            chain.push_back(
+                line(start, {start.x + piece.length * along.x, start.y + piece.length * along.y}));
+        }
+        start = chain.back().end;
+    }
+    if (start.x < reach)
+        chain.push_back(line(start, {reach, start.y}));
+    return chain;
+}
+
+RigidBase make_halfgraben(const DetachmentParameters& detachment, const Extent& extent,
+                          const Material& material, const Motion& motion) {
+    RigidBase base;
+    base.material = material;
+    base.motion = motion;
+    base.surfaces = {
+        {.name = "detachment",
+         .chain = detachment_chain(detachment, extent.reach()),
+         .friction = detachment.friction,
+         .conveyor = 1.0,
+         .friction_rule = detachment.friction_rule},
+        {"backstop", {line({0.0, high}, {0.0, 0.0})}},
+        right_wall(extent.length),
+    };
+    return base;
+}
+
+RigidBase make_stretching_box(const StretchingParameters& parameters, const Extent& extent,
+                              const Material& material, const Motion& motion) {
+    RigidBase base;
+    base.material = material;
+    base.motion = motion;
+    const double floor = -extent.thickness;
+    base.surfaces = {
+        {"base",
+         {line({0.0, floor}, {extent.reach(), floor})},
+         parameters.friction,
+         0.0,
+         {},
+         extent.length},
+        {"left wall", {line({0.0, high}, {0.0, -high})}},
+        right_wall(extent.length),
+    };
+    return base;
+}
+
+void follow_nodes(RigidBase& base, int degree) {
+    assert(base.surfaces.size() >= 2 && degree >= 1);
+    base.surfaces[0].follows = Follows::nodes;
+    base.surfaces[0].degree = degree;
+    base.surfaces[1].follows = Follows::breakaway;
+}
+
+} // namespace listric::dem

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/genesis/genesis.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace listric::dem {
+
+/// One piece of the detachment, joined tangentially to the piece before unless it says otherwise.
+struct DetachmentSegment {
+    enum class Kind { arc, line } kind = Kind::line;
+    double radius = 0.0;                  ///< arc: radius, m
+    double end_dip = 0.0;                 ///< arc: dip at the far end, degrees
+    double length = 0.0;                  ///< line: length, m
+    std::optional<double> start_dip = {}; ///< dip at the near end, degrees; default: no kink
+};
+
+/// Pieces of the detachment; `start_dip` as in DetachmentSegment.
+DetachmentSegment arc_to_dip(double end_dip, double radius, std::optional<double> start_dip = {});
+DetachmentSegment straight(double length, std::optional<double> start_dip = {});
+
+/// The rigid surface on which the hanging wall slides, from the breakaway at (0, 0) down.
+struct DetachmentParameters {
+    double start_dip = 90.0; ///< dip at the breakaway, degrees
+    double friction = 0.5;   ///< between discs and the moving base
+    FrictionRule friction_rule = FrictionRule::wall;
+    std::vector<DetachmentSegment> segments;
+};
+
+/// A flat base that stretches uniformly between the walls, in place of a detachment: pure shear.
+struct StretchingParameters {
+    double friction = 0.3; ///< between discs and the base
+};
+
+/// Room that the base must offer: the hanging wall and how far it is pulled.
+struct Extent {
+    double length = 0.0;    ///< of the hanging wall, m
+    double thickness = 0.0; ///< m
+    double distance = 0.0;  ///< total extension, m
+
+    /// x beyond the right wall's last position, m.
+    double reach() const { return length + 1.5 * distance + thickness; }
+};
+
+/// The detachment's pieces end to end, continued by a flat to x = `reach`, m.
+Chain detachment_chain(const DetachmentParameters& detachment, double reach);
+
+/// Detachment, backstop above the breakaway and right wall.
+RigidBase make_halfgraben(const DetachmentParameters& detachment, const Extent& extent,
+                          const Material& material, const Motion& motion);
+
+/// Flat base that stretches, left wall and right wall.
+RigidBase make_stretching_box(const StretchingParameters& parameters, const Extent& extent,
+                              const Material& material, const Motion& motion);
+
+/// Lets the detachment of a halfgraben be the line through the state's nodes (State::base_nodes)
+/// and the backstop go with the first of them.
+/// @param degree  of the faces between nodes
+void follow_nodes(RigidBase& base, int degree);
+
+} // namespace listric::dem

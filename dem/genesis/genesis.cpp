@@ -1,0 +1,202 @@
+#include "dem/genesis/genesis.hpp"
+
+#include "dem/contacts/contacts.hpp"
+#include "dem/contacts/monitor.hpp"
+#include "dem/genesis/packing.hpp"
+#include "dem/threads/shared_loop.hpp"
+#include "dem/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace listric::dem {
+
+namespace {
+
+/// Grows discs with fewer than three contacts until they carry load (FISHTank's floaters).
+void grow_floaters(State& state, const RigidBase& base, const CyclePhysics& physics, double largest,
+                   const Execution& execution,
+                   const std::function<void(std::string_view, double)>& report) {
+    constexpr int rounds = 40;
+    for (int round = 0; round < rounds; ++round) {
+        report("growing of floaters", static_cast<double>(round) / rounds);
+        const std::vector<int> contacts = coordination(state, base);
+        const DiscColumns d = disc_columns(state);
+        std::size_t floaters = 0;
+        for (std::size_t i = 0; i < d.x.size(); ++i)
+            if (contacts[i] < 3 && d.y[i] < -4.0 * state.mean_radius && d.radius[i] < largest) {
+                d.radius[i] = std::min(largest, 1.01 * d.radius[i]);
+                ++floaters;
+            }
+        if (floaters < d.x.size() / 500)
+            break;
+        find_contacts(state, base);
+        execution.packed->forget();
+        advance(state, base, physics, 50, execution);
+    }
+}
+
+/// Drops discs above the level, found by bisection, that brings the mean top of columns one mean
+/// diameter wide to y = 0.
+void trim(State& state, double length) {
+    const DiscColumns d = disc_columns(state);
+    const double width = 2.0 * state.mean_radius;
+    const auto columns = static_cast<std::size_t>(length / width);
+    const auto mean_top = [&](double cut) {
+        std::vector<double> top(columns, -1e300);
+        for (std::size_t i = 0; i < d.x.size(); ++i) {
+            const double x = d.x[i] / width;
+            if (d.y[i] + d.radius[i] <= cut && x >= 0.0 && x < static_cast<double>(columns)) {
+                double& t = top[static_cast<std::size_t>(x)];
+                t = std::max(t, d.y[i] + d.radius[i]);
+            }
+        }
+        return std::accumulate(top.begin(), top.end(), 0.0) / static_cast<double>(columns);
+    };
+    double low = -2.0 * width, high = 20.0 * width;
+    for (int k = 0; k < 40; ++k) {
+        const double middle = 0.5 * (low + high);
+        (mean_top(middle) < 0.0 ? low : high) = middle;
+    }
+    std::vector<std::int32_t> kept;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.y[i] + d.radius[i] <= high)
+            kept.push_back(static_cast<std::int32_t>(i));
+    reorder_discs(state, kept);
+}
+
+/// Gives the discs below the surface the density that makes their bulk density the rock's.
+void set_masses(State& state, double rock_density, double area) {
+    const DiscColumns d = disc_columns(state);
+    double solid = 0.0;
+    for (double r : d.radius)
+        solid += pi * r * r;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        d.mass[i] = rock_density * area / solid * pi * d.radius[i] * d.radius[i];
+}
+
+/// What discs do counts from here.
+void begin_history(State& state) {
+    const DiscColumns d = disc_columns(state);
+    std::iota(d.id.begin(), d.id.end(), 0);
+    state.next_id = static_cast<std::int64_t>(d.id.size());
+    std::ranges::copy(d.x, d.start_x.begin());
+    std::ranges::copy(d.y, d.start_y.begin());
+    std::ranges::fill(d.rotation, 0.0);
+    state.ledger.initial = std::accumulate(d.mass.begin(), d.mass.end(), 0.0);
+    state.clock.cycle = 0;
+    state.clock.extension = 0.0;
+}
+
+} // namespace
+
+double hanging_wall_area(const HangingWallParameters& p, const Chain& detachment) {
+    double area = 0.0, length = 0.0;
+    for (const Segment& s : detachment)
+        length += s.length;
+    constexpr int pieces = 20000;
+    Point a = point_at(detachment, 0.0);
+    for (int k = 1; k <= pieces; ++k) {
+        Point b = point_at(detachment, length * k / pieces);
+        if (b.x > p.length) {
+            const double share = b.x > a.x ? std::max(0.0, (p.length - a.x) / (b.x - a.x)) : 0.0;
+            b = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+        }
+        area -= 0.5 * (a.y + b.y) * (b.x - a.x);
+        a = b;
+    }
+    return area;
+}
+
+std::size_t disc_count(const HangingWallParameters& p, double area) {
+    return static_cast<std::size_t>(
+        (1.0 - p.porosity) * area /
+        (pi * radius_range(p.mean_radius, p.radius_ratio).mean_square()));
+}
+
+double stable_time_step(double mass, std::span<const Material> materials, double damping,
+                        double safety) {
+    double step = std::numeric_limits<double>::infinity();
+    for (const Material& material : materials)
+        step = std::min(step, stable_time_step(mass, material, damping, safety));
+    return step;
+}
+
+State make_hanging_wall(const GenesisRequest& request,
+                        const std::function<void(std::string_view, double)>& report) {
+    const Team team(request.execution.threads);
+    Packed packed;
+    Execution execution = request.execution;
+    execution.packed = &packed;
+    const HangingWallParameters& p = request.hanging_wall;
+    const auto [smallest, largest] = radius_range(p.mean_radius, p.radius_ratio);
+
+    // Gravity and trimming take some height; the lid leaves it.
+    const double lid = 0.02 * p.thickness + 4.0 * p.mean_radius;
+    RigidBase closed = request.base;
+    closed.motion = {};
+    for (Surface& s : closed.surfaces)
+        s.friction = 0.0;
+    RigidBase open = closed;
+    closed.surfaces.push_back({"lid", {line({2.0 * p.length, lid}, {-p.length, lid})}});
+
+    State state = empty_state();
+    state.seed = request.seed;
+    state.mean_radius = p.mean_radius;
+    state.skin = request.skin * p.mean_radius;
+    state.materials = request.materials;
+    for (Material& m : state.materials)
+        m.friction = 0.0;
+
+    const double area = hanging_wall_area(p, request.base.surfaces.front().chain);
+    const double porosity_under_gravity = 0.166; // where frictionless packings end by themselves
+    const double density = p.rock_density / (1.0 - porosity_under_gravity);
+    const double mean_mass = density * pi * p.mean_radius * p.mean_radius;
+    state.inertial_mass_floor = request.inertial_mass_floor * mean_mass;
+    state.clock.time_step =
+        stable_time_step(request.inertial_mass_floor > 0.0 ? state.inertial_mass_floor
+                                                           : density * pi * smallest * smallest,
+                         state.materials, request.physics.damping, request.time_step_safety);
+
+    add_discs(state, disc_count(p, area + lid * p.length));
+    const std::vector<double> radius =
+        draw_radii({smallest, largest}, state.discs.rows(), state.seed);
+    const DiscColumns d = disc_columns(state);
+    for (std::size_t i = 0; i < radius.size(); ++i)
+        d.mass[i] = density * pi * radius[i] * radius[i];
+    const CyclePhysics weightless{request.physics.damping, 0.0};
+    // Toward rest, against no mean motion.
+    const CyclePhysics physics{request.physics.damping, request.physics.gravity};
+    scatter_and_expand(state, closed, radius, p.length, -p.thickness, lid, request.physics.damping,
+                       report, execution);
+    sort_discs(state);
+    find_contacts(state, closed);
+    settle(
+        state, closed, weightless, 1e-2, 2000,
+        [&](double share) { report("first equilibrium", share); }, execution);
+
+    // Pressure and gravity travel a layer of discs in a few cycles; settling takes many crossings.
+    const int crossing = static_cast<int>(p.thickness / p.mean_radius);
+    find_contacts(state, open);
+    settle(
+        state, open, physics, 2.5e-3, 150 * crossing,
+        [&](double share) { report("settling under gravity", share); }, execution);
+    grow_floaters(state, open, physics, largest, execution, report);
+    trim(state, p.length);
+    set_masses(state, p.rock_density, area);
+    sort_discs(state);
+    find_contacts(state, open);
+    settle(
+        state, open, physics, 2.5e-3, 150 * crossing,
+        [&](double share) { report("second equilibrium", share); }, execution);
+
+    state.materials = request.materials;
+    if (request.bonds)
+        bond_touching(state, *request.bonds, 0);
+    begin_history(state);
+    return state;
+}
+
+} // namespace listric::dem

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "dem/base.hpp"
+#include "dem/cycle/cycle.hpp"
+#include "dem/state.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace listric::dem {
+
+/// The hanging wall before extension [paper, Table 1].
+struct HangingWallParameters {
+    double length = 40e3;         ///< from the breakaway to the moving wall, m
+    double thickness = 15e3;      ///< greatest thickness = depth to the flat detachment, m
+    double mean_radius = 93.1;    ///< mean disc radius, m
+    double radius_ratio = 1.66;   ///< largest over smallest radius
+    double porosity = 0.175;      ///< of the closed packing before gravity is applied
+    double rock_density = 2600.0; ///< bulk density of the packing, kg/m^3
+};
+
+/// Area between surface, detachment and right wall, m^2.
+double hanging_wall_area(const HangingWallParameters& p, const Chain& detachment);
+
+/// Number of discs that fill an area, m^2, at the parameters' porosity.
+std::size_t disc_count(const HangingWallParameters& p, double area);
+
+/// Largest stable time step, s, of discs of any of the materials whose inertial mass is `mass`, kg.
+double stable_time_step(double mass, std::span<const Material> materials, double damping,
+                        double safety);
+
+/// What genesis needs besides the hanging wall itself.
+struct GenesisRequest {
+    HangingWallParameters hanging_wall;
+    RigidBase base; ///< surfaces as in the run; the last one closes the right side
+    std::vector<Material> materials;
+    std::optional<BondStrength> bonds;
+    CyclePhysics physics;
+    double time_step_safety = 0.95;
+    double inertial_mass_floor = 0.75; ///< mean basement disc masses
+    double skin = 0.25;                ///< mean radii
+    std::uint64_t seed = 1;
+    Execution execution = {};
+};
+
+/// Makes a settled, bonded hanging wall [paper, Fig. 2b]: random small discs in its shape, expanded
+/// under a lid to the wanted porosity, frictionless equilibrium, gravity without the lid,
+/// equilibrium, floaters grown until they carry load, the surface trimmed to its level, bonds at
+/// every contact. `report(stage, share done)` is called now and then.
+State make_hanging_wall(const GenesisRequest& request,
+                        const std::function<void(std::string_view, double)>& report);
+
+} // namespace listric::dem
