@@ -18,7 +18,7 @@ namespace {
 using Affine = Eigen::Affine2d;
 using Eigen::Vector2d;
 
-struct Quantity {
+struct NumberWithUnit {
     double value = 0.0;
     std::string_view unit;
 };
@@ -59,7 +59,7 @@ public:
 private:
     template <std::size_t count>
     double in(const std::array<Unit, count>& units, double bare, std::size_t k) const {
-        const Quantity& q = all_[k];
+        const NumberWithUnit& q = all_[k];
         if (q.unit.empty() && (!css_ || q.value == 0.0))
             return q.value * bare;
         if (q.unit.empty())
@@ -79,7 +79,7 @@ private:
     SvgText& text_;
     std::string_view function_;
     bool css_;
-    std::vector<Quantity> all_;
+    std::vector<NumberWithUnit> all_;
 };
 
 Affine translation(double x, double y) { return Affine(Eigen::Translation2d(x, y)); }
