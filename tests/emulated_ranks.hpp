@@ -5,19 +5,45 @@
 #include "dem/ranks/ranks.hpp"
 
 #include <algorithm>
-#include <barrier>
+#include <condition_variable>
 #include <cstdlib>
 #include <functional>
+#include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
 
 namespace listric::support {
 
+/// Blocks threads until all have come. std::barrier spins first, and here threads are more than
+/// cores.
+class Meeting {
+public:
+    explicit Meeting(int count) : count_(count), awaited_(count) {}
+
+    void wait() {
+        std::unique_lock lock(mutex_);
+        const long now = round_;
+        if (--awaited_ == 0) {
+            awaited_ = count_;
+            ++round_;
+            all_here_.notify_all();
+        } else {
+            all_here_.wait(lock, [&] { return round_ != now; });
+        }
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable all_here_;
+    int count_, awaited_;
+    long round_ = 0;
+};
+
 class EmulatedRanks {
 public:
     explicit EmulatedRanks(int count)
-        : count_(count), barrier_(count), bytes_(static_cast<std::size_t>(count)),
+        : count_(count), meeting_(count), bytes_(static_cast<std::size_t>(count)),
           messages_(static_cast<std::size_t>(count)), numbers_(static_cast<std::size_t>(count)),
           bits_(static_cast<std::size_t>(count)), sums_(static_cast<std::size_t>(count)) {}
 
@@ -124,7 +150,7 @@ private:
         template <class T> T& of(std::vector<T>& by_rank) {
             return by_rank[static_cast<std::size_t>(mine_)];
         }
-        void wait() { all_.barrier_.arrive_and_wait(); }
+        void wait() { all_.meeting_.wait(); }
 
         template <class T, class Add>
         void fold(std::vector<std::vector<T>>& by_rank, std::span<T> numbers, Add&& add) {
@@ -146,7 +172,7 @@ private:
     };
 
     int count_;
-    std::barrier<> barrier_;
+    Meeting meeting_;
     std::vector<dem::Bytes> bytes_;                         ///< by rank
     std::vector<std::vector<dem::Bytes>> messages_;         ///< by rank, to rank
     std::vector<std::vector<std::vector<double>>> numbers_; ///< by rank, to rank
