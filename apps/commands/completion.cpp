@@ -5,6 +5,7 @@
 #include "apps/scene/material_file.hpp"
 #include "apps/scene/pieces.hpp"
 #include "apps/scene/tables.hpp"
+#include "apps/studies/flexure_plan.hpp"
 #include "apps/studies/study.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +25,11 @@ namespace {
 using Words = std::vector<std::string>;
 
 Words nothing() { return {}; }
-Words scene_names() { return scenes.names(); }
+Words scene_names() {
+    Words names = scenes.names();
+    names.emplace_back("flexure"); // `run` and others hand it over
+    return names;
+}
 Words material_names() { return materials.names(); }
 Words shells() { return {"bash"}; }
 
@@ -54,6 +59,8 @@ Words assignments() {
         for (const auto* parameters : {&table.parameters, &table.source})
             for (const Parameter& parameter : *parameters)
                 words.push_back(fmt::format("{}.{}=", table.name, parameter.key));
+    for (const Parameter& parameter : flexure_parameters())
+        words.push_back(fmt::format("flexure.{}=", parameter.key));
     return words;
 }
 
