@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Shelf shelf{"flexure plan", "it needs [flexure]", "", "studies"};
+constexpr Shelf flexure_shelf{"flexure plan", "it needs [flexure]", "", "studies"};
 
-constexpr std::string_view doc = "a load on the base alone, without discs";
+constexpr std::string_view flexure_doc = "a load on the base alone, without discs";
 
 /// A table of a plan, and the object whose parameters it has.
 struct PlanTable {
@@ -30,7 +30,7 @@ struct PlanTable {
 std::vector<PlanTable> tables_of(FlexurePlan& plan) {
     const Effect& bender = *plan.base.effect;
     return {
-        {"flexure", doc, flexure_parameters(), &plan.flexure},
+        {"flexure", flexure_doc, flexure_parameters(), &plan.flexure},
         {"gravity",
          "of the rock that is displaced",
          {{"acceleration_m_per_s2",
@@ -124,7 +124,7 @@ const std::vector<Parameter>& flexure_parameters() {
 }
 
 fs::path find_scene_or_plan(const std::string& name_or_path) {
-    const fs::path shipped = shelf.path() / "flexure.toml";
+    const fs::path shipped = flexure_shelf.path() / "flexure.toml";
     std::error_code error;
     const bool is_scene =
         is_path(name_or_path) || fs::exists(scenes.path() / (name_or_path + ".toml"), error);
@@ -133,7 +133,7 @@ fs::path find_scene_or_plan(const std::string& name_or_path) {
 
 bool is_flexure_plan(const std::string& name_or_path) {
     try {
-        return shelf.read(find_scene_or_plan(name_or_path)).contains("flexure");
+        return flexure_shelf.read(find_scene_or_plan(name_or_path)).contains("flexure");
     } catch (const SceneError&) {
         return false; // load_scene() says why
     }
@@ -159,7 +159,7 @@ FlexurePlan load_flexure_plan(const SceneRequest& request) {
             fail_unknown(entry, tables);
     }
     if (!document.contains("flexure"))
-        fail({document, "flexure"}, fmt::format("is missing; {}", shelf.contents));
+        fail({document, "flexure"}, fmt::format("is missing; {}", flexure_shelf.contents));
     check_name(plan, document, plan.file);
     check(plan, document);
     return plan;
@@ -180,7 +180,7 @@ std::string flexure_reference() {
     std::string lines =
         fmt::format("\n[flexure] of a plan of its own (listric flexure), with [gravity] and [{}] "
                     "if need be: {}\n",
-                    base_bender(program_effects()).name, doc);
+                    base_bender(program_effects()).name, flexure_doc);
     for (const Parameter& parameter : flexure_parameters())
         lines += explain(parameter, &defaults);
     return lines;

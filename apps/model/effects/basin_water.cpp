@@ -1,13 +1,11 @@
 #include "coupling/basin_water.hpp"
 
 #include "apps/model/bending_base.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-const Effect& basin_water();
 
 namespace {
 

@@ -1,14 +1,12 @@
 #include "coupling/footwall_erosion.hpp"
 
 #include "apps/model/bending_base.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/scene/target_csv.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-const Effect& footwall_erosion();
 
 namespace {
 
