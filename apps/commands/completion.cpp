@@ -1,7 +1,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/laboratory/laboratory.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/scene/accuracy.hpp"
 #include "apps/scene/material_file.hpp"
 #include "apps/scene/pieces.hpp"
 #include "apps/scene/tables.hpp"
@@ -25,11 +24,15 @@ namespace {
 using Words = std::vector<std::string>;
 
 Words nothing() { return {}; }
-Words scene_names() {
-    Words names = scenes.names();
-    names.emplace_back("flexure"); // `run` and others hand it over
+Words scene_names() { return scenes.names(); }
+
+/// Those, and the plan that calls hand over.
+Words scenes_and_plan() {
+    Words names = scene_names();
+    names.emplace_back("flexure");
     return names;
 }
+
 Words material_names() { return materials.names(); }
 Words shells() { return {"bash"}; }
 
@@ -85,8 +88,8 @@ struct Answer {
 /// What the program's own checks do not tell of a text, by the name of its option or argument, if
 /// need be with its call.
 const std::map<std::string, std::pair<Words (*)(), bool>> texts{
-    {"SCENE", {scene_names, true}},
-    {"FILE", {scene_names, true}},
+    {"SCENE", {scenes_and_plan, true}},
+    {"FILE", {scenes_and_plan, true}},
     {"scene", {scene_names, true}},
     {"accuracy", {accuracy_names, false}},
     {"MATERIAL", {material_names, true}},

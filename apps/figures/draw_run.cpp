@@ -9,7 +9,6 @@
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/flexure_figure.hpp"
-#include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 
 #include <string>

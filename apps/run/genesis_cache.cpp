@@ -14,7 +14,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstdint>
 #include <fcntl.h>
 #include <optional>
 #include <stdexcept>

@@ -6,7 +6,6 @@
 #include "apps/scene/scene_checks.hpp"
 #include "apps/scene/tables.hpp"
 #include "apps/support/spelling.hpp"
-#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

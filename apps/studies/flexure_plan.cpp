@@ -146,6 +146,8 @@ FlexurePlan load_flexure_plan(const SceneRequest& request) {
     if (!request.without.empty())
         fail(fmt::format("--without {}: a plan of flexure has no effects", request.without[0]));
     const toml::table document = merged_document(request, plan.file);
+    if (!document.contains("flexure"))
+        fail({document, "flexure"}, fmt::format("is missing; {}", flexure_shelf.contents));
     const std::vector<PlanTable> tables = tables_of(plan);
     for (const auto& [key, node] : document) {
         const Entry entry{node, std::string(key.str())};
@@ -158,8 +160,6 @@ FlexurePlan load_flexure_plan(const SceneRequest& request) {
         else
             fail_unknown(entry, tables);
     }
-    if (!document.contains("flexure"))
-        fail({document, "flexure"}, fmt::format("is missing; {}", flexure_shelf.contents));
     check_name(plan, document, plan.file);
     check(plan, document);
     return plan;

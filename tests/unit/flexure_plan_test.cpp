@@ -69,6 +69,7 @@ TEST_F(FlexurePlans, NeedALoadAndNothingElse) {
     EXPECT_EQ(error("[flexure]\n"), "no error");
     EXPECT_EQ(error("[flexure]\n[elastic_base]\n[gravity]\n"), "no error");
     EXPECT_THAT(error("[elastic_base]\n"), StartsWith("plan.toml:1: flexure: is missing"));
+    EXPECT_THAT(error("[bonds]\n"), StartsWith("plan.toml:1: flexure: is missing"));
 }
 
 TEST_F(FlexurePlans, RefuseWhatTheyCannotHave) {
