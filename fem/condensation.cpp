@@ -3,7 +3,6 @@
 #include "fem/elasticity.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace listric::fem {

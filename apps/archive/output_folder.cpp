@@ -74,8 +74,8 @@ void require_same_scene(const std::map<std::string, std::string>& now, const std
 
 /// All that a resumed run would take for its own must be of this scene.
 /// @param finished  nothing is left to do: its newest snapshot speaks for the others
-void require_own_run(const Scene& scene, const fs::path& output, bool finished) {
-    const std::map<std::string, std::string> now = scene_values(to_toml(scene));
+void require_own_run(const FolderUse& use, const fs::path& output, bool finished) {
+    const std::map<std::string, std::string> now = scene_values(use.parameters);
     const fs::path file = output / "scene.toml";
     if (const std::string before = read_text_if_there(file); !before.empty())
         require_same_scene(now, before, file);
@@ -94,13 +94,13 @@ void require_own_run(const Scene& scene, const fs::path& output, bool finished) 
 }
 
 /// What is read must not be written over, nor removed with the run that is replaced.
-void keep_what_is_read(const Scene& scene, const fs::path& output, ExistingRun existing) {
+void keep_what_is_read(const FolderUse& use, const fs::path& output, ExistingRun existing) {
     std::error_code error;
-    for (const fs::path& file : scene.files) {
+    for (const fs::path& file : use.files) {
         const bool is_scene = fs::equivalent(output / "scene.toml", file, error) && !error;
         if (is_scene && existing == ExistingRun::resumed && !list_snapshots(output).empty())
             continue; // they are compared
-        if (is_scene && scene_lines(read_text_if_there(file)) == scene_lines(to_toml(scene)))
+        if (is_scene && scene_lines(read_text_if_there(file)) == scene_lines(use.parameters))
             continue; // it stays as it is
         if (would_be_lost(output, file, existing == ExistingRun::replaced))
             throw UsageError(fmt::format(
@@ -112,56 +112,47 @@ void keep_what_is_read(const Scene& scene, const fs::path& output, ExistingRun e
 
 /// Nor what somebody else has put there. Where a run is, files of these names are that run's,
 /// damaged ones included.
-void keep_what_is_there(const Scene& scene, const fs::path& output) {
+void keep_what_is_there(const FolderUse& use, const fs::path& output) {
     if (!list_snapshots(output).empty())
         return;
-    const bool with_base = scene.flexure || make_parts(scene).base_moves;
-    const bool with_series = scene.output.series == SeriesFormat::paraview;
-    if (const auto file = file_in_the_way(output, with_base, with_series))
+    if (const auto file = file_in_the_way(output, use.with_base, use.with_series))
         throw UsageError(fmt::format("{}: is no file of a run, and one in {} would write over it; "
                                      "--output writes elsewhere",
                                      file->string(), output.string()));
 }
 
-} // namespace
-
-bool check_output(const Scene& scene, const fs::path& output, ExistingRun existing, double target) {
+/// Refuses a folder that holds something else than what is asked for, or what would be lost there,
+/// before any work is done. True: the run to resume has reached its end.
+bool check_output(const FolderUse& use, const fs::path& output, ExistingRun existing) {
     const fs::path summary = output / "summary.json";
     std::error_code error;
-    keep_what_is_read(scene, output, existing);
+    keep_what_is_read(use, output, existing);
     if (existing == ExistingRun::refused && holds_run(output))
         throw UsageError(output.string() + " holds " +
                          (fs::exists(summary, error) ? "a finished run" : "an unfinished run") +
                          ": --resume continues it, --force replaces it, --output writes elsewhere");
     if (existing != ExistingRun::resumed || !holds_run(output)) {
-        keep_what_is_there(scene, output);
+        keep_what_is_there(use, output);
         return false;
     }
     const auto reached = summary_extension(summary);
-    const double near = std::max(0.005 * scene.output.interval,
-                                 scene.hanging_wall ? 1e-3 * scene.hanging_wall->mean_radius : 0.0);
-    const bool finished = reached && (scene.flexure || *reached >= target - near);
-    require_own_run(scene, output, finished);
+    const bool finished = reached && *reached >= use.end;
+    require_own_run(use, output, finished);
     return finished;
 }
 
-void require_no_run(const fs::path& output) {
-    if (!list_snapshots(output).empty())
-        throw UsageError(output.string() + " holds a run, whose summary.json would be replaced; "
-                                           "--output writes elsewhere");
-}
-
-void prepare_output(const Scene& scene, const fs::path& output, ExistingRun existing) {
+/// Removes the run that is replaced, and what a session that was killed has left half done.
+void prepare_output(const FolderUse& use, const fs::path& output, ExistingRun existing) {
     std::error_code error;
     if (existing == ExistingRun::replaced) {
         std::vector<fs::path> files = run_files(output);
         std::erase_if(files, [&](const fs::path& file) { // the one that is read, and says the same
             return file == output / "scene.toml" &&
-                   scene_lines(read_text_if_there(file)) == scene_lines(to_toml(scene));
+                   scene_lines(read_text_if_there(file)) == scene_lines(use.parameters);
         });
         remove_all(files);
     }
-    fs::create_directories(scene.flexure ? output : output / "snapshots", error);
+    fs::create_directories(use.with_snapshots ? output / "snapshots" : output, error);
     if (error)
         throw StorageError(output.string() + ": cannot make the output folder: " + error.message());
     remove_all(remains(output));
@@ -169,6 +160,32 @@ void prepare_output(const Scene& scene, const fs::path& output, ExistingRun exis
     listric::write_text(test, "x");
     fs::remove(test, error);
     fs::remove(output / "summary.json", error); // of a run that now goes on
+}
+
+} // namespace
+
+FolderUse folder_use(const Scene& scene, double target) {
+    const double near =
+        std::max(0.005 * scene.output.interval, 1e-3 * scene.hanging_wall.mean_radius);
+    return {to_toml(scene), scene.files, target - near, make_parts(scene).base_moves,
+            scene.output.series == SeriesFormat::paraview};
+}
+
+std::unique_ptr<FolderLock> take_output(const FolderUse& use, const fs::path& output,
+                                        ExistingRun existing) {
+    if (check_output(use, output, existing))
+        return nullptr;
+    std::error_code error;
+    fs::create_directories(output, error);
+    auto lock = std::make_unique<FolderLock>(output);
+    prepare_output(use, output, existing);
+    return lock;
+}
+
+void require_no_run(const fs::path& output) {
+    if (!list_snapshots(output).empty())
+        throw UsageError(output.string() + " holds a run, whose summary.json would be replaced; "
+                                           "--output writes elsewhere");
 }
 
 } // namespace listric::archive

@@ -16,38 +16,42 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void add_scene(Json& json, const Scene& scene) {
-    json["scene_hash"] = fmt::format("{:016x}", scene_hash(scene));
-    json["seed"] = scene.seed;
+void add_scene(Json& json, const std::string& parameters, std::uint64_t seed) {
+    json["scene_hash"] = fmt::format("{:016x}", scene_hash(parameters));
+    json["seed"] = seed;
 }
 
 } // namespace
 
-std::uint64_t scene_hash(const Scene& scene) {
+std::uint64_t scene_hash(const std::string& parameters) {
     std::uint64_t hash = dem::fnv1a_start;
-    for (const std::string& line : scene_lines(to_toml(scene))) {
+    for (const std::string& line : scene_lines(parameters)) {
         hash = dem::fnv1a(line, hash);
         hash = dem::fnv1a("\n", hash);
     }
     return hash;
 }
 
-Json provenance(const Scene& scene) {
+std::uint64_t scene_hash(const Scene& scene) { return scene_hash(to_toml(scene)); }
+
+Json provenance(const std::string& parameters, std::uint64_t seed) {
     const std::size_t plus = version.find('+');
     Json json = {{"version", version.substr(0, plus)}};
     if (plus != version.npos)
         json["commit"] = version.substr(plus + 1);
     json["compiler"] = compiler;
     json["instruction_set"] = instruction_set;
-    add_scene(json, scene);
+    add_scene(json, parameters, seed);
     return json;
 }
+
+Json provenance(const Scene& scene) { return provenance(to_toml(scene), scene.seed); }
 
 Json provenance_of_run(const std::filesystem::path& output, const Scene& scene) {
     Json json = object_at(object_in(output / "summary.json"), "provenance");
     if (!json.empty())
         return json;
-    add_scene(json, scene);
+    add_scene(json, to_toml(scene), scene.seed);
     return json;
 }
 

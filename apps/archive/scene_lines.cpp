@@ -1,7 +1,6 @@
 #include "apps/archive/scene_lines.hpp"
 
 #include <sstream>
-#include <utility>
 
 namespace listric::archive {
 

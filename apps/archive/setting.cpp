@@ -2,15 +2,12 @@
 
 #include "dem/units.hpp"
 
-#include <cassert>
-
 namespace listric::archive {
 
 measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
-    assert(scene.hanging_wall);
     measures::Setting setting;
-    setting.length = scene.hanging_wall->length;
-    setting.thickness = scene.hanging_wall->thickness;
+    setting.length = scene.hanging_wall.length;
+    setting.thickness = scene.hanging_wall.thickness;
     setting.has_detachment = scene.detachment.has_value();
     setting.has_bonds = parts.bonds.has_value();
     setting.gravity = parts.physics.gravity;

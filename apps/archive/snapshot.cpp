@@ -13,7 +13,6 @@
 #include <charconv>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace listric::archive {

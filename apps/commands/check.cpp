@@ -4,6 +4,7 @@
 #include "apps/model/model.hpp"
 #include "apps/run/oversize.hpp"
 #include "apps/scene/material_file.hpp"
+#include "apps/studies/flexure_plan.hpp"
 #include "apps/studies/sweep_plan.hpp"
 #include "apps/studies/validation_plan.hpp"
 #include "apps/support/text.hpp"
@@ -61,11 +62,13 @@ std::string warnings_of(const Scene& scene) {
 
 std::string check_scene_file(const std::string& file, const toml::table& document, Times& times) {
     const SceneRequest request{.scene = file};
-    const Scene scene = load_scene(request);
     const auto tables =
         std::ranges::count_if(document, [](const auto& entry) { return entry.second.is_table(); });
-    if (!scene.hanging_wall)
-        return fmt::format("{} tables, no discs, a few seconds{}", tables, warnings_of(scene));
+    if (document.contains("flexure")) {
+        load_flexure_plan(request);
+        return fmt::format("{} tables, no discs, a few seconds", tables);
+    }
+    const Scene scene = load_scene(request);
     if (const auto oversize = oversize_of(scene, program_effects(), room_for(".")))
         refuse_scene(request, oversize->parameter, oversize->message);
     const Prediction p = times.of(scene);
@@ -84,8 +87,6 @@ std::string check_sweep(const fs::path& file, Times& times) {
     const Scene scene = scene_at(plan, {}, plan.first_seed);
     const auto runs = sweep_points(plan).size() * static_cast<std::size_t>(plan.seeds);
     std::string text = fmt::format("a sweep of {} runs", runs);
-    if (!scene.hanging_wall)
-        return text + warnings_of(scene);
     const Prediction p = times.of(scene);
     const auto all = static_cast<double>(runs);
     text += fmt::format(", {} and {} of disk if each takes as much as {}",
@@ -134,7 +135,7 @@ ExitCode report(const std::string& name, Times& times) {
     fs::path file = name;
     std::string line;
     try {
-        file = scenes.find(name);
+        file = find_scene_or_plan(name);
         line = fmt::format("{}: correct: {}", name, check(name, file, times));
     } catch (const std::exception&) {
         ending = ending_of(std::current_exception());

@@ -24,6 +24,7 @@ Command add_scenes(CLI::App& program);
 Command add_explain(CLI::App& program);
 Command add_export(CLI::App& program);
 Command add_figures(CLI::App& program);
+Command add_flexure(CLI::App& program);
 Command add_report(CLI::App& program);
 Command add_check(CLI::App& program);
 Command add_bench(CLI::App& program);

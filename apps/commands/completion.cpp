@@ -1,10 +1,10 @@
 #include "apps/commands/command.hpp"
 #include "apps/laboratory/laboratory.hpp"
 #include "apps/model/effects.hpp"
-#include "apps/scene/accuracy.hpp"
 #include "apps/scene/material_file.hpp"
 #include "apps/scene/pieces.hpp"
 #include "apps/scene/tables.hpp"
+#include "apps/studies/flexure_plan.hpp"
 #include "apps/studies/study.hpp"
 
 #include <fmt/format.h>
@@ -25,6 +25,14 @@ using Words = std::vector<std::string>;
 
 Words nothing() { return {}; }
 Words scene_names() { return scenes.names(); }
+
+/// Those, and the plan that calls hand over.
+Words scenes_and_plan() {
+    Words names = scene_names();
+    names.emplace_back("flexure");
+    return names;
+}
+
 Words material_names() { return materials.names(); }
 Words shells() { return {"bash"}; }
 
@@ -54,6 +62,8 @@ Words assignments() {
         for (const auto* parameters : {&table.parameters, &table.source})
             for (const Parameter& parameter : *parameters)
                 words.push_back(fmt::format("{}.{}=", table.name, parameter.key));
+    for (const Parameter& parameter : flexure_parameters())
+        words.push_back(fmt::format("flexure.{}=", parameter.key));
     return words;
 }
 
@@ -78,8 +88,8 @@ struct Answer {
 /// What the program's own checks do not tell of a text, by the name of its option or argument, if
 /// need be with its call.
 const std::map<std::string, std::pair<Words (*)(), bool>> texts{
-    {"SCENE", {scene_names, true}},
-    {"FILE", {scene_names, true}},
+    {"SCENE", {scenes_and_plan, true}},
+    {"FILE", {scenes_and_plan, true}},
     {"scene", {scene_names, true}},
     {"accuracy", {accuracy_names, false}},
     {"MATERIAL", {material_names, true}},

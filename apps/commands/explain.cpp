@@ -1,12 +1,9 @@
 #include "apps/commands/explain.hpp"
 
-#include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/model/model.hpp"
-#include "fem/plate.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace listric {
@@ -35,23 +32,6 @@ std::string output_text(const Prediction& prediction) {
 
 namespace {
 
-/// A scene without discs is a matter of seconds.
-std::string explain_flexure(const Scene& scene) {
-    const auto& base = *elastic_base(scene);
-    const double gravity = gravity_of(scene);
-    const fem::Plate plate{base.young_modulus, base.poisson_ratio, base.elastic_thickness,
-                           (base.mantle_density - base.infill_density) * gravity};
-    return fmt::format(
-        "{}: {}\n\nan elastic base without discs\n"
-        "  elastic thickness {:g} km, rigidity {:.3g} N m, restoring {:.4g} Pa/m\n"
-        "  flexural parameter {:.1f} km; {} elements of degree {} through the thickness\n"
-        "  the load acts on the surface and nothing else does: deflections are relative to the\n"
-        "  state without it; infill of {:g} kg/m3 fills them\n"
-        "\na few seconds, with the plug-in for elastic bases (libdeal.ii-dev, petsc-dev)\n",
-        scene.name, scene.description, base.elastic_thickness / 1e3, plate.rigidity(),
-        plate.restoring, plate.alpha() / 1e3, base.cells, base.degree, base.infill_density);
-}
-
 std::string explain_effects(const Scene& scene, EffectList effects) {
     std::string text = "effects\n";
     for (const Effect* effect : effects)
@@ -71,7 +51,7 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
                        "  time step {:.3g} s, {:.3g} million cycles at {} m/s\n"
                        "  {:.2g} disc-steps, about {:.0f} MB of memory\n"
                        "  {}, one every {} m\n\n",
-                       fitted, p.discs_at_start, p.discs_at_end, scene.hanging_wall->mean_radius,
+                       fitted, p.discs_at_start, p.discs_at_end, scene.hanging_wall.mean_radius,
                        extension.distance / 1e3, extension.rate,
                        extension.distance / extension.rate / 1e6, p.time_step, p.cycles / 1e6,
                        extension.speed, p.disc_steps, p.memory / 1e6, output_text(p),
@@ -97,13 +77,13 @@ std::string explain_cost(const Scene& scene, const Prediction& p, const CycleSpe
         "discs", "cycles", "time");
     for (const AccuracyLevel& level : accuracy_levels()) {
         Scene other = scene;
-        other.hanging_wall->mean_radius = level.mean_radius;
+        other.hanging_wall.mean_radius = level.mean_radius;
         other.extension.speed = level.speed;
         const Prediction q = predict(other, speed);
         text += fmt::format("  {:<10} {:>10.4g} {:>9} {:>12.0f} {:>9}{}\n", level.name,
                             level.mean_radius, q.discs_at_start, q.cycles, duration(q.seconds),
-                            level.mean_radius == scene.hanging_wall->mean_radius ? "   <- this call"
-                                                                                 : "");
+                            level.mean_radius == scene.hanging_wall.mean_radius ? "   <- this call"
+                                                                                : "");
     }
     const std::string busy = speed.busy > 1.15 ? fmt::format("; {} while other programs run as now",
                                                              duration(speed.busy * p.seconds))
@@ -114,16 +94,12 @@ std::string explain_cost(const Scene& scene, const Prediction& p, const CycleSpe
 } // namespace
 
 std::string explain(const Scene& scene, int threads, EffectList effects) {
-    CycleSpeed speed;
-    if (scene.hanging_wall)
-        speed =
-            measure_speed(estimated_discs(scene), threads, 0.5, make_parts(scene).accounts_energy);
+    const CycleSpeed speed =
+        measure_speed(estimated_discs(scene), threads, 0.5, make_parts(scene).accounts_energy);
     return explain(scene, speed, threads, effects);
 }
 
 std::string explain(const Scene& scene, const CycleSpeed& speed, int threads, EffectList effects) {
-    if (scene.flexure)
-        return explain_flexure(scene);
     const Prediction p = predict(scene, speed);
     return fmt::format("{}: {}\n\n", scene.name, scene.description) +
            explain_effects(scene, effects) + explain_size(scene, p) +

@@ -1,6 +1,7 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/studies/flexure.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/text.hpp"
@@ -20,9 +21,11 @@ struct ExplainCall {
 
 ExitCode explain(const ExplainCall& call) {
     if (call.parameters)
-        std::cout << parameter_reference(program_effects());
+        std::cout << parameter_reference(program_effects()) << flexure_reference();
     else if (call.scene.scene.empty())
         throw UsageError("explain: a scene is needed, or --parameters");
+    else if (is_flexure_plan(call.scene.scene))
+        std::cout << shown_lines(explain(load_flexure_plan(call.scene)));
     else {
         const Scene scene = load_scene(call.scene);
         std::cout << shown_lines(explain(scene, call.threads, program_effects()));

@@ -2,7 +2,6 @@
 #include "apps/commands/underlay.hpp"
 #include "apps/figures/draw_run.hpp"
 #include "apps/figures/picture_order.hpp"
-#include "apps/run/run.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
 

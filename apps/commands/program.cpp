@@ -105,12 +105,12 @@ ExitCode dispatch(int argc, char** argv) {
     app.set_version_flag("--version", std::string(version));
     app.require_subcommand(1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    const std::vector<Command> commands{add_run(app),        add_scenes(app),   add_explain(app),
-                                        add_check(app),      add_export(app),   add_figures(app),
-                                        add_report(app),     add_bench(app),    add_laboratory(app),
-                                        add_calibrate(app),  add_study(app),    add_sweep(app),
-                                        add_trace(app),      add_validate(app), add_schema(app),
-                                        add_completion(app), add_manual(app)};
+    const std::vector<Command> commands{
+        add_run(app),        add_scenes(app),    add_explain(app),  add_check(app),
+        add_export(app),     add_figures(app),   add_report(app),   add_bench(app),
+        add_laboratory(app), add_calibrate(app), add_study(app),    add_sweep(app),
+        add_flexure(app),    add_trace(app),     add_validate(app), add_schema(app),
+        add_completion(app), add_manual(app)};
     read_numbers_alike(app);
     try {
         app.parse(argc, argv);

@@ -7,6 +7,7 @@
 #include "apps/run/oversize.hpp"
 #include "apps/run/rank_reports.hpp"
 #include "apps/run/ranked_run.hpp"
+#include "apps/studies/flexure.hpp"
 #include "apps/support/number.hpp"
 #include "apps/support/text.hpp"
 
@@ -125,6 +126,13 @@ ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
 
 /// The run in this process alone.
 ExitCode run_alone(const RunCall& call) {
+    if (is_flexure_plan(call.scene.scene)) {
+        const FlexurePlan plan = load_flexure_plan(call.scene);
+        RunOptions options = call.options;
+        options.output = output_of(call, plan.name);
+        run_flexure(plan, options);
+        return ExitCode::done;
+    }
     const Scene scene = load_scene(call.scene);
     check_scene(call, scene, false);
     return exit_code_of(run_scene(scene, options_of(call, scene, false)));
@@ -138,6 +146,8 @@ ExitCode run(RunCall& call) {
     if (asked == 1) // whatever the environment says
         return run_alone(call);
     const Launch launch = read_launch();
+    if ((asked || launch.count > 1) && is_flexure_plan(call.scene.scene))
+        throw UsageError("flexure has no discs to be shared; start one process");
     if (asked && launch.count == 1)
         return start_ranks(*asked, output_of(call, scene_name(call.scene)));
     if (asked && *asked != launch.count)

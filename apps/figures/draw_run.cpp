@@ -1,6 +1,7 @@
 #include "apps/figures/draw_run.hpp"
 
 #include "apps/archive/examine.hpp"
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
@@ -8,7 +9,6 @@
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/flexure_figure.hpp"
-#include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 
 #include <string>
@@ -50,10 +50,9 @@ void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
 void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
               const std::vector<std::string>& formats) {
     std::error_code error;
-    if (fs::exists(output / "deflection.csv", error)) {
-        const Scene scene = load_scene({.scene = (output / "scene.toml").string()});
-        return draw_flexure(output, {formats, provenance_of_run(output, scene)});
-    }
+    if (fs::exists(output / "deflection.csv", error))
+        return draw_flexure(output,
+                            {formats, object_at(object_in(output / "summary.json"), "provenance")});
     const RunFolder run = open_run(output);
     const PictureOrder order{formats, provenance_of_run(output, run.scene)};
     const std::vector<fs::path> chosen = chosen_snapshots(run);

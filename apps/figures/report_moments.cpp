@@ -14,7 +14,6 @@
 #include "apps/support/deflate.hpp"
 #include "apps/support/fineness.hpp"
 #include "apps/support/json_text.hpp"
-#include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/hypotenuse.hpp"
@@ -26,7 +25,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace listric {

@@ -1,7 +1,6 @@
 #include "apps/laboratory/calibration_fit.hpp"
 
 #include "apps/archive/json_file.hpp"
-#include "apps/laboratory/envelope.hpp"
 #include "apps/laboratory/gauss_newton.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 
 namespace listric {
@@ -225,7 +224,7 @@ void report_pure_shear(LaboratoryReport& r, const LaboratoryRequest& request,
     r.summary["predicted_dip_deg"] = predicted;
     r.summary["standard_weakening_rate_per_s"] = rates.weakening;
     r.summary["standard_healing_rate_per_s"] = rates.healing;
-    r.summary["mean_radius_m"] = standard.hanging_wall->mean_radius;
+    r.summary["mean_radius_m"] = standard.hanging_wall.mean_radius;
     Json& table = r.summary["points"] = Json::array();
     for (const SweepPoint& point : points)
         table.push_back(to_json(point));

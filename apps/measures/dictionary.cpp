@@ -1,6 +1,5 @@
 #include "apps/measures/dictionary.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 namespace listric::measures {

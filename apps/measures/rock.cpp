@@ -4,13 +4,10 @@
 #include "dem/base/ground_level.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
-#include "dem/events/property_update.hpp"
-#include "dem/genesis/genesis.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace listric::measures {
 

@@ -1,7 +1,6 @@
 #include "apps/measures/rock_behaviour.hpp"
 
 #include "dem/contacts/contacts.hpp"
-#include "dem/material.hpp"
 
 #include <cassert>
 

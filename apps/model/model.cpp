@@ -15,8 +15,7 @@ using namespace dem;
 
 ModelParts make_parts(const Scene& scene) {
     ModelParts parts;
-    if (scene.hanging_wall)
-        parts.base = make_rigid_base(scene);
+    parts.base = make_rigid_base(scene);
     parts.physics.damping = scene.cycle.damping;
     // A base that stretches says itself how what rests on it moves.
     if (dem::stretching(parts.base, 0.0).rate == 0.0)
@@ -26,10 +25,6 @@ ModelParts make_parts(const Scene& scene) {
         if (part.effect->contribute)
             part.effect->contribute(scene, parts);
     return parts;
-}
-
-double gravity_of(const Scene& scene) {
-    return has_effect(scene, "gravity") ? make_parts(scene).physics.gravity : standard_gravity;
 }
 
 std::vector<std::unique_ptr<Event>> make_events(const Scene& scene, const ModelParts& parts) {

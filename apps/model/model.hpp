@@ -14,9 +14,6 @@ namespace listric {
 /// What a scene asks for besides events: base, materials, physics, with every effect's share.
 ModelParts make_parts(const Scene& scene);
 
-/// Gravity, m/s^2; the earth's where a scene of the base alone does not say.
-double gravity_of(const Scene& scene);
-
 /// The events of a scene, in the order in which they are applied at the same moment. An effect that
 /// is not in the scene has no event, so it has no memory and no cost. Those of the loads on a base
 /// that deforms come with its driver.

@@ -5,7 +5,6 @@
 #include "apps/run/exit_code.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/file.hpp"
-#include "apps/support/memory.hpp"
 #include "dem/cycle/cycle.hpp"
 
 #include <fmt/format.h>

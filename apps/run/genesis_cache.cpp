@@ -14,7 +14,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstdint>
 #include <fcntl.h>
 #include <optional>
 #include <stdexcept>
@@ -112,7 +111,7 @@ State make_anew(const Scene& scene, const ModelParts& parts, Log& log, const Sto
                 int threads) {
     // The hanging wall comes to rest on a base that does too, so its mean motion is none.
     const GenesisRequest request{
-        .hanging_wall = *scene.hanging_wall,
+        .hanging_wall = scene.hanging_wall,
         .base = parts.base,
         .materials = parts.materials,
         .bonds = parts.bonds,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/archive/output_folder.hpp"
 #include "apps/support/stop.hpp"
 #include "dem/cycle/cycle.hpp"
 
@@ -27,6 +28,11 @@ struct RunOptions {
     bool report = true;  ///< report.html is written at the end
     bool live = false;   ///< and after every window
     StopToken stop;      ///< where it is requested, the run saves and stops as soon as it can
+
+    archive::ExistingRun existing() const {
+        using enum archive::ExistingRun;
+        return force ? replaced : resume ? resumed : refused;
+    }
 
     dem::Execution execution() const {
         return {threads, plain ? dem::Cycle::plain : dem::best_cycle()};

@@ -118,8 +118,6 @@ Cause cause_of(const Scene& scene, EffectList effects, const Room& room) {
 } // namespace
 
 std::optional<Oversize> oversize_of(const Scene& scene, EffectList effects, const Room& room) {
-    if (!scene.hanging_wall)
-        return std::nullopt;
     const Prediction p = predict(scene);
     const Excess excess = excess_of(p, room);
     if (!(excess.greatest() > 1.0))

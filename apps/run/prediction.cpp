@@ -166,13 +166,13 @@ std::size_t new_discs(const Scene& s) {
     for (const EffectPart& part : s.effects)
         if (part.effect->new_area)
             area += part.effect->new_area(s);
-    return area > 0.0 ? disc_count(*s.hanging_wall, area) : 0;
+    return area > 0.0 ? disc_count(s.hanging_wall, area) : 0;
 }
 
 } // namespace
 
 Prediction predict(const Scene& scene, const CycleSpeed& speed) {
-    const HangingWallParameters& h = *scene.hanging_wall;
+    const HangingWallParameters& h = scene.hanging_wall;
     const double density = h.rock_density / (1.0 - 0.166);
     const double mean_mass = density * pi * h.mean_radius * h.mean_radius;
     const double smallest = 2.0 / (1.0 + h.radius_ratio);

@@ -111,8 +111,6 @@ std::pair<Scene, RunOptions> agreed_call(Ranks& ranks, const RankedRun& run) {
 } // namespace
 
 std::optional<Objection> objection_to_ranks(const Scene& scene) {
-    if (!scene.hanging_wall)
-        return Objection{"flexure", "has no discs to be shared; start one process"};
     for (const EffectPart& part : scene.effects)
         if (part.effect->on_ranks)
             if (auto objection = part.effect->on_ranks(scene))

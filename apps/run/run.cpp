@@ -3,11 +3,9 @@
 #include "apps/archive/output_folder.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/model/base_driver.hpp"
-#include "apps/run/flexure.hpp"
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/run/session.hpp"
-#include "apps/scene/scene_file.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/memory.hpp"
@@ -38,40 +36,26 @@ std::string with_hint(const std::exception& error, const fs::path& output, std::
 }
 
 MemoryError memory_error(const Scene& scene) {
-    const double bytes = scene.hanging_wall ? predict(scene).memory : 0.0;
-    const std::string discs =
-        bytes > 0.0 ? fmt::format("the run needs about {:.0f} MB", std::ceil(bytes / 1e6))
-                    : "the elastic base takes more than there is";
-    return MemoryError("memory is short: " + discs);
+    return MemoryError(fmt::format("memory is short: the run needs about {:.0f} MB",
+                                   std::ceil(predict(scene).memory / 1e6)));
 }
 
 } // namespace
 
 RunOutcome run_scene(const Scene& scene, const RunOptions& options, OutputList outputs) {
     const fs::path& output = options.output;
-    const ExistingRun existing = options.force    ? ExistingRun::replaced
-                                 : options.resume ? ExistingRun::resumed
-                                                  : ExistingRun::refused;
-    if (check_output(scene, output, existing, options.end(scene.extension.distance)))
+    const auto lock = take_output(folder_use(scene, options.end(scene.extension.distance)), output,
+                                  options.existing());
+    if (!lock)
         return RunOutcome::finished;
-    std::error_code error;
-    fs::create_directories(output, error);
-    const FolderLock lock(output);
-    prepare_output(scene, output, existing);
 
     Log log(output / "log.txt", options.quiet);
     log.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
                         scene.accuracy, scene.seed, output.string()));
-    if (scene.hanging_wall)
-        note_memory_need(predict(scene).memory);
+    note_memory_need(predict(scene).memory);
     try {
-        if (!scene.flexure) {
-            const Team team(options.threads);
-            return Session(scene, options, log, outputs).run();
-        }
-        write_text(output / "scene.toml", to_toml(scene));
-        bend_base(scene, options.threads, output, [&](const std::string& text) { log.say(text); });
-        return RunOutcome::finished;
+        const Team team(options.threads);
+        return Session(scene, options, log, outputs).run();
     } catch (const BeyondElasticity& limit) {
         throw NumericalFailure(
             fmt::format("{}\n{}, and valid", limit.what(), last_good_state(output)));

@@ -4,7 +4,6 @@
 #include "apps/archive/run_files.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/setting.hpp"
-#include "apps/figures/draw_run.hpp"
 #include "apps/model/model.hpp"
 #include "dem/ranks/ranked_cycles.hpp"
 

@@ -1,6 +1,7 @@
 #include "apps/scene/effect.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 
 namespace listric {
@@ -8,6 +9,27 @@ namespace listric {
 bool has_effect(const Scene& scene, std::string_view name) {
     return std::ranges::any_of(scene.effects,
                                [&](const EffectPart& part) { return part.effect->name == name; });
+}
+
+const BendingBase* bending_base(const Scene& scene) {
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->bending_base)
+            return &part.effect->bending_base(part.parameters);
+    return nullptr;
+}
+
+const Effect& base_bender(EffectList effects) {
+    const auto bends = [](const Effect* effect) { return effect->bending_base != nullptr; };
+    const auto bender = std::ranges::find_if(effects, bends);
+    assert(bender != effects.end());
+    return **bender;
+}
+
+std::vector<std::string_view> needed_tables(const Effect& effect, EffectList effects) {
+    std::vector<std::string_view> needed = effect.needs;
+    if (effect.load_footwall)
+        needed.push_back(base_bender(effects).name);
+    return needed;
 }
 
 std::vector<std::string> effect_names(const Scene& scene) {

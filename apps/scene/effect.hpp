@@ -31,6 +31,7 @@ struct FootwallLoad;
 namespace listric {
 
 class BaseDriver;
+struct BendingBase;
 
 /// Refuses a scene because of the value at a path of keys ("table.key"). Throws SceneError.
 using Refuse = std::function<void(const std::string& path, const std::string& message)>;
@@ -116,8 +117,8 @@ struct Observation {
     const dem::State& state;
     std::span<const std::unique_ptr<dem::Event>> events;
 
-    /// Of the hanging wall's right end, m. The scene has a hanging wall.
-    double right_end() const { return scene.hanging_wall->length + state.clock.extension; }
+    /// Of the hanging wall's right end, m.
+    double right_end() const { return scene.hanging_wall.length + state.clock.extension; }
 };
 
 /// An object of summary.json, or a list of such objects.
@@ -174,7 +175,6 @@ struct Effect {
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too
-    bool without_discs = false;               ///< makes sense in a scene of the base alone
     bool in_genesis = false;                  ///< the hanging wall before extension depends on it
 
     void (*scale)(Scene& scene, const AccuracyLevel& level) = nullptr; ///< defaults by accuracy
@@ -186,7 +186,10 @@ struct Effect {
     /// @param others  those of the effects before, in the order in which they are applied
     std::vector<StagedEvent> (*make_events)(const Scene& scene, const ModelParts& parts,
                                             std::span<const StagedEvent> others) = nullptr;
+    /// It needs a base that bends.
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
+    /// The base, of the effect that bends it.
+    const BendingBase& (*bending_base)(const std::any& parameters) = nullptr;
     /// Moves the base's nodes; of a scene's effects at most one does.
     /// @param events  to which those of the loads on the base are appended, for the run to apply
     std::unique_ptr<BaseDriver> (*drive_base)(const Scene& scene, const ModelParts& parts,
@@ -214,6 +217,15 @@ struct Effect {
 
 /// Whether the effect of that name is on.
 bool has_effect(const Scene& scene, std::string_view name);
+
+/// The base of a scene; null where it does not bend.
+const BendingBase* bending_base(const Scene& scene);
+
+/// The effect that bends the base.
+const Effect& base_bender(EffectList effects);
+
+/// Tables that must be there, too, where an effect is on.
+std::vector<std::string_view> needed_tables(const Effect& effect, EffectList effects);
 
 /// Names of the effects that are on.
 std::vector<std::string> effect_names(const Scene& scene);

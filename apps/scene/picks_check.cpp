@@ -46,7 +46,7 @@ struct Room {
 };
 
 Room room_of(const Scene& scene, PickKind kind) {
-    const double length = scene.hanging_wall->length, thickness = scene.hanging_wall->thickness;
+    const double length = scene.hanging_wall.length, thickness = scene.hanging_wall.thickness;
     const double right = length + scene.extension.distance, margin = 0.01 * length;
     if (kind == PickKind::faults) // which are drawn, in the footwall, too
         return {-length, right + length, 3.0 * thickness};
@@ -58,7 +58,7 @@ class Check {
 public:
     Check(Scene& scene, const PickedFile& picked, PickKind kind, double shift)
         : scene_(scene), file_(picked.file), picks_(all_picks(picked)), kind_(kind), shift_(shift),
-          thickness_(scene.hanging_wall->thickness) {}
+          thickness_(scene.hanging_wall.thickness) {}
 
     void all() {
         check_sign();
@@ -96,12 +96,12 @@ private:
     void check_unit() {
         constexpr double tiny = 0.005;
         const double x = greatest(picks_, &Pick::x), depth = greatest(picks_, &Pick::depth);
-        const bool near = x < tiny * scene_.hanging_wall->length && picks_.size() > 1;
+        const bool near = x < tiny * scene_.hanging_wall.length && picks_.size() > 1;
         const bool shallow = depth > 0.0 && depth < tiny * thickness_;
         const std::string ask = fmt::format(
             "picks reach x_m = {} and depth_m = {}, the model {} m and {} m; are they "
             "in metres?",
-            text(x), text(depth), metres(scene_.hanging_wall->length), metres(thickness_));
+            text(x), text(depth), metres(scene_.hanging_wall.length), metres(thickness_));
         if (near && shallow)
             refuse(picks_.front(), ask);
         if (near || shallow)
@@ -152,8 +152,7 @@ private:
 } // namespace
 
 void check_picks(Scene& scene, const PickedFile& picked, PickKind kind, double shift) {
-    if (scene.hanging_wall)
-        Check(scene, picked, kind, shift).all();
+    Check(scene, picked, kind, shift).all();
 }
 
 } // namespace listric

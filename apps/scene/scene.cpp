@@ -14,7 +14,7 @@ bool is_drawn_at(const Scene& scene, double extension) {
 }
 
 RigidBase make_rigid_base(const Scene& scene) {
-    const Extent extent{scene.hanging_wall->length, scene.hanging_wall->thickness,
+    const Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
                         scene.extension.distance};
     const Motion motion{scene.extension.speed, scene.extension.ramp};
     return scene.stretching ? make_stretching_box(*scene.stretching, extent, scene.basement, motion)
@@ -24,14 +24,13 @@ RigidBase make_rigid_base(const Scene& scene) {
 double hanging_wall_area(const Scene& scene) {
     const bool has_base =
         scene.stretching || (scene.detachment && !scene.detachment->segments.empty());
-    return scene.hanging_wall && has_base
-               ? hanging_wall_area(*scene.hanging_wall,
-                                   make_rigid_base(scene).surfaces.front().chain)
-               : 0.0;
+    return has_base ? hanging_wall_area(scene.hanging_wall,
+                                        make_rigid_base(scene).surfaces.front().chain)
+                    : 0.0;
 }
 
 std::size_t estimated_discs(const Scene& scene) {
-    return scene.hanging_wall ? disc_count(*scene.hanging_wall, hanging_wall_area(scene)) : 0;
+    return disc_count(scene.hanging_wall, hanging_wall_area(scene));
 }
 
 } // namespace listric

@@ -36,17 +36,6 @@ struct CycleParameters {
     double skin = 0.25;                ///< neighbour-list margin, mean radii
 };
 
-enum class FlexureLoad { line, broken, strip, sinusoid };
-
-/// A load on the elastic base alone: no discs. Loads are positive downward.
-struct FlexureParameters {
-    FlexureLoad load = FlexureLoad::line;
-    double line_load = 1e12;   ///< V, N/m; a broken plate has V/2 at its end
-    double pressure = 5e7;     ///< of the strip; amplitude of the sinusoid, Pa
-    double half_width = 10e3;  ///< of the strip, m
-    double wavelength = 200e3; ///< of the sinusoid, m
-};
-
 enum class SeriesFormat { paraview, none };
 
 struct OutputParameters {
@@ -62,14 +51,17 @@ struct EffectPart {
     std::any parameters;
 };
 
-/// Everything that determines a simulation. An effect is on exactly when it is listed.
-struct Scene {
+/// What stands above the tables of a file.
+struct Heading {
     std::string name;
     std::string description;
     std::string accuracy = "standard";
     std::uint64_t seed = 1;
+};
 
-    std::optional<dem::HangingWallParameters> hanging_wall;
+/// Everything that determines a simulation. An effect is on exactly when it is listed.
+struct Scene : Heading {
+    dem::HangingWallParameters hanging_wall;
     std::optional<dem::DetachmentParameters> detachment;
     std::optional<PickedFault> picked_fault;
     std::optional<dem::StretchingParameters> stretching;
@@ -78,7 +70,6 @@ struct Scene {
     dem::Material basement; ///< table [material]
     CycleParameters cycle;
     OutputParameters output;
-    std::optional<FlexureParameters> flexure;
 
     std::vector<EffectPart> effects; ///< in the order of the program's list
 

@@ -2,6 +2,7 @@
 
 #include "apps/scene/tables.hpp"
 #include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ namespace {
 void check_detachment(const Scene& scene, const toml::table& document) {
     constexpr double tolerance = 1.0; // m
     const DetachmentParameters& detachment = *scene.detachment;
-    const double thickness = scene.hanging_wall->thickness;
+    const double thickness = scene.hanging_wall.thickness;
     const Entry entry = entry_at(document, "detachment.segments");
     if (detachment.segments.empty())
         fail(entry, "has no arc and no line, needs at least one, for example "
@@ -51,7 +52,7 @@ void check_detachment(const Scene& scene, const toml::table& document) {
                                 "end_dip_deg = 0.0",
                                 text(dip)));
     if (scene.picked_fault)
-        if (const std::string why = too_sharp(detachment, scene.hanging_wall->mean_radius);
+        if (const std::string why = too_sharp(detachment, scene.hanging_wall.mean_radius);
             !why.empty()) {
             const bool drawn = document.at_path("detachment.svg").node() != nullptr;
             const Entry file = entry_at(document, drawn ? "detachment.svg" : "detachment.csv");
@@ -76,10 +77,10 @@ void check_detachment(const Scene& scene, const toml::table& document) {
 
 void check_resolution(const Scene& scene, const toml::table& document) {
     constexpr double fewest = 100, most = 5e6;
-    const double radius = scene.hanging_wall->mean_radius;
+    const double radius = scene.hanging_wall.mean_radius;
     const double area = hanging_wall_area(scene);
     // Counted with so many discs that the count's being whole does not matter.
-    HangingWallParameters fine = *scene.hanging_wall;
+    HangingWallParameters fine = scene.hanging_wall;
     fine.mean_radius = 1e-4 * std::sqrt(area);
     const double fine_discs = static_cast<double>(disc_count(fine, area));
     const auto radius_for = [&](double discs) {
@@ -97,32 +98,10 @@ void check_resolution(const Scene& scene, const toml::table& document) {
         refuse("small", "least", 1.001 * radius_for(most), most);
 }
 
-/// A scene without discs has no effects on discs.
-void check_flexure(const Scene& scene, const toml::table& document) {
-    const auto refuse_discs = [&](std::string_view table) {
-        fail(entry_at(document, std::string(table)),
-             "needs discs, which a scene with [flexure] does not have; leave out one of the two");
-    };
-    if (scene.hanging_wall)
-        refuse_discs("hanging_wall");
-    if (scene.detachment)
-        refuse_discs("detachment");
-    if (scene.stretching)
-        refuse_discs("stretching");
-    for (const EffectPart& part : scene.effects)
-        if (!part.effect->without_discs)
-            refuse_discs(part.effect->name);
-    if (document.contains("materials"))
-        refuse_discs("materials");
-    if (!has_effect(scene, "elastic_base"))
-        fail(entry_at(document, "flexure"), "needs [elastic_base], the plate that bends; add it");
-}
-
 /// That the base on which discs slide is there, once.
 void check_base(const Scene& scene, const toml::table& document) {
-    if (!scene.hanging_wall)
-        fail(entry_at(document, "hanging_wall"),
-             "is missing, every scene needs [hanging_wall] or [flexure]");
+    if (!document.contains("hanging_wall"))
+        fail(entry_at(document, "hanging_wall"), "is missing, every scene needs [hanging_wall]");
     if (scene.detachment && scene.stretching)
         fail(entry_at(document, "stretching"),
              "stands in place of [detachment]; leave out one of the two");
@@ -136,7 +115,7 @@ void check_base(const Scene& scene, const toml::table& document) {
 void check_needs(const Scene& scene, const toml::table& document, EffectList effects) {
     const std::vector<SceneTable> tables = scene_tables(effects);
     for (const EffectPart& part : scene.effects)
-        for (const std::string_view needed : part.effect->needs) {
+        for (const std::string_view needed : needed_tables(*part.effect, effects)) {
             const auto table = std::ranges::find(tables, needed, &SceneTable::name);
             if (table == tables.end() || !table->in(scene))
                 fail(entry_at(document, std::string(part.effect->name)),
@@ -178,16 +157,26 @@ void check_picks(const Scene& scene, const toml::table& document) {
 
 } // namespace
 
+void check_name(const Heading& heading, const toml::table& document,
+                const std::filesystem::path& file) {
+    const std::string why = objection_to_name(heading.name);
+    if (why.empty())
+        return;
+    constexpr const char* allowed = "allowed: the name of one folder, such as \"basin-1\"; "
+                                    "--output writes elsewhere";
+    if (const toml::node* node = document.get("name"))
+        fail({*node, "name"}, fmt::format("\"{}\" {}, {}", heading.name, why, allowed));
+    fail(fmt::format("{}:1: name: the file's own, \"{}\", {}, {}; add name = \"...\" or rename the "
+                     "file",
+                     file.string(), heading.name, why, allowed));
+}
+
 void check_scene(const Scene& scene, const toml::table& document, EffectList effects) {
     check_picks(scene, document);
-    if (scene.flexure) {
-        check_flexure(scene, document);
-    } else {
-        check_base(scene, document);
-        check_needs(scene, document, effects);
-        check_drivers(scene, document);
-        check_resolution(scene, document);
-    }
+    check_base(scene, document);
+    check_needs(scene, document, effects);
+    check_drivers(scene, document);
+    check_resolution(scene, document);
     const Refuse refuse = [&](const std::string& path, const std::string& message) {
         fail(entry_at(document, path), message);
     };

@@ -3,12 +3,17 @@
 #include "apps/scene/effect.hpp"
 #include "apps/scene/toml.hpp"
 
+#include <filesystem>
 #include <string>
 
 namespace listric {
 
 /// The value at a path of keys, or else its table, or else the document.
 Entry entry_at(const toml::table& document, const std::string& path);
+
+/// Results go into a folder of the scene's name, so it must be one. Throws SceneError.
+void check_name(const Heading& heading, const toml::table& document,
+                const std::filesystem::path& file);
 
 /// What tables need of each other, and what no single parameter shows. Throws SceneError.
 void check_scene(const Scene& scene, const toml::table& document, EffectList effects);

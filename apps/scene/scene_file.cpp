@@ -6,7 +6,6 @@
 #include "apps/scene/scene_checks.hpp"
 #include "apps/scene/tables.hpp"
 #include "apps/support/spelling.hpp"
-#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,6 +25,8 @@ namespace {
 
 [[noreturn]] void fail_unknown(const Entry& entry, const std::vector<Parameter>& top,
                                const std::vector<SceneTable>& all) {
+    if (entry.path == "flexure")
+        fail(entry, "is of a plan of its own, which `listric flexure` takes");
     std::vector<std::string_view> allowed = keys(top);
     allowed.push_back("materials");
     std::ranges::transform(all, std::back_inserter(allowed), &SceneTable::name);
@@ -262,23 +263,8 @@ double take_picked_fault(Scene& scene, const SceneTable& table, const toml::tabl
     scene.files.emplace_back(file);
     scene.picked_fault =
         fit_detachment(*scene.detachment, read_fault(source, file), source.tolerance);
-    if (scene.hanging_wall)
-        scene.hanging_wall->thickness = -detachment_chain(*scene.detachment, 0.0).back().end.y;
+    scene.hanging_wall.thickness = -detachment_chain(*scene.detachment, 0.0).back().end.y;
     return source.shift_x;
-}
-
-/// The document that a call asks for.
-toml::table merged_document(const SceneRequest& request, const fs::path& path) {
-    toml::table document = scenes.read(path);
-    for (const std::string& assignment : request.set)
-        set(document, assignment, "--set " + assignment);
-    if (request.accuracy)
-        set(document, "accuracy=" + quoted(*request.accuracy), "--accuracy " + *request.accuracy);
-    if (request.seed) {
-        const std::string seed = std::to_string(*request.seed);
-        set(document, "seed=" + seed, "--seed " + seed);
-    }
-    return document;
 }
 
 void refuse_former_keys(const toml::table& document, EffectList effects) {
@@ -296,7 +282,7 @@ void begin_scene(Scene& scene, const toml::table& document, const std::vector<Sc
         const Entry entry{node, std::string(key.str())};
         if (const auto parameter = std::ranges::find(top_level(), key.str(), &Parameter::key);
             parameter != top_level().end())
-            read(entry, *parameter, &scene);
+            read(entry, *parameter, static_cast<Heading*>(&scene));
         else if (key != "materials" &&
                  std::ranges::find(all, key.str(), &SceneTable::name) == all.end())
             fail_unknown(entry, top_level(), all);
@@ -306,25 +292,10 @@ void begin_scene(Scene& scene, const toml::table& document, const std::vector<Sc
             table.add(table, scene);
 }
 
-/// Results go into a folder of the scene's name, so it must be one.
-void check_name(const Scene& scene, const toml::table& document, const fs::path& file) {
-    const std::string why = objection_to_name(scene.name);
-    if (why.empty())
-        return;
-    constexpr const char* allowed = "allowed: the name of one folder, such as \"basin-1\"; "
-                                    "--output writes elsewhere";
-    if (const toml::node* node = document.get("name"))
-        fail({*node, "name"}, fmt::format("\"{}\" {}, {}", scene.name, why, allowed));
-    fail(fmt::format("{}:1: name: the file's own, \"{}\", {}, {}; add name = \"...\" or rename the "
-                     "file",
-                     file.string(), scene.name, why, allowed));
-}
-
 void set_accuracy(Scene& scene) {
     const AccuracyLevel& level =
         *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
-    if (scene.hanging_wall)
-        scene.hanging_wall->mean_radius = level.mean_radius;
+    scene.hanging_wall.mean_radius = level.mean_radius;
     scene.extension.speed = level.speed;
     for (const EffectPart& part : scene.effects)
         if (part.effect->scale)
@@ -334,6 +305,19 @@ void set_accuracy(Scene& scene) {
 } // namespace
 
 // ------------------------------------------------------------------------------------- interface
+
+toml::table merged_document(const SceneRequest& request, const fs::path& path) {
+    toml::table document = scenes.read(path);
+    for (const std::string& assignment : request.set)
+        set(document, assignment, "--set " + assignment);
+    if (request.accuracy)
+        set(document, "accuracy=" + quoted(*request.accuracy), "--accuracy " + *request.accuracy);
+    if (request.seed) {
+        const std::string seed = std::to_string(*request.seed);
+        set(document, "seed=" + seed, "--seed " + seed);
+    }
+    return document;
+}
 
 Scene load_scene(const SceneRequest& request, EffectList effects) {
     const fs::path path = scenes.find(request.scene);
@@ -382,7 +366,8 @@ void refuse_scene(const SceneRequest& request, const std::string& path,
 std::string to_toml(const Scene& scene) {
     std::vector<const Effect*> effects;
     std::ranges::transform(scene.effects, std::back_inserter(effects), &EffectPart::effect);
-    std::string lines = fmt::format("# All parameters in force.\n\n{}", write(top_level(), &scene));
+    std::string lines = fmt::format("# All parameters in force.\n\n{}",
+                                    write(top_level(), static_cast<const Heading*>(&scene)));
     const FileName none; // what files said is in the parameters
     for (const SceneTable& table : scene_tables(effects))
         if (const void* part = table.find(table, scene))
@@ -393,9 +378,10 @@ std::string to_toml(const Scene& scene) {
 
 std::string parameter_reference(EffectList effects) {
     Scene scene;
+    const Heading heading;
     std::string lines = "At the top of the file\n";
     for (const Parameter& parameter : top_level())
-        lines += explain(parameter, &scene);
+        lines += explain(parameter, &heading);
     lines += "\n[materials]: files of apps/materials by name, others by path\n";
     for (const RockSource& rock : rock_sources(effects)) {
         const FileName name{std::string(rock.file)};

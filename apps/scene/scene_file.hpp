@@ -5,6 +5,7 @@
 #include "apps/support/error.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,7 +16,7 @@ namespace listric {
 /// Where the program's scenes are; the environment's LISTRIC_SCENES names another folder.
 inline constexpr Shelf scenes{"scene",
                               "a scene has at least [hanging_wall] and [detachment] or "
-                              "[stretching], or [flexure] and [elastic_base]",
+                              "[stretching]",
                               "LISTRIC_SCENES", "scenes"};
 
 /// How a call modifies a scene.
@@ -27,6 +28,9 @@ struct SceneRequest {
     std::optional<std::int64_t> seed = {};
     bool is_record = false; ///< what a run has left in its folder, which may have any name
 };
+
+/// The document in a file, with a call's changes. Throws SceneError.
+toml::table merged_document(const SceneRequest& request, const std::filesystem::path& file);
 
 /// Reads, merges (default < accuracy level < scene file < set) and checks a scene with the effects
 /// that there are. Its name is the file's without folder and ending. Throws SceneError.

@@ -170,23 +170,11 @@ Json materials_schema(EffectList effects) {
 /// Which tables need or exclude others, as scene_checks.cpp has it.
 Json dependencies(EffectList effects) {
     Json rules;
-    Json discs = Json::array();
-    for (const char* name : {"hanging_wall", "detachment", "stretching", "materials"})
-        discs.push_back(needs({name}));
-    for (const Effect* effect : effects) {
-        if (!effect->without_discs)
-            discs.push_back(needs({effect->name}));
-        if (effect->needs.empty())
-            continue;
-        // Without discs an effect needs nothing of theirs.
-        rules[std::string(effect->name)] =
-            effect->without_discs
-                ? Json{{"anyOf", Json::array({needs({"flexure"}), needs(effect->needs)})}}
-                : Json(effect->needs);
-    }
+    for (const Effect* effect : effects)
+        if (const auto needed = needed_tables(*effect, effects); !needed.empty())
+            rules[std::string(effect->name)] = needed;
     rules["hanging_wall"] = {
         {"oneOf", Json::array({needs({"detachment"}), needs({"stretching"})})}};
-    rules["flexure"] = {{"required", Json::array({"elastic_base"})}, {"not", {{"anyOf", discs}}}};
     return rules;
 }
 
@@ -212,7 +200,8 @@ std::string finished(const char* title, const Json& schema) {
 
 std::string scene_schema(EffectList effects) {
     Scene scene;
-    Json schema = table_schema("", top_level(), &scene);
+    const Heading heading;
+    Json schema = table_schema("", top_level(), &heading);
     Json& properties = schema["properties"];
     // As objection_to_name() has it.
     properties["name"].update({{"pattern", "^[^/\\x00-\\x1f\\x7f-\\x9f]+$"},
@@ -232,7 +221,7 @@ std::string scene_schema(EffectList effects) {
                 parameter_schema(parameter, table.source_defaults);
     }
     allow_sources(properties["detachment"]);
-    schema["anyOf"] = Json::array({needs({"hanging_wall"}), needs({"flexure"})});
+    schema["required"].push_back("hanging_wall");
     schema["dependencies"] = dependencies(effects);
     return finished("A scene of Listric", schema);
 }

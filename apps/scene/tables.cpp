@@ -232,37 +232,6 @@ std::vector<Parameter> output_parameters() {
     };
 }
 
-std::vector<Parameter> flexure_parameters() {
-    using P = FlexureParameters;
-    return {
-        {"load",
-         one_of<&P::load>({"line", "broken", "strip", "sinusoid"}),
-         "",
-         {},
-         "",
-         "line load on a continuous plate or on a broken one's end, strip load, sinusoidal load"},
-        {"line_load_n_per_m",
-         at<&P::line_load>,
-         "N/m",
-         {.from = 1, .to = 1e15},
-         "V",
-         "downward; the end of a broken plate carries half of it"},
-        {"pressure_pa",
-         at<&P::pressure>,
-         "Pa",
-         {.from = 1, .to = 1e10},
-         "",
-         "of the strip, downward; amplitude of the sinusoid"},
-        {"half_width_m", at<&P::half_width>, "m", {.from = 1, .to = 1e6}, "", "of the strip"},
-        {"wavelength_m",
-         at<&P::wavelength>,
-         "m",
-         {.from = 100, .to = 1e7},
-         "lambda",
-         "of the sinusoid"},
-    };
-}
-
 /// A part that every scene has.
 template <auto Part>
 SceneTable always(std::string_view name, std::string_view doc, std::vector<Parameter> parameters) {
@@ -331,16 +300,26 @@ const std::vector<Parameter>& top_level() {
         std::vector<std::string_view> levels;
         std::ranges::transform(accuracy_levels(), std::back_inserter(levels), &AccuracyLevel::name);
         return std::vector<Parameter>{
-            {"name", at<&Scene::name>, "", {}, "", "of results' folder; default: the file's name"},
-            {"description", at<&Scene::description>, "", {}, "", "what the scene shows, in a line"},
+            {"name",
+             at<&Heading::name>,
+             "",
+             {},
+             "",
+             "of results' folder; default: the file's name"},
+            {"description",
+             at<&Heading::description>,
+             "",
+             {},
+             "",
+             "what the scene shows, in a line"},
             {"accuracy",
-             one_of<&Scene::accuracy>(levels),
+             one_of<&Heading::accuracy>(levels),
              "",
              {},
              "",
              "sets the defaults that trade time for detail"},
             {"seed",
-             at<&Scene::seed>,
+             at<&Heading::seed>,
              "",
              {.from = 0, .to = 0x1p63},
              "", // TOML has no larger
@@ -352,9 +331,9 @@ const std::vector<Parameter>& top_level() {
 
 std::vector<SceneTable> scene_tables(EffectList effects) {
     std::vector<SceneTable> tables{
-        optional<&Scene::hanging_wall>("hanging_wall",
-                                       "the block that slides and breaks, before extension",
-                                       hanging_wall_parameters()),
+        always<&Scene::hanging_wall>("hanging_wall",
+                                     "the block that slides and breaks, before extension",
+                                     hanging_wall_parameters()),
         optional<&Scene::detachment>("detachment", "the surface on which it slides",
                                      detachment_parameters()),
         optional<&Scene::picked_fault>(
@@ -378,8 +357,6 @@ std::vector<SceneTable> scene_tables(EffectList effects) {
     add_source(tables, "observed", observed_source_parameters(), ObservedSource{});
     std::ranges::transform(effects, std::back_inserter(tables),
                            [](const Effect* effect) { return table_of_effect(*effect); });
-    tables.push_back(optional<&Scene::flexure>(
-        "flexure", "a load on the elastic base alone, without discs", flexure_parameters()));
     return tables;
 }
 

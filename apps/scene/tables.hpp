@@ -24,7 +24,7 @@ struct SceneTable {
     bool in(const Scene& scene) const { return find(*this, scene) != nullptr; }
 };
 
-/// The parameters above the first table, of a Scene.
+/// The parameters above the first table, of a Heading.
 const std::vector<Parameter>& top_level();
 
 /// All tables that a scene can have, with those of the effects that there are.

@@ -56,9 +56,7 @@ namespace {
 /// A line whose points all lie on one side of the model is the constant that it begins or ends
 /// with.
 void check_place(Scene& scene, const std::vector<TargetStage>& stages, const std::string& file) {
-    if (!scene.hanging_wall)
-        return;
-    const double length = scene.hanging_wall->length;
+    const double length = scene.hanging_wall.length;
     const double right = length + scene.extension.distance;
     double least = stages.front().points.front().x, most = least;
     for (const TargetStage& stage : stages) {

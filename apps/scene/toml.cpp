@@ -218,7 +218,7 @@ void read_table(const Entry& entry, const std::vector<Parameter>& parameters, vo
     if (!entry.node.is_table())
         fail_type(entry, "table");
     for (const auto& [key, node] : *entry.node.as_table()) {
-        const Entry inner{node, fmt::format("{}.{}", entry.path, key.str())};
+        const Entry inner{node, entry.path + (entry.path.empty() ? "" : ".") + std::string(key)};
         const auto parameter = std::ranges::find(parameters, key.str(), &Parameter::key);
         if (parameter != parameters.end()) {
             read(inner, *parameter, object);

@@ -1,34 +1,24 @@
 #include "apps/studies/plan_file.hpp"
 
+#include "apps/scene/shelf.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 #include <sstream>
 
 namespace listric {
 
+toml::table study_plan(const std::string& name) {
+    constexpr Shelf shelf{"study's plan", "it needs what is varied", "", "studies"};
+    return shelf.read(shelf.find(name));
+}
+
 std::vector<std::string> words(const std::string& text) {
     std::istringstream in(text);
     return {std::istream_iterator<std::string>(in), {}};
-}
-
-void read_values(const Entry& entry, const std::vector<Parameter>& parameters, void* object,
-                 const std::vector<std::string_view>& elsewhere) {
-    std::vector<std::string_view> allowed = keys(parameters);
-    allowed.insert(allowed.end(), elsewhere.begin(), elsewhere.end());
-    for (const auto& [key, node] : *entry.node.as_table()) {
-        const std::string path = entry.path.empty() ? std::string(key.str())
-                                                    : fmt::format("{}.{}", entry.path, key.str());
-        if (std::ranges::find(allowed, key.str()) == allowed.end())
-            fail({node, path}, fmt::format("unknown key, {}", advice(key.str(), allowed)));
-        const auto parameter = std::ranges::find(parameters, key.str(), &Parameter::key);
-        if (parameter != parameters.end())
-            read({node, path}, *parameter, object);
-    }
 }
 
 void need(const Entry& entry, const char* key, bool present) {

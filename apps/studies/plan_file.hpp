@@ -13,12 +13,11 @@ namespace listric {
 /// More runs than anybody makes.
 inline constexpr int most_runs = 100'000;
 
+/// The plan of that name that the program ships. Throws SceneError.
+toml::table study_plan(const std::string& name);
+
 /// The words of a text, which blanks separate.
 std::vector<std::string> words(const std::string& text);
-
-/// Reads the keys of a table but those of `elsewhere`, which are allowed. Throws SceneError.
-void read_values(const Entry& entry, const std::vector<Parameter>& parameters, void* object,
-                 const std::vector<std::string_view>& elsewhere = {});
 
 /// Refuses a table whose key is not `present`. Throws SceneError.
 void need(const Entry& entry, const char* key, bool present);

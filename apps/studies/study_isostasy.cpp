@@ -1,17 +1,16 @@
 // How the flank rises with the elastic thickness of the footwall.
 
-#include "apps/archive/json_file.hpp"
 #include "apps/studies/study.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/snapshot.hpp"
-#include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/bending_base.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
-#include "apps/scene/toml.hpp"
+#include "apps/studies/plan_file.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
-#include "apps/support/resources.hpp"
 #include "coupling/base_memory.hpp"
 #include "fem/plate.hpp"
 
@@ -59,46 +58,42 @@ double local_compensation(fem::Plate plate, const fem::LineLoads& loads) {
 
 /// What fills the basin, as changes of the scene.
 struct Fill {
-    std::string name;
-    std::vector<std::string> without, set;
+    std::string name, without, set;
 };
 
-struct Fills {
-    std::vector<Fill> all;
+struct IsostasyPlan {
+    std::string vary;       ///< the parameter that is the elastic thickness
     std::string water_load; ///< measure of a run; missing where there is no water
+    std::vector<Fill> fills;
 };
 
-Fills read_fills(const std::filesystem::path& file) {
-    const toml::table document = toml::parse_file(file.string());
-    const auto words = [](const toml::table& fill, const char* key) {
-        std::vector<std::string> result;
-        if (const toml::array* array = fill[key].as_array())
-            for (const toml::node& word : *array)
-                result.push_back(word.value_or(std::string()));
-        return result;
-    };
-    Fills fills{{}, document["water_load"].value_or(std::string())};
-    for (const toml::node& node : *document["fill"].as_array()) {
-        const toml::table& fill = *node.as_table();
-        fills.all.push_back(
-            {fill["name"].value_or(std::string()), words(fill, "without"), words(fill, "set")});
-    }
-    return fills;
+IsostasyPlan read_plan() {
+    using P = IsostasyPlan;
+    const toml::table document = study_plan("isostasy");
+    P plan;
+    read_table({document, ""},
+               {{"vary", at<&P::vary>, "", {}, "", "the elastic thickness, table.key"},
+                {"water_load", at<&P::water_load>, "", {}, "", "measure"}},
+               &plan, {"fill"});
+    for (const Entry& entry : tables({document, ""}, "fill"))
+        read_table(entry,
+                   {{"name", at<&Fill::name>, "", {}, "", "of the runs"},
+                    {"without", at<&Fill::without>, "", {}, "", "tables taken out"},
+                    {"set", at<&Fill::set>, "", {}, "", "changes, table.key=value"}},
+                   &plan.fills.emplace_back());
+    return plan;
 }
 
-StudyRun run_of(const Fill& fill, double thickness) {
-    StudyRun run{fmt::format("{}-elastic_thickness_m={:g}", fill.name, thickness),
-                 {fmt::format("elastic_base.elastic_thickness_m={}", thickness)},
-                 "draft",
-                 fill.without};
-    run.set.insert(run.set.end(), fill.set.begin(), fill.set.end());
-    return run;
+StudyRun run_of(const IsostasyPlan& plan, const Fill& fill, double thickness) {
+    return {fmt::format("{}-elastic_thickness_m={:g}", fill.name, thickness),
+            words(fmt::format("{}={} {}", plan.vary, thickness, fill.set)), "draft",
+            words(fill.without)};
 }
 
 fem::Plate plate_of(const Scene& scene, double thickness) {
-    const auto& base = *elastic_base(scene);
+    const BendingBase& base = *bending_base(scene);
     return {base.young_modulus, base.poisson_ratio, thickness,
-            (base.mantle_density - base.infill_density) * gravity_of(scene)};
+            (base.mantle_density - base.infill_density) * make_parts(scene).physics.gravity};
 }
 
 /// A finished run: its summary and its last window beside the plate under the same loads.
@@ -148,8 +143,9 @@ struct IsostasyRun {
 
 /// The run by one seed; none if the guard of linear elasticity ended it.
 std::optional<IsostasyRun> make_run(const StudyRequest& request, const Scene& scene,
-                                    const Fill& fill, double thickness, std::int64_t seed) {
-    const StudyRun run = run_of(fill, thickness);
+                                    const IsostasyPlan& plan, const Fill& fill, double thickness,
+                                    std::int64_t seed) {
+    const StudyRun run = run_of(plan, fill, thickness);
     auto summary = summary_of_run(request, run, seed);
     if (!summary)
         return std::nullopt;
@@ -168,23 +164,24 @@ constexpr const char* csv_head = "fill,elastic_thickness_m,seed,uplift_m,deflect
 StudyResult study_isostasy(const StudyRequest& asked) {
     const StudyRequest request = with_scene(asked, "lis1-elastic");
     const Scene scene = scene_of(request);
-    if (!elastic_base(scene) || !scene.hanging_wall)
-        throw UsageError(fmt::format("study isostasy: {} has no discs on an [elastic_base]; "
-                                     "allowed: scenes such as lis1-elastic",
+    if (!bending_base(scene))
+        throw UsageError(fmt::format("study isostasy: {} has no base that bends; allowed: scenes "
+                                     "such as lis1-elastic",
                                      request.scene));
     std::vector<double> thicknesses =
         request.values.empty() ? std::vector{2e3, 5e3, 10e3, 15e3, 30e3} : request.values;
     std::ranges::sort(thicknesses);
-    const Fills fills = read_fills(resource_folder() / "studies/isostasy.toml");
+    const IsostasyPlan plan = read_plan();
     StudyResult result;
     result.title =
         fmt::format("Isostasy: flank uplift of {} against the thin plate", request.scene);
     std::string table = csv_head;
-    for (const Fill& fill : fills.all)
+    for (const Fill& fill : plan.fills)
         for (double thickness : thicknesses)
             for (int k = 0; k < request.seeds; ++k)
-                if (const auto run = make_run(request, scene, fill, thickness, request.seed + k)) {
-                    table += run->row(fills.water_load);
+                if (const auto run =
+                        make_run(request, scene, plan, fill, thickness, request.seed + k)) {
+                    table += run->row(plan.water_load);
                     result.points.push_back(run->point());
                 } else {
                     result.points.push_back({fmt::format("{} fill: runs", fill.name),

@@ -9,6 +9,7 @@
 #include "apps/model/measure_names.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
+#include "apps/studies/plan_file.hpp"
 #include "apps/support/log.hpp"
 #include "dem/cycle/cycle.hpp"
 
@@ -214,7 +215,7 @@ namespace {
 
 /// Geometry, and what faults are judged by. Lengths over the thickness of the hanging wall.
 std::vector<StudyQuantity> basin_quantities(const Scene& scene) {
-    const double thickness = scene.hanging_wall->thickness;
+    const double thickness = scene.hanging_wall.thickness;
     return {{measures::name_of<&measures::Measures::rollover_tilt>(), 0.0},
             {"cutoff", thickness},
             {measures::name_of<&measures::Measures::area_balance>(), 0.0},
@@ -248,6 +249,33 @@ StudyResult study_resolution(const StudyRequest& asked) {
     return result;
 }
 
+namespace {
+
+/// Changes of a scene, "table.key=value", in one text.
+struct CouplingPlan {
+    std::string set, reference;
+};
+
+struct Curve {
+    std::string method, name, vary;
+    Values values; ///< of the parameter that is varied
+    std::string set;
+};
+
+Curve read_curve(const Entry& entry) {
+    Curve curve;
+    read_table(entry,
+               {{"method", at<&Curve::method>, "", {}, "", "of the study's points"},
+                {"name", at<&Curve::name>, "", {}, "", "of runs, before the value"},
+                {"vary", at<&Curve::vary>, "", {}, "", "table.key"},
+                {"values", at<&Curve::values>, "", {}, "", "that it takes"},
+                {"set", at<&Curve::set>, "", {}, "", "changes for all of them"}},
+               &curve);
+    return curve;
+}
+
+} // namespace
+
 StudyResult study_coupling(const StudyRequest& asked) {
     const StudyRequest request = with_scene(asked, "lis1-elastic");
     StudyResult result;
@@ -258,32 +286,24 @@ StudyResult study_coupling(const StudyRequest& asked) {
                                                 {effects::base_deflection},
                                                 {effects::base_resolved_difference, 0.0, true},
                                                 {effects::base_reaction_error, 0.0, true}};
-    const auto run = [](const std::string& scheme, int interval, int modes,
-                        const std::string& parameter) {
-        return StudyRun{parameter,
-                        {fmt::format("elastic_base.scheme={}", scheme),
-                         fmt::format("elastic_base.update_interval_cycles={}", interval),
-                         fmt::format("elastic_base.modes={}", modes),
-                         "extension.distance_m=2000.0"},
-                        "draft"};
+    const toml::table document = study_plan("coupling");
+    CouplingPlan plan;
+    read_table({document, ""},
+               {{"set", at<&CouplingPlan::set>, "", {}, "", "changes for every run"},
+                {"reference", at<&CouplingPlan::reference>, "", {}, "", "changes for the best"}},
+               &plan, {"curve"});
+    const auto run = [&](const std::string& parameter, const std::string& changes) {
+        return StudyRun{parameter, words(fmt::format("{} {}", plan.set, changes)), "draft"};
     };
-    const StudyRun reference = run("modal", 1, 0, "converged=1");
-    const auto sweep = [&](const std::string& method, std::vector<StudyRun> runs) {
-        runs.push_back(reference);
-        sweep_runs(request, method, runs, runs.size() - 1, quantities, result);
-    };
-    const auto intervals = [&](const std::string& scheme, const std::vector<int>& values) {
+    for (const Entry& entry : tables({document, ""}, "curve")) {
+        const Curve curve = read_curve(entry);
         std::vector<StudyRun> runs;
-        for (const int value : values)
-            runs.push_back(run(scheme, value, 100, fmt::format("{}-interval={}", scheme, value)));
-        sweep(fmt::format("{} by update interval: runs", scheme), runs);
-    };
-    intervals("modal", {20, 10, 5, 2});
-    intervals("lumped", {5, 1});
-    std::vector<StudyRun> runs;
-    for (const int value : {10, 20, 50, 100})
-        runs.push_back(run("modal", 5, value, fmt::format("modal-modes={}", value)));
-    sweep("modal by number of modes: runs", runs);
+        for (const double value : curve.values)
+            runs.push_back(run(fmt::format("{}={:g}", curve.name, value),
+                               fmt::format("{} {}={:g}", curve.set, curve.vary, value)));
+        runs.push_back(run("converged=1", plan.reference));
+        sweep_runs(request, curve.method, runs, runs.size() - 1, quantities, result);
+    }
     return result;
 }
 

@@ -4,9 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 

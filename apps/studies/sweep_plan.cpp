@@ -102,8 +102,8 @@ void try_value(const SweepPlan& plan, const Entry& entry, const SweepParameter& 
 
 SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     SweepParameter parameter;
-    read_values(entry, {{"parameter", at<&SweepParameter::name>, "", {}, "", "table.key"}},
-                &parameter, {"values", "range"});
+    read_table(entry, {{"parameter", at<&SweepParameter::name>, "", {}, "", "table.key"}},
+               &parameter, {"values", "range"});
     need(entry, "parameter", !parameter.name.empty());
     const toml::table& table = *entry.node.as_table();
     const toml::node* const values = table.get("values");
@@ -223,7 +223,7 @@ SweepPlan load_sweep_plan(const std::filesystem::path& file) {
     const toml::table document = shelf.read(file);
     const Entry top{document, ""};
     PlanText text;
-    read_values(top, plan_parameters(), &text, {"measures", "vary"});
+    read_table(top, plan_parameters(), &text, {"measures", "vary"});
     SweepPlan& plan = text.plan;
     plan.name = file.stem().string();
     if (const std::string why = objection_to_name("sweep-" + plan.name); !why.empty())

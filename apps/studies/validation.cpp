@@ -17,7 +17,6 @@
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/resources.hpp"
-#include "apps/support/spelling.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>

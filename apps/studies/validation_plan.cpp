@@ -44,7 +44,7 @@ ValidationRun read_run(const Entry& entry) {
         {"accuracy", at<&T::run, &R::accuracy>, "", {}, "", "if always the same"},
         {"at_m", at<&T::run, &R::at>, "m", {.from = 0, .to = 1e6}, "", "measured there"}};
     RunText text;
-    read_values(entry, parameters, &text);
+    read_table(entry, parameters, &text);
     ValidationRun& run = text.run;
     run.set = words(text.set);
     run.without = words(text.without);
@@ -78,7 +78,7 @@ const std::vector<Parameter>& expectation_parameters() {
 
 Expectation read_expectation(const Entry& entry) {
     Expectation e;
-    read_values(entry, expectation_parameters(), &e);
+    read_table(entry, expectation_parameters(), &e);
     need(entry, "measure", !e.measure.empty());
     need(entry, "what", !e.what.empty());
     if (e.expected && (e.least || e.most))
@@ -88,19 +88,19 @@ Expectation read_expectation(const Entry& entry) {
 
 ValidationPicture read_picture(const Entry& entry) {
     ValidationPicture picture;
-    read_values(entry,
-                {{"name", at<&ValidationPicture::name>, "", {}, "", "of the file"},
-                 {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}},
-                &picture, {"rows"});
+    read_table(entry,
+               {{"name", at<&ValidationPicture::name>, "", {}, "", "of the file"},
+                {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}},
+               &picture, {"rows"});
     need_name(entry, "name", picture.name);
     for (const Entry& item : tables(entry, "rows")) {
         using Row = ValidationPicture::Row;
         Row row;
-        read_values(item,
-                    {{"run", at<&Row::run>, "", {}, "", "drawn"},
-                     {"at_m", at<&Row::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
-                     {"seeds", at<&Row::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"}},
-                    &row);
+        read_table(item,
+                   {{"run", at<&Row::run>, "", {}, "", "drawn"},
+                    {"at_m", at<&Row::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
+                    {"seeds", at<&Row::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"}},
+                   &row);
         picture.rows.push_back(row);
     }
     return picture;
@@ -146,7 +146,7 @@ read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& bef
         {"like", at<&T::experiment, &X::like>, "", {}, "", "has this one's expectations, too"},
         {"compare", at<&T::experiment, &X::compare>, "", {}, "", "run whose values stand beside"}};
     ExperimentText text;
-    read_values(entry, parameters, &text, {"expect", "picture"});
+    read_table(entry, parameters, &text, {"expect", "picture"});
     ValidationExperiment& x = text.experiment;
     x.runs = words(text.runs);
     need(entry, "name", !x.name.empty());
@@ -189,8 +189,8 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
     const toml::table document = validation_shelf.read(file);
     const Entry top{document, ""};
     ExtensionText text;
-    read_values(top, {{"extends", at<&ExtensionText::extends>, "", {}, "", "a plan"}}, &text,
-                {"run", "experiment"});
+    read_table(top, {{"extends", at<&ExtensionText::extends>, "", {}, "", "a plan"}}, &text,
+               {"run", "experiment"});
     ValidationPlan plan;
     std::vector<ValidationExperiment> known; // that others can be like
     if (const std::string& other = text.extends; !other.empty()) {

@@ -7,7 +7,6 @@
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
-#include <algorithm>
 #include <array>
 
 namespace listric::dem {

@@ -4,9 +4,6 @@
 #include "dem/contacts/cells.hpp"
 #include "dem/threads/shared_loop.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace listric::dem {
 
 namespace {

@@ -7,7 +7,6 @@
 #include "dem/units.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -29,7 +29,6 @@ class Effect(NamedTuple):
     parameters: str      # their type
     own: str = ""        # files beside those that the table's name begins
     trade: bool = False  # the table's name is a word of the trade: the type alone counts
-    known_to: tuple = () # other files that may name it
 
 
 EFFECTS = (
@@ -40,13 +39,7 @@ EFFECTS = (
     Effect("sedimentation", "SedimentationParameters"),
     Effect("compaction", "CompactionParameters"),
     Effect("energy", "EnergyParameters", trade=True),
-    Effect("elastic_base", "ElasticBaseParameters", known_to=(
-        DESCRIPTIONS + "*",               # of effects that load it
-        "apps/studies/study_runs.cpp",    # studies of it
-        "apps/studies/study_isostasy.cpp",
-        "apps/run/flexure.cpp",           # [flexure] bends it alone, without discs
-        "apps/commands/explain.cpp", "apps/scene/scene_checks.cpp", "apps/scene/schema.cpp",
-        "apps/scene/scene_file.hpp")),
+    Effect("elastic_base", "ElasticBaseParameters"),
     Effect("lower_crust_thinning", "LowerCrustThinningParameters"),
     Effect("basin_water", "BasinWaterParameters"),
     Effect("footwall_erosion", "FootwallErosionParameters"),
@@ -135,8 +128,6 @@ def mentions(effect, tree):
     """Lines of apps outside the effect's own files that name it."""
     for path, text in tree.items():
         if not path.startswith("apps/") or is_own(effect, path) or any(fnmatch(path, made) for made in GENERATED):
-            continue
-        if any(fnmatch(path, known) for known in effect.known_to):
             continue
         numbers = lines_with_word(effect.parameters, text)
         if is_painter(path) and "_" in effect.table:

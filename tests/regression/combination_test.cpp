@@ -28,9 +28,13 @@ const Effect* find_effect(std::string_view name) {
     return found == all.end() ? nullptr : *found;
 }
 
+std::vector<std::string_view> needs_of(const Effect& effect) {
+    return needed_tables(effect, effects_and_gauge());
+}
+
 /// Whether an effect needs the other, if only because one that it needs does.
 bool depends(const Effect& effect, std::string_view other) {
-    return std::ranges::any_of(effect.needs, [&](std::string_view name) {
+    return std::ranges::any_of(needs_of(effect), [&](std::string_view name) {
         const Effect* const needed = find_effect(name);
         return name == other || (needed && depends(*needed, other));
     });
@@ -46,7 +50,7 @@ bool moves_base(const Effect& effect) {
     Scene scene = shipped();
     scene.effects.push_back({&effect, effect.defaults()});
     return make_parts(scene).base_moves ||
-           std::ranges::any_of(effect.needs, [](std::string_view name) {
+           std::ranges::any_of(needs_of(effect), [](std::string_view name) {
                const Effect* const needed = find_effect(name);
                return needed && moves_base(*needed);
            });
@@ -80,7 +84,7 @@ bool has(Chosen run, auto choice) { return (run & bit(choice)) != 0; }
 bool allowed(Chosen run) {
     return std::ranges::all_of(effects(), [&](const Effect* effect) {
         return !has(run, effect->name) ||
-               std::ranges::all_of(effect->needs, [&](std::string_view needed) {
+               std::ranges::all_of(needs_of(*effect), [&](std::string_view needed) {
                    return !find_effect(needed) || has(run, needed);
                });
     });

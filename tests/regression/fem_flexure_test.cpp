@@ -1,7 +1,6 @@
-// The scene flexure from the call to the files: names, numbers and what bad input leads to.
+// The plan of flexure from the call to the files: names and numbers.
 
-#include "apps/model/effects.hpp"
-#include "apps/run/run.hpp"
+#include "apps/studies/flexure.hpp"
 #include "apps/support/file.hpp"
 #include "fem/elastic_layer.hpp"
 #include "tests/xml_files.hpp"
@@ -23,17 +22,16 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::HasSubstr;
 
-class FlexureScene : public testing::Test {
+class FlexureRun : public testing::Test {
 protected:
     fs::path output_ = fs::temp_directory_path() / ("listric-flexure-" + std::to_string(getpid()));
 
-    FlexureScene() {
+    FlexureRun() {
         fs::create_directories(output_);
         setenv("LISTRIC_PYTHON", "/bin/false", 1); // pictures take longer than these runs
     }
-    ~FlexureScene() override {
+    ~FlexureRun() override {
         unsetenv("LISTRIC_PYTHON");
         fs::remove_all(output_);
     }
@@ -47,20 +45,8 @@ protected:
         options.quiet = true;
         options.resume = resume;
         options.force = !resume;
-        EXPECT_EQ(run_scene(load_scene(request), options), RunOutcome::finished);
+        run_flexure(load_flexure_plan(request), options);
         return json::parse(std::ifstream(output_ / "summary.json"));
-    }
-
-    static std::string refusal(const std::vector<std::string>& set) {
-        SceneRequest request;
-        request.scene = "flexure";
-        request.set = set;
-        try {
-            load_scene(request);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "";
     }
 };
 
@@ -68,7 +54,7 @@ struct Textbook { // FEM-independent: E 70 GPa, nu 0.25, 3300 kg/m3; V = 1e12 N/
     double te, alpha, w0, plate_error;
 };
 
-TEST_F(FlexureScene, LineLoadIsThatOfTheTextbook) {
+TEST_F(FlexureRun, LineLoadIsThatOfTheTextbook) {
     // Flexural parameter and deflection of the thin plate (Turcotte & Schubert); last the plate's
     // error against the exact layer: shear, which it neglects.
     for (const Textbook& t : {Textbook{5e3, 17.6e3, 877, 0.03}, Textbook{10e3, 29.6e3, 522, 0.04},
@@ -90,7 +76,7 @@ TEST_F(FlexureScene, LineLoadIsThatOfTheTextbook) {
     }
 }
 
-TEST_F(FlexureScene, LeavesFilesAndAFigure) {
+TEST_F(FlexureRun, LeavesFilesAndAFigure) {
     unsetenv("LISTRIC_PYTHON");
     run({});
     for (const char* file : {"scene.toml", "log.txt", "deflection.csv", "footwall.pvd",
@@ -99,7 +85,7 @@ TEST_F(FlexureScene, LeavesFilesAndAFigure) {
     EXPECT_EQ(support::xml_files(output_), "1 of .pvd\n1 of .vtu\n");
 }
 
-TEST_F(FlexureScene, BrokenPlate) {
+TEST_F(FlexureRun, BrokenPlate) {
     const json s = run({"flexure.load=broken"});
     EXPECT_NEAR(s["analytic_w0_m"], 1043.0, 1.0);
     EXPECT_LT(s["relative_error"], 0.02); // shear near the loaded end
@@ -109,7 +95,7 @@ TEST_F(FlexureScene, BrokenPlate) {
     EXPECT_FALSE(s.contains("exact_w0_m"));
 }
 
-TEST_F(FlexureScene, StripAndSinusoid) {
+TEST_F(FlexureRun, StripAndSinusoid) {
     json s = run({"flexure.load=strip"});
     EXPECT_LT(s["relative_error"], 0.03); // the plate's
     EXPECT_LT(s["exact_relative_error"], 1e-4);
@@ -119,23 +105,12 @@ TEST_F(FlexureScene, StripAndSinusoid) {
     EXPECT_FALSE(s.contains("bulge_m"));
 }
 
-TEST_F(FlexureScene, IsTheSameTwiceAndResumesToItself) {
+TEST_F(FlexureRun, IsTheSameTwiceAndResumesToItself) {
     const json first = run({});
     const auto written = fs::last_write_time(output_ / "summary.json");
     run({}, true);
     EXPECT_EQ(fs::last_write_time(output_ / "summary.json"), written);
     EXPECT_EQ(run({})["state_hash"], first["state_hash"]);
-}
-
-TEST_F(FlexureScene, RefusesWhatMakesNoSense) {
-    EXPECT_THAT(refusal({"elastic_base.poisson_ratio=0.5"}), HasSubstr("below 0.5"));
-    EXPECT_THAT(refusal({"elastic_base.young_modulus_pa=-1.0"}), HasSubstr("at least 1e6"));
-    EXPECT_THAT(refusal({"elastic_base.mantle_density_kg_per_m3=2000"}),
-                HasSubstr("crust_density_kg_per_m3"));
-    EXPECT_THAT(refusal({"flexure.load=lin"}), HasSubstr("did you mean line?"));
-    EXPECT_THAT(refusal({"bonds={}"}), HasSubstr("needs discs"));
-    EXPECT_THAT(refusal({"flexure.load=strip", "flexure.half_width_m=10"}),
-                HasSubstr("flexure.half_width_m: too short"));
 }
 
 } // namespace

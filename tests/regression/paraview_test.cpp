@@ -257,7 +257,7 @@ TEST_F(ParaviewTest, EveryMomentHoldsWhatTheSnapshotDoes) {
         EXPECT_EQ(moment["surfaces"], base.surfaces.size());
         // The right wall is where the extension has brought it.
         EXPECT_FLOAT_EQ(moment["right_wall_x_m"].get<float>(),
-                        static_cast<float>(scene.hanging_wall->length + state.clock.extension));
+                        static_cast<float>(scene.hanging_wall.length + state.clock.extension));
     }
     // What the numbers are to be about has happened.
     EXPECT_GE(moments.back()["highest"]["stratum"], 2);
@@ -301,7 +301,7 @@ TEST_F(ParaviewTest, ThePictureShowsTheDiscs) {
     EXPECT_NEAR(picture["pixels"]["bonds"].get<double>(), lines, 2.0 * bonds);
     // Two pixels wide: at least the flat and the right wall.
     EXPECT_GT(picture["pixels"]["base"].get<double>(),
-              2.0 * (scene.hanging_wall->length + scene.hanging_wall->thickness) / pixel);
+              2.0 * (scene.hanging_wall.length + scene.hanging_wall.thickness) / pixel);
 }
 
 TEST_F(ParaviewTest, DamageIsNoticed) {

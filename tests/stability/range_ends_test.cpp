@@ -63,8 +63,7 @@ SceneRequest request_of(const std::string& scene, const std::string& set) {
 const std::string every_effect = support::test_scene("every-effect.toml");
 
 TEST_F(RangeEnds, ExplainIsFinite) {
-    for (const std::string& scene :
-         {every_effect, std::string("lis1-elastic"), std::string("flexure")}) {
+    for (const std::string& scene : {every_effect, std::string("lis1-elastic")}) {
         int told = 0;
         for (const std::string& end : ends_in(load_scene({.scene = scene}))) {
             std::string told_of_it;

@@ -173,8 +173,8 @@ TEST(RampFlatRamp, PartsOfTheDetachment) {
 /// Discs on a square lattice that fills a scene's hanging wall.
 State lattice(const Scene& scene, const RigidBase& base) {
     std::vector<support::Disc> discs;
-    for (double x = 100.0; x < scene.hanging_wall->length; x += 200.0)
-        for (double y = -100.0; y > -scene.hanging_wall->thickness; y -= 200.0)
+    for (double x = 100.0; x < scene.hanging_wall.length; x += 200.0)
+        for (double y = -100.0; y > -scene.hanging_wall.thickness; y -= 200.0)
             if (nearest(base.surfaces.front().chain, {x, y})->distance > 0.0)
                 discs.push_back({x, y, 100.0});
     return support::make_state(discs);

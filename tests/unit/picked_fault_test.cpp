@@ -160,7 +160,7 @@ TEST_F(PickedFaultFile, ASceneOfIt) {
     write("fault.csv", table());
     const Scene scene = load("csv = \"fault.csv\"");
     ASSERT_TRUE(scene.picked_fault);
-    EXPECT_NEAR(scene.hanging_wall->thickness, 15e3, 0.01);
+    EXPECT_NEAR(scene.hanging_wall.thickness, 15e3, 0.01);
     EXPECT_NEAR(scene.detachment->start_dip, 90.0, 0.01);
     ASSERT_EQ(scene.detachment->segments.size(), 2u);
     EXPECT_NEAR(scene.detachment->segments[0].radius, 15e3, 1.0);
@@ -177,7 +177,7 @@ TEST_F(PickedFaultFile, GoodVariants) {
     const double wanted = 15e3;
     const auto depth = [&](const std::string& text, const std::string& keys) {
         write("fault.csv", text);
-        return load("csv = \"fault.csv\"\n" + keys).hanging_wall->thickness;
+        return load("csv = \"fault.csv\"\n" + keys).hanging_wall.thickness;
     };
     EXPECT_NEAR(depth("\xef\xbb\xbf" + table(), ""), wanted, 0.01);
     EXPECT_NEAR(depth(table(",", "\r\n"), ""), wanted, 0.01);
@@ -287,7 +287,7 @@ TEST_F(PickedFaultFile, ADrawingGivesTheChainOfTheTable) {
              {"transform=\"matrix(2 0 0 2 0 0)\"", "M25 10a75 75 0 0075 75h125"}}) {
         SCOPED_TRACE(path);
         const Scene scene = drawn(group, path);
-        EXPECT_NEAR(scene.hanging_wall->thickness, 15e3, 5.0);
+        EXPECT_NEAR(scene.hanging_wall.thickness, 15e3, 5.0);
         EXPECT_LT(largest_distance(detachment_chain(*shipped("lis1").detachment, 0.0),
                                    detachment_chain(*scene.detachment, 1e5)),
                   50.0);

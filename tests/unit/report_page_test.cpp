@@ -13,7 +13,6 @@ using testing::Not;
 
 TEST(ReportPage, HasTheDictionarysDefinitionsAndFaultColumns) {
     Scene scene;
-    scene.hanging_wall.emplace();
     const ReportMoments moments;
     const std::string html = report_html({.runs = {{scene, moments, 75.0, "extension_m\n0\n"}}});
     for (const archive::DictionaryEntry& entry : archive::dictionary(program_effects()))
@@ -27,7 +26,6 @@ TEST(ReportPage, HasTheDictionarysDefinitionsAndFaultColumns) {
 TEST(ReportPage, NothingOfASceneIsATag) {
     Scene scene;
     scene.description = "</script><img src=x onerror=alert(1)>";
-    scene.hanging_wall.emplace();
     const ReportMoments moments;
     const std::string html = report_html(
         {.runs = {{scene, moments, 75.0, "extension_m\n0\n", R"({"a": "<tag-of-mine>"})"}}});
@@ -40,7 +38,6 @@ TEST(ReportPage, NothingOfASceneIsATag) {
 
 TEST(ReportPage, WhatIsDamagedIsMissingAndThePageSaysSo) {
     Scene scene;
-    scene.hanging_wall.emplace();
     const ReportMoments moments;
     const std::string history = "extension_m,x\n0,\n1,2\n";
     const auto page = [&](const std::string& table, const std::string& summary, bool there = true) {

@@ -1,7 +1,7 @@
 #include "coupling/basin_water.hpp"
 
+#include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
-#include "apps/model/effects/elastic_base_parameters.hpp"
 
 #include <fmt/format.h>
 
@@ -16,16 +16,16 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
     if (parts.sediment)
         pores = {parts.sediment->grain_density, parts.sediment->surface_porosity};
     // Where the base's own springs fill what sinks, water has no room.
-    const auto& base = *elastic_base(scene);
+    const auto& base = *bending_base(scene);
     return coupling::basin_water_load(
         *scene.find<P>(), parts.physics.gravity,
-        coupling::water_column_width(scene.hanging_wall->mean_radius), scene.extension.rate, pores,
+        coupling::water_column_width(scene.hanging_wall.mean_radius), scene.extension.rate, pores,
         base.infill_density > 0.0 ? std::nullopt : std::optional(base.left));
 }
 
 /// Floor and level of the water from the shore at the breakaway on.
 std::vector<double> water_band(const Observation& now) {
-    const double width = coupling::water_column_width(now.scene.hanging_wall->mean_radius);
+    const double width = coupling::water_column_width(now.scene.hanging_wall.mean_radius);
     const double level = now.scene.find<P>()->level;
     std::vector<double> rows{0.0, level, level};
     double x = 0.5 * width;
@@ -53,7 +53,6 @@ const Effect& basin_water() {
                 {"interval_a", at<&P::interval>, "a", ranges::years, "",
                  "time between adaptations of its depth"},
             },
-        .needs = {"elastic_base"},
         .load_footwall = load_footwall,
         .explain =
             [](const Scene& scene, EffectList) {

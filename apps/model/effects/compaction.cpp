@@ -46,7 +46,7 @@ const Effect& compaction() {
         // that it fills, of which 1.1 have been counted.
         .new_area =
             [](const Scene& scene) {
-                return 0.75 * scene.extension.distance * scene.hanging_wall->thickness;
+                return 0.75 * scene.extension.distance * scene.hanging_wall.thickness;
             },
     };
     return effect;

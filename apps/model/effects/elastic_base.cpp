@@ -1,7 +1,7 @@
 #include "apps/model/base_driver.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_driver.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
@@ -22,46 +22,47 @@ namespace listric::effects {
 namespace {
 
 using P = ElasticBaseParameters;
+using B = BendingBase;
 
 /// Of the plate, with or without discs on it.
 std::vector<Parameter> plate_parameters() {
     return {
         {"elastic_thickness_m",
-         at<&P::elastic_thickness>,
+         at<&P::bending, &B::elastic_thickness>,
          "m",
          {.from = 100, .to = 2e5},
          "",
          "effective elastic thickness Te: rock below it does not carry bending"},
         {"young_modulus_pa",
-         at<&P::young_modulus>,
+         at<&P::bending, &B::young_modulus>,
          "Pa",
          {.from = 1e6, .to = 1e13},
          "E",
          "Young's modulus of the base"},
         {"poisson_ratio",
-         at<&P::poisson_ratio>,
+         at<&P::bending, &B::poisson_ratio>,
          "",
          {.from = 0, .below = 0.5},
          "nu",
          "Poisson's ratio of the base"},
-        {"crust_density_kg_per_m3", at<&P::crust_density>, "kg/m3", ranges::density, "rho_c",
-         "of the base, above the mantle"},
-        {"mantle_density_kg_per_m3", at<&P::mantle_density>, "kg/m3", ranges::density, "rho_m",
-         "of the mantle, on which the base floats"},
+        {"crust_density_kg_per_m3", at<&P::bending, &B::crust_density>, "kg/m3", ranges::density,
+         "rho_c", "of the base, above the mantle"},
+        {"mantle_density_kg_per_m3", at<&P::bending, &B::mantle_density>, "kg/m3", ranges::density,
+         "rho_m", "of the mantle, on which the base floats"},
         {"infill_density_kg_per_m3",
-         at<&P::infill_density>,
+         at<&P::bending, &B::infill_density>,
          "kg/m3",
          {.from = 0, .to = 20e3},
          "",
          "of what fills the deflection: 0 air, 1030 water, 2400 sediment"},
         {"cells",
-         at<&P::cells>,
+         at<&P::bending, &B::cells>,
          "",
          {.from = 1, .to = 64},
          "",
          "elements through the elastic thickness, in a scene without discs"},
         {"degree",
-         at<&P::degree>,
+         at<&P::bending, &B::degree>,
          "",
          {.from = 1, .to = 2},
          "",
@@ -72,7 +73,12 @@ std::vector<Parameter> plate_parameters() {
 /// Of the footwall under discs.
 std::vector<Parameter> footwall_parameters() {
     return {
-        {"left_m", at<&P::left>, "m", {.from = -1e7, .to = -1}, "", "x of the footwall's far side"},
+        {"left_m",
+         at<&P::bending, &B::left>,
+         "m",
+         {.from = -1e7, .to = -1},
+         "",
+         "x of the footwall's far side"},
         {"right_m",
          at<&P::right>,
          "m",
@@ -132,7 +138,7 @@ std::vector<Parameter> footwall_parameters() {
          "",
          "the same of the other far side"},
         {"solver",
-         one_of<&P::solver>({"mumps", "boomeramg", "gamg"}),
+         one_of<&P::bending, &B::solver>({"mumps", "boomeramg", "gamg"}),
          "",
          {},
          "",
@@ -183,52 +189,19 @@ std::vector<Parameter> parameters() {
     return all;
 }
 
-void check_densities(const P& base, const Refuse& refuse) {
-    if (!(base.mantle_density >= base.crust_density) ||
-        !(base.crust_density >= base.infill_density))
-        refuse("elastic_base.crust_density_kg_per_m3",
-               fmt::format("is {}, allowed: between those of infill ({}) and mantle ({}), for the "
-                           "base to float upright",
-                           text(base.crust_density), text(base.infill_density),
-                           text(base.mantle_density)));
-}
-
-/// As a plate that carries a load of [flexure], without discs.
-void check_plate(const Scene& scene, const P& base, const Refuse& refuse) {
-    if (!(base.mantle_density > base.infill_density))
-        refuse("elastic_base.mantle_density_kg_per_m3",
-               fmt::format("is {}, allowed: above infill_density_kg_per_m3 = {}",
-                           text(base.mantle_density), text(base.infill_density)));
-    check_densities(base, refuse);
-    // Waves shorter than the base is thick do not bend it, and cells would be flat.
-    const auto refuse_short = [&](const char* key, double length, double least) {
-        if (length < least)
-            refuse(std::string("flexure.") + key,
-                   fmt::format("too short ({}), allowed: at least {}, a tenth of the elastic "
-                               "thickness",
-                               text(length), text(least)));
-    };
-    if (scene.flexure->load == FlexureLoad::sinusoid)
-        refuse_short("wavelength_m", scene.flexure->wavelength, 0.1 * base.elastic_thickness);
-    if (scene.flexure->load == FlexureLoad::strip)
-        refuse_short("half_width_m", scene.flexure->half_width, 0.1 * base.elastic_thickness);
-}
-
 /// What the footwall itself refuses, before a run prepares anything.
 void check(const Scene& scene, const Refuse& refuse) {
     const P& base = *elastic_base(scene);
-    if (scene.flexure) {
-        check_plate(scene, base, refuse);
-        return;
-    }
-    check_densities(base, refuse);
-    const dem::Extent extent{scene.hanging_wall->length, scene.hanging_wall->thickness,
+    const std::string why = objection_to_densities(base.bending);
+    if (!why.empty())
+        refuse("elastic_base.crust_density_kg_per_m3", why);
+    const dem::Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
                              scene.extension.distance};
     if (!(base.right > extent.reach()))
         refuse("elastic_base.right_m",
                fmt::format("is {}, allowed: above {}, beyond the right wall's last position",
                            text(base.right), text(extent.reach())));
-    if (base.solver != fem::Solver::mumps)
+    if (base.bending.solver != fem::Solver::mumps)
         refuse("elastic_base.solver",
                "makes no factors, which a base under discs is condensed with; allowed: mumps");
     try {
@@ -248,10 +221,8 @@ void check(const Scene& scene, const Refuse& refuse) {
 }
 
 void contribute(const Scene& scene, ModelParts& parts) {
-    if (scene.flexure)
-        return;
     const P& base = *elastic_base(scene);
-    dem::follow_nodes(parts.base, base.degree);
+    dem::follow_nodes(parts.base, base.bending.degree);
     parts.base_moves = true;
 }
 
@@ -270,11 +241,13 @@ std::string explain(const Scene& scene, EffectList list) {
         "    springs (density x gravity) where rock of other density moves in: {} kg/m3 above the\n"
         "    footwall and on the detachment, {} kg/m3 at the base\n"
         "    {}\n",
-        base.elastic_thickness / 1e3, base.depth / 1e3, base.left / 1e3, base.right / 1e3,
-        base.relaxation, base.skin_thickness / 1e3, schemes[static_cast<int>(base.scheme)],
-        base.update_interval, base.crust_density, base.mantle_density - base.crust_density,
-        base.infill_density > 0.0
-            ? fmt::format("{} kg/m3 on the footwall's surface where it sinks", base.infill_density)
+        base.bending.elastic_thickness / 1e3, base.depth / 1e3, base.bending.left / 1e3,
+        base.right / 1e3, base.relaxation, base.skin_thickness / 1e3,
+        schemes[static_cast<int>(base.scheme)], base.update_interval, base.bending.crust_density,
+        base.bending.mantle_density - base.bending.crust_density,
+        base.bending.infill_density > 0.0
+            ? fmt::format("{} kg/m3 on the footwall's surface where it sinks",
+                          base.bending.infill_density)
             : std::string("no infill of what sinks of the footwall's surface"));
     std::vector<std::string_view> absent;
     for (const Effect* effect : list) {
@@ -310,8 +283,9 @@ double memory(const Scene& scene) {
     const double cells =
         static_cast<double>(mesh.cells.size()) * std::pow(4.0, mesh.halvings + base.refinements);
     const double on_detachment =
-        2.0 * base.degree * std::ldexp(request.interface_end / base.cell_size, base.refinements);
-    return plug_in + unknown * 2.0 * base.degree * base.degree * cells +
+        2.0 * base.bending.degree *
+        std::ldexp(request.interface_end / base.cell_size, base.refinements);
+    return plug_in + unknown * 2.0 * base.bending.degree * base.bending.degree * cells +
            8.0 * on_detachment * on_detachment;
 }
 
@@ -406,11 +380,13 @@ const Effect& elastic_base() {
                        scene.find<P>()->mesh_file = std::filesystem::absolute(file).string();
                    }}},
         .needs = {"detachment", "gravity"},
-        .without_discs = true,
         .scale = [](Scene& scene,
                     const AccuracyLevel& level) { scene.find<P>()->cell_size = level.cell_size; },
         .check = check,
         .contribute = contribute,
+        .bending_base = [](const std::any& parameters) -> const BendingBase& {
+            return std::any_cast<const P&>(parameters).bending;
+        },
         .drive_base = make_elastic_base_driver,
         .explain = explain,
         .price = price,

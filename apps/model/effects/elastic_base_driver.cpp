@@ -45,7 +45,7 @@ auto refusing(auto&& make) {
 
 std::unique_ptr<ElasticBase> make_elastic_base(const Scene& scene, const ModelParts& parts,
                                                fem::Footwall& footwall) {
-    Interface interface = condense(footwall, elastic_base(scene)->degree);
+    Interface interface = condense(footwall, elastic_base(scene)->bending.degree);
     const std::size_t last = interface.x.size() - 1;
     const double spacing = hypotenuse(interface.x[last] - interface.x[last - 1],
                                       interface.y[last] - interface.y[last - 1]);
@@ -72,7 +72,7 @@ public:
     ElasticBaseDriver(const Scene& scene, const ModelParts& parts,
                       std::vector<std::unique_ptr<Event>>& events)
         : request_(make_footwall_request(scene, parts)),
-          rock_weight_(elastic_base(scene)->crust_density * parts.physics.gravity),
+          rock_weight_(elastic_base(scene)->bending.crust_density * parts.physics.gravity),
           footwall_(refusing([&] { return fem::make_footwall(request_); })),
           base_(refusing([&] { return make_elastic_base(scene, parts, *footwall_); })),
           loads_(refusing([&] {

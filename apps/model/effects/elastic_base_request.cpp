@@ -18,29 +18,30 @@ fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts&
                                       std::atan2(s.start_tangent.y, s.start_tangent.x),
                                       s.length,
                                       s.curvature});
-    request.left = base.left;
+    request.left = base.bending.left;
     request.right = base.right;
     request.depth = base.depth;
     request.layers = base.layers;
     if (request.layers.empty())
-        request.layers = {{0.0, base.young_modulus, base.poisson_ratio, base.crust_density}};
+        request.layers = {{0.0, base.bending.young_modulus, base.bending.poisson_ratio,
+                           base.bending.crust_density}};
     request.mesh_file = base.mesh_file;
     request.left_side = base.left_side;
     request.right_side = base.right_side;
-    request.solver = base.solver;
+    request.solver = base.bending.solver;
     request.refinements = base.refinements;
-    request.elastic_thickness = base.elastic_thickness;
+    request.elastic_thickness = base.bending.elastic_thickness;
     request.relaxation = base.relaxation;
     request.skin_thickness = base.skin_thickness;
     // Springs at the density contrasts. All of them at the base would leave the plate floating on
     // rock that carries nothing.
-    request.surface_spring = (base.crust_density - base.infill_density) * gravity;
-    request.detachment_spring = base.crust_density * gravity;
-    request.base_spring = (base.mantle_density - base.crust_density) * gravity;
-    request.degree = base.degree;
+    request.surface_spring = (base.bending.crust_density - base.bending.infill_density) * gravity;
+    request.detachment_spring = base.bending.crust_density * gravity;
+    request.base_spring = (base.bending.mantle_density - base.bending.crust_density) * gravity;
+    request.degree = base.bending.degree;
     request.cell_size = base.cell_size;
     // Discs are left of the right wall; the last contact's face reaches a little further.
-    const double reach = scene.hanging_wall->length + scene.extension.distance;
+    const double reach = scene.hanging_wall.length + scene.extension.distance;
     request.interface_end = reach + 3.0 * base.cell_size;
     request.fine_until = reach + 10.0 * base.cell_size;
     return request;
@@ -57,9 +58,9 @@ CouplingParameters make_coupling_parameters(const Scene& scene, const ModelParts
     p.swing_damping = base.swing_damping;
     p.damping = scene.cycle.damping;
     p.contact_stiffness = node_stiffness(scene.basement, parts.materials, node_spacing,
-                                         scene.hanging_wall->mean_radius);
+                                         scene.hanging_wall.mean_radius);
     p.gravity = parts.physics.gravity;
-    p.wall_x = scene.hanging_wall->length;
+    p.wall_x = scene.hanging_wall.length;
     return p;
 }
 

@@ -102,7 +102,7 @@ std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts
 /// What is a fault, in metres and as a rate.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
-    const double diameter = 2.0 * scene.hanging_wall->mean_radius;
+    const double diameter = 2.0 * scene.hanging_wall.mean_radius;
     return fmt::format("fault detection\n"
                        "  a fault slips by at least {:.3g} m in {:g} a: a shear strain rate of "
                        "{:.2g}/s in its circle of {:.0f} m\n",
@@ -116,7 +116,7 @@ std::optional<double> volume_error(const Observation& now) {
     if (ledger.deposited - ledger.removed > ledger.initial)
         return std::nullopt;
     return std::abs(dem::weakened_volume_change(now.state, now.parts.base)) /
-           dem::hanging_wall_area(*now.scene.hanging_wall, now.parts.base.surfaces.front().chain);
+           dem::hanging_wall_area(now.scene.hanging_wall, now.parts.base.surfaces.front().chain);
 }
 
 std::vector<Measure<Observation>> measures() {

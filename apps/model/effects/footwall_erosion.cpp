@@ -1,7 +1,7 @@
 #include "coupling/footwall_erosion.hpp"
 
+#include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
-#include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/scene/target_csv.hpp"
 
 #include <fmt/format.h>
@@ -39,13 +39,13 @@ void read_target(Scene& scene, const std::string& file, const Refuse& refuse) {
 }
 
 void check(const Scene& scene, const Refuse& refuse) {
-    if (listric::elastic_base(scene)->infill_density > 0.0)
+    if (bending_base(scene)->infill_density > 0.0)
         refuse("footwall_erosion",
-               "fills hollows itself; elastic_base.infill_density_kg_per_m3 must be 0 beside it");
+               "fills hollows itself; infill_density_kg_per_m3 of the base must be 0 beside it");
 }
 
 coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts) {
-    const auto& base = *listric::elastic_base(scene);
+    const auto& base = *bending_base(scene);
     P erosion = *scene.find<P>();
     erosion.rock_density = base.crust_density;
     return coupling::footwall_erosion_load(erosion, parts.physics.gravity, base.left,
@@ -56,8 +56,8 @@ std::string explain(const Scene& scene, EffectList) {
     const P& erosion = *scene.find<P>();
     return fmt::format("    footwall: over {:g} km to its target every {:g} a; {} kg/m3 go, "
                        "{} kg/m3 come\n",
-                       erosion.width / 1e3, erosion.interval,
-                       listric::elastic_base(scene)->crust_density, erosion.sediment_density);
+                       erosion.width / 1e3, erosion.interval, bending_base(scene)->crust_density,
+                       erosion.sediment_density);
 }
 
 } // namespace
@@ -72,7 +72,6 @@ const Effect& footwall_erosion() {
         .files = {{"target_csv",
                    "file with the target line: columns time_a, x_m, y_m; linear between times",
                    read_target}},
-        .needs = {"elastic_base"},
         .check = check,
         .load_footwall = load_footwall,
         .explain = explain,

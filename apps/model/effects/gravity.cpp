@@ -23,7 +23,6 @@ const Effect& gravity() {
                         {.from = 1e-6, .to = 100},
                         "g",
                         "gravitational acceleration"}},
-        .without_discs = true,
         .in_genesis = true,
         .contribute =
             [](const Scene& scene, ModelParts& parts) {

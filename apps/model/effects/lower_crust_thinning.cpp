@@ -1,7 +1,7 @@
 #include "coupling/lower_crust_thinning.hpp"
 
+#include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
-#include "apps/model/effects/elastic_base_parameters.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@ namespace {
 using P = coupling::LowerCrustThinningParameters;
 
 coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts) {
-    const auto& base = *listric::elastic_base(scene);
+    const auto& base = *bending_base(scene);
     const double contrast =
         (base.mantle_density - base.crust_density) * parts.physics.gravity; // Pa/m
     return coupling::lower_crust_thinning_load(*scene.find<P>(), contrast, scene.extension.distance,
@@ -21,7 +21,7 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
 
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
-    const auto& base = *listric::elastic_base(scene);
+    const auto& base = *bending_base(scene);
     const double thinner = coupling::lower_crust_thinning(p, scene.extension.distance);
     return fmt::format(
         "    lower crust: {:g} km over {:g} km thins by {:.0f} m in the end; the mantle in its "
@@ -59,7 +59,6 @@ const Effect& lower_crust_thinning() {
                  "",
                  "x of its middle before extension"},
             },
-        .needs = {"elastic_base"},
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = "thinning of the lower crust",

@@ -47,9 +47,9 @@ std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts
                                      std::span<const StagedEvent>) {
     const double rate = scene.extension.rate;
     std::vector<StagedEvent> events;
-    events.push_back(
-        {EventStage::deposit, std::make_unique<dem::Sedimentation>(
-                                  *scene.find<P>(), scene.hanging_wall->radius_ratio, rate)});
+    events.push_back({EventStage::deposit,
+                      std::make_unique<dem::Sedimentation>(*scene.find<P>(),
+                                                           scene.hanging_wall.radius_ratio, rate)});
     if (parts.physics.gravity <= 0.0)
         return events;
     std::optional<double> between_changes; // of porosity, m of extension
@@ -74,7 +74,7 @@ std::vector<dem::TargetLine> lines_of(const P& p) {
 /// Area between the original surface and the target where that is highest, m^2.
 double area_above_surface(const Scene& scene) {
     constexpr int columns = 1000;
-    const double width = scene.hanging_wall->length + scene.extension.distance;
+    const double width = scene.hanging_wall.length + scene.extension.distance;
     double greatest = 0.0;
     for (const dem::TargetLine& line : lines_of(*scene.find<P>())) {
         double area = 0.0;
@@ -88,7 +88,7 @@ double area_above_surface(const Scene& scene) {
 /// Fills distance times thickness, small discs up to the target, and what lies between surface and
 /// target.
 double new_area(const Scene& scene) {
-    return 1.1 * scene.extension.distance * scene.hanging_wall->thickness +
+    return 1.1 * scene.extension.distance * scene.hanging_wall.thickness +
            area_above_surface(scene);
 }
 
@@ -97,13 +97,13 @@ double price(const Scene& scene, const Workload& work) {
     constexpr double of_a_heaped_disc = 2e5;
     return work.years / scene.find<P>()->interval * (6e6 + 480.0 * work.discs) +
            of_a_heaped_disc *
-               static_cast<double>(dem::disc_count(*scene.hanging_wall, area_above_surface(scene)));
+               static_cast<double>(dem::disc_count(scene.hanging_wall, area_above_surface(scene)));
 }
 
 /// Refuses a target that leaves nothing of the hanging wall.
 void check(const Scene& scene, const Refuse& refuse) {
     const P& p = *scene.find<P>();
-    const double thickness = scene.hanging_wall->thickness;
+    const double thickness = scene.hanging_wall.thickness;
     double lowest = 1e300; // of the highest points of all lines
     for (const dem::TargetLine& line : lines_of(p))
         lowest = std::min(lowest, std::ranges::max(line.points(), {}, &dem::Point::y).y);

@@ -1,14 +1,14 @@
-#include "apps/run/flexure.hpp"
+#include "apps/studies/flexure.hpp"
 
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/figures/flexure_figure.hpp"
 #include "apps/figures/paraview.hpp"
-#include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/model.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/log.hpp"
 #include "apps/support/stopwatch.hpp"
+#include "apps/support/version.hpp"
 #include "dem/hash.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
@@ -23,8 +23,6 @@
 #include <optional>
 
 namespace listric {
-
-using namespace dem;
 
 namespace {
 
@@ -68,21 +66,25 @@ struct Case {
     double compared_to; ///< beyond this x, m, the sides disturb
 };
 
-Case make_case(const Scene& scene) {
-    const FlexureParameters& flexure = *scene.flexure;
-    const auto& base = *elastic_base(scene);
-    const double gravity = gravity_of(scene);
+fem::Plate plate_of(const FlexurePlan& plan) {
+    const BendingBase& base = plan.bending();
+    return {base.young_modulus, base.poisson_ratio, base.elastic_thickness,
+            (base.mantle_density - base.infill_density) * plan.gravity};
+}
+
+Case make_case(const FlexurePlan& plan) {
+    const FlexureParameters& flexure = plan.flexure;
+    const BendingBase& base = plan.bending();
     const double te = base.elastic_thickness;
     Case c{};
     c.request.layers = {{0.0, base.young_modulus, base.poisson_ratio, base.crust_density}};
     c.request.depth = te;
-    c.request.surface_spring = (base.crust_density - base.infill_density) * gravity;
-    c.request.base_spring = (base.mantle_density - base.crust_density) * gravity;
+    c.request.surface_spring = (base.crust_density - base.infill_density) * plan.gravity;
+    c.request.base_spring = (base.mantle_density - base.crust_density) * plan.gravity;
     c.request.degree = base.degree;
     c.request.solver = base.solver;
     c.request.cell_size = te / base.cells;
-    c.plate = {base.young_modulus, base.poisson_ratio, te,
-               (base.mantle_density - base.infill_density) * gravity};
+    c.plate = plate_of(plan);
     c.layer = {base.young_modulus, base.poisson_ratio, te, c.request.surface_spring,
                c.request.base_spring};
 
@@ -116,8 +118,8 @@ Case make_case(const Scene& scene) {
     if (cells * te / c.request.cell_size > 1e6 || cells > most)
         throw UsageError(
             fmt::format("the base would have {:.0f} elements along it, allowed: {:.0f}; "
-                        "a shorter load, fewer elastic_base.cells or a thicker base",
-                        cells, most));
+                        "a shorter load, fewer {}.cells or a thicker base",
+                        cells, most, plan.base.effect->name));
     return c;
 }
 
@@ -188,11 +190,6 @@ std::optional<std::vector<double>> exact_deflection(const FlexureParameters& fle
     });
 }
 
-const char* name_of(FlexureLoad load) {
-    constexpr const char* names[] = {"line", "broken", "strip", "sinusoid"};
-    return names[static_cast<int>(load)];
-}
-
 /// How the base bends, and the forces on it.
 struct Bent {
     Deflection deflection;
@@ -200,12 +197,11 @@ struct Bent {
 };
 
 /// Solves, and writes the field. Throws UsageError, fem::FootwallError.
-Bent bend(const FlexureParameters& flexure, const Case& c, const fs::path& output,
-          const std::function<void(const std::string&)>& say) {
+Bent bend(const FlexurePlan& plan, const Case& c, const fs::path& output, Log& log) {
     const std::unique_ptr<fem::Footwall> base = fem::make_footwall(c.request);
-    say(fmt::format("elastic base: {} elements, {} unknowns", base->mesh().cells,
-                    base->mesh().unknowns));
-    base->solve(make_load(flexure, c, *base));
+    log.say(fmt::format("elastic base: {} elements, {} unknowns", base->mesh().cells,
+                        base->mesh().unknowns));
+    base->solve(make_load(plan.flexure, c, *base));
     const fem::Field field = base->field();
     const double middle = -0.5 * c.request.depth;
     Deflection d;
@@ -216,8 +212,9 @@ Bent bend(const FlexureParameters& flexure, const Case& c, const fs::path& outpu
             d.w.push_back(-field.displacement[k].y);
         }
     if (d.x.empty())
-        throw UsageError("elastic_base.cells: elements of degree 1 need an even number, so that "
-                         "nodes lie on the middle of the base");
+        throw UsageError(fmt::format("{}.cells: elements of degree 1 need an even number, so that "
+                                     "nodes lie on the middle of the base",
+                                     plan.base.effect->name));
     base->write(output.string(), "footwall");
     const std::pair<double, std::string> moment{0.0, "footwall.vtu"};
     fem::write_series((output / "footwall.pvd").string(), {&moment, 1});
@@ -276,15 +273,16 @@ void add_comparison(const FlexureParameters& flexure, const Bent& bent, const Th
     json["reaction_error"] = std::abs(bent.reaction.y / bent.load.y + 1.0);
 }
 
-nlohmann::ordered_json summary(const Scene& scene, int threads, const Case& c, const Bent& bent,
-                               const Theory& theory) {
-    const FlexureParameters& flexure = *scene.flexure;
+nlohmann::ordered_json summary(const FlexurePlan& plan, int threads, const Case& c,
+                               const Bent& bent, const Theory& theory) {
+    const auto& load = std::get<Choice>(flexure_parameters()[0].value);
+    const BendingBase& base = plan.bending();
     const double w0 = bent.deflection.at_centre();
-    const double analytic = plate_deflection(flexure, c.plate, 0.0);
+    const double analytic = plate_deflection(plan.flexure, c.plate, 0.0);
     nlohmann::ordered_json json = {
-        {"scene", scene.name},
-        {"accuracy", scene.accuracy},
-        {"seed", scene.seed},
+        {"scene", plan.name},
+        {"accuracy", plan.accuracy},
+        {"seed", plan.seed},
         {"threads", threads},
         {"discs", 0},
         {"cycles", 0},
@@ -294,41 +292,48 @@ nlohmann::ordered_json summary(const Scene& scene, int threads, const Case& c, c
         {"finished", true},
         {"state_hash", fmt::format("{:016x}", dem::fnv1a(bent.deflection.w))},
         {"extension_m", 0.0},
-        {"load", name_of(flexure.load)},
-        {"elastic_thickness_m", elastic_base(scene)->elastic_thickness},
-        {"young_modulus_pa", elastic_base(scene)->young_modulus},
-        {"poisson_ratio", elastic_base(scene)->poisson_ratio},
+        {"load", load.get(&plan.flexure, load.names)},
+        {"elastic_thickness_m", base.elastic_thickness},
+        {"young_modulus_pa", base.young_modulus},
+        {"poisson_ratio", base.poisson_ratio},
         {"restoring_pa_per_m", c.plate.restoring},
         {"alpha_m", c.plate.alpha()},
         {"w0_m", w0},
         {"analytic_w0_m", analytic},
         {"relative_error", std::abs(w0 / analytic - 1.0)},
     };
-    add_comparison(flexure, bent, theory, json);
-    json["provenance"] = archive::provenance(scene);
-    json["effects"] = effect_names(scene);
+    add_comparison(plan.flexure, bent, theory, json);
+    json["provenance"] = archive::provenance(to_toml(plan), plan.seed);
+    json["effects"] = {plan.base.effect->name};
     return json;
 }
 
 } // namespace
 
-void bend_base(const Scene& scene, int threads, const fs::path& output,
-               const std::function<void(const std::string&)>& say) {
+void run_flexure(const FlexurePlan& plan, const RunOptions& options) {
+    const fs::path& output = options.output;
+    const auto lock = archive::take_output(
+        {.parameters = to_toml(plan), .files = {plan.file}, .with_snapshots = false}, output,
+        options.existing());
+    if (!lock)
+        return;
+    Log log(output / "log.txt", options.quiet);
+    log.say(fmt::format("listric {} bends {} into {}", version, plan.name, output.string()));
+    write_text(output / "scene.toml", to_toml(plan));
     const auto start = SteadyClock::now();
-    const FlexureParameters& flexure = *scene.flexure;
-    const Case c = make_case(scene);
+    const Case c = make_case(plan);
     const Bent bent = [&] {
         try {
-            return bend(flexure, c, output, say);
+            return bend(plan, c, output, log);
         } catch (const fem::FootwallError& error) {
-            throw UsageError(fmt::format("elastic_base: {}", error.what()));
+            throw UsageError(fmt::format("{}: {}", plan.base.effect->name, error.what()));
         }
     }();
     const double solving = seconds_since(start);
 
-    const Theory theory = theory_of(flexure, c, bent.deflection.x);
+    const Theory theory = theory_of(plan.flexure, c, bent.deflection.x);
     write_text(output / "deflection.csv", deflection_csv(bent.deflection, theory));
-    nlohmann::ordered_json json = summary(scene, threads, c, bent, theory);
+    nlohmann::ordered_json json = summary(plan, options.threads, c, bent, theory);
     const auto write_summary = [&](double drawing) {
         const double all = seconds_since(start);
         json["wall_s"] = all;
@@ -340,16 +345,30 @@ void bend_base(const Scene& scene, int threads, const fs::path& output,
     write_summary(0.0); // the picture's legend reads it
     const auto drawing = SteadyClock::now();
     try {
-        draw_flexure(output, {.provenance = archive::provenance(scene)});
+        draw_flexure(output, {.provenance = json["provenance"]});
     } catch (const std::exception& error) {
-        say(std::string("warning: no figure: ") + error.what());
+        log.say(std::string("warning: no figure: ") + error.what());
     }
     write_summary(seconds_since(drawing));
-    say(fmt::format("deflection {:.2f} m, thin plate {:.2f} m{}; figure in {}",
-                    bent.deflection.at_centre(), plate_deflection(flexure, c.plate, 0.0),
-                    theory.layer ? fmt::format(", exact layer {:.2f} m", theory.layer->at_centre())
-                                 : "",
-                    (output / "figures").string()));
+    log.say(fmt::format(
+        "deflection {:.2f} m, thin plate {:.2f} m{}; figure in {}", bent.deflection.at_centre(),
+        json["analytic_w0_m"].get<double>(),
+        theory.layer ? fmt::format(", exact layer {:.2f} m", theory.layer->at_centre()) : "",
+        (output / "figures").string()));
+}
+
+std::string explain(const FlexurePlan& plan) {
+    const BendingBase& base = plan.bending();
+    const fem::Plate plate = plate_of(plan);
+    return fmt::format(
+        "{}: {}\n\nan elastic base without discs\n"
+        "  elastic thickness {:g} km, rigidity {:.3g} N m, restoring {:.4g} Pa/m\n"
+        "  flexural parameter {:.1f} km; {} elements of degree {} through the thickness\n"
+        "  the load acts on the surface and nothing else does: deflections are relative to the\n"
+        "  state without it; infill of {:g} kg/m3 fills them\n"
+        "\na few seconds, with the plug-in for elastic bases (libdeal.ii-dev, petsc-dev)\n",
+        plan.name, plan.description, base.elastic_thickness / 1e3, plate.rigidity(),
+        plate.restoring, plate.alpha() / 1e3, base.cells, base.degree, base.infill_density);
 }
 
 } // namespace listric

@@ -1,0 +1,18 @@
+#include "apps/model/bending_base.hpp"
+
+#include "apps/support/spelling.hpp"
+
+#include <fmt/format.h>
+
+namespace listric {
+
+std::string objection_to_densities(const BendingBase& base) {
+    if (base.mantle_density >= base.crust_density && base.crust_density >= base.infill_density)
+        return "";
+    return fmt::format("is {}, allowed: between those of infill ({}) and mantle ({}), for the base "
+                       "to float upright",
+                       text(base.crust_density), text(base.infill_density),
+                       text(base.mantle_density));
+}
+
+} // namespace listric
