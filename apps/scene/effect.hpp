@@ -65,23 +65,6 @@ struct RockSource {
     std::string (*objection)(const RockMaterial& rock) = nullptr;
 };
 
-/// When an event comes among those that are due at the same moment.
-enum class EventStage {
-    sample,  ///< looks at what the cycles have left
-    adjust,  ///< radii and densities follow load and depth
-    heal,    ///< bonds come
-    weaken,  ///< faults are found
-    deposit, ///< discs come and go
-    account, ///< books what the others have done
-    strain,  ///< a window starts with the discs that were deposited at its start
-    load     ///< loads on the footwall
-};
-
-struct StagedEvent {
-    EventStage stage;
-    std::unique_ptr<dem::Event> event;
-};
-
 /// Sediment as effects describe it to each other and to measures.
 struct SedimentFacts {
     double level = 0.0;                   ///< m, y up
@@ -183,9 +166,8 @@ struct Effect {
     std::optional<Objection> (*on_ranks)(const Scene& scene) = nullptr;
 
     void (*contribute)(const Scene& scene, ModelParts& parts) = nullptr;
-    /// @param others  those of the effects before, in the order in which they are applied
-    std::vector<StagedEvent> (*make_events)(const Scene& scene, const ModelParts& parts,
-                                            std::span<const StagedEvent> others) = nullptr;
+    /// Adds the effect's events to those of the effects before.
+    void (*add_events)(const Scene& scene, const ModelParts& parts, dem::Events& events) = nullptr;
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
     /// Moves the base's nodes; of a scene's effects at most one does.
     /// @param events  to which those of the loads on the base are appended, for the run to apply
