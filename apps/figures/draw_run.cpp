@@ -48,7 +48,7 @@ void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
 } // namespace
 
 void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
-              const std::vector<std::string>& formats) {
+              const std::vector<std::string>& formats, const std::vector<double>& extensions) {
     std::error_code error;
     if (fs::exists(output / "deflection.csv", error)) {
         const Scene scene = load_scene({.scene = (output / "scene.toml").string()});
@@ -56,7 +56,8 @@ void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
     }
     const RunFolder run = open_run(output);
     const PictureOrder order{formats, provenance_of_run(output, run.scene)};
-    const std::vector<fs::path> chosen = chosen_snapshots(run);
+    const std::vector<fs::path> chosen =
+        extensions.empty() ? chosen_snapshots(run) : run.snapshots_at(extensions);
     FigureFrames frames(output / "figures", underlay, order, run.names);
     const RunHistory history(run);
     bool base_moves = false;
@@ -66,6 +67,8 @@ void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
         add_frame(frames, run, moment, history);
     }
     frames.draw("sections");
+    if (!extensions.empty())
+        return;
     if (chosen.size() > 1)
         frames.draw("experiment");
     if (base_moves)

@@ -2,6 +2,7 @@
 
 import csv
 from collections.abc import Callable, Mapping
+from html import escape
 from pathlib import Path
 
 import numpy as np
@@ -78,6 +79,12 @@ class Table(Mapping):
                             for name, unit in self.units.items())
         return f"<{self._where}: {self.rows} rows of {columns}>"
 
+    def _repr_html_(self) -> str:
+        """The columns, not their numbers, which would all be read."""
+        return f"<p>{escape(self._where)}: {self.rows} rows</p>" + html_table(
+            ("column", "unit", "definition"),
+            ((name, unit or "", doc_of(name)) for name, unit in self.units.items()))
+
     def to_pandas(self):
         """All columns as a pandas.DataFrame. Needs pandas."""
         try:
@@ -86,6 +93,14 @@ class Table(Mapping):
             raise ImportError("to_pandas() needs pandas: install the package python3-pandas, or "
                               "`pip install pandas`") from error
         return pandas.DataFrame({name: np.asarray(self[name]) for name in self})
+
+
+def html_table(heads, rows) -> str:
+    """Rows of words as a table of HTML."""
+    def row(words, cell):
+        return "<tr>" + "".join(f'<{cell} style="text-align: left">{escape(word)}</{cell}>'
+                                for word in words) + "</tr>"
+    return f"<table>{row(heads, 'th')}{''.join(row(words, 'td') for words in rows)}</table>"
 
 
 def read_csv(path: Path, units: Callable[[str], str | None] = unit_of) -> Table:
