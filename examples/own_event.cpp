@@ -17,14 +17,12 @@ public:
     }
 
     bool apply(State& state, const RigidBase&) override {
-        const auto discs = disc_columns(state);
-        const auto contacts = contact_columns(state);
-        const auto above = [&](auto k) {
-            return discs.start_x[k] > 16e3 - discs.start_y[k] / 1.73;
-        };
-        for (std::size_t c = 0; c < contacts.bonded.size(); ++c)
-            if (above(contacts.first[c]) != above(contacts.second[c]))
-                memory.get<double>("broken")[0] += std::exchange(contacts.bonded[c], 0);
+        const auto d = disc_columns(state);
+        const auto c = contact_columns(state);
+        const auto above = [&](auto k) { return d.start_x[k] > 16e3 - d.start_y[k] / 1.73; };
+        for (std::size_t k = 0; k < c.bonded.size(); ++k)
+            if (above(c.first[k]) != above(c.second[k]))
+                memory.get<double>("broken")[0] += std::exchange(c.bonded[k], 0);
         return false; // no disc has moved
     }
 };
