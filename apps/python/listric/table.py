@@ -1,6 +1,7 @@
 """Tables of named columns with units."""
 
 import csv
+import re
 from collections.abc import Callable, Mapping
 from html import escape
 from pathlib import Path
@@ -96,11 +97,11 @@ class Table(Mapping):
 
 
 def html_table(heads, rows) -> str:
-    """Rows of words as a table of HTML."""
+    """Rows of words as a table of HTML; words between backticks are code."""
     def row(words, cell):
-        return "<tr>" + "".join(f'<{cell} style="text-align: left">{escape(word)}</{cell}>'
-                                for word in words) + "</tr>"
-    return f"<table>{row(heads, 'th')}{''.join(row(words, 'td') for words in rows)}</table>"
+        cells = (re.sub("`([^`]*)`", r"<code>\1</code>", escape(word)) for word in words)
+        return "<tr>" + "".join(f'<{cell} style="text-align: left">{one}</{cell}>' for one in cells) + "</tr>\n"
+    return f"\n<table>\n{row(heads, 'th')}{''.join(row(words, 'td') for words in rows)}</table>"
 
 
 def read_csv(path: Path, units: Callable[[str], str | None] = unit_of) -> Table:
