@@ -1,4 +1,4 @@
-// Runs LIS1 to 1 km of extension, prints its main faults and some measures, saves it and reads it
+// Runs LIS1 to 1 km of extension, prints its faults and some measures, saves it and reads it
 // back. The hash is the `state_hash` of `listric run lis1 --accuracy draft --until 1km`.
 
 #include <listric/run.hpp>

@@ -127,16 +127,16 @@ class Installed(unittest.TestCase):
             self.assertIn(f"```cpp\n{text}```\n", page, program.name)
             self.assertLessEqual(text.count("\n"), 30 if program.stem == "run_scene" else 40, program)
 
-    def test_a_project_of_dem_alone_needs_no_package(self):
-        source = self.place / "dem-alone-source"
-        source.mkdir()
-        (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\n"
-            "find_package(Listric REQUIRED COMPONENTS dem)\nadd_library(mine STATIC mine.cpp)\n"
-            "target_link_libraries(mine PRIVATE listric::dem)\n")
-        (source / "mine.cpp").write_text("#include <listric/dem.hpp>\n")
-        hidden = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON"
-                  for name in ("fmt", "tomlplusplus", "nlohmann_json", "pugixml", "ZLIB", "PkgConfig")]
-        self.project(source, *hidden)
+    def test_a_project_of_one_library_needs_its_packages_alone(self):
+        of_scenes = ("tomlplusplus", "nlohmann_json", "pugixml")
+        for library, hidden in (("dem", (*of_scenes, "fmt", "ZLIB", "PkgConfig")), ("snapshot", of_scenes)):
+            source = self.elsewhere / library
+            source.mkdir()
+            (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\n"
+                f"find_package(Listric REQUIRED COMPONENTS {library})\nadd_executable(mine mine.cpp)\n"
+                f"target_link_libraries(mine PRIVATE listric::{library})\n")
+            (source / "mine.cpp").write_text(f"#include <listric/{library}.hpp>\nint main() {{}}\n")
+            self.project(source, *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in hidden))
 
     def test_a_project_builds_the_sources_with_its_own(self):
         folder = self.project(HERE / "fetched", f"-DLISTRIC_SOURCE_DIR={SOURCES}",

@@ -39,12 +39,13 @@ class Run:
         return f"<run {self.folder}: {len(self.snapshots)} snapshots>"
 
     def _repr_html_(self) -> str:
-        """The measures at the end, or so far, by name."""
+        """Opens to the measures at the end, or so far."""
         history = self.history
-        return f"<p>{escape(repr(self)[1:-1])}</p>" + html_table(
-            ("measure", "value", "unit", "definition"),
-            ((name, f"{history[name][-1]:.6g}", history.units[name] or "", doc_of(name))
-             for name in history if history.rows and np.isfinite(history[name][-1])))
+        last = {name: history[name][-1] for name in history if history.rows}
+        table = html_table(("measure", "value", "unit", "definition"),
+                           ((name, f"{value:.6g}", history.units[name] or "", doc_of(name))
+                            for name, value in last.items() if np.isfinite(value)))
+        return f"<details><summary>{escape(repr(self)[1:-1])}</summary>{table}</details>"
 
     @cached_property
     def snapshots(self) -> tuple[Snapshot, ...]:
