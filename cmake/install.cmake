@@ -44,7 +44,7 @@ install(DIRECTORY include/listric DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPON
 install(EXPORT listric NAMESPACE listric:: FILE ListricTargets.cmake DESTINATION ${package}
   COMPONENT development)
 configure_package_config_file(cmake/ListricConfig.cmake.in ListricConfig.cmake
-  INSTALL_DESTINATION ${package})
+  INSTALL_DESTINATION ${package} PATH_VARS share)
 write_basic_package_version_file(ListricConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/ListricConfig.cmake cmake/FindLibcsv.cmake
   ${PROJECT_BINARY_DIR}/ListricConfigVersion.cmake DESTINATION ${package} COMPONENT development)

@@ -102,9 +102,9 @@ std::vector<double> flank_depths(const SurfaceResponse& response, std::span<cons
 BasinWater::BasinWater(const Interface& interface, const BasinWaterParameters& parameters,
                        double gravity, double column_width, double extension_rate,
                        const std::optional<PoreSpace>& pores, std::optional<Flank> flank)
-    : Event("basin_water", {parameters.interval, extension_rate}), parameters_(parameters),
-      pores_(pores), flank_(std::move(flank)), gravity_(gravity), column_width_(column_width),
-      nodes_(interface.x.size()) {
+    : Event("basin_water", {parameters.interval, extension_rate}, dem::Stage::load),
+      parameters_(parameters), pores_(pores), flank_(std::move(flank)), gravity_(gravity),
+      column_width_(column_width), nodes_(interface.x.size()) {
     memory.add<double>("start_depth_m", "", 0.0);
     memory.add<double>("flank_depth_m", "m", 0.0);
     for (double x = 0.0; x + column_width <= interface.x.back(); x += column_width)

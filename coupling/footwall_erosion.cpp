@@ -133,7 +133,7 @@ int adapt_footwall(const SurfaceResponse& response, const FootwallErosionParamet
 FootwallErosion::FootwallErosion(SurfaceResponse response, std::vector<double> forces,
                                  Uplift uplift, const FootwallErosionParameters& parameters,
                                  double gravity, double extension_rate)
-    : Event("footwall_erosion", {parameters.interval, extension_rate}),
+    : Event("footwall_erosion", {parameters.interval, extension_rate}, dem::Stage::load),
       response_(std::move(response)), forces_(std::move(forces)), uplift_(std::move(uplift)),
       parameters_(parameters), target_(parameters.level, parameters.target), gravity_(gravity) {
     memory.resize(response_.x.size());

@@ -56,8 +56,8 @@ std::vector<double> lower_crust_amounts(double share) {
 
 LowerCrustThinning::LowerCrustThinning(std::vector<double> forces, double distance,
                                        double extension_rate)
-    : Event("lower_crust_thinning", {interval, extension_rate}), forces_(std::move(forces)),
-      distance_(distance) {
+    : Event("lower_crust_thinning", {interval, extension_rate}, dem::Stage::load),
+      forces_(std::move(forces)), distance_(distance) {
     assert(forces_.size() % (steps + 1) == 0 && distance > 0.0);
 }
 

@@ -2,9 +2,16 @@
 
 #include "dem/units.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace listric::dem {
+
+Event& add(Events& events, std::unique_ptr<Event> event) {
+    const auto place = std::ranges::upper_bound(
+        events, event->stage(), {}, [](const std::unique_ptr<Event>& e) { return e->stage(); });
+    return **events.insert(place, std::move(event));
+}
 
 double Schedule::seconds() const { return interval * seconds_per_year; }
 

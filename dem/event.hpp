@@ -11,6 +11,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace listric::dem {
 
@@ -29,6 +31,18 @@ inline constexpr Schedule never{std::numeric_limits<double>::infinity(), 1.0};
 /// worked on is then left as it is.
 using StepReport = std::function<void(const std::string& done)>;
 
+/// Order of events that are due at the same extension.
+enum class Stage {
+    sample,  ///< looks at what the cycles have left
+    adjust,  ///< radii and densities follow load and depth
+    heal,    ///< bonds come
+    weaken,  ///< faults are found
+    deposit, ///< discs come and go
+    account, ///< books what the others have done
+    strain,  ///< a window starts with the discs that were deposited at its start
+    load     ///< loads on the footwall
+};
+
 /// Something rare that happens to the state between cycles: an effect is one or more events.
 ///
 /// What an event must remember per disc or contact it keeps in a column of the state; anything
@@ -36,11 +50,13 @@ using StepReport = std::function<void(const std::string& done)>;
 /// was begins, in discs that come later, as they are: Table::add_like().
 class Event {
 public:
-    Event(std::string name, Schedule schedule) : name_(std::move(name)), schedule_(schedule) {}
+    Event(std::string name, Schedule schedule, Stage stage = Stage::adjust)
+        : name_(std::move(name)), schedule_(schedule), stage_(stage) {}
     virtual ~Event() = default;
 
     const std::string& name() const { return name_; }
     const Schedule& schedule() const { return schedule_; }
+    Stage stage() const { return stage_; }
 
     /// Extension at which it is to be applied next, m: ascending with `applied`, and of nothing
     /// else that changes. Once in the schedule's spacing, unless an event says otherwise.
@@ -61,16 +77,24 @@ public:
 private:
     std::string name_;
     Schedule schedule_;
+    Stage stage_;
 };
 
 /// An event that only looks: nothing that a cycle depends on is other for it.
 class Observer : public Event {
 public:
-    using Event::Event;
+    Observer(std::string name, Schedule schedule, Stage stage = Stage::sample)
+        : Event(std::move(name), schedule, stage) {}
 
     /// Whether it can begin to look in the middle of a run.
     virtual bool begins_any_time() const { return false; }
 };
+
+/// Events in the order in which they are applied at the same extension.
+using Events = std::vector<std::unique_ptr<Event>>;
+
+/// Puts an event behind those of its stage and of the stages before.
+Event& add(Events& events, std::unique_ptr<Event> event);
 
 /// The first of the events that is an E; null if there is none.
 template <class E> E* find(std::span<const std::unique_ptr<Event>> events) {

@@ -30,9 +30,9 @@ Simulation::Simulation(RigidBase base, const CyclePhysics& physics)
 
 Event& Simulation::add(std::unique_ptr<Event> event) {
     assert(event && !has_state_);
-    events_.push_back(std::move(event));
+    Event& added = dem::add(events_, std::move(event));
     energy_ = dem::find<EnergyAccount>(events_);
-    return *events_.back();
+    return added;
 }
 
 void Simulation::respond_by(BaseResponse& response) {

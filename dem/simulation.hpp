@@ -19,7 +19,7 @@ namespace listric::dem {
 class EnergyAccount;
 
 /// A hanging wall that is extended: state and base, the cycle that moves them, and the events
-/// between cycles. Build it, add events, begin, extend:
+/// between cycles. make_simulation() makes it of a Model; or build it, add events, begin, extend:
 ///
 ///     Simulation sandbox(make_halfgraben(...), {.gravity = 9.81});
 ///     sandbox.add<BondHealing>(...);
@@ -27,9 +27,9 @@ class EnergyAccount;
 ///     sandbox.extend_to(5e3);
 ///
 /// An event is applied in the cycle nearest to the extension that it is due at; events due at the
-/// same moment in the order in which they were added. The bits of the result depend neither on the
-/// threads nor on how the extension is cut into calls; but an account of energy is booked at the
-/// end of every call, which may round its sums differently.
+/// same moment by their stages, and those of a stage in the order in which they were added. The
+/// bits of the result depend neither on the threads nor on how the extension is cut into calls; but
+/// an account of energy is booked at the end of every call, which may round its sums differently.
 class Simulation {
 public:
     /// The base's motion must have a speed.
@@ -126,7 +126,7 @@ private:
     RigidBase base_;
     CyclePhysics physics_;
     State state_;
-    std::vector<std::unique_ptr<Event>> events_;
+    Events events_;
     EnergyAccount* energy_ = nullptr; ///< one of the events, if it is on
     Advance advance_;
     Collect collect_;           ///< none: cycles leave nothing to collect

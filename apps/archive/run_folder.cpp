@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace listric::archive {
@@ -119,6 +120,25 @@ RunFolder::RunFolder(const fs::path& folder)
     scene = load_scene({.scene = file.string(), .is_record = true});
     parts = make_parts(scene);
     names = MomentNames(scene.output.interval, moments.window_ends);
+}
+
+std::vector<fs::path> RunFolder::snapshots_at(const std::vector<double>& extensions) const {
+    if (extensions.empty())
+        return snapshots;
+    std::vector<fs::path> paths;
+    for (const double extension : extensions) {
+        const auto distance = [&](const fs::path& path) {
+            return std::abs(snapshot_extension(path) - extension);
+        };
+        paths.push_back(*std::ranges::min_element(snapshots, {}, distance));
+        if (!(distance(paths.back()) <= scene.output.interval))
+            throw UsageError(fmt::format(
+                "--at {}: no snapshot there; there are some from {} to {} m", extension,
+                snapshot_extension(snapshots.front()), snapshot_extension(snapshots.back())));
+    }
+    std::ranges::sort(paths, {}, snapshot_extension);
+    paths.erase(std::ranges::unique(paths).begin(), paths.end());
+    return paths;
 }
 
 Moment RunFolder::read(const fs::path& path) const {

@@ -68,6 +68,10 @@ struct RunFolder {
     /// The folder of a scene at hand, whose effects need not be the program's. Throws StorageError.
     RunFolder(const std::filesystem::path& output, const Scene& scene);
 
+    /// The snapshots nearest to extensions, m, oldest first; without any, all. Throws UsageError if
+    /// one is further away than the run's next snapshot would be.
+    std::vector<std::filesystem::path> snapshots_at(const std::vector<double>& extensions) const;
+
     /// Throws StorageError, and UsageError if another run made the snapshot.
     Moment read(const std::filesystem::path& snapshot) const;
 };

@@ -23,6 +23,7 @@ struct FiguresCall {
     std::string folder;
     bool animation = false;
     UnderlayOptions underlay;
+    std::vector<double> extensions; ///< m
     std::vector<std::string> formats{"png"};
 };
 
@@ -35,6 +36,8 @@ void require_formats(const FiguresCall& call) {
                 fmt::format("--format: no format {}; {}", format, advice(format, known)));
     if (call.animation && call.formats != std::vector<std::string>{"png"})
         throw UsageError("--format: is not of an animation, which is a film");
+    if (call.animation && !call.extensions.empty())
+        throw UsageError("--at: an animation has all snapshots");
 }
 
 } // namespace
@@ -46,6 +49,9 @@ Command add_figures(CLI::App& program) {
     command->add_flag("--animation", call->animation,
                       "An animation of all snapshots instead of the figures");
     add_underlay(*command, call->underlay);
+    add_numbers(*command, "--at", call->extensions,
+                "Extension of a snapshot whose sections are drawn, m, or several with commas; "
+                "default: those of the scene, and the end");
     command
         ->add_option("--format", call->formats,
                      "png, pdf, svg, or several: png,pdf; discs are an image in all of them")
@@ -57,7 +63,7 @@ Command add_figures(CLI::App& program) {
                     throw UsageError("--underlay: is not drawn in an animation");
                 require_formats(*call);
                 call->animation ? animate_run(call->folder)
-                                : draw_run(call->folder, underlay, call->formats);
+                                : draw_run(call->folder, underlay, call->formats, call->extensions);
                 return ExitCode::done;
             }};
 }

@@ -48,14 +48,15 @@ void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
 } // namespace
 
 void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
-              const std::vector<std::string>& formats) {
+              const std::vector<std::string>& formats, const std::vector<double>& extensions) {
     std::error_code error;
     if (fs::exists(output / "deflection.csv", error))
         return draw_flexure(output,
                             {formats, object_at(object_in(output / "summary.json"), "provenance")});
     const RunFolder run = open_run(output);
     const PictureOrder order{formats, provenance_of_run(output, run.scene)};
-    const std::vector<fs::path> chosen = chosen_snapshots(run);
+    const std::vector<fs::path> chosen =
+        extensions.empty() ? chosen_snapshots(run) : run.snapshots_at(extensions);
     FigureFrames frames(output / "figures", underlay, order, run.names);
     const RunHistory history(run);
     bool base_moves = false;
@@ -65,6 +66,8 @@ void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
         add_frame(frames, run, moment, history);
     }
     frames.draw("sections");
+    if (!extensions.empty())
+        return;
     if (chosen.size() > 1)
         frames.draw("experiment");
     if (base_moves)

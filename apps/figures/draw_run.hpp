@@ -15,8 +15,9 @@ namespace listric {
 /// the newest one. Throws UsageError if there is nothing to draw, SceneError, StorageError.
 /// @param underlay  that sections are drawn over, if there is one
 /// @param formats  of picture_formats
+/// @param extensions  of the snapshots, m, whose sections alone are drawn; none: the scene's
 void draw_run(const std::filesystem::path& output, const std::optional<Underlay>& underlay,
-              const std::vector<std::string>& formats);
+              const std::vector<std::string>& formats, const std::vector<double>& extensions);
 
 /// Draws the same moments on one sheet, if there are at least two. Throws as draw_run.
 /// @param history  the run's past, up to its end

@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -59,29 +60,6 @@ void require_formats(const Kind& kind, const std::vector<std::string>& formats) 
         if (std::ranges::find(kind.formats, format) == kind.formats.end())
             throw UsageError(fmt::format("export {}: no format {}; {}", kind.name, format,
                                          advice(format, kind.formats)));
-}
-
-/// The snapshots nearest to the extensions, oldest first. Throws UsageError if one is further away
-/// than the next snapshot of the run would be.
-std::vector<fs::path> chosen(const RunFolder& run, const std::vector<double>& extensions) {
-    if (extensions.empty())
-        return run.snapshots;
-    std::vector<fs::path> paths;
-    for (const fs::path& path : run.snapshots)
-        for (const double extension : extensions) {
-            const auto distance = [&](const fs::path& p) {
-                return std::abs(snapshot_extension(p) - extension);
-            };
-            const fs::path& nearest = *std::ranges::min_element(run.snapshots, {}, distance);
-            if (!(distance(nearest) <= run.scene.output.interval))
-                throw UsageError(fmt::format(
-                    "export: --at {}: no snapshot there; there are some from {} to {} m", extension,
-                    snapshot_extension(run.snapshots.front()),
-                    snapshot_extension(run.snapshots.back())));
-            if (nearest == path && (paths.empty() || paths.back() != path))
-                paths.push_back(path);
-        }
-    return paths;
 }
 
 /// Discs and bonds of several moments as one GSD file, which OVITO opens: the arrays that the
@@ -145,7 +123,7 @@ std::vector<fs::path> export_run(const ExportRequest& request) {
         throw UsageError(request.output.string() +
                          ": no snapshots to export; is this a run's folder?");
     const RunFolder run(request.output);
-    const std::vector<fs::path> moments = chosen(run, request.extensions);
+    const std::vector<fs::path> moments = run.snapshots_at(request.extensions);
     const RunHistory history = kind.needs_faults ? RunHistory(run) : RunHistory();
     const fs::path folder = request.output / "export";
     make_folder(folder);

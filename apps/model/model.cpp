@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace listric {
 
@@ -27,23 +26,19 @@ ModelParts make_parts(const Scene& scene) {
     return parts;
 }
 
-std::vector<std::unique_ptr<Event>> make_events(const Scene& scene, const ModelParts& parts) {
-    constexpr double sampling = 2500.0; // a, the paper's interval of bond healing
+double gravity_of(const Scene& scene) {
+    return has_effect(scene, "gravity") ? make_parts(scene).physics.gravity : standard_gravity;
+}
+
+Events make_events(const Scene& scene, const ModelParts& parts) {
     const double rate = scene.extension.rate;
-    std::vector<StagedEvent> staged;
-    const auto add = [&](StagedEvent event) {
-        const auto place = std::ranges::upper_bound(staged, event.stage, {}, &StagedEvent::stage);
-        staged.insert(place, std::move(event));
-    };
-    add({EventStage::sample, std::make_unique<Equilibrium>(sampling, rate, parts.physics.gravity)});
+    Events events;
+    dem::add(events,
+             std::make_unique<Equilibrium>(equilibrium_interval, rate, parts.physics.gravity));
     for (const EffectPart& part : scene.effects)
-        if (part.effect->make_events)
-            for (StagedEvent& event : part.effect->make_events(scene, parts, staged))
-                add(std::move(event));
-    add({EventStage::strain, std::make_unique<Strain>(strain_window, rate)});
-    std::vector<std::unique_ptr<Event>> events;
-    std::ranges::transform(staged, std::back_inserter(events),
-                           [](StagedEvent& event) { return std::move(event.event); });
+        if (part.effect->add_events)
+            part.effect->add_events(scene, parts, events);
+    dem::add(events, std::make_unique<Strain>(strain_window, rate));
     return events;
 }
 

@@ -17,7 +17,7 @@ ModelParts make_parts(const Scene& scene);
 /// The events of a scene, in the order in which they are applied at the same moment. An effect that
 /// is not in the scene has no event, so it has no memory and no cost. Those of the loads on a base
 /// that deforms come with its driver.
-std::vector<std::unique_ptr<dem::Event>> make_events(const Scene& scene, const ModelParts& parts);
+dem::Events make_events(const Scene& scene, const ModelParts& parts);
 
 /// The loads on an elastic footwall, in the order in which they are applied.
 std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace listric {
@@ -63,6 +64,29 @@ void start(Simulation& simulation, RunView& run) {
     }
     simulation.begin(std::move(state));
     run.log.say(fmt::format("hanging wall: {} discs", run.state().discs.rows()));
+}
+
+void end_window(Simulation& simulation, RunView& run, const std::function<void()>& tell) {
+    if (run.driver) {
+        const PartWatch time = run.watch(Part::measures);
+        run.window_of_base = run.driver->end_window(simulation.state(), simulation.base());
+    }
+    tell();
+    run.past.add(measures::DiscPlaces(run.state()));
+}
+
+bool extend_by_windows(Simulation& simulation, const RunView& run, double goal,
+                       const Simulation::Report& report,
+                       const std::function<bool()>& end_of_window) {
+    const double tolerance = simulation.tolerance();
+    bool goes_on = true;
+    while (goes_on && run.extension() < goal - tolerance) {
+        const double window = run.next_window_end();
+        goes_on = simulation.extend_to(std::min(window, goal), run.options.execution(), report);
+        if (run.extension() >= window - tolerance)
+            goes_on = end_of_window() && goes_on;
+    }
+    return goes_on;
 }
 
 } // namespace listric

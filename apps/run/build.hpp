@@ -2,9 +2,11 @@
 
 #include "apps/run/run_view.hpp"
 
+#include <functional>
+
 namespace listric {
 
-// How a run's simulation is made of its scene.
+// How a run's simulation is made of its scene, and extended.
 
 /// Adds the events of the scene, whose wall time the run's record counts.
 void add_events(dem::Simulation& simulation, RunView& run);
@@ -15,5 +17,15 @@ void drive(dem::Simulation& simulation, RunView& run);
 
 /// Drives the simulation and begins it with the hanging wall before extension. Throws Interrupted.
 void start(dem::Simulation& simulation, RunView& run);
+
+/// Ends a window of extension: lets the base's driver end it, calls `tell`, and remembers the
+/// moment for what follows faults back.
+void end_window(dem::Simulation& simulation, RunView& run, const std::function<void()>& tell);
+
+/// Extends to `goal`, m, and ends windows where they end. False: the report or a window's end,
+/// which return whether to go on, has stopped it.
+bool extend_by_windows(dem::Simulation& simulation, const RunView& run, double goal,
+                       const dem::Simulation::Report& report,
+                       const std::function<bool()>& end_of_window);
 
 } // namespace listric

@@ -1,9 +1,11 @@
 #include "apps/run/run_view.hpp"
 
+#include "apps/archive/dictionary.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/run_files.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/setting.hpp"
+#include "apps/archive/summary.hpp"
 #include "apps/model/model.hpp"
 #include "dem/ranks/ranked_cycles.hpp"
 
@@ -70,6 +72,29 @@ const measures::Measures& RunView::measured() {
 
 const measures::FaultReport& RunView::faults() {
     return made_once(faults_, [&] { return report_faults(setting, parts.base, state(), past); });
+}
+
+NamedNumbers RunView::row() {
+    NamedNumbers row = history_row(state(), measured());
+    append(row, measure_effects(now()).numbers);
+    append(row, window_of_base.measures);
+    return row;
+}
+
+void RunView::add_row() {
+    const NamedNumbers values = row();
+    dem::Table& history = record.history;
+    for (const auto& [name, value] : values)
+        if (!history.has(name))
+            history.add<double>(name, unit_of(name, scene), std::nan(""));
+    history.resize(history.rows() + 1);
+    for (const auto& [name, value] : values)
+        history.get<double>(name).back() = value;
+}
+
+void RunView::require_elasticity() const {
+    if (window_of_base.beyond_elasticity)
+        throw BeyondElasticity(*window_of_base.beyond_elasticity);
 }
 
 double RunView::seconds_left() const {

@@ -74,6 +74,13 @@ public:
     const measures::FaultReport& faults(); ///< followed back to their birth
     bool knows_faults() const { return faults_.is_of(extension()); } ///< of the present moment
 
+    /// The measures of the present moment, a row of history.csv. NaN: no meaning in this run.
+    NamedNumbers row();
+    void add_row(); ///< to the record's history
+
+    /// Throws BeyondElasticity if the base is, by the window that has ended last.
+    void require_elasticity() const;
+
     double wall_seconds() const { return seconds_before_ + seconds_since(started_); }
     double seconds_left() const;
     std::string progress() const; ///< a line about it

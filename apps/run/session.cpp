@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace listric {
@@ -93,32 +92,25 @@ void Session::begin() {
 void Session::extend() {
     simulation_.report_steps_to([this](const std::string& done) { report_step(done); });
     enter(Phase::extension);
-    const double tolerance = simulation_.tolerance(), target = run_.target();
     const double steps_before = run_.record.disc_steps;
-    while (run_.extension() < target - tolerance) {
-        if (run_.options.stop.requested()) {
-            keep();
-            throw Interrupted{};
-        }
-        const double window = run_.next_window_end();
-        const auto report = [&](const Simulation& simulation) {
-            run_.record.disc_steps = steps_before + simulation.disc_steps();
-            run_.log.progress(run_.progress());
-            return !run_.options.stop.requested();
-        };
-        simulation_.extend_to(std::min(window, target), run_.options.execution(), report);
-        if (run_.extension() >= window - tolerance)
-            end_window(&Output::window);
+    const auto report = [&](const Simulation& simulation) {
+        run_.record.disc_steps = steps_before + simulation.disc_steps();
+        run_.log.progress(run_.progress());
+        return !run_.options.stop.requested();
+    };
+    const auto end_of_window = [&] {
+        end_window(&Output::window);
+        return !run_.options.stop.requested();
+    };
+    if (run_.options.stop.requested() ||
+        !extend_by_windows(simulation_, run_, run_.target(), report, end_of_window)) {
+        keep();
+        throw Interrupted{};
     }
 }
 
 void Session::end_window(Hook hook) {
-    if (run_.driver) {
-        const PartWatch time = run_.watch(Part::measures);
-        run_.window_of_base = run_.driver->end_window(simulation_.state(), simulation_.base());
-    }
-    tell(hook);
-    run_.past.add(measures::DiscPlaces(run_.state()));
+    listric::end_window(simulation_, run_, [&] { tell(hook); });
 }
 
 /// Saves the present moment, unless it is.

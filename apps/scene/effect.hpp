@@ -66,23 +66,6 @@ struct RockSource {
     std::string (*objection)(const RockMaterial& rock) = nullptr;
 };
 
-/// When an event comes among those that are due at the same moment.
-enum class EventStage {
-    sample,  ///< looks at what the cycles have left
-    adjust,  ///< radii and densities follow load and depth
-    heal,    ///< bonds come
-    weaken,  ///< faults are found
-    deposit, ///< discs come and go
-    account, ///< books what the others have done
-    strain,  ///< a window starts with the discs that were deposited at its start
-    load     ///< loads on the footwall
-};
-
-struct StagedEvent {
-    EventStage stage;
-    std::unique_ptr<dem::Event> event;
-};
-
 /// Sediment as effects describe it to each other and to measures.
 struct SedimentFacts {
     double level = 0.0;                   ///< m, y up
@@ -183,9 +166,8 @@ struct Effect {
     std::optional<Objection> (*on_ranks)(const Scene& scene) = nullptr;
 
     void (*contribute)(const Scene& scene, ModelParts& parts) = nullptr;
-    /// @param others  those of the effects before, in the order in which they are applied
-    std::vector<StagedEvent> (*make_events)(const Scene& scene, const ModelParts& parts,
-                                            std::span<const StagedEvent> others) = nullptr;
+    /// Adds the effect's events to those of the effects before.
+    void (*add_events)(const Scene& scene, const ModelParts& parts, dem::Events& events) = nullptr;
     /// It needs a base that bends.
     coupling::FootwallLoad (*load_footwall)(const Scene& scene, const ModelParts& parts) = nullptr;
     /// The base, of the effect that bends it.

@@ -34,8 +34,8 @@ void remember_bonded(State& state) {
 
 BondHealing::BondHealing(const BondHealingParameters& parameters, const BondStrength& strength,
                          double extension_rate)
-    : Event("bond_healing", {parameters.interval, extension_rate}), parameters_(parameters),
-      strength_(strength) {}
+    : Event("bond_healing", {parameters.interval, extension_rate}, Stage::heal),
+      parameters_(parameters), strength_(strength) {}
 
 void BondHealing::begin(State& state) {
     state.discs.add_like<double>("healed_x", "m", "x");

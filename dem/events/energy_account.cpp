@@ -10,7 +10,7 @@ const std::string shrinking = "event_compaction"; ///< also works in the cycles,
 } // namespace
 
 EnergyAccount::EnergyAccount(double gravity, bool base_deforms, std::span<const std::string> events)
-    : Observer("energy", never), gravity_(gravity) {
+    : Observer("energy", never, Stage::account), gravity_(gravity) {
     for (const char* name : {"initial", "stored", "potential", "boundary_work", "gravity_work",
                              "friction", "damping", "bond_breaking", "stepping"})
         memory.add<double>(name, "J/m", 0.0);

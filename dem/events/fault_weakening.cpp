@@ -192,8 +192,8 @@ double critical_rate(const FaultWeakeningParameters& p, double mean_diameter) {
 
 FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, double extension_rate,
                                double gravity)
-    : Event("fault_weakening", {parameters.interval, extension_rate}), parameters_(parameters),
-      gravity_(gravity) {
+    : Event("fault_weakening", {parameters.interval, extension_rate}, Stage::weaken),
+      parameters_(parameters), gravity_(gravity) {
     for (const char* name : {"x_m", "y_m", "angle_rad", "slip_m", "found_at_m"})
         memory.add<double>(name, "", 0.0);
 }

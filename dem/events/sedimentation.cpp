@@ -136,8 +136,9 @@ double disc_density(const SedimentationParameters& parameters) {
 
 Sedimentation::Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
                              double extension_rate)
-    : Event("sedimentation", {parameters.interval, extension_rate}), parameters_(parameters),
-      target_(parameters.level, parameters.target), radius_ratio_(radius_ratio) {}
+    : Event("sedimentation", {parameters.interval, extension_rate}, Stage::deposit),
+      parameters_(parameters), target_(parameters.level, parameters.target),
+      radius_ratio_(radius_ratio) {}
 
 bool Sedimentation::apply(State& state, const RigidBase& base) {
     const double smallest = 2.0 * state.mean_radius / (1.0 + radius_ratio_);

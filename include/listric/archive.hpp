@@ -1,6 +1,7 @@
 #pragma once
 
-/// Folders of runs: snapshots, scene, history, measures. Link listric::archive.
+/// Folders of runs: snapshots, scene, history, measures, and what is measured of them. Link
+/// listric::archive.
 
 #include "apps/archive/examine.hpp"
 #include "apps/archive/run_folder.hpp"

@@ -42,23 +42,30 @@ class Installed(unittest.TestCase):
         (cls.place / "first").rename(cls.prefix)
         cls.elsewhere = cls.place / "elsewhere"
         cls.elsewhere.mkdir()
-        cls.program("run", "lis1", "--accuracy", "draft", "--until", "500m", "--quiet")
-        summary = cls.elsewhere / "out/lis1/summary.json"
-        cls.state_hash = json.loads(summary.read_text())["state_hash"]
+        cls.state_hash = cls.run_lis1("500m")
+
+    @classmethod
+    def outside(cls, *words):
+        """A call in an empty folder; sources and build are hidden where that is allowed."""
+        hides = subprocess.run([*HIDE, SOURCES, "true"], capture_output=True).returncode == 0
+        return call(*([*HIDE, SOURCES] if hides else []), *words, cwd=cls.elsewhere)
 
     @classmethod
     def program(cls, *words):
-        """A call in an empty folder; sources and build are hidden where that is allowed."""
-        hides = subprocess.run([*HIDE, SOURCES, "true"], capture_output=True).returncode == 0
-        return call(*([*HIDE, SOURCES] if hides else []), cls.prefix / "bin/listric", *words,
-                    cwd=cls.elsewhere)
+        return cls.outside(cls.prefix / "bin/listric", *words)
 
-    def project(self, name, *definitions):
-        """Configures and builds one of the projects here; the folder of its programs."""
-        folder = self.place / name
-        call("cmake", "-G", "Ninja", "-S", HERE / name, "-B", folder, "-DCMAKE_BUILD_TYPE=Release",
-             *definitions)
-        call("cmake", "--build", folder, "--target", "all" if name == "consumer" else "drive_lis1")
+    @classmethod
+    def run_lis1(cls, until, output="out/lis1"):
+        """The hash of LIS1 at draft accuracy."""
+        cls.program("run", "lis1", "--accuracy", "draft", "--until", until, "--quiet", "--output", output)
+        return json.loads((cls.elsewhere / output / "summary.json").read_text())["state_hash"]
+
+    def project(self, source, *definitions, target="all"):
+        """Configures and builds a project; the folder of its programs."""
+        folder = self.place / Path(source).name
+        call("cmake", "-G", "Ninja", "-S", source, "-B", folder, "-DCMAKE_BUILD_TYPE=Release",
+             f"-DCMAKE_PREFIX_PATH={self.prefix}", *definitions)
+        call("cmake", "--build", folder, "--target", target)
         return folder
 
     def test_the_program_runs_without_the_sources(self):
@@ -89,8 +96,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(said.split(), [str(self.prefix / "bin/listric"), self.state_hash])
 
     def test_a_project_finds_the_package(self):
-        folder = self.project("consumer", f"-DCMAKE_PREFIX_PATH={self.prefix}")
-        self.assertEqual(call(folder / "drive_lis1").strip(), self.state_hash)
+        folder = self.project(HERE / "consumer")
         faults = [[float(word) for word in line.split()]
                   for line in call(folder / "trace_fault").splitlines()]
         self.assertEqual(len(faults), 1)
@@ -100,21 +106,41 @@ class Installed(unittest.TestCase):
         self.assertAlmostEqual(throw, 30.0 * 3 ** 0.5 / 2, delta=0.25 * 26.0)
         self.assertLess(misfit, 1.0)
 
-    def test_a_project_of_dem_alone_needs_no_package(self):
-        folder = self.place / "dem-alone"
-        folder.mkdir()
-        (folder / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\n"
-            "find_package(Listric REQUIRED COMPONENTS dem)\nadd_library(mine STATIC mine.cpp)\n"
-            "target_link_libraries(mine PRIVATE listric::dem)\n")
-        (folder / "mine.cpp").write_text("#include <listric/dem.hpp>\n")
-        hidden = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON"
-                  for name in ("fmt", "tomlplusplus", "nlohmann_json", "pugixml", "ZLIB", "PkgConfig")]
-        call("cmake", "-G", "Ninja", "-S", folder, "-B", folder / "build",
-             f"-DCMAKE_PREFIX_PATH={self.prefix}", *hidden)
-        call("cmake", "--build", folder / "build")
+    def test_the_examples_have_the_bits_of_the_program(self):
+        folder = self.project(SOURCES / "examples")
+        self.assertEqual(call(folder / "drive_lis1").strip(), self.state_hash)
+        self.assertGreater(int(call(folder / "own_event").split()[0]), 100)
+        snapshots = sorted((self.elsewhere / "out/lis1/snapshots").glob("*.h5"))
+        table = call(folder / "read_snapshots", *snapshots).splitlines()
+        self.assertEqual(len(table), 1 + len(snapshots))
+        self.assertEqual(table[1].split(), ["0", "0.0", "0.0"])
+        said = self.outside(folder / "run_scene").splitlines()
+        self.assertIn("rollover_tilt_deg ", " ".join(said))
+        self.assertEqual(said[-1].split()[-1], self.run_lis1("1km", "out/1km"))
+
+    def test_examples_are_short_and_stand_in_the_documents(self):
+        page = (SOURCES / "docs/library.md").read_text()
+        programs = sorted((SOURCES / "examples").glob("*.cpp"))
+        self.assertEqual(len(programs), 4)
+        for program in programs:
+            text = program.read_text()
+            self.assertIn(f"```cpp\n{text}```\n", page, program.name)
+            self.assertLessEqual(text.count("\n"), 30 if program.stem == "run_scene" else 40, program)
+
+    def test_a_project_of_one_library_needs_its_packages_alone(self):
+        of_scenes = ("tomlplusplus", "nlohmann_json", "pugixml")
+        for library, hidden in (("dem", (*of_scenes, "fmt", "ZLIB", "PkgConfig")), ("snapshot", of_scenes)):
+            source = self.elsewhere / library
+            source.mkdir()
+            (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\n"
+                f"find_package(Listric REQUIRED COMPONENTS {library})\nadd_executable(mine mine.cpp)\n"
+                f"target_link_libraries(mine PRIVATE listric::{library})\n")
+            (source / "mine.cpp").write_text(f"#include <listric/{library}.hpp>\nint main() {{}}\n")
+            self.project(source, *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in hidden))
 
     def test_a_project_builds_the_sources_with_its_own(self):
-        folder = self.project("fetched", f"-DLISTRIC_SOURCE_DIR={SOURCES}", "-DLISTRIC_FEM=OFF")
+        folder = self.project(HERE / "fetched", f"-DLISTRIC_SOURCE_DIR={SOURCES}",
+                              "-DLISTRIC_FEM=OFF", target="drive_lis1")
         self.assertEqual(call(folder / "drive_lis1").strip(), self.state_hash)
 
     def test_what_others_read_names_no_folder_of_ours(self):

@@ -86,6 +86,16 @@ class Figures(unittest.TestCase):
         self.assertIn(DESCRIPTION, (figures / "strata-0.1km.svg").read_text())
         self.assertTrue((figures / "underlay-0.1km.svg").is_file())
 
+    def test_a_moment_of_ones_own(self):
+        folder = self.copy("moment")
+        self.assertEqual(self.listric("figures", folder, "--at", "50").stdout, "")
+        made = {file.name for file in (folder / "figures").iterdir()}
+        self.assertEqual({name.rpartition("-")[2] for name in made}, {"0.05km.png"})
+        self.assertIn("strain-0.05km.png", made)
+        far = self.listric("figures", folder, "--at", "300")
+        self.assertEqual(far.returncode, 2)
+        self.assertIn("--at 300: no snapshot there; there are some from 0 to 100", far.stdout)
+
     def test_an_animation_is_made_whatever_its_folder_is_called(self):
         ended = self.listric("figures", self.copy("slip-50% 'a' é"), "--animation")
         self.assertEqual((ended.returncode, ended.stdout), (0, ""))

@@ -1,59 +1,49 @@
-"""The notebooks of docs/notebooks run to their ends, as they stand there.
+"""The notebooks of docs/notebooks run to their ends, as they stand there and in their pages.
 
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest notebooks_test
-
-With LISTRIC_NOTEBOOKS=FOLDER they are left there with what they showed.
 """
 
-import os
+import re
 import shutil
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # else debugpy tells of a debugger that is none
-import nbformat
-from nbclient import NotebookClient
 from program import PROGRAM, SOURCES
 
 NOTEBOOKS = SOURCES / "docs/notebooks"
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(NOTEBOOKS))
+import render
+
 
 class Notebooks(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="listric-notebooks-"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        # The settled packing is made once for all three.
-        cls.environment = {**os.environ, "LISTRIC_PROGRAM": str(PROGRAM),
-                           "PYTHONPATH": str(SOURCES / "apps/python"),
-                           "PYTHONDONTWRITEBYTECODE": "1",
-                           "XDG_CACHE_HOME": str(cls.folder / "cache"),
-                           "IPYTHONDIR": str(cls.folder / "ipython")}
-
-    def executed(self, name):
-        """The notebook with its outputs; an error in a cell is thrown with the cell."""
-        notebook = nbformat.read(NOTEBOOKS / f"{name}.ipynb", as_version=4)
-        nbformat.validate(notebook)
-        for cell in notebook.cells:
-            if cell.cell_type == "code":
-                self.assertEqual((cell.outputs, cell.execution_count), ([], None),
-                                 "notebooks are kept without outputs")
-        client = NotebookClient(notebook, timeout=600, kernel_name="python3",
-                                resources={"metadata": {"path": str(self.folder)}})
-        client.execute(env=self.environment)
-        if wanted := os.environ.get("LISTRIC_NOTEBOOKS"):
-            nbformat.write(notebook, Path(wanted, f"{name}.ipynb"))
-        return notebook
 
     def check(self, name, pictures):
-        """Runs to its end, shows so many pictures, and nothing on stderr."""
-        outputs = [output for cell in self.executed(name).cells
+        """Is kept without outputs, runs to its end, shows so many pictures, and nothing on stderr; its
+        page has all its cells and pictures."""
+        kept = render.nbformat.read(NOTEBOOKS / f"{name}.ipynb", as_version=4)
+        code = [cell for cell in kept.cells if cell.cell_type == "code"]
+        self.assertEqual([cell for cell in code if cell.outputs or cell.execution_count], [])
+        page = (NOTEBOOKS / f"{name}.md").read_text()
+        without = re.sub(r"!\[[^]]*\]\(\.\./pictures/notebook-[^)]*\)", "", page)
+        self.assertEqual([cell.source for cell in kept.cells
+                          if re.sub(r"\.ipynb\)", ".md)", cell.source) not in without], [],
+                         f"call docs/notebooks/render.py {name}")
+        self.assertEqual(len(re.findall(r"^!\[", page, re.MULTILINE)), pictures)
+        # The settled packing is made once for all three.
+        outputs = [output for cell in render.executed(name, self.folder, PROGRAM).cells
                    for output in cell.get("outputs", ())]
         self.assertEqual([one["text"] for one in outputs if one.get("name") == "stderr"], [])
         self.assertEqual(sum("image/png" in one.get("data", ()) for one in outputs), pictures)
 
     def test_first_run(self):
-        self.check("first-run", pictures=3)
+        self.check("first-run", pictures=4)
 
     def test_sweep(self):
         self.check("sweep", pictures=2)

@@ -237,6 +237,26 @@ class Reader(unittest.TestCase):
         self.assertEqual(len(listric.Run(folder).horizons), len(features))
         self.assertIn("alone", file.read_text())  # the program has written elsewhere
 
+    def test_pictures_are_those_of_the_figures(self):
+        folder = self.copy()
+        kept = sorted(folder.rglob("*"))
+        first = listric.Run(folder).plot("strain", at=90.0)
+        self.assertEqual(sorted(folder.rglob("*")), kept)  # asking leaves nothing behind
+        listric.call("figures", folder, "--at", "90")
+        drawn, = (folder / "figures").glob("strain-*.png")
+        self.assertEqual(first._repr_png_(), drawn.read_bytes())
+        with self.fails(listric.UnknownName, "did you mean strain"):
+            self.run_.plot("strian")
+        # A snapshot alone, as another program saves it.
+        alone = shutil.copy(self.run_.snapshots[-1].path, folder / "saved.h5")
+        listric.Snapshot(alone).plot().save(folder / "saved.png")
+        self.assertTrue((folder / "saved.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertIn("detachment", {line["name"] for line in listric.Snapshot(alone).lines("surfaces")})
+
+    def test_notebooks_show_names_with_units(self):
+        self.assertIn("<td style=\"text-align: left\">rollover_tilt_deg</td>", self.run_._repr_html_())
+        self.assertRegex(self.run_.snapshots[-1].discs._repr_html_(), r"<td[^>]*>x</td><td[^>]*>m</td>")
+
     def test_lines_of_other_kinds_and_moments(self):
         first = self.run_.at(90.0)
         self.assertEqual(first.path, self.run_.snapshots[0].path)

@@ -70,12 +70,10 @@ inline const Effect& speed_gauge() {
                 {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_g",
                  "time between looks at speeds"},
             },
-        .make_events =
-            [](const Scene& scene, const ModelParts&, std::span<const StagedEvent>) {
-                std::vector<StagedEvent> events;
-                events.push_back({EventStage::sample, std::make_unique<SpeedGauge>(
-                                                          *scene.find<P>(), scene.extension.rate)});
-                return events;
+        .add_events =
+            [](const Scene& scene, const ModelParts&, dem::Events& events) {
+                dem::add(events,
+                         std::make_unique<SpeedGauge>(*scene.find<P>(), scene.extension.rate));
             },
         .explain =
             [](const Scene& scene, EffectList) {

@@ -16,8 +16,9 @@ using testing::ElementsAre;
 /// Writes down its letter and the extension whenever it is applied.
 class Witness : public Event {
 public:
-    Witness(char letter, double spacing, std::string& letters, std::vector<double>& extensions)
-        : Event(std::string(1, letter), {spacing, 1.0}), letters_(letters),
+    Witness(char letter, double spacing, std::string& letters, std::vector<double>& extensions,
+            Stage stage = Stage::adjust)
+        : Event(std::string(1, letter), {spacing, 1.0}, stage), letters_(letters),
           extensions_(extensions) {}
 
     bool apply(State& state, const RigidBase&) override {
@@ -109,6 +110,18 @@ TEST_F(SimulationEvents, AreAppliedInTheNearestCycleInTheOrderOfAdding) {
     for (std::size_t k = 0; k < due.size(); ++k)
         EXPECT_NEAR(extensions[k], due[k], 0.5 * cycle_extension + 1e-9);
     EXPECT_DOUBLE_EQ(simulation.next_due(), 25.0);
+}
+
+TEST_F(SimulationEvents, AreAppliedByStage) {
+    Simulation simulation(moving_box(), {});
+    for (const auto& [letter, stage] : {std::pair('d', Stage::load),
+                                        {'b', Stage::heal},
+                                        {'a', Stage::sample},
+                                        {'c', Stage::heal}})
+        simulation.add<Witness>(letter, 5.0, letters, extensions, stage);
+    simulation.begin(discs_at_rest());
+    simulation.extend_to(5.0);
+    EXPECT_EQ(letters, "abcd");
 }
 
 TEST_F(SimulationEvents, FindContactsAgainWhereTheyMust) {

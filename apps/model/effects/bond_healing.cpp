@@ -25,13 +25,10 @@ const Effect& bond_healing() {
                  "relative displacement of two discs that forbids healing"},
             },
         .needs = {"bonds"},
-        .make_events =
-            [](const Scene& scene, const ModelParts& parts, std::span<const StagedEvent>) {
-                std::vector<StagedEvent> events;
-                events.push_back({EventStage::heal,
-                                  std::make_unique<dem::BondHealing>(*scene.find<P>(), *parts.bonds,
-                                                                     scene.extension.rate)});
-                return events;
+        .add_events =
+            [](const Scene& scene, const ModelParts& parts, dem::Events& events) {
+                dem::add(events, std::make_unique<dem::BondHealing>(*scene.find<P>(), *parts.bonds,
+                                                                    scene.extension.rate));
             },
         .price =
             [](const Scene& scene, const Workload& work) {

@@ -29,14 +29,11 @@ const Effect& compaction() {
                 parts.sediment->porosity_decay = scene.find<P>()->coefficient;
                 parts.sediment->porosity_interval = scene.find<P>()->interval;
             },
-        .make_events =
-            [](const Scene& scene, const ModelParts& parts, std::span<const StagedEvent>) {
-                std::vector<StagedEvent> events;
-                events.push_back(
-                    {EventStage::adjust, std::make_unique<dem::Compaction>(
-                                             *scene.find<P>(), parts.sediment->surface_porosity,
-                                             scene.extension.rate)});
-                return events;
+        .add_events =
+            [](const Scene& scene, const ModelParts& parts, dem::Events& events) {
+                dem::add(events, std::make_unique<dem::Compaction>(*scene.find<P>(),
+                                                                   parts.sediment->surface_porosity,
+                                                                   scene.extension.rate));
             },
         .price =
             [](const Scene& scene, const Workload& work) {

@@ -12,16 +12,13 @@ namespace {
 
 using P = dem::EnergyParameters;
 
-std::vector<StagedEvent> make_events(const Scene&, const ModelParts& parts,
-                                     std::span<const StagedEvent> others) {
+void add_events(const Scene&, const ModelParts& parts, dem::Events& events) {
     std::vector<std::string> names;
-    for (const StagedEvent& other : others)
-        if (other.stage != EventStage::sample) // which only looks
-            names.push_back(other.event->name());
-    std::vector<StagedEvent> events;
-    events.push_back({EventStage::account, std::make_unique<dem::EnergyAccount>(
-                                               parts.physics.gravity, parts.base_moves, names)});
-    return events;
+    for (const auto& other : events)
+        if (other->stage() != dem::Stage::sample) // which only looks
+            names.push_back(other->name());
+    dem::add(events,
+             std::make_unique<dem::EnergyAccount>(parts.physics.gravity, parts.base_moves, names));
 }
 
 using E = dem::EnergyBalance;
@@ -112,7 +109,7 @@ const Effect& energy() {
                                        "leave the table out, or start one process"};
         },
         .contribute = [](const Scene&, ModelParts& parts) { parts.accounts_energy = true; },
-        .make_events = make_events,
+        .add_events = add_events,
         .measures = measures(),
         .objects = {{"energy_by_event_j_per_m",
                      "J/m",

@@ -89,14 +89,11 @@ std::vector<Parameter> parameters() {
     };
 }
 
-std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts,
-                                     std::span<const StagedEvent>) {
+void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
     const P& p = *scene.find<P>();
     const double rate = scene.extension.rate, gravity = parts.physics.gravity;
-    std::vector<StagedEvent> events;
-    events.push_back({EventStage::adjust, std::make_unique<dem::PropertyUpdate>(p, rate, gravity)});
-    events.push_back({EventStage::weaken, std::make_unique<dem::FaultWeakening>(p, rate, gravity)});
-    return events;
+    dem::add(events, std::make_unique<dem::PropertyUpdate>(p, rate, gravity));
+    dem::add(events, std::make_unique<dem::FaultWeakening>(p, rate, gravity));
 }
 
 /// What is a fault, in metres and as a rate.
@@ -166,7 +163,7 @@ const Effect& fault_weakening() {
                 parts.youngest_sediment = p.youngest_sediment;
                 parts.detection_circle = p.circle_diameters;
             },
-        .make_events = make_events,
+        .add_events = add_events,
         .explain = explain,
         .price =
             [](const Scene& scene, const Workload& work) {

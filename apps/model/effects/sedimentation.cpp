@@ -43,22 +43,17 @@ std::vector<Parameter> parameters() {
 }
 
 /// The event that deposits and, where sediment weighs, the one that looks at what carries it.
-std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts,
-                                     std::span<const StagedEvent>) {
+void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
     const double rate = scene.extension.rate;
-    std::vector<StagedEvent> events;
-    events.push_back({EventStage::deposit,
-                      std::make_unique<dem::Sedimentation>(*scene.find<P>(),
-                                                           scene.hanging_wall.radius_ratio, rate)});
+    dem::add(events, std::make_unique<dem::Sedimentation>(*scene.find<P>(),
+                                                          scene.hanging_wall.radius_ratio, rate));
     if (parts.physics.gravity <= 0.0)
-        return events;
+        return;
     std::optional<double> between_changes; // of porosity, m of extension
     if (parts.sediment->porosity_decay)
         between_changes = parts.sediment->porosity_interval * rate;
-    events.push_back({EventStage::sample,
-                      std::make_unique<dem::SedimentStress>(scene.output.interval, between_changes,
-                                                            rate, parts.physics)});
-    return events;
+    dem::add(events, std::make_unique<dem::SedimentStress>(scene.output.interval, between_changes,
+                                                           rate, parts.physics));
 }
 
 /// The lines that the surface is adapted to, one after the other.
@@ -225,7 +220,7 @@ const Effect& sedimentation() {
                                   disc_density(p),
                                   {}};
             },
-        .make_events = make_events,
+        .add_events = add_events,
         .price = price,
         .new_area = new_area,
         .measures = measures(),

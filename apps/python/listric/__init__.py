@@ -11,11 +11,12 @@ surface. All else that has a depth has it positive down. docs/python.md says mor
 """
 
 from .errors import ListricError, ProgramError, RunError, UnknownName
+from .picture import Picture
 from .program import call, find_program, simulate
 from .raster import Raster
 from .run import Run
 from .snapshot import Snapshot
 from .table import Column, Table
 
-__all__ = ["Column", "ListricError", "ProgramError", "Raster", "Run", "RunError", "Snapshot",
+__all__ = ["Column", "ListricError", "Picture", "ProgramError", "Raster", "Run", "RunError", "Snapshot",
            "Table", "UnknownName", "call", "find_program", "simulate"]

@@ -1,36 +1,27 @@
 """Lines of a section as the program exports them: horizons, faults, surfaces, the base."""
 
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
-from .errors import ProgramError
 from .program import call
+from .stand_in import stand_in
 from .table import read_csv
 
 
-def exported_lines(snapshot: Path, kind: str) -> list[dict]:
+def exported_lines(snapshot, kind: str) -> list[dict]:
     """Lines of a snapshot from its run's folder `export`, or else from the program.
 
     Throws ProgramError, RunError.
     """
-    run = snapshot.absolute().parents[1]
-    name = f"{kind}-{snapshot.stem}.csv"
-    exported = run / "export" / name
-    if exported.is_file() and exported.stat().st_mtime >= snapshot.stat().st_mtime:
+    path = snapshot.path.absolute()
+    exported = path.parents[1] / "export" / f"{kind}-{path.stem}.csv"
+    if exported.is_file() and exported.stat().st_mtime >= path.stat().st_mtime:
         return read_lines(exported)
-    with tempfile.TemporaryDirectory(prefix="listric-") as folder:
-        # A stand-in for the run's folder, in which nothing is written: it may be read-only.
-        for entry in run.iterdir():
-            if entry.name != "export":
-                Path(folder, entry.name).symlink_to(entry)
-        at = snapshot.stem.removeprefix("extension-").removesuffix("m")
-        try:
-            call("export", kind, folder, "--format", "csv", "--at", at)
-        except ProgramError as error:
-            raise ProgramError(str(error).replace(folder, str(run)), error.code) from None
-        return read_lines(Path(folder, "export", name))
+    with stand_in(snapshot, without="export") as folder:
+        call("export", kind, folder, "--format", "csv", "--at", snapshot.extension_m)
+        written, = (folder / "export").glob("*.csv")
+        return read_lines(written)
 
 
 def read_lines(path: Path) -> list[dict]:

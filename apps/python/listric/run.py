@@ -4,14 +4,16 @@ import json
 import re
 import tomllib
 from functools import cached_property
+from html import escape
 from pathlib import Path
 
 import numpy as np
 
-from .dictionary import dictionary, unit_of
+from .dictionary import dictionary, doc_of, unit_of
 from .errors import Named, RunError, UnknownName
+from .picture import Picture
 from .snapshot import Snapshot
-from .table import Table, read_csv
+from .table import Table, html_table, read_csv
 
 # As the program names them; what is named otherwise is somebody else's.
 _SNAPSHOT = re.compile(r"extension-(?:[0-9]{5}|[1-9][0-9]{5,})\.[0-9]{2,}m\.h5")
@@ -32,8 +34,18 @@ class Run:
             why = "holds no run (no scene.toml)" if self.folder.is_dir() else "no such folder"
             raise RunError(f"{folder}: {why}; a run's folder is what `listric run` writes, such as "
                            "out/lis1")
+
     def __repr__(self) -> str:
         return f"<run {self.folder}: {len(self.snapshots)} snapshots>"
+
+    def _repr_html_(self) -> str:
+        """Opens to the measures at the end, or so far."""
+        history = self.history
+        last = {name: history[name][-1] for name in history if history.rows}
+        table = html_table(("measure", "value", "unit", "definition"),
+                           ((name, f"{value:.6g}", history.units[name] or "", doc_of(name))
+                            for name, value in last.items() if np.isfinite(value)))
+        return f"<details><summary>{escape(repr(self)[1:-1])}</summary>{table}</details>"
 
     @cached_property
     def snapshots(self) -> tuple[Snapshot, ...]:
@@ -45,6 +57,10 @@ class Run:
     def at(self, extension_m: float) -> Snapshot:
         """The snapshot nearest to an extension, m. Throws RunError if there is none at all."""
         return min(self._some_snapshots(), key=lambda one: abs(one.named_extension_m - extension_m))
+
+    def plot(self, kind: str = "strata", at: float | None = None) -> Picture:
+        """The section nearest to an extension, m, or the newest, as Snapshot.plot()."""
+        return (self._some_snapshots()[-1] if at is None else self.at(at)).plot(kind)
 
     @cached_property
     def history(self) -> Table:

@@ -8,6 +8,7 @@ import numpy as np
 
 from .errors import Named, RunError, UnknownName
 from .lines import exported_lines
+from .picture import Picture, draw_section
 from .raster import Raster, draw_raster
 from .dictionary import unit_of
 from .table import Table
@@ -81,9 +82,7 @@ class Snapshot:
     def scene(self) -> dict:
         """The parameters that determine the run, as the snapshot holds them: {"table.key": value}."""
         with self._open() as file:
-            run = file["run"]
-            text = run["scene"][()] if "scene" in run else run.attrs["scene"]
-            document = tomllib.loads(_text(text))
+            document = tomllib.loads(_scene_text(file))
         flat = {}
         for name, value in document.items():
             if isinstance(value, dict):
@@ -92,6 +91,12 @@ class Snapshot:
                 flat[name] = value
         return {name: value for name, value in flat.items() if name not in ("name", "description")
                 and (not name.startswith("output.") or name == "output.interval_m")}
+
+    @property
+    def scene_text(self) -> str:
+        """The scene in force, as TOML."""
+        with self._open() as file:
+            return _scene_text(file)
 
     def table(self, name: str) -> Table:
         """Any table of the file by its path: "discs" or, what an effect remembers, "events/NAME".
@@ -120,7 +125,7 @@ class Snapshot:
         called, which takes seconds and leaves nothing behind. Throws ProgramError, RunError.
         """
         if kind not in self._lines:
-            self._lines[kind] = exported_lines(self.path, kind)
+            self._lines[kind] = exported_lines(self, kind)
         return self._lines[kind]
 
     def raster(self, column: str, spacing: float = 100.0, extent=None) -> Raster:
@@ -133,6 +138,12 @@ class Snapshot:
         """
         discs, mean_radius = self.discs, self.numbers["mean_radius"]
         return draw_raster(discs, discs[column], spacing, extent, reach=0.5 * mean_radius)
+
+    def plot(self, kind: str = "strata") -> Picture:
+        """The section as `listric figures` draws it: "strata", "strain", "bonds", "behaviour",
+        "sediment", "kinematics" or "overview", all of them. A notebook shows the picture;
+        `picture.save("strata.png")` writes it. Takes seconds. Throws UnknownName, ProgramError."""
+        return draw_section(self, kind)
 
     def _column(self, path: str) -> np.ndarray:
         with self._open() as file:
@@ -173,6 +184,11 @@ def _check_format(file, path: Path) -> None:
         raise RunError(f"{path}: is of format {found.removeprefix(_KIND) or 'unknown'}, written by "
                        f"version {version}, and this package reads formats {_OLDEST} and {FORMAT}; "
                        "take the package of that version")
+
+
+def _scene_text(file) -> str:
+    run = file["run"]
+    return _text(run["scene"][()] if "scene" in run else run.attrs["scene"])
 
 
 def _tables(file) -> list[str]:

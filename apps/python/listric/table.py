@@ -1,7 +1,9 @@
 """Tables of named columns with units."""
 
 import csv
+import re
 from collections.abc import Callable, Mapping
+from html import escape
 from pathlib import Path
 
 import numpy as np
@@ -78,6 +80,12 @@ class Table(Mapping):
                             for name, unit in self.units.items())
         return f"<{self._where}: {self.rows} rows of {columns}>"
 
+    def _repr_html_(self) -> str:
+        """The columns, not their numbers, which would all be read."""
+        return f"<p>{escape(self._where)}: {self.rows} rows</p>" + html_table(
+            ("column", "unit", "definition"),
+            ((name, unit or "", doc_of(name)) for name, unit in self.units.items()))
+
     def to_pandas(self):
         """All columns as a pandas.DataFrame. Needs pandas."""
         try:
@@ -86,6 +94,14 @@ class Table(Mapping):
             raise ImportError("to_pandas() needs pandas: install the package python3-pandas, or "
                               "`pip install pandas`") from error
         return pandas.DataFrame({name: np.asarray(self[name]) for name in self})
+
+
+def html_table(heads, rows) -> str:
+    """Rows of words as a table of HTML; words between backticks are code."""
+    def row(words, cell):
+        cells = (re.sub("`([^`]*)`", r"<code>\1</code>", escape(word)) for word in words)
+        return "<tr>" + "".join(f'<{cell} style="text-align: left">{one}</{cell}>' for one in cells) + "</tr>\n"
+    return f"\n<table>\n{row(heads, 'th')}{''.join(row(words, 'td') for words in rows)}</table>"
 
 
 def read_csv(path: Path, units: Callable[[str], str | None] = unit_of) -> Table:

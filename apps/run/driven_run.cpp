@@ -1,0 +1,92 @@
+#include "apps/run/driven_run.hpp"
+
+#include "apps/measures/main_faults.hpp"
+#include "apps/run/build.hpp"
+#include "apps/scene/scene_file.hpp"
+#include "dem/threads/shared_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace listric {
+
+struct Run::Parts {
+    Scene scene;
+    RunOptions options;
+    Log log{/*quiet=*/true};
+    RunView view;
+    dem::Simulation simulation;
+
+    Parts(Scene s, int threads)
+        : scene(std::move(s)), view(scene, options, log, simulation),
+          simulation(view.parts.base, view.parts.physics) {
+        options.threads = threads;
+        const dem::Team team(threads);
+        add_events(simulation, view);
+        view.record.scene = to_toml(scene);
+        start(simulation, view);
+        end_window();
+    }
+
+    void end_window() {
+        listric::end_window(simulation, view, [this] { view.add_row(); });
+        view.require_elasticity();
+    }
+};
+
+namespace {
+
+Scene with_hanging_wall(Scene scene) {
+    if (!scene.hanging_wall)
+        throw UsageError(scene.name + ": the scene has no hanging wall to extend");
+    return scene;
+}
+
+} // namespace
+
+Run::Run(Scene scene, int threads)
+    : parts_(std::make_unique<Parts>(with_hanging_wall(std::move(scene)), threads)) {}
+Run::~Run() = default;
+Run::Run(Run&&) noexcept = default;
+
+bool Run::extend_to(double goal, const Report& report) {
+    if (const double most = scene().extension.distance; goal > most)
+        throw UsageError(fmt::format("a run to {:g} m, but extension.distance_m of {} is {:g}",
+                                     goal, scene().name, most));
+    const dem::Team team(parts_->options.threads);
+    return extend_by_windows(
+        parts_->simulation, parts_->view, goal,
+        [&](const dem::Simulation&) { return !report || report(*this); },
+        [&] {
+            parts_->end_window();
+            return true;
+        });
+}
+
+const Scene& Run::scene() const { return parts_->scene; }
+const dem::State& Run::state() const { return parts_->view.state(); }
+double Run::extension() const { return parts_->view.extension(); }
+std::uint64_t Run::hash() const { return parts_->simulation.hash(); }
+
+NamedNumbers Run::measures() {
+    const dem::Team team(parts_->options.threads);
+    NamedNumbers numbers = parts_->view.row();
+    for (const auto& measure : measures::fault_report_measures())
+        numbers.emplace_back(measure.name, measure.value(faults()).value_or(std::nan("")));
+    std::erase_if(numbers, [](const auto& number) { return std::isnan(number.second); });
+    return numbers;
+}
+
+const measures::FaultReport& Run::faults() {
+    const dem::Team team(parts_->options.threads);
+    return parts_->view.faults();
+}
+
+void Run::save(const std::filesystem::path& path) const {
+    archive::write_snapshot(path, state(), parts_->simulation.events(), parts_->view.record);
+}
+
+} // namespace listric

@@ -1,0 +1,70 @@
+#include "dem/model.hpp"
+
+#include "dem/events/equilibrium.hpp"
+#include "dem/events/property_update.hpp"
+#include "dem/events/sediment_stress.hpp"
+#include "dem/events/strain.hpp"
+
+#include <cassert>
+
+namespace listric::dem {
+
+namespace {
+
+RigidBase make_base(const Model& m) {
+    return make_halfgraben(m.detachment,
+                           {m.hanging_wall.length, m.hanging_wall.thickness, m.distance},
+                           m.basement, m.motion);
+}
+
+} // namespace
+
+Simulation make_simulation(const Model& m) {
+    assert(m.bonds || !m.bond_healing);
+    assert(m.sedimentation || !m.compaction);
+    const double gravity = m.physics.gravity;
+    Simulation simulation(make_base(m), m.physics);
+    simulation.add<Equilibrium>(equilibrium_interval, m.rate, gravity);
+    if (m.fault_weakening) {
+        simulation.add<PropertyUpdate>(*m.fault_weakening, m.rate, gravity);
+        simulation.add<FaultWeakening>(*m.fault_weakening, m.rate, gravity);
+    }
+    if (m.bond_healing)
+        simulation.add<BondHealing>(*m.bond_healing, *m.bonds, m.rate);
+    if (m.sedimentation)
+        simulation.add<Sedimentation>(*m.sedimentation, m.hanging_wall.radius_ratio, m.rate);
+    if (m.sedimentation && gravity > 0.0) {
+        std::optional<double> between_changes; // of porosity, m of extension
+        if (m.compaction)
+            between_changes = m.compaction->interval * m.rate;
+        simulation.add<SedimentStress>(strain_window, between_changes, m.rate, m.physics);
+    }
+    if (m.compaction)
+        simulation.add<Compaction>(*m.compaction, m.sedimentation->surface_porosity, m.rate);
+    simulation.add<Strain>(strain_window, m.rate);
+    return simulation;
+}
+
+State make_hanging_wall(const Model& m, int threads,
+                        const std::function<void(std::string_view, double)>& report) {
+    std::vector<Material> materials(3, m.basement);
+    if (m.sedimentation)
+        materials[sediment] = m.sedimentation->material;
+    if (m.fault_weakening)
+        materials[weak] = m.fault_weakening->material;
+    // The hanging wall comes to rest on a base that does too, so its mean motion is none.
+    const GenesisRequest request{
+        .hanging_wall = m.hanging_wall,
+        .base = make_base(m),
+        .materials = std::move(materials),
+        .bonds = m.bonds,
+        .physics = {.damping = m.physics.damping, .gravity = m.physics.gravity},
+        .seed = m.seed,
+        .execution = {.threads = threads}};
+    return make_hanging_wall(request, [&](std::string_view stage, double share) {
+        if (report)
+            report(stage, share);
+    });
+}
+
+} // namespace listric::dem
