@@ -62,7 +62,7 @@ CalibrationHistory::CalibrationHistory(std::filesystem::path file, bool resume)
     const JsonObject found = parse_json(read_text(file_));
     if (!found.is_array() || !std::ranges::all_of(found, is_measurement))
         throw StorageError(file_.string() + ": is not the history of a calibration; without it "
-                                            "the measurements are made anew");
+                                            "the measurements are made again");
     entries_ = nlohmann::json(found); // which compares objects whatever their keys' order
 }
 

@@ -56,7 +56,7 @@ std::optional<State> recall(const fs::path& cache, const std::string& asked,
         log.say("hanging wall: kept from an earlier run, " + cache.string());
         return std::move(kept.state);
     } catch (const std::runtime_error& error) {
-        log.say(std::string("warning: the kept hanging wall is made anew: ") + error.what());
+        log.say(std::string("warning: the kept hanging wall is made again: ") + error.what());
         return std::nullopt;
     }
 }

@@ -44,7 +44,7 @@ struct Objection {
 /// so that what a run writes stands alone.
 struct FileParameter {
     std::string_view key;
-    std::string_view doc;
+    std::string_view doc, changes; ///< as those of a Parameter
     /// @param refuse  takes the parameter's path
     void (*read)(Scene& scene, const std::string& file, const Refuse& refuse);
 };
@@ -57,9 +57,9 @@ struct FormerKey {
 
 /// A rock whose file, named in [materials], holds defaults of the effect's parameters.
 struct RockSource {
-    std::string_view key;  ///< in [materials]
-    std::string_view file; ///< default: name on the shelf of materials
-    std::string_view doc;
+    std::string_view key;          ///< in [materials]
+    std::string_view file;         ///< default: name on the shelf of materials
+    std::string_view doc, changes; ///< as those of a Parameter
     void (*take)(Scene& scene, const RockMaterial& rock);
     /// Why the effect cannot be on with that rock; none: it always can.
     std::string (*objection)(const RockMaterial& rock) = nullptr;

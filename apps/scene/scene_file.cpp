@@ -399,7 +399,7 @@ std::string parameter_reference(EffectList effects) {
     lines += "\n[materials]: files of apps/materials by name, others by path\n";
     for (const RockSource& rock : rock_sources(effects)) {
         const FileName name{std::string(rock.file)};
-        lines += explain(file_name(rock.key, rock.doc), &name);
+        lines += explain(file_name(rock.key, rock.doc, rock.changes), &name);
     }
     for (const SceneTable& table : scene_tables(effects)) {
         lines +=

@@ -135,7 +135,7 @@ private:
                     names.push_back(name);
         const auto meant = nearest(name_, names);
         refuse(fmt::format("has no path with the id {}{}; its paths: {}",
-                           name_.empty() ? "that detachment.svg_path must say"
+                           name_.empty() ? "for detachment.svg_path to name"
                                          : fmt::format("svg_path = \"{}\"", shown(name_)),
                            meant ? fmt::format(", did you mean {}?", shown(*meant)) : "",
                            listed(lines_)));

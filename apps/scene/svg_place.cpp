@@ -105,7 +105,7 @@ void check_drawn(const std::vector<xml_node>& chain, const std::string& where) {
             continue;
         const std::string_view name = svg_name(node);
         if (is_store(node) || name == "use")
-            refuse(where, fmt::format("is inside {}, which is not read: what is there is drawn "
+            refuse(where, fmt::format("is inside {}, which is not read: its content is drawn "
                                       "elsewhere or not at all; name a path of the drawing itself "
                                       "(Inkscape: Edit, Clone, Unlink Clone)",
                                       svg_tag(node)));

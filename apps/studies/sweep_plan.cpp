@@ -19,7 +19,7 @@ namespace listric {
 
 namespace {
 
-constexpr Shelf shelf{"sweep plan", "it needs scene, measures and [[vary]]", "", "studies"};
+constexpr Shelf shelf{"sweep plan", "it needs scene, measures and [[vary]]", , "studies"};
 
 /// Runs of a plan without its parameters and measures.
 struct PlanText {
@@ -201,10 +201,9 @@ void check_number(const Entry& top, const SweepPlan& plan, const std::vector<Ent
                               : points > most                             ? "vary"
                                                                           : "seeds";
     const toml::node* const node = top.node.as_table()->get(cause);
-    fail(
-        node ? Entry{*node, cause} : top,
-        fmt::format("asks for {:.10g} runs, {:.10g} points with {} seeds each; allowed: at most {}",
-                    runs, points, plan.seeds, most_runs));
+    fail(node ? Entry{*node, cause} : top,
+         fmt::format("makes {:.10g} runs, {:.10g} points with {} seeds each; allowed: at most {}",
+                     runs, points, plan.seeds, most_runs));
 }
 
 /// Places of a Latin hypercube's samples along one parameter: each of 0 .. samples - 1 once.

@@ -182,9 +182,8 @@ private:
         for (const std::string& name : names)
             all += findings_.seeds_of(findings_.plan.run(name)).size();
         if (all > static_cast<std::size_t>(most_runs))
-            throw UsageError(
-                fmt::format("--seeds {}: the plan asks for {} runs, allowed: at most {}",
-                            request_.seeds, all, most_runs));
+            throw UsageError(fmt::format("--seeds {}: the plan needs {} runs, allowed: at most {}",
+                                         request_.seeds, all, most_runs));
         std::vector<BatchRun> runs;
         for (const std::string& name : names) {
             const ValidationRun& run = findings_.plan.run(name);

@@ -18,7 +18,7 @@ using namespace dem;
 
 namespace {
 
-const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", "", "studies"};
+const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", , "studies"};
 
 /// The names of an enumeration's values, in their order.
 const std::vector<std::string_view> kinds = {"kinematics", "faults", "conservation"};
@@ -205,7 +205,7 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
         plan.runs.push_back(read_run(entry));
         runs += std::max(1, plan.runs.back().seeds);
         if (runs > most_runs)
-            fail(entry, fmt::format("is beyond {} runs, all that a plan may ask for", most_runs));
+            fail(entry, fmt::format("is beyond {} runs, the most that a plan may have", most_runs));
     }
     const auto check = [&](const Entry& entry, const std::string& name) {
         std::vector<std::string_view> names;

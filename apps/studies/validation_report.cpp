@@ -79,11 +79,11 @@ std::string introduction(const ValidationFindings& f) {
         f.beside.filename().string());
     return text + makers(f, there) +
            "A value is the mean over the seeds ± its standard deviation (smallest to "
-           "largest). *Met* says how many seeds fulfil the expectation; where it asks for "
-           "most seeds or for the mean, that decides. Rows of kind *kinematics* check the "
+           "largest). *Met* is the number of seeds that fulfil the expectation; where it requires "
+           "most seeds or the mean, that decides. Rows of kind *kinematics* check the "
            "machinery: a hanging wall that slides on that detachment has them with any "
-           "material, faults or none, so meeting them says nothing about faults. Rows of "
-           "kind *faults* are what the paper is about. Rows of kind *conservation* are "
+           "material, faults or none, so meeting them proves nothing about faults. Rows of kind "
+           "*faults* are the subject of the paper. Rows of kind *conservation* are "
            "bookkeeping.\n\n";
 }
 

@@ -1,6 +1,6 @@
-"""What all figure scripts share: Matplotlib, style, a figure, its way to a file.
+"""Parts that all figure scripts share: Matplotlib, style, a figure, its way to a file.
 
-Import this module first: it says in one line which library is missing, and draws without a screen
+Import this module first: it reports a missing library in one line, and draws without a screen
 and without the caller's settings.
 """
 import contextlib
