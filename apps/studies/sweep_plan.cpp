@@ -19,7 +19,7 @@ namespace listric {
 
 namespace {
 
-constexpr Shelf shelf{"sweep plan", "it needs scene, measures and [[vary]]", , "studies"};
+constexpr Shelf shelf{"sweep plan", "it needs scene, measures and [[vary]]", "", "studies"};
 
 /// Runs of a plan without its parameters and measures.
 struct PlanText {
@@ -31,12 +31,22 @@ const std::vector<Parameter>& plan_parameters() {
     using T = PlanText;
     using P = SweepPlan;
     static const std::vector<Parameter> parameters{
-        {"scene", at<&T::plan, &P::scene>, "", {}, "", "that is run"},
+        {"scene", at<&T::plan, &P::scene>, "", {}, "", "scene that is run"},
         {"accuracy", at<&T::plan, &P::accuracy>, "", {}, "", "level; empty: the scene's"},
         {"set", at<&T::set>, "", {}, "", "changes for every run, table.key=value"},
         {"without", at<&T::without>, "", {}, "", "tables taken out of every run"},
-        {"seeds", at<&T::plan, &P::seeds>, "", {.from = 1, .to = 1000}, "", "runs a point"},
-        {"first_seed", at<&T::plan, &P::first_seed>, "", {.from = 0, .to = 1e9}, "", ""},
+        {"seeds",
+         at<&T::plan, &P::seeds>,
+         "",
+         {.from = 1, .to = 1000},
+         "",
+         "number of runs per point"},
+        {"first_seed",
+         at<&T::plan, &P::first_seed>,
+         "",
+         {.from = 0, .to = 1e9},
+         "",
+         "first of the seeds"},
         {"design",
          one_of<&T::plan, &P::design>({"grid", "list", "latin-hypercube"}),
          "",
@@ -48,7 +58,7 @@ const std::vector<Parameter>& plan_parameters() {
          "",
          {.from = 0, .to = static_cast<double>(most_runs)},
          "",
-         "of a Latin hypercube"}};
+         "number of points of a Latin hypercube"}};
     return parameters;
 }
 

@@ -18,7 +18,8 @@ using namespace dem;
 
 namespace {
 
-const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", , "studies"};
+const Shelf validation_shelf{"validation plan", "it needs [[run]] and [[experiment]]", "",
+                             "studies"};
 
 /// The names of an enumeration's values, in their order.
 const std::vector<std::string_view> kinds = {"kinematics", "faults", "conservation"};
@@ -35,8 +36,8 @@ ValidationRun read_run(const Entry& entry) {
     using T = RunText;
     using R = ValidationRun;
     static const std::vector<Parameter> parameters{
-        {"name", at<&T::run, &R::name>, "", {}, "", "of the folders"},
-        {"scene", at<&T::run, &R::scene>, "", {}, "", "that is run"},
+        {"name", at<&T::run, &R::name>, "", {}, "", "name of the folders"},
+        {"scene", at<&T::run, &R::scene>, "", {}, "", "scene that is run"},
         {"set", at<&T::set>, "", {}, "", "changes, table.key=value"},
         {"without", at<&T::without>, "", {}, "", "tables taken out"},
         {"seeds", at<&T::run, &R::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"},
@@ -57,7 +58,7 @@ const std::vector<Parameter>& expectation_parameters() {
     using E = Expectation;
     static const std::vector<Parameter> parameters{
         {"kind", one_of<&E::kind>(kinds), "", {}, "", ""},
-        {"needed", one_of<&E::needed>(needs), "", {}, "", "of the seeds"},
+        {"needed", one_of<&E::needed>(needs), "", {}, "", "seeds that must meet it"},
         {"absent", one_of<&E::absent>(absences), "", {}, "", "without a value"},
         {"measure", at<&E::measure>, "", {}, "", "name"},
         {"what", at<&E::what>, "", {}, "", "for people"},
@@ -88,7 +89,7 @@ Expectation read_expectation(const Entry& entry) {
 ValidationPicture read_picture(const Entry& entry) {
     ValidationPicture picture;
     read_values(entry,
-                {{"name", at<&ValidationPicture::name>, "", {}, "", "of the file"},
+                {{"name", at<&ValidationPicture::name>, "", {}, "", "name of the file"},
                  {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}},
                 &picture, {"rows"});
     need_name(entry, "name", picture.name);
@@ -179,26 +180,26 @@ std::vector<std::string> effects_of(const ValidationPlan& plan) {
 }
 
 /// A plan's own keys.
-struct PlanText {
+struct ExtensionText {
     std::string extends;
 };
 
 /// @param extended  by another: then it cannot extend a third, or itself
 ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
-    const toml::table document = shelf.read(file);
+    const toml::table document = validation_shelf.read(file);
     const Entry top{document, ""};
-    PlanText text;
-    read_values(top, {{"extends", at<&PlanText::extends>, "", {}, "", "a plan"}}, &text,
+    ExtensionText text;
+    read_values(top, {{"extends", at<&ExtensionText::extends>, "", {}, "", "a plan"}}, &text,
                 {"run", "experiment"});
     ValidationPlan plan;
     std::vector<ValidationExperiment> known; // that others can be like
     if (const std::string& other = text.extends; !other.empty()) {
         if (extended)
             fail({*document.get("extends"), "extends"}, "is of a plan that is extended itself");
-        known =
-            read_plan(shelf.find(is_path(other) ? (file.parent_path() / other).string() : other),
-                      true)
-                .experiments;
+        known = read_plan(validation_shelf.find(
+                              is_path(other) ? (file.parent_path() / other).string() : other),
+                          true)
+                    .experiments;
     }
     int runs = 0;
     for (const Entry& entry : tables(top, "run")) {

@@ -349,7 +349,8 @@ TEST_F(SceneTest, ASwitchIsTrueOrFalse) {
         HasSubstr("\nwhole_domain = true "));
     EXPECT_EQ(set_error("fault_weakening.whole_domain=1"),
               "--set fault_weakening.whole_domain=1: fault_weakening.whole_domain: wrong type "
-              "(integer 1), allowed: true or false");
+              "(integer 1), "
+              "allowed: true or false");
 }
 
 TEST_F(SceneTest, AFormerKeyIsAnsweredWithItsSuccessor) {
@@ -681,7 +682,9 @@ TEST_F(SceneTest, FilesThatAreNoScenes) {
                               "[detachment] or [stretching], or [flexure] and [elastic_base]";
     EXPECT_EQ(error(""), empty);
     EXPECT_EQ(error("\n# nothing here\n"), empty);
-    EXPECT_EQ(error(std::string("a = 1\n\x7fELF\0\1", 12)),
+    EXPECT_EQ(error(std::string("a = 1\n\x7f"
+                                "ELF\0\1",
+                                12)),
               "scene.toml:2: is not a text file (it has a NUL byte); a scene is TOML in UTF-8");
     EXPECT_EQ(error_of({.scene = folder.string() + "/"}),
               folder.string() + "/: is a directory, needs a scene file");
