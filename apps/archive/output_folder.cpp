@@ -93,7 +93,7 @@ void require_own_run(const Scene& scene, const fs::path& output, bool finished) 
     }
 }
 
-/// What is read must not be written over, nor removed with the run that is replaced.
+/// Files that are read must not be written over, nor removed with the run that is replaced.
 void keep_what_is_read(const Scene& scene, const fs::path& output, ExistingRun existing) {
     std::error_code error;
     for (const fs::path& file : scene.files) {

@@ -20,7 +20,7 @@ private:
     int file_;
 };
 
-/// What becomes of a run that is in the output folder already.
+/// Treatment of a run that is in the output folder already.
 enum class ExistingRun { refused, resumed, replaced };
 
 /// Refuses a folder that holds something else than what is asked for, or what would be lost there,

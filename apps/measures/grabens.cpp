@@ -29,7 +29,7 @@ constexpr Quantity outer_first{
 /// When a collapse graben first appears, when there first are two, and whether the one before is
 /// then the outer one.
 NamedNumbers measure_order(std::span<const Past> past) {
-    constexpr double apart = 2e3; // what is nearer together is one graben
+    constexpr double apart = 2e3; // grabens nearer together are one
     NamedNumbers numbers;
     std::optional<double> alone; // place of the only one, less the extension
     for (const Past& p : past) {

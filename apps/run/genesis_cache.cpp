@@ -42,7 +42,7 @@ std::string asked_for(const Scene& scene, const ModelParts& parts) {
                        build_flags, instruction_set);
 }
 
-/// What was kept in a file, if that is what is asked for: of the name alone nothing is believed.
+/// Content of a kept file, if it is the wanted one: the name alone is no proof.
 std::optional<State> recall(const fs::path& cache, const std::string& asked,
                             const std::vector<Material>& materials, Log& log) {
     std::error_code ignored;

@@ -23,7 +23,7 @@ inline constexpr RockSource basement_source{
     "Sets stiffness, friction and strength of sound rock at once.",
     [](Scene& scene, const RockMaterial& rock) { take_microproperties(scene.basement, rock); }};
 
-/// What [materials] can name, each key once.
+/// Rocks that [materials] can name, each key once.
 std::vector<RockSource> rock_sources(EffectList effects);
 
 /// Their parameters, of a FileName.

@@ -70,7 +70,7 @@ struct Parameter {
     Range range;
     std::string_view symbol; ///< in the paper
     std::string_view doc;
-    std::string_view changes = {}; ///< what another value does to a run: "Raising it ..."
+    std::string_view changes = {}; ///< effect of another value on a run: "Raising it ..."
     Range usual = {};    ///< where scenes of ours and published values lie; not given: not known
     double per_si = 1.0; ///< units of the key in one SI unit
 };
@@ -107,8 +107,8 @@ template <auto... Path>
 constexpr auto at = Place<std::remove_cvref_t<decltype(detail::get<Path...>(nullptr))>>{
     detail::get<Path...>, detail::reach<Path...>};
 
-/// The same for a choice: names in the order of the enumeration; of a switch the first means true;
-/// a string is one of them.
+/// A choice at a path of members: names in the order of the enumeration; of a switch the first
+/// means true; a string is one of them.
 template <auto... Path> Choice one_of(std::vector<std::string_view> names) {
     using T = std::remove_cvref_t<decltype(detail::get<Path...>(nullptr))>;
     using Names = std::vector<std::string_view>;

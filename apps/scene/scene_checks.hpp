@@ -10,7 +10,7 @@ namespace listric {
 /// The value at a path of keys, or else its table, or else the document.
 Entry entry_at(const toml::table& document, const std::string& path);
 
-/// What tables need of each other, and what no single parameter shows. Throws SceneError.
+/// Checks of tables against each other, which no single parameter can fail. Throws SceneError.
 void check_scene(const Scene& scene, const toml::table& document, EffectList effects);
 
 } // namespace listric

@@ -383,7 +383,7 @@ std::string to_toml(const Scene& scene) {
     std::vector<const Effect*> effects;
     std::ranges::transform(scene.effects, std::back_inserter(effects), &EffectPart::effect);
     std::string lines = fmt::format("# All parameters in force.\n\n{}", write(top_level(), &scene));
-    const FileName none; // what files said is in the parameters
+    const FileName none; // the parameters hold the content of files
     for (const SceneTable& table : scene_tables(effects))
         if (const void* part = table.find(table, scene))
             lines += fmt::format("\n[{}]  # {}\n{}{}", table.name, table.doc,

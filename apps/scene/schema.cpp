@@ -51,7 +51,7 @@ Json closed_table(std::string_view doc, Json properties, Json required = Json::a
 Json table_schema(std::string_view doc, const std::vector<Parameter>& parameters,
                   const void* object);
 
-/// What a value may be, one function for each type.
+/// Schema of a value, one function for each type.
 struct Allowed {
     const Parameter& parameter;
 

@@ -28,7 +28,7 @@ bool is_line(xml_node element) {
 
 std::string_view id_of(xml_node element) { return element.attribute("id").value(); }
 
-/// What Inkscape calls a label: an attribute of its own, whatever prefix its names have.
+/// Inkscape's label: an attribute of its own, whatever prefix its names have.
 std::string_view label_of(xml_node element) {
     for (const pugi::xml_attribute attribute : element.attributes())
         if (std::string_view(attribute.name()).ends_with(":label"))

@@ -42,13 +42,13 @@ std::string_view namespace_of(xml_node element) {
     return {};
 }
 
-/// What an element says of a property: in its style or else as an attribute.
+/// Property of an element: in its style or else as an attribute.
 std::string said(xml_node element, const Declarations& style, const char* property) {
     const auto declared = style.find(property);
     return declared != style.end() ? declared->second : element.attribute(property).value();
 }
 
-/// What moves an element besides `transform` and is not read.
+/// Refuses attributes that move an element besides `transform`.
 void check_read(xml_node element, const Declarations& style, const std::string& where) {
     for (const char* property : {"translate", "rotate", "scale", "offset-path", "zoom", "d"})
         if (const auto declared = style.find(property);
@@ -83,7 +83,7 @@ void check_style_sheets(xml_node outer, const std::string& where) {
     }
 }
 
-/// What is written for it to be drawn elsewhere, or not at all, is not the drawing.
+/// Refuses elements that are drawn elsewhere, or not at all.
 void check_drawn(const std::vector<xml_node>& chain, const std::string& where) {
     std::string visibility, hidden_by;
     for (std::size_t k = 0; k < chain.size(); ++k) {

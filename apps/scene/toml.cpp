@@ -53,7 +53,7 @@ std::string toml_float(double x) {
     return number.find_first_of(".en") == number.npos ? number + ".0" : number;
 }
 
-/// What a wrong value is: integer 3, string "abc", table.
+/// Description of a wrong value: integer 3, string "abc", table.
 std::string type_and_value(const toml::node& node) {
     if (const auto* number = node.as_floating_point())
         return "number " + toml_float(number->get());

@@ -36,7 +36,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the summary of a finished run says of it; both empty if there is none.
+/// Facts from the summary of a finished run; both empty if there is none.
 struct FinishedRun {
     std::string hash;
     std::string made_by; ///< version and commit of Listric
@@ -227,7 +227,7 @@ private:
             for (auto& [at, numbers] : examine_run(folder_of(run, seed), run.at))
                 store_[{run.name, seed, at}] = {
                     hash, made_by, std::string(version), {numbers.begin(), numbers.end()}};
-            save_measures(); // what is measured is kept, whatever comes next
+            save_measures(); // keeps the measures, whatever comes next
             measured = true;
         }
         if (measured)

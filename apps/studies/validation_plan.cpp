@@ -112,7 +112,7 @@ struct ExperimentText {
     std::string runs;
 };
 
-/// What an experiment expects, of other runs that take the places of its own. Without those that
+/// Expectations of an experiment for other runs in the places of its own. Without those that
 /// ask for more runs than there are: a control, say.
 std::vector<Expectation> expectations_of(const ValidationExperiment& experiment,
                                          const std::vector<std::string>& runs) {

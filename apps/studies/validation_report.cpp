@@ -60,7 +60,7 @@ std::string makers(const ValidationFindings& f, const std::set<std::string>& run
                                       fmt::join(made, ", "), fmt::join(measured, ", "));
 }
 
-/// What the document is, and how to read it.
+/// Introduction of the document, and how to read it.
 std::string introduction(const ValidationFindings& f) {
     std::set<std::string> wanted, there; // experiments may share runs
     for (const ValidationExperiment& x : f.experiments) {
@@ -110,7 +110,8 @@ std::string overview(const ValidationFindings& f) {
     return text + "\n";
 }
 
-/// What e expects and where: "width of faults, diameters, 10 km (`fault_width_diameters`)".
+/// Measure and place of an expectation: "width of faults, diameters, 10 km
+/// (`fault_width_diameters`)".
 std::string subject(const ValidationFindings& f, const Expectation& e) {
     std::string what = e.what;
     if (f.plan.run(e.run).at.size() > 1 || e.at)

@@ -15,6 +15,7 @@ from links import CODE, read_documents
 from source_tree import CPP, PYTHON, is_cpp, read_tree, report
 
 NOT_READ = ("docs/record/",)
+COMMANDS = "apps/commands/"
 # Texts of the program with fewer words are names, keys and pieces of sentences.
 LEAST_WORDS = 3
 
@@ -56,16 +57,21 @@ def prose(text):
     return re.sub(r"(?<=[^\n|:])\n(?=[^\n|#*\-\d>_])", " ", text)
 
 
-LITERAL = re.compile(r'"((?:\\.|[^"\\\n])*)"')
-NOT_LITERAL = re.compile(r"""//[^\n]*|^[ \t]*#[^\n]*|'(?:\\.|[^'\\\n])+'""", re.MULTILINE)
-LITERALS = re.compile(rf"{LITERAL.pattern}(?:\s*{LITERAL.pattern})*")
+# Comments of C++ that begin so, at the start of a line or as a member's.
+COMMENT = re.compile(r"(?:^[ \t]*///? |///< )((?:What|The same|That of|Those of)\b[^\n?]{0,40}|the same$)", re.MULTILINE)
+# A literal's text, or what is none: comments, characters, any other sign.
+TOKEN = re.compile(r"""//[^\n]*|'(?:\\[^']*|[^'\\\n])'|"((?:\\.|[^"\\\n])*)"|\S""")
 
 
 def texts_of_cpp(source):
-    """Texts of literals, those beside each other joined. (A // inside a literal hides no literal that has one.)"""
-    hidden = LITERALS.sub(lambda found: found[0].replace("//", "\0\0").replace("'", "\1"), source)
-    for run in LITERALS.finditer(NOT_LITERAL.sub("", hidden)):
-        yield "".join(LITERAL.findall(run[0])).replace("\0\0", "//").replace("\1", "'").replace("\\n", "\n")
+    """Texts of literals, those beside each other joined."""
+    parts = []
+    for token in TOKEN.finditer(source):
+        if token[1] is not None:
+            parts.append(token[1])
+        elif parts and not token[0].startswith("//"):
+            yield "".join(parts).replace("\\n", "\n")
+            parts = []
 
 
 def texts_of_python(source):
@@ -83,9 +89,16 @@ def program_texts(tree):
             for path, source in tree.items()}
 
 
+def comments(source):
+    """Comments of C++ that begin without their subject."""
+    for match in COMMENT.finditer(source):
+        yield f"// \"{match[1]}\": begin with the thing"
+
+
 def constructions(text):
+    plain = prose(text)
     for pattern, cure in COMPILED:
-        for match in pattern.finditer(prose(text)):
+        for match in pattern.finditer(plain):
             yield f"\"{match[0][:60]}\": {cure}"
 
 
@@ -98,9 +111,19 @@ def violations(documents, texts=None):
     return found
 
 
+def comment_violations(tree):
+    return [f"{path}: {one}" for path, source in tree.items() if is_cpp(path) for one in comments(source)]
+
+
 def read_program():
-    return program_texts(read_tree(suffixes=CPP | PYTHON))
+    """Sources; of the command line's calls its own branch changes help and comments."""
+    return {path: text for path, text in read_tree(suffixes=CPP | PYTHON).items() if not path.startswith(COMMANDS)}
+
+
+def all_violations():
+    tree = read_program()
+    return violations(read_documents(), program_texts(tree)) + comment_violations(tree)
 
 
 if __name__ == "__main__":
-    raise SystemExit(report(violations(read_documents(), read_program())))
+    raise SystemExit(report(all_violations()))

@@ -121,6 +121,11 @@ def read_table(path: str, may_be_empty: bool = False) -> dict[str, np.ndarray]:
     return dict(zip(rows[0], columns))
 
 
+def moment_label(extension: float, last: float) -> str:
+    """An extension of at most `last`, both m: in km, or in m where 0.1 km cannot separate moments."""
+    return f"{extension / 1e3:.1f} km" if last >= 1e3 or last == 0.0 else f"{extension:.3g} m"
+
+
 def new_figure(width: float, height: float, dpi: float, **options) -> Figure:
     """A white figure of that size in inches."""
     figure = Figure(figsize=(width, height), dpi=dpi, facecolor="white", **options)

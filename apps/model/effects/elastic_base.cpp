@@ -1,7 +1,7 @@
 #include "apps/model/base_driver.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_driver.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
@@ -166,7 +166,7 @@ void check_plate(const Scene& scene, const P& base, const Refuse& refuse) {
         refuse_short("half_width_m", scene.flexure->half_width, 0.1 * base.elastic_thickness);
 }
 
-/// What the footwall itself refuses, before a run prepares anything.
+/// Refusals of the footwall itself, before a run prepares anything.
 void check(const Scene& scene, const Refuse& refuse) {
     const P& base = *elastic_base(scene);
     if (scene.flexure) {
@@ -207,7 +207,7 @@ void contribute(const Scene& scene, ModelParts& parts) {
     parts.base_moves = true;
 }
 
-/// What the footwall feels and what it does not.
+/// Loads that the footwall feels, and those that it does not.
 std::string explain(const Scene& scene, EffectList list) {
     const P& base = *elastic_base(scene);
     constexpr const char* schemes[] = {"modal", "lumped"};

@@ -101,7 +101,7 @@ std::vector<StagedEvent> make_events(const Scene& scene, const ModelParts& parts
     return events;
 }
 
-/// What is a fault, in metres and as a rate.
+/// Definition of a fault, in metres and as a rate.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
     const double diameter = 2.0 * scene.hanging_wall->mean_radius;
