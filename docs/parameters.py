@@ -17,8 +17,8 @@ Made from the declarations by `docs/parameters.sh`; `./listric explain --paramet
 `--set fault_weakening.least_slip_m=50` changes a parameter for one call. Keys end with their unit.
 
 An **effect** is a process: it is on if its table is in the file, even if the table is empty. **Allowed** is what the program accepts.
-**Usual** is the range of the shipped scenes, the studies and the published values that these pages quote; where none is given, nobody
-has varied the parameter. **Symbol** is that of Seyferth and Henk (2005). A sentence "Raising it ..." describes the change from the
+**Usual** is the range of the shipped scenes, the studies and the published values that these pages quote; where none is given, none is
+known. **Symbol** is that of Seyferth and Henk (2005). A sentence "Raising it ..." describes the change from the
 default.
 
 """
@@ -125,7 +125,7 @@ def anchor(heading):
 
 
 def sentence(text):
-    return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")
+    return (text if text.startswith("x ") else text[:1].upper() + text[1:]) + ("" if text.endswith(".") else ".")
 
 
 def number(x):

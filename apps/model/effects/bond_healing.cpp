@@ -22,7 +22,7 @@ const Effect& bond_healing() {
                  "Raising it heals cracks that still slip: less of the rock stays broken."},
                 {"measure", one_of<&P::measure>({"slip", "slip_and_opening"}), "", ranges::any,
                  "d_h", "relative displacement of two discs that forbids healing",
-                 "With \"slip_and_opening\" sediment hardly cements, since compaction moves its "
+                 "With \"slip_and_opening\" sediment hardly cements, since burial moves its "
                  "discs."},
             },
         .needs = {"bonds"},
