@@ -34,7 +34,7 @@ std::vector<Parameter> hanging_wall_parameters() {
         {"porosity", at<&P::porosity>, "", between(0.1, 0.4), "Phi_d",
          "porosity of the closed packing, before gravity is applied",
          "Raising it makes the packing looser, with fewer contacts and bonds per disc.",
-         between(0.16, 0.175)},
+         between(0.17, 0.175)},
         {"rock_density_kg_per_m3", at<&P::rock_density>, "kg/m3", ranges::density, "rho_tot",
          "bulk density of the packing",
          "Raising it raises all stresses in proportion, and with them the strength that friction "

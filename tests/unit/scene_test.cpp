@@ -895,7 +895,7 @@ TEST_F(SceneTest, TheReferenceHasEveryParameter) {
                                      "        Raising it makes the packing looser, with fewer "
                                      "contacts and bonds per disc.\n"
                                      "        number; at least 0.1, at most 0.4; symbol Phi_d; "
-                                     "usual 0.16 to 0.175\n"));
+                                     "usual 0.17 to 0.175\n"));
     EXPECT_THAT(reference, HasSubstr("    radius_m = (required)\n"));
 }
 
