@@ -8,7 +8,7 @@
 
 namespace listric::coupling {
 
-// What an elastic base remembers, in State::base_memory: this header has the name and the columns
+// Memory of an elastic base, State::base_memory: this header has the name and the columns
 // of each of its tables, interface_loads.hpp of those of the effects' loads. Snapshots hold the
 // names.
 

@@ -78,7 +78,7 @@ double pore_water_weight(const State& state) {
 
 std::vector<double> flank_depths(const SurfaceResponse& response, std::span<const double> dry,
                                  double level, double weight) {
-    // What water adds to its depth is at most its density over the mantle's.
+    // Water adds to its own depth at most its density over the mantle's.
     constexpr double close = 1e-3; // m
     constexpr int most = 200;
     const std::size_t n = response.x.size();

@@ -82,7 +82,7 @@ public:
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
     std::vector<double> flank_pressure() const; ///< downward, at the flank's knots, Pa
-    fem::Load flank_load() const;               ///< the same
+    fem::Load flank_load() const;               ///< the pressure as a load
     double flank_weight() const;                ///< N per m of strike
 
 private:

@@ -301,7 +301,7 @@ void ElasticBase::move_modes(State& state, double step) {
     }
 }
 
-/// The same for every node, whose mass its row of the stiffness bounds.
+/// Moves every node, whose mass its row of the stiffness bounds.
 void ElasticBase::move_lumped(State& state, double step) {
     const BaseNodeColumns nodes = base_node_columns(state);
     std::vector<double> u(modes_.unknowns);

@@ -105,7 +105,7 @@ public:
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
     std::vector<double> pressure() const; ///< of the cover as it is, on the knots, Pa
-    fem::Load load() const;               ///< the same
+    fem::Load load() const;               ///< the pressure as a load
 
     struct Areas {
         double eroded, deposited; ///< m^2

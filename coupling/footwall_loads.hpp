@@ -18,7 +18,7 @@ namespace listric::coupling {
 // interface_loads.hpp). What it puts there may follow from unit loads elsewhere on the footwall,
 // which are solved for once, those of all effects together, and superposed in amounts that change.
 
-/// What the unit loads of one effect do, by rows a number per load.
+/// Responses to the unit loads of one effect, by rows a number per load.
 struct LoadResponse {
     std::vector<double> interface; ///< displacement of the base's unknowns: a row per load, m
     std::vector<fem::Vector> sums; ///< of the loads, N/m
@@ -44,7 +44,7 @@ struct OtherLoad {
     std::function<double(double x)> cover; ///< as of LoadingEvent; 0 without
 };
 
-/// What an effect's event is made from: the rows are those of its unit loads.
+/// Parts of an effect's event: the rows are those of its unit loads.
 struct LoadSolution {
     const ElasticBase& base;       ///< lives as long as the event
     std::vector<double> interface; ///< displacement of the base's unknowns: a row per load, m
@@ -62,7 +62,7 @@ struct LoadingEvent {
     std::unique_ptr<dem::Event> event;
     /// How much of each unit load acts now; none without unit loads.
     std::function<std::vector<double>(const dem::State&)> amounts = {};
-    /// What acts elsewhere than on the interface now; none: nothing.
+    /// Load elsewhere than on the interface now; none: no load.
     std::function<fem::Load(const dem::State&)> load_elsewhere = {};
     /// Height that the effect has added to the footwall's surface left of the breakaway by now, m;
     /// none: nothing.
@@ -86,7 +86,7 @@ public:
                   std::span<const FootwallLoad> effects,
                   std::vector<std::unique_ptr<dem::Event>>& events);
 
-    /// What acts on the footwall elsewhere than on the interface.
+    /// Load on the footwall elsewhere than on the interface.
     fem::Load elsewhere(const dem::State& state) const;
 
     NamedValues measures(const dem::State& state) const; ///< of all effects

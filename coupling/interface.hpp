@@ -26,10 +26,10 @@ Interface condense(fem::Footwall& footwall, int degree);
 /// x, m, on its horizontal projection and its reference place; y components, N.
 std::vector<double> pressure_forces(const Interface& interface, double from, double to);
 
-/// What the transfer between discs and nodes loses: nothing but round-off.
+/// Errors of the transfer between discs and nodes: round-off.
 struct InterfaceBalance {
     double force_error = 0.0;  ///< |forces on nodes + forces on discs| over the sum of magnitudes
-    double moment_error = 0.0; ///< the same of moments about the breakaway, in the deformed wall
+    double moment_error = 0.0; ///< error of moments about the breakaway, in the deformed wall
     double work_error = 0.0;   ///< and of power, with the nodes' velocities
 };
 

@@ -40,7 +40,7 @@ using Chain = std::vector<Segment>;
 /// closest: a surface ends where it ends.
 std::optional<Foot> nearest(const Chain& chain, Point p);
 
-/// The same with its place on the chain.
+/// Foot on a chain, with its place.
 std::optional<FootPoint> foot_point(const Chain& chain, Point p);
 
 double length_of(const Chain& chain); ///< m
@@ -50,7 +50,7 @@ Point point_at(const Chain& chain, double arc_length);
 /// Height of a chain whose x ascends, at x, m; that of its end where x is beyond.
 double height_at(const Chain& chain, double x);
 
-/// What a surface takes part in where the base deforms (State::base_nodes).
+/// Part of a surface in a base that deforms (State::base_nodes).
 enum class Follows {
     nothing,  ///< it is rigid
     nodes,    ///< it is the line through the nodes instead of its chain
@@ -99,8 +99,8 @@ struct Motion {
     double time_at(double extension) const;
 };
 
-/// What the discs rest on: detachment, backstop above the breakaway and right wall; or the walls of
-/// a box.
+/// Surfaces that the discs rest on: detachment, backstop above the breakaway and right wall; or the
+/// walls of a box.
 struct RigidBase {
     std::vector<Surface> surfaces;
     Material material; ///< stiffness of the surfaces, in series with the disc's

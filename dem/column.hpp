@@ -21,7 +21,7 @@ struct Column {
     std::string name;
     std::string unit; ///< SI, "1" when dimensionless
     Values values;
-    Value initial;              ///< what a new row starts with
+    Value initial;              ///< value of a new row
     std::string begins_as = {}; ///< name of the column whose value a new row takes, if not that
 };
 

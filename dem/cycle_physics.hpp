@@ -8,7 +8,7 @@
 
 namespace listric::dem {
 
-// What the plain and the fast cycle have in common.
+// Physics that the plain and the fast cycle share.
 
 /// Physics of the cycle beyond the contact law.
 struct CyclePhysics {
@@ -33,7 +33,7 @@ void add_mean_velocities(State& state);
 /// the averaging time; a sample every cycle would cost the memory traffic of writing it.
 inline constexpr std::int64_t averaging_interval = 16;
 
-/// What answers to the loads on the nodes of a base that deforms.
+/// Response to the loads on the nodes of a base that deforms.
 class BaseResponse {
 public:
     virtual ~BaseResponse() = default;

@@ -45,7 +45,7 @@ enum class Stage {
 
 /// Something rare that happens to the state between cycles: an effect is one or more events.
 ///
-/// What an event must remember per disc or contact it keeps in a column of the state; anything
+/// Memory of an event per disc or contact is a column of the state; anything
 /// else in its one table. Both are saved, resumed and hashed for it. Memory of where or how a disc
 /// was begins, in discs that come later, as they are: Table::add_like().
 class Event {

@@ -31,7 +31,7 @@ constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t hash = fnv1a_
     return hash;
 }
 
-/// The same, a number at a time.
+/// Hashes a number at a time.
 constexpr std::uint64_t fnv1a(std::span<const double> numbers, std::uint64_t hash = fnv1a_start) {
     for (const double number : numbers)
         hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u;

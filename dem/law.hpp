@@ -10,7 +10,7 @@
 
 namespace listric::dem {
 
-/// What the contact law needs of a pair of materials. Single precision halves the traffic of the
+/// Constants of the contact law for a pair of materials. Single precision halves the traffic of the
 /// cycle and is ample for properties; forces and positions are double.
 struct ContactParameters {
     float normal_stiffness;           ///< K, N/m
@@ -22,7 +22,7 @@ struct ContactParameters {
 /// to single precision that it can see being widened again, and the two cycles would differ.
 ContactParameters contact_parameters(const Material& a, const Material& b, double time_step);
 
-/// The same of a disc and a wall, whose friction is the disc's: surface_force() knows the wall's.
+/// Constants for a disc and a wall, whose friction is the disc's: surface_force() knows the wall's.
 ContactParameters base_contact_parameters(const Material& wall, const Material& disc,
                                           double time_step);
 

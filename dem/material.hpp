@@ -13,7 +13,7 @@ struct Material {
     bool bondable = true;             ///< whether bond healing may bond contacts of this material
 };
 
-/// What Table 1 prints as bond strength: a stress on the discs' mean section, or a force.
+/// Reading of the bond strengths in Table 1: a stress on the discs' mean section, or a force.
 enum class StrengthReading { stress, force };
 
 /// Contact-bond strengths, normally distributed over contacts [paper, Table 1: F_c^n, F_c^s].

@@ -8,7 +8,7 @@
 
 namespace listric::dem {
 
-/// What a random number is for; keeps the streams of different purposes apart.
+/// Purpose of a random number; keeps the streams of different purposes apart.
 enum class Purpose : std::uint64_t {
     packing_place,
     packing_radius,

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/measures.md anew from apps/python/listric/dictionary.json, which the
-program says (docs/parameters.sh). Between `<!-- measures: TABLE ... -->` and `<!-- end -->` stand the
-measures of these tables; the rest of the page is by hand.
+"""Writes the generated parts of docs/measures.md and docs/validation-measures.md from
+apps/python/listric/dictionary.json, which the program prints (docs/parameters.sh). Between
+`<!-- measures: TABLE ... -->` and `<!-- end -->` stand the measures of these tables, each with a heading
+and so an anchor; the rest of a page is by hand.
 """
 
 import json
@@ -9,41 +10,56 @@ import re
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs/measures.md"
+from parameters import ROOT, anchor, sentence
+
+PAGES = (ROOT / "docs/measures.md", ROOT / "docs/validation-measures.md")
 DICTIONARY = ROOT / "apps/python/listric/dictionary.json"
 MARKED = re.compile(r"(<!-- measures: ([^>]*?) -->\n).*?(<!-- end -->\n)", re.DOTALL)
 
 
-def rows(entries, tables):
+def reference(entries, tables=None):
+    """(name, declaration) of measures and of what the objects of lists have."""
     for entry in entries:
-        if entry["table"] not in tables:
-            continue
-        yield f"`{entry['name']}`", entry
-        for part in entry.get("parts", ()):
-            yield f"`{entry['name']}`: `{part['name']}`", part
+        if tables is None or entry["table"] in tables:
+            yield entry["name"], entry
+            for part in entry.get("parts", ()):
+                yield f"{entry['name']}.{part['name']}", part
 
 
-def table(entries, tables):
-    lines = ["| name | unit | what |", "|---|---|---|"]
-    lines += [f"| {name} | {one['unit']} | {one['doc']} |" for name, one in rows(entries, tables)]
-    return "\n".join(lines) + "\n"
+def facts(one):
+    if one["unit"]:
+        yield f"**Unit** {one['unit']}"
+    if "usual" in one:
+        yield f"**Usual** {one['usual']}"
+
+
+def block(entries, tables):
+    listed = list(reference(entries, tables))
+    parts = [" · ".join(f"[`{name}`](#{anchor(name)})" for name, _ in listed)]
+    for name, one in listed:
+        parts += [f"### {name}", sentence(one["doc"]), " · ".join(facts(one))]
+    return "\n\n".join(filter(None, parts)) + "\n\n"
 
 
 def page(text, entries):
-    """The page with its tables made anew."""
-    return MARKED.sub(lambda m: m[1] + table(entries, m[2].split()) + m[3], text)
+    """The page with its measures as they are declared."""
+    return MARKED.sub(lambda m: m[1] + block(entries, m[2].split()) + m[3], text)
 
 
-def missing(text, entries):
-    """Tables of the dictionary that the page does not show."""
-    shown = {name for m in MARKED.finditer(text) for name in m[2].split()}
+def missing(texts, entries):
+    """Tables of the dictionary that no page shows."""
+    shown = {name for text in texts for m in MARKED.finditer(text) for name in m[2].split()}
     return sorted({entry["table"] for entry in entries} - shown)
 
 
+def read_dictionary():
+    return json.loads(DICTIONARY.read_text(encoding="utf-8"))
+
+
 if __name__ == "__main__":
-    words = json.loads(DICTIONARY.read_text(encoding="utf-8"))
-    document = PAGE.read_text(encoding="utf-8")
-    if missing(document, words):
-        sys.exit(f"{PAGE}: has no table {', '.join(missing(document, words))}")
-    PAGE.write_text(page(document, words), encoding="utf-8")
+    words = read_dictionary()
+    documents = [file.read_text(encoding="utf-8") for file in PAGES]
+    if missing(documents, words):
+        sys.exit(f"{PAGES[0]}: has no table {', '.join(missing(documents, words))}")
+    for file, document in zip(PAGES, documents):
+        file.write_text(page(document, words), encoding="utf-8")

@@ -1,21 +1,10 @@
 #!/bin/bash
-# Writes docs/parameters.md, the schemas of scenes and materials, the dictionary of measures and the
-# tables of docs/measures.md from the program's own declarations.
+# Writes the schemas of scenes and materials and the dictionary of measures from the program's own declarations,
+# and of these docs/parameters.md and the measures of docs/measures.md and docs/validation-measures.md.
 cd "$(dirname "$0")/.." || exit
-reference=$(./listric explain --parameters) || exit
-cat >docs/parameters.md <<END
-# Parameters of a scene
-
-Made by \`docs/parameters.sh\` from \`./listric explain --parameters\`; a test compares the two. A table
-is an effect where it says so: then the effect is on exactly when the table is there.
-
-\`\`\`
-$reference
-\`\`\`
-END
-scene=$(./listric schema) && material=$(./listric schema --material) || exit
+listric=${LISTRIC:-./listric}
+scene=$("$listric" schema) && material=$("$listric" schema --material) && measures=$("$listric" schema --measures) || exit
 echo "$scene" >apps/scene.schema.json
 echo "$material" >apps/material.schema.json
-measures=$(./listric schema --measures) || exit
 echo "$measures" >apps/python/listric/dictionary.json
-python3 -B docs/measures.py
+python3 -B docs/parameters.py && python3 -B docs/measures.py

@@ -55,7 +55,7 @@ Fractions even(double length, double size);
 /// Parts that are `size` long up to `fine` and then grow, each by `ratio`, to at most `largest`.
 /// The length is above 0.
 Fractions growing(double length, double size, double fine, double ratio, double largest);
-/// The same parts counted from the other end.
+/// Parts counted from the other end.
 Fractions reversed(Fractions fractions);
 
 /// Cuts blocks into cells and joins those of neighbours.

@@ -33,7 +33,7 @@ std::vector<double> jumps_within(const Face& face, const std::vector<double>& ju
     return result;
 }
 
-/// The same points once in every part of a face.
+/// Quadrature points once in every part of a face.
 dealii::Quadrature<1> in_parts(const dealii::Quadrature<1>& points, std::vector<double> ends) {
     ends.insert(ends.begin(), 0.0);
     ends.push_back(1.0);
@@ -81,7 +81,7 @@ void add_forces(const Values& values, const std::vector<unsigned>& component, Fo
     }
 }
 
-/// What deal.II does at the start, where MPI and PETSc have already been started.
+/// Stands in for deal.II's start, where MPI and PETSc have already been started.
 bool join_those_who_started() {
     int started = 0;
     MPI_Initialized(&started);

@@ -104,7 +104,7 @@ private:
             return 0.0;
         }
     }
-    /// What a pressure -k y in the rock turns with a boundary: k y, Pa. The surface has none, and
+    /// Pressure -k y in the rock that turns with a boundary: k y, Pa. The surface has none, and
     /// at the level base rock and mantle press the same.
     double turned_pressure(Boundary boundary, Vector place) const {
         return boundary == Boundary::detachment ? spring(boundary) * place.y : 0.0;

@@ -30,7 +30,7 @@ std::string number(double x) {
 
 [[noreturn]] void refuse(const std::string& message) { throw FootwallError(message); }
 
-/// What brings the plug-in: an installed program has its files beside it.
+/// Package that brings the plug-in: an installed program has its files beside it.
 std::string cure() {
     std::error_code error;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", error);

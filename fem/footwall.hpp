@@ -32,7 +32,7 @@ struct PointForce {
     Vector force; ///< N per m of strike
 };
 
-/// What acts on the footwall, in addition to what it rests in.
+/// Loads on the footwall, in addition to its initial state.
 struct Load {
     std::function<Vector(Vector place)> body;                                      ///< N/m^3
     std::function<Vector(Vector place, Vector outward_normal, Boundary)> traction; ///< Pa
@@ -42,7 +42,7 @@ struct Load {
     std::vector<double> jumps;
 };
 
-/// What m loads, each alone, do to the footwall.
+/// Responses of the footwall to m loads, each alone.
 struct Responses {
     std::vector<double> interface; ///< displacement of the interface's n nodes: m rows of 2 n, m
     /// Of every other load on a load's displacement: m by m, symmetric (Betti), J/m. The work of a
@@ -79,7 +79,7 @@ struct FieldError {
     double l2 = 0.0, h1 = 0.0;
 };
 
-/// What tells whether the last solution is one of linear elasticity. Strains are the largest
+/// Signs that the last solution is one of linear elasticity. Strains are the largest
 /// principal ones of (grad u + grad u^T) / 2, without sign.
 struct Guard {
     double strong_strain = 0.0;  ///< in rock that is not relaxed

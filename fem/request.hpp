@@ -1,6 +1,6 @@
 #pragma once
 
-// What a footwall is made of, in plain numbers.
+// Description of a footwall, in plain numbers.
 
 #include "fem/vector.hpp"
 
@@ -29,14 +29,14 @@ struct Layer {
 
 enum class Boundary { left = 1, base = 2, right = 3, surface = 4, detachment = 5 };
 
-/// What holds a far side: nothing, no horizontal motion, or springs of the stiffness of as much
+/// Support of a far side: none, no horizontal motion, or springs of the stiffness of as much
 /// rock again, (lambda + 2 mu) / width, held beyond.
 enum class Side { free, roller, elastic };
 
 enum class Solver {
     mumps,     ///< Cholesky factors; needed for the compliance
     boomeramg, ///< conjugate gradients with hypre's algebraic multigrid
-    gamg       ///< the same with PETSc's, which knows the rigid motions
+    gamg       ///< multigrid of PETSc, which knows the rigid motions
 };
 
 struct FootwallRequest {

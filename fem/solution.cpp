@@ -1,4 +1,4 @@
-// What a solution says: fields, errors, stress, reactions, the guard, files.
+// Contents of a solution: fields, errors, stress, reactions, the guard, files.
 
 #include "fem/byerlee.hpp"
 #include "fem/elasticity.hpp"

@@ -63,7 +63,7 @@ void add_faults(std::vector<DictionaryEntry>& all) {
         all.push_back({measure.quantity(), "faults", nullptr, true, measure.unit != index_unit});
     for (const Quantity& quantity : evolution_quantities())
         all.push_back({quantity, "snapshots", nullptr, false});
-    all.push_back({{"faults", "", "the traces, longest first"},
+    all.push_back({{"faults", "", "traced faults, longest first"},
                    "faults",
                    nullptr,
                    false,
@@ -106,6 +106,8 @@ nlohmann::ordered_json dictionary_json(EffectList effects) {
             Json{{"name", q.name}, {"table", entry.table}, {"unit", q.unit}, {"doc", q.doc}});
         if (q.over != OverTime::last)
             json["over"] = over[static_cast<int>(q.over)];
+        if (!q.usual.empty())
+            json["usual"] = q.usual;
         for (const Quantity& part : entry.parts)
             json["parts"].push_back({{"name", part.name}, {"unit", part.unit}, {"doc", part.doc}});
     }

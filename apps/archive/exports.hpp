@@ -15,7 +15,7 @@ struct ExportedMoment {
     measures::FaultReport faults = {};
 };
 
-// What docs/export.md lists, a table per kind. Points are rounded to a millimetre.
+// Exports of docs/export.md, a table per kind. Points are rounded to a millimetre.
 
 /// Tops of the strata, cut at faults.
 LineTable horizons_table(const ExportedMoment& at);
@@ -41,7 +41,7 @@ struct DiscColumn {
     std::vector<double> values;
 };
 
-/// What discs_table says of the discs, besides rock and place.
+/// Columns of discs_table besides rock and place.
 std::vector<DiscColumn> exported_columns(const ExportedMoment& at);
 
 } // namespace listric::archive

@@ -48,61 +48,63 @@ Json pre_rift_throw_of(P p) {
 constexpr std::size_t of_trace = 7;
 
 constexpr FaultField fields[] = {
-    {"x_top_m", "m", "upper end of the line",
+    {"x_top_m", "m", "x of the upper end of the line",
      [](P p) -> Json { return p.fault().trace.points.front().x; }},
-    {"z_top_m", "m", "its depth", [](P p) -> Json { return -p.fault().trace.points.front().y; }},
-    {"x_bottom_m", "m", "lower end of the line",
+    {"z_top_m", "m", "depth of the upper end of the line",
+     [](P p) -> Json { return -p.fault().trace.points.front().y; }},
+    {"x_bottom_m", "m", "x of the lower end of the line",
      [](P p) -> Json { return p.fault().trace.points.back().x; }},
-    {"z_bottom_m", "m", "its depth", [](P p) -> Json { return -p.fault().trace.points.back().y; }},
-    {"length_m", "m", "of the line", [](P p) -> Json { return p.fault().trace.length(); }, 6,
+    {"z_bottom_m", "m", "depth of the lower end of the line",
+     [](P p) -> Json { return -p.fault().trace.points.back().y; }},
+    {"length_m", "m", "length of the line", [](P p) -> Json { return p.fault().trace.length(); }, 6,
      "length"},
-    {"dip_deg", "deg", "of the best straight line", of<&Fault::dip>, 7, "dip"},
-    {"sense", "", "`normal` or `reverse`, from the slip of the window",
+    {"dip_deg", "deg", "dip of the best straight line", of<&Fault::dip>, 7, "dip"},
+    {"sense", "", "sense of slip in the window: `normal` or `reverse`",
      [](P p) -> Json { return p.fault().normal ? "normal" : "reverse"; }, 5, "sense"},
-    {"attitude", "", "`synthetic`: dips the way the detachment does; `antithetic`: against it",
+    {"attitude", "",
+     "attitude of the fault: `synthetic` dips as the detachment does, `antithetic` against it",
      [](P p) -> Json { return attitude_of(p.fault().synthetic); }, 4, "attitude"},
     {field_rate, "mm/a",
-     "slip, the integral of the shear across the trace, over time; median along it",
+     "slip rate: the integral of the shear across the trace, over time; median along the trace",
      of<&Fault::rate>, 8, "rate"},
     {field_width, "diameters",
-     "full width at half maximum of the shear across the trace, median along it, mean diameters; a "
-     "knife cut reads 2.4",
+     "full width at half maximum of the shear across the trace, median along the trace, in mean "
+     "diameters; a cut without width reads 2.4",
      of<&Fault::width>, 13, "width"},
-    {"curvature_per_m", "1/m", "of the best parabola over the chord; positive: convex upward",
+    {"curvature_per_m", "1/m",
+     "curvature of the best parabola over the chord; positive: convex upward",
      of<&Fault::curvature>, 14},
     {"born_at_m", "m",
-     "extension at the end of the window since which it has been active: half of its length slid "
-     "in "
-     "today's sense, in two thirds of the windows since",
+     "extension at which the fault formed. A fault counts as active in a window if at least half "
+     "of its length slips in its present sense; it must be active in two thirds of all windows "
+     "after birth",
      of<&Fault::born_at>, 9, "born at", true, true},
     {field_dip_at_birth, "deg",
-     "of the line that was traced where the fault was then, in the window of its birth or the "
-     "first "
-     "one after it that has such a line; the footwall discs (6 diameters below the trace) say "
-     "where "
-     "it was",
+     "dip of the fault when it formed: dip of the line traced at its place in the window of its "
+     "birth, or in the first window after it that has such a line. Discs of its footwall (6 "
+     "diameters below the trace) mark its place",
      of<&Fault::dip_at_birth>, 10, "dip at birth", true, true},
-    {"traced_since_m", "m", "end of that window", of<&Fault::traced_since>, 11, "", true, true},
+    {"traced_since_m", "m", "extension at the end of the window of `dip_at_birth_deg`",
+     of<&Fault::traced_since>, 11, "", true, true},
     {"footwall_turn_deg", "deg",
-     "rotation of these discs as one block since then, positive toward the detachment",
+     "rotation of the footwall discs as one block since `traced_since_m`, positive toward the "
+     "detachment",
      of<&Fault::footwall_turn>, 12, "turn", true, true},
     {"foot_x_m", "m",
-     "where it, straight on, meets the detachment, if within 20 diameters of its lower end; else "
-     "its "
-     "lower end. Where a trace falls by less than 30 degrees it follows the detachment's shear "
-     "zone "
-     "and does not count",
+     "x of the fault's foot: the trace, continued straight, meets the detachment there, if within "
+     "20 diameters of its lower end; otherwise x of its lower end. Parts of a trace that fall by "
+     "less than 30 degrees follow the detachment's shear zone and do not count",
      [](P p) -> Json { return p.fault().foot.x; }, 15},
-    {"foot_z_m", "m", "depth of that place", [](P p) -> Json { return -p.fault().foot.y; }, 16},
+    {"foot_z_m", "m", "depth of the foot", [](P p) -> Json { return -p.fault().foot.y; }, 16},
     {field_throw, "m",
-     "by stratum, 0 the pre-rift top: height of the stratum 3 to 12 diameters beside the fault, as "
-     "two parallel lines; positive: the side above the fault lies deeper",
+     "throw by stratum, 0 the pre-rift top: height between two parallel lines through the stratum, "
+     "3 to 12 diameters to both sides of the fault; positive: the side above the fault lies deeper",
      throws_of},
-    {field_points, "m", "the line, one point per diameter", points_of},
+    {field_points, "m", "points of the line, one per diameter", points_of},
     {"pre_rift_throw_m", "m",
-     "median throw of the pre-rift layers: where the discs 6 diameters beside the trace say that a "
-     "layer meets it. It is there also where the two sides of the pre-rift top have parted by "
-     "kilometres",
+     "median throw of the pre-rift layers, from the start heights of discs 6 diameters to both "
+     "sides of the trace. It has a value also where the two sides of the pre-rift top have parted "
+     "by kilometres",
      pre_rift_throw_of, 17, "pre-rift throw"},
     {"name", "", "`fault N`", [](P p) -> Json { return fmt::format("fault {}", p.index); }, 1, "",
      false},

@@ -19,7 +19,7 @@ struct FaultPlace {
     const measures::Fault& fault() const { return report.faults[index]; }
 };
 
-/// What is said of every fault: summary.json, exports, the report's table and `listric trace` have
+/// Fields of every fault: summary.json, exports, the report's table and `listric trace` have
 /// it from here.
 struct FaultField {
     std::string_view name, unit, doc;
@@ -33,7 +33,7 @@ struct FaultField {
 /// All, in the order of summary.json.
 std::span<const FaultField> fault_fields();
 
-/// Those of exports, in the order of their columns.
+/// Fields of exports, in the order of their columns.
 std::span<const FaultField* const> exported_fault_fields();
 
 /// Where a fault is and how it dips: the first fields, which need a trace, its dip and sense only.

@@ -15,7 +15,7 @@ using namespace dem;
 
 namespace {
 
-/// What could not be done, and why: the innermost entry of HDF5's stack of errors.
+/// Failure and its reason: the innermost entry of HDF5's stack of errors.
 [[noreturn]] void fail(const std::string& what) {
     std::string cause;
     const auto take = [](unsigned depth, const H5E_error2_t* error, void* into) -> herr_t {

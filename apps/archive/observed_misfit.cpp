@@ -84,19 +84,20 @@ std::span<const ObservedField> observed_fields() {
     using Json = nlohmann::ordered_json;
     using H = const ObservedHorizon&;
     static constexpr ObservedField fields[] = {
-        {"name", "", "of the picked horizon", [](H h) -> Json { return h.name; }},
-        {"outside", "", "why it is compared with nothing, if it is not",
+        {"name", "", "name of the picked horizon", [](H h) -> Json { return h.name; }},
+        {"outside", "", "reason why the horizon is compared with nothing, if it is not",
          [](H h) { return h.objection.empty() ? Json() : Json(h.objection); }},
-        {"stratum", "1", "whose top it is compared with",
+        {"stratum", "1", "stratum whose top is compared with the horizon",
          [](H h) { return h.misfit ? Json(*h.stratum) : Json(); }},
-        {"mean_m", "m", "mean distance of its points from that top",
+        {"mean_m", "m", "mean distance of the horizon's points from the top of the stratum",
          [](H h) { return h.misfit ? Json(h.misfit->mean) : Json(); }},
-        {"largest_m", "m", "largest distance",
+        {"largest_m", "m", "largest distance of a point from the top of the stratum",
          [](H h) { return h.misfit ? Json(h.misfit->largest) : Json(); }},
-        {"largest_at_x_m", "m", "where that is",
+        {"largest_at_x_m", "m", "x of the largest distance",
          [](H h) { return h.misfit ? Json(h.misfit->worst.x) : Json(); }},
-        {"points", "1", "picked", [](H h) { return h.misfit ? Json(h.points) : Json(); }},
-        {"points_compared", "1", "of these that lie beside the top",
+        {"points", "1", "number of picked points",
+         [](H h) { return h.misfit ? Json(h.points) : Json(); }},
+        {"points_compared", "1", "number of picked points that lie beside the top",
          [](H h) { return h.misfit ? Json(h.misfit->compared) : Json(); }},
     };
     return fields;

@@ -25,7 +25,7 @@ struct ObservedHorizon {
     std::string objection;  ///< why it is compared with nothing, if it is not
 };
 
-/// What summary.json says of one under a name; null: nothing.
+/// Value of one in summary.json under a name; null: none.
 struct ObservedField {
     std::string_view name, unit, doc;
     nlohmann::ordered_json (*value)(const ObservedHorizon& horizon);

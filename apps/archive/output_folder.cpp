@@ -65,11 +65,11 @@ void require_same_scene(const std::map<std::string, std::string>& now, const std
     const auto differs = scene_difference(scene_values(text), now);
     if (!differs)
         return;
-    throw UsageError(fmt::format(
-        "{}: the run to resume has other parameters: {} = {} there, {} in this call; resume it "
-        "with "
-        "the parameters that it began with, start anew with --force, or elsewhere with --output",
-        file.string(), shown(differs->parameter), shown(differs->one), shown(differs->other)));
+    throw UsageError(fmt::format("{}: the run to resume has other parameters: {} = {} there, {} in "
+                                 "this call; resume it with the parameters that it began with, "
+                                 "begin again with --force, or elsewhere with --output",
+                                 file.string(), shown(differs->parameter), shown(differs->one),
+                                 shown(differs->other)));
 }
 
 /// All that a resumed run would take for its own must be of this scene.
@@ -93,7 +93,7 @@ void require_own_run(const FolderUse& use, const fs::path& output, bool finished
     }
 }
 
-/// What is read must not be written over, nor removed with the run that is replaced.
+/// Files that are read must not be written over, nor removed with the run that is replaced.
 void keep_what_is_read(const FolderUse& use, const fs::path& output, ExistingRun existing) {
     std::error_code error;
     for (const fs::path& file : use.files) {

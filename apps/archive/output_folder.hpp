@@ -23,7 +23,7 @@ private:
     int file_;
 };
 
-/// What becomes of a run that is in the output folder already.
+/// Treatment of a run that is in the output folder already.
 enum class ExistingRun { refused, resumed, replaced };
 
 /// What a run reads and writes, as far as the folder of its results is concerned.

@@ -13,13 +13,13 @@ namespace listric::archive {
 std::uint64_t scene_hash(const std::string& parameters);
 std::uint64_t scene_hash(const Scene& scene);
 
-/// What a result of this program and a scene came from: version, commit if it is known, compiler,
+/// Origin of a result of this program and a scene: version, commit if it is known, compiler,
 /// instruction_set, scene_hash, seed. Neither time nor machine: equal for equal programs and
 /// scenes.
 nlohmann::ordered_json provenance(const std::string& parameters, std::uint64_t seed);
 nlohmann::ordered_json provenance(const Scene& scene);
 
-/// The same of a run, as its summary tells; where that says nothing, of its scene alone.
+/// Origin of a run, from its summary; where that lacks it, from its scene alone.
 nlohmann::ordered_json provenance_of_run(const std::filesystem::path& output, const Scene& scene);
 
 } // namespace listric::archive

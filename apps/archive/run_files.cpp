@@ -50,7 +50,7 @@ constexpr std::string_view line_exports[] = {"horizons", "faults", "surfaces", "
 constexpr std::string_view line_endings[] = {".csv", ".geojson", ".gmt"};
 constexpr std::string_view series_parts[] = {"discs", "contacts", "base"};
 
-/// What is left of a text between a beginning and an end; none if it has them not.
+/// Middle of a text between a beginning and an end; none if it lacks them.
 std::optional<std::string_view> between(std::string_view text, std::string_view begin,
                                         std::string_view end) {
     if (text.size() < begin.size() + end.size() || !text.starts_with(begin) || !text.ends_with(end))

@@ -19,10 +19,10 @@ std::string snapshot_name(std::string_view moment);
 /// The files in a run's folder that a run has made.
 std::vector<std::filesystem::path> run_files(const std::filesystem::path& output);
 
-/// What a session that was killed has left half done there: files, and folders of ours.
+/// Remains of a killed session there: files, and folders of ours.
 std::vector<std::filesystem::path> remains(const std::filesystem::path& output);
 
-/// What a run has written of one moment besides its snapshot: the series for ParaView, and pictures
+/// Files of one moment besides its snapshot: the series for ParaView, and pictures
 /// as the run draws them.
 /// @param metres, kilometres  as MomentNames has them
 std::vector<std::filesystem::path> files_of_moment(const std::filesystem::path& output,

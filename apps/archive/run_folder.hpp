@@ -52,7 +52,7 @@ struct Moment {
     std::vector<std::unique_ptr<dem::Event>> events;
 };
 
-/// What a run left: its scene and the snapshots of its moments, oldest first.
+/// Folder of a run: its scene and the snapshots of its moments, oldest first.
 struct RunFolder {
     std::filesystem::path output;
     RunMoments moments;

@@ -8,7 +8,7 @@
 
 namespace listric::archive {
 
-/// What a scene's text says: its lines without comments, empty lines, and whether there is a
+/// Content of a scene's text: its lines without comments, empty lines, and whether there is a
 /// report, which is nothing of the run.
 std::vector<std::string> scene_lines(std::string_view text);
 
@@ -20,7 +20,7 @@ struct SceneDifference {
     std::string parameter, one, other;
 };
 
-/// What a comparison of scenes looks at.
+/// Parts of scenes that a comparison covers.
 enum class SceneScope {
     all,
     results ///< not at names and descriptions, and of the output at the interval alone

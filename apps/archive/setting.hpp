@@ -11,7 +11,7 @@
 
 namespace listric::archive {
 
-/// What measures need to know of a scene, which must have a hanging wall.
+/// Facts of a scene that measures need; it must have a hanging wall.
 measures::Setting make_setting(const Scene& scene, const ModelParts& parts);
 
 /// The fault segments that detection has found so far; none if the scene has no fault detection.

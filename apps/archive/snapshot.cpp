@@ -49,7 +49,7 @@ template <class AnyState, class Visit> void for_each_number(AnyState& s, Visit&&
     visit("look_interval", s.check_interval);
 }
 
-/// The same of a material.
+/// Properties of a material, for reading and for writing.
 template <class AnyMaterial, class Visit> void for_each_property(AnyMaterial& m, Visit&& visit) {
     visit("normal_stiffness", m.normal_stiffness);
     visit("shear_stiffness", m.shear_stiffness);
@@ -89,7 +89,7 @@ auto reads_numbers(hid_t object) {
     };
 }
 
-/// What an event remembers.
+/// Memory of an event.
 struct Memory {
     const Table& table;
     std::int64_t applied;

@@ -12,7 +12,7 @@
 
 namespace listric::archive {
 
-/// What a run carries along besides the state.
+/// Data that a run carries along besides the state.
 struct RunRecord {
     std::string scene;  ///< the scene in force, as TOML
     dem::Table history; ///< a row per window, see docs/measures.md; NaN: no meaning there
@@ -38,7 +38,7 @@ void write_snapshot(const std::filesystem::path& path, const dem::State& state,
 /// of another format: a run is then gone on with by the version that wrote it.
 Snapshot read_snapshot(const std::filesystem::path& path);
 
-/// What the run had carried along, without its state. Throws as read_snapshot.
+/// Data that the run had carried along, without its state. Throws as read_snapshot.
 RunRecord read_run_record(const std::filesystem::path& path);
 
 /// Hash of the state and of what the events remember: equal for equal runs.

@@ -122,38 +122,38 @@ Json observed_list(const std::vector<ObservedHorizon>& rows) {
 std::span<const HeadField> head_fields() {
     using C = const SummaryContent&;
     static constexpr HeadField fields[] = {
-        {"scene", "", "what was run", [](C c) -> Json { return c.scene; }},
+        {"scene", "", "name of the scene", [](C c) -> Json { return c.scene; }},
         {"accuracy", "", "level of accuracy", [](C c) -> Json { return c.accuracy; }},
-        {"seed", "1", "of the packing and of everything random",
+        {"seed", "1", "seed of the packing and of all random numbers",
          [](C c) -> Json { return c.seed; }},
-        {"threads", "1", "of each of the `ranks`", [](C c) -> Json { return c.threads; }},
+        {"threads", "1", "threads of each of the `ranks`", [](C c) -> Json { return c.threads; }},
         {"ranks", "1", "processes that shared the discs", [](C c) -> Json { return c.ranks; }},
         {"cycle_level", "", "level of the processor: `v4`, `v3`, or `plain`",
          [](C c) -> Json { return c.cycle; }},
-        {"discs", "1", "at the end", [](C c) -> Json { return c.state.discs.rows(); }},
-        {"cycles", "1", "at the end", [](C c) -> Json { return c.state.clock.cycle; }},
+        {"discs", "1", "number of discs at the end",
+         [](C c) -> Json { return c.state.discs.rows(); }},
+        {"cycles", "1", "number of cycles at the end",
+         [](C c) -> Json { return c.state.clock.cycle; }},
         {"wall_s", "s",
          "the program's time: genesis, events, output, figures; summed over resumed sessions",
          [](C c) -> Json { return c.wall_seconds; }},
         {"predicted_wall_s", "s",
-         "what was expected before the run, with other programs running as they were then",
+         "prediction before the run, with other programs running as they were then",
          [](C c) -> Json { return c.record.predicted_seconds; }},
         {"disc_steps_per_s", "1/s", "discs times cycles after genesis, over `wall_s`",
          [](C c) -> Json { return c.record.disc_steps / c.wall_seconds; }},
-        {"finished", "", "the run reached its end", [](C) -> Json { return true; }},
+        {"finished", "", "whether the run reached its end", [](C) -> Json { return true; }},
         {"state_hash", "",
-         "of every column and number of the state; equal for equal runs, whatever the threads",
+         "hash of every column and number of the state; equal for equal runs, whatever the threads",
          [](C c) -> Json { return fmt::format("{:016x}", c.state_hash); }},
         {"extension_m", "m", "displacement of base and right wall",
          [](C c) -> Json { return c.state.clock.extension; }},
         {"cycle", "1", "cycles so far (`history.csv`)"},
         {"provenance", "",
-         "`version` `commit` `compiler` `instruction_set` of the program that finished the run "
-         "(the "
-         "widest vectors it is compiled for; of a cycle for all processors `cycle_level` tells), "
-         "`scene_hash` of every parameter in scene.toml, and `seed`; equal for equal programs and "
-         "scenes. Figures have it in their metadata, too"},
-        {"effects", "", "those that were on"},
+         "`version`, `commit`, `compiler` and `instruction_set` (see also `cycle_level`) of the "
+         "program that finished the run, `scene_hash` of every parameter in scene.toml, and "
+         "`seed`; equal for equal programs and scenes. Figures have it in their metadata, too"},
+        {"effects", "", "names of the effects that were on"},
         {"time_by_part_s", "s",
          "`wall_s` split: `genesis` `rebuild` `cycle`, each event, `output` `figures` `report` "
          "`measures` `other`"},

@@ -27,7 +27,7 @@ NamedNumbers history_row(const dem::State& state, const measures::Measures& meas
 /// Table as CSV; numbers without meaning are left empty.
 std::string to_csv(const dem::Table& table);
 
-/// What summary.json says of a finished run. What is referred to must outlive the call.
+/// Content of summary.json of a finished run. Referred objects must outlive the call.
 struct SummaryContent {
     std::string scene = {}, accuracy = {}; ///< names
     std::uint64_t seed = 0;

@@ -7,7 +7,7 @@
 
 namespace listric {
 
-/// What is to be exported of a finished run.
+/// Request of an export of a finished run.
 struct ExportRequest {
     std::string kind;                           ///< one of export_kinds()
     std::filesystem::path output;               ///< the run's folder

@@ -15,7 +15,7 @@
 
 namespace listric {
 
-/// What a report leaves out to be smaller.
+/// Parts that a report leaves out to be smaller.
 struct ReportDetail {
     bool bonds = true;
     bool stress = true;
@@ -76,7 +76,7 @@ private:
     std::vector<std::int64_t> bonded_; ///< pairs of ids that were bonded then, as one number each
 };
 
-/// What the page needs to read the numbers of ReportMoments, as JSON: by name the value of one
+/// Keys to the numbers of ReportMoments, as JSON: by name the value of one
 /// step (unit), and whether the number is its square root.
 std::string report_scales(double mean_radius);
 

@@ -23,7 +23,7 @@ struct ReportPage {
         bool has_summary = false; ///< the file is there, be it empty
     };
     std::vector<Run> runs;
-    std::string left_out = {}; ///< what is not there so that the file is smaller
+    std::string left_out = {}; ///< parts left out so that the file is smaller
     bool live = false;         ///< the page reloads itself
     std::optional<Underlay> underlay = std::nullopt;
 };
@@ -32,7 +32,7 @@ struct ReportPage {
 /// file of the program's is missing.
 std::string report_html(const ReportPage& page);
 
-/// What a page lacks that the runs' folders should have, a sentence each; the page says so, too.
+/// Parts that the runs' folders lack, a sentence each; the page shows them, too.
 std::vector<std::string> lacks_of(const ReportPage& page);
 
 } // namespace listric

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What is left out, the more the further on.
+/// Stages of leaving out, each of which leaves out more.
 struct Reduction {
     ReportDetail detail;
     const char* left_out;

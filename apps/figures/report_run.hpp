@@ -12,7 +12,7 @@
 
 namespace listric {
 
-/// What `listric report` is asked for.
+/// Request of a call of `listric report`.
 struct ReportRequest {
     std::vector<std::filesystem::path> outputs; ///< folders of one or two runs
     std::filesystem::path file = {};            ///< empty: report.html in the first folder
@@ -21,7 +21,7 @@ struct ReportRequest {
     std::optional<Underlay> underlay = std::nullopt;
 };
 
-/// What a report keeps in memory of the moments of a run that goes on, bytes. Of more it is made
+/// Memory in which a report keeps the moments of a run that goes on, bytes. Of more it is made
 /// anew at the end, from the snapshots.
 inline constexpr double most_of_report = 2e8;
 

@@ -11,8 +11,9 @@
 
 namespace listric {
 
-// What all painters share, in C++, Python and JavaScript: classes of rock, colours, palettes, steps
-// of scales and layers, of figures/vocabulary.json. Layers of effects stand in their descriptions.
+// Vocabulary of all painters, in C++, Python and JavaScript: classes of rock, colours, palettes,
+// steps of scales and layers, of figures/vocabulary.json. Layers of effects stand in their
+// descriptions.
 
 /// The file. Throws StorageError.
 nlohmann::ordered_json vocabulary();

@@ -23,7 +23,7 @@ constexpr double least_ratio = 0.5, greatest_ratio = 8.0;       // of stiffnesse
 constexpr double least_friction = 0.0, greatest_friction = 3.0; // of a disc
 constexpr double least_tension = 1e3, greatest_tension = 1e9;   // Pa
 
-/// What a measurement depends on.
+/// Key of a measurement: all that it depends on.
 nlohmann::json key(const Laboratory& lab, const RockMaterial& rock, bool strengths) {
     nlohmann::json k = {{"normal_stiffness_pa", rock.material.normal_stiffness},
                         {"shear_stiffness_pa", rock.material.shear_stiffness},
@@ -61,7 +61,7 @@ CalibrationHistory::CalibrationHistory(std::filesystem::path file, bool resume)
     const JsonObject found = parse_json(read_text(file_));
     if (!found.is_array() || !std::ranges::all_of(found, is_measurement))
         throw StorageError(file_.string() + ": is not the history of a calibration; without it "
-                                            "the measurements are made anew");
+                                            "the measurements are made again");
     entries_ = nlohmann::json(found); // which compares objects whatever their keys' order
 }
 

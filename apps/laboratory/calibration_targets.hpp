@@ -4,7 +4,7 @@
 
 namespace listric {
 
-/// What a rock shall be like.
+/// Targets of a rock.
 struct CalibrationTargets {
     double young = 50e9;    ///< plane strain, Pa
     double poisson = 0.25;  ///< plane strain

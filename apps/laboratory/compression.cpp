@@ -202,7 +202,7 @@ std::vector<CompressionPoint> compress_elastically(Specimen sample,
     sample.state.base_contacts.resize(0);
     find_contacts(sample.state, sample.base);
     const double dt = sample.state.clock.time_step;
-    sample.advance(2000); // what the sides held in comes to rest
+    sample.advance(2000); // rock that the sides held in comes to rest
     Press press(sample);
     const double height = press.height(), full_speed = 0.5 * p.strain_rate * height;
     const double duration = last_strain / p.strain_rate;

@@ -33,7 +33,7 @@ Test test_of(const LaboratoryRequest& request) {
     return static_cast<Test>(found - test_names.begin());
 }
 
-/// What the zone is held by: the call's wish, or the basement rock that goes with it.
+/// Walls of the zone: the call's wish, or the basement rock that goes with it.
 ShearBoxFilling make_filling(const LaboratoryRequest& request, const RockMaterial& zone) {
     const bool calibrated = zone.name.ends_with("-calibrated");
     const std::string wish = request.vice.value_or(zone.bonds   ? "none"

@@ -12,7 +12,7 @@
 
 namespace listric {
 
-/// What AFD and ICM decide by, 1/s [paper, Table 1].
+/// Critical rates of AFD and ICM, 1/s [paper, Table 1].
 struct CriticalRates {
     double weakening = 1e-13, healing = 1e-15;
     bool operator==(const CriticalRates&) const = default;
@@ -31,7 +31,7 @@ struct SlabFault {
     double born_at = 0.0; ///< extension at the end of the window in which it was first traced, m
 };
 
-/// What stretching made of a slab (docs/measures.md).
+/// Measures of a stretched slab (docs/measures.md).
 struct StretchedSlab {
     std::vector<SlabFault> faults;    ///< normal ones, each as it was when first traced
     std::vector<double> segment_dips; ///< of what AFD's measure circle found, degrees

@@ -75,7 +75,7 @@ std::string envelopes_csv(double greatest, const std::optional<EnvelopeFit>& fit
     return csv;
 }
 
-/// What the samples say at one normal stress, by seed.
+/// Results of the samples at one normal stress, by seed.
 struct ShearSpreads {
     std::vector<double> mean, late, peak, collapse, share, broken, by_loading;
 

@@ -11,7 +11,7 @@
 
 namespace listric {
 
-/// What is known of a call, on its way into its output folder. Each function below makes a test on
+/// Facts of a call, on their way into its output folder. Each function below makes a test on
 /// all samples, prints its table, writes its CSV files and adds its results to the summary.
 struct LaboratoryReport {
     const Laboratory& lab;

@@ -17,7 +17,7 @@ struct ShearBoxParameters {
     double largest_strain = 0.5; ///< displacement over zone width
 };
 
-/// What the box is filled with.
+/// Filling of the box.
 struct ShearBoxFilling {
     RockMaterial zone;
     std::optional<RockMaterial> vice; ///< none: the zone's rock everywhere

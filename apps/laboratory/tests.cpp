@@ -112,7 +112,7 @@ void check_sample(std::int64_t discs, std::int64_t seed, int seeds) {
     if (discs < 50 || discs > 100000)
         throw UsageError(
             fmt::format("--discs {}: a sample has 50 to 100,000 discs; the paper's has "
-                        "239, and fewer than 50 say nothing about a rock",
+                        "239, and fewer than 50 are no measure of a rock",
                         discs));
     if (seed < 0)
         throw UsageError(fmt::format("--seed {}: allowed: at least 0", seed));

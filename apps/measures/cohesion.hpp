@@ -25,8 +25,8 @@ struct BondedLayer {
     double share;
 };
 
-/// The same by depth, without a least depth, in layers whose middles are whole kilometres below the
-/// level: a pair is where the middle of its centres is. Layers without such pairs are left out.
+/// Bonded share by depth, without a least depth, in layers whose middles are whole kilometres below
+/// the level: a pair is where the middle of its centres is. Layers without such pairs are left out.
 std::vector<BondedLayer> bonded_profile_of_old_sediment(const dem::State& state, double level,
                                                         double age);
 

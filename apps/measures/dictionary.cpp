@@ -18,11 +18,12 @@ constexpr Measure<M> of_structure[] = {
     {"area_balance", "1",
      "basin area over extension × thickness: 1 less `rock_dilation_fraction`; ends where rock is "
      "eroded",
-     taken<&M::area_balance>},
+     taken<&M::area_balance>, OverTime::last, "0.95 to 1.03 from 5 km of extension on"},
     {"cutoff_x_m", "m",
-     "where the pre-rift top meets the detachment: the shallowest pre-rift disc on it",
+     "x of the cutoff, where the pre-rift top meets the detachment: the shallowest pre-rift disc "
+     "on it",
      taken<&M::cutoff, &Point::x>},
-    {"cutoff_z_m", "m", "depth of that place", taken<&M::cutoff, &Point::y>},
+    {"cutoff_z_m", "m", "depth of the cutoff", taken<&M::cutoff, &Point::y>},
     {"rollover_tilt_deg", "deg",
      "rotation of the least-squares rigid motion of the discs that started within 5 km of the "
      "detachment in the upper half; ends beyond the arc",
@@ -41,10 +42,10 @@ constexpr Measure<M> of_structure[] = {
      "flat's level, on the lower ramp and within half its height",
      taken<&M::lower_block_rotation>},
     {"intervening_high_x_m", "m",
-     "where the basin (smoothed over 1 km) is shallowest between the depocentre nearest the "
-     "breakaway and the most prominent one beyond",
+     "x of the intervening high: the basin (smoothed over 1 km) is shallowest there between the "
+     "depocentre nearest the breakaway and the most prominent one beyond",
      taken<&M::intervening_high, &Point::x>},
-    {"intervening_high_z_m", "m", "depth of the basin there",
+    {"intervening_high_z_m", "m", "depth of the basin at the intervening high",
      taken<&M::intervening_high, &Point::y>},
     {"halfgraben_area_share", "1",
      "share of the basin's area on the breakaway's side of the intervening high; the rest is the "
@@ -54,7 +55,7 @@ constexpr Measure<M> of_structure[] = {
 
 constexpr Measure<M> of_kinematics[] = {
     {"dilation_area_m2", "m2",
-     "extension × thickness less basin area: what is missing in the balance of areas",
+     "extension × thickness less basin area: the area that is missing in the balance of areas",
      taken<&M::dilation_area>},
     {"depth_to_detachment_m", "m",
      "basin area over extension: where an area balance would look for the flat",
@@ -65,7 +66,7 @@ constexpr Measure<M> of_kinematics[] = {
      "positive antithetic",
      taken<&M::inclined_shear_angle>},
     {"inclined_shear_misfit_m", "m",
-     "root mean square of the height differences at that angle of inclined shear",
+     "root mean square of the height differences at the best-fitting angle of inclined shear",
      taken<&M::inclined_shear_misfit>},
     {"normals_misfit_m", "m",
      "root mean square of the height differences for lines that stay normal to the detachment, up "
@@ -76,9 +77,11 @@ constexpr Measure<M> of_kinematics[] = {
      "down (extension / radius on an arc); to compare with `rollover_tilt_deg`",
      taken<&M::predicted_tilt>},
     {"predicted_cutoff_x_m", "m",
-     "the point of the detachment one extension down from the breakaway",
+     "x of the point of the detachment one extension down from the breakaway",
      taken<&M::predicted_cutoff, &Point::x>},
-    {"predicted_cutoff_z_m", "m", "depth of that point", taken<&M::predicted_cutoff, &Point::y>},
+    {"predicted_cutoff_z_m", "m",
+     "depth of the point of the detachment one extension down from the breakaway",
+     taken<&M::predicted_cutoff, &Point::y>},
     {"predicted_halfgraben_area_share", "1",
      "normals stay normal: area left of the rollover's crest over extension × depth; (1 + cos dip) "
      "/ 2 for small slip on an arc",
@@ -106,18 +109,18 @@ constexpr Measure<M> of_material[] = {
 constexpr Measure<M> of_quality[] = {
     {"mass_error_fraction", "1",
      "(mass − (initial + deposited − removed)) / initial, without sign; zero up to round-off",
-     taken<&M::mass_error_fraction>},
+     taken<&M::mass_error_fraction>, OverTime::last, "below 1e-12"},
     {"unbalanced_ratio_mean", "1",
      "unbalanced force on a disc over the mean contact force, sampled every 2,500 a: mean over "
      "discs and samples",
-     taken<&M::unbalanced_ratio_mean>},
+     taken<&M::unbalanced_ratio_mean>, OverTime::last, "below 0.004 at standard"},
     {"unbalanced_ratio_max", "1",
      "unbalanced force on a disc over the mean contact force, sampled every 2,500 a: largest",
      taken<&M::unbalanced_ratio_max>},
     {"inertial_number", "1",
      "strain rate × diameter × sqrt(density / pressure), mean over the tenth of the pre-rift area "
      "that holds most of it, last window",
-     taken<&M::inertial_number>},
+     taken<&M::inertial_number>, OverTime::last, "below 0.002"},
 };
 
 } // namespace
@@ -142,10 +145,10 @@ std::string_view name_of(std::optional<double> (*value)(const Measures&)) {
 
 constinit const Quantity quasi_static{
     "quasi_static", "",
-    "whether `unbalanced_ratio_mean` is at most 1e-2 and `inertial_number` at most 2e-3, twice "
-    "what "
-    "`lis1` at draft has; else the run says so and `extension.speed_m_per_s` should be smaller. "
-    "Absent without gravity"};
+    "whether `unbalanced_ratio_mean` is at most 1e-2 and `inertial_number` at most 2e-3, twice the "
+    "values of `lis1` at draft; if not, the run warns, and `extension.speed_m_per_s` should be "
+    "smaller. Absent without gravity",
+    OverTime::last, "true"};
 
 constinit const Quantity depocentres{
     "depocentres", "",
@@ -155,9 +158,10 @@ constinit const Quantity depocentres{
 std::span<const Measure<Depocentre>> depocentre_measures() {
     using D = Depocentre;
     static constexpr Measure<D> all[] = {
-        {"x_m", "m", "where it is", taken<&D::x>},
-        {"thickness_m", "m", "of the sediment there", taken<&D::thickness>},
-        {"prominence_m", "m", "height above the saddle to a thicker one", taken<&D::prominence>}};
+        {"x_m", "m", "x of the depocentre", taken<&D::x>},
+        {"thickness_m", "m", "thickness of the sediment at the depocentre", taken<&D::thickness>},
+        {"prominence_m", "m", "thickness above the saddle to a thicker depocentre",
+         taken<&D::prominence>}};
     return all;
 }
 
@@ -168,7 +172,7 @@ constinit const Quantity old_sediment_bonded_profile{
 std::span<const Measure<BondedLayer>> bonded_layer_measures() {
     using B = BondedLayer;
     static constexpr Measure<B> all[] = {
-        {"depth_m", "m", "below the level: middle of a layer 1 km high", taken<&B::depth>},
+        {"depth_m", "m", "depth below the level: middle of a layer 1 km high", taken<&B::depth>},
         {"bonded_fraction", "1", "bonded share of the layer's pairs", taken<&B::share>}};
     return all;
 }

@@ -11,7 +11,7 @@
 
 namespace listric::measures {
 
-/// What later moments will need of this one.
+/// Data of this moment that later ones need.
 /// @param past  earlier moments, oldest first
 Past remember(const Setting& setting, const dem::RigidBase& base, const dem::State& now,
               std::span<const Past> past);

@@ -31,7 +31,7 @@ struct Fault {
     std::optional<double> pre_rift_throw; ///< of the layers below it, median, m
 };
 
-/// What the faults of a state have in common.
+/// Properties that the faults of a state share.
 struct FaultReport {
     std::vector<Fault> faults; ///< the longest first
     /// Index of the main fault: normal, as steep as least_main_dip, if possible reaching the lower

@@ -211,7 +211,7 @@ private:
     std::vector<std::optional<std::vector<FaultTrace>>> traces_;
 };
 
-/// What the last window and the present state say of a trace.
+/// Properties of a trace in the last window and the present state.
 Fault describe(const FaultTrace& trace, const State& now, const Chain& detachment, double years) {
     const double diameter = 2.0 * now.mean_radius, slip = median(trace.slip);
     Fault f;

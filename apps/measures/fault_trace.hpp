@@ -18,7 +18,7 @@ struct FaultTrace {
     double length() const { return length_of(points); } ///< m
 };
 
-/// What counts as a trace.
+/// Criteria of a trace.
 struct FaultTraceOptions {
     double least_strain = 0.05;    ///< shear strain per strain_window of extension along a trace
     double certain_strain = 0.15;  ///< and somewhere on it: about AFD's threshold

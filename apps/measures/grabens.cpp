@@ -13,9 +13,9 @@ constexpr Quantity basin_count{"basins", "1",
                                "maxima of the depth of the pre-rift top (smoothed over 1 km) with "
                                "a prominence of 250 m or more"};
 constexpr Quantity graben_count{"collapse_grabens", "1",
-                                "the basins but the one nearest the breakaway"};
+                                "number of basins except the one nearest the breakaway"};
 constexpr Quantity graben_prominence{"collapse_graben_prominence_m", "m",
-                                     "the largest prominence of a collapse graben"};
+                                     "largest prominence of a collapse graben"};
 constexpr Quantity first_graben{"first_graben_at_m", "m",
                                 "extension of the first snapshot with a collapse graben"};
 constexpr Quantity second_graben{
@@ -23,13 +23,13 @@ constexpr Quantity second_graben{
     "extension of the first snapshot with two collapse grabens that are 2 km apart"};
 constexpr Quantity outer_first{
     "outer_graben_first", "1",
-    "1 if the first collapse graben was where the outer one is when there are two (both less the "
-    "extension, as they move with the right wall), 0 if the inner one"};
+    "order of the collapse grabens: 1 if the one farther from the breakaway formed first, 0 if the "
+    "nearer one did (places less the extension, since grabens move with the right wall)"};
 
 /// When a collapse graben first appears, when there first are two, and whether the one before is
 /// then the outer one.
 NamedNumbers measure_order(std::span<const Past> past) {
-    constexpr double apart = 2e3; // what is nearer together is one graben
+    constexpr double apart = 2e3; // grabens nearer together are one
     NamedNumbers numbers;
     std::optional<double> alone; // place of the only one, less the extension
     for (const Past& p : past) {

@@ -16,11 +16,13 @@ namespace {
 
 constexpr Quantity hinge_start{
     "hinge_start_x_m", "m",
-    "tenth percentile, by strain, of the start x of discs that started 5 to 10 km deep and are "
-    "strained by 0.05 per 500 m or more, in the last window"};
+    "position of the inner edge of the deforming zone: tenth percentile, by strain, of the start x "
+    "of discs that started 5 to 10 km deep and are strained by 0.05 per 500 m or more, in the last "
+    "window"};
 constexpr Quantity hinge_step{"hinge_step_m", "m",
-                              "what `hinge_start_x_m` is less than the median of the windows from "
-                              "a tenth to four tenths of the extension"};
+                              "distance that the inner edge of the deforming zone has moved toward "
+                              "the breakaway: median of `hinge_start_x_m` over the windows from a "
+                              "tenth to four tenths of the extension, less its present value"};
 
 constexpr double shallowest = 5e3, deepest = 10e3;  ///< start of the discs looked at, m of depth
 constexpr double nearest_share = 0.1;               ///< of the strain, nearest to the breakaway

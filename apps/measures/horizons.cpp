@@ -153,7 +153,7 @@ std::vector<Polyline> tops(const GridValues& share, const Room& room, double dia
     return found;
 }
 
-/// What becomes of a point of a top.
+/// Fate of a point of a top.
 enum class Fate : std::uint8_t { drawn, absent, faulted };
 
 /// Calls visit(begin, end, fate) for the runs of equal fate.

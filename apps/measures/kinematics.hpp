@@ -51,7 +51,7 @@ double misfit(const dem::Chain& detachment, const std::vector<dem::Point>& predi
 /// can, whatever the extension. On a plane it never turns, which is a result.
 bool head_block_turns(const dem::Chain& detachment, double extension);
 
-/// What the constructions say of a basin, each as far as it reaches.
+/// Predictions of the constructions for a basin, each as far as it reaches.
 struct KinematicPrediction {
     std::optional<InclinedShearFit> shear; ///< that fits the pre-rift top best; none at the end of
                                            ///< the angles that are tried

@@ -16,15 +16,15 @@ constexpr Quantity strain_share{
     "kink_reverse_strain_share", "1",
     "ramp-flat-ramp, rock and old sediment above the flat's level from 3 km before the kink to 6 "
     "km beyond, the windows since half of the extension: share of the shear strain on reverse "
-    "planes that dip toward the breakaway by 20 to 80 degrees. Of the two planes of largest shear "
-    "a disc's is the one whose simple shear turns the way its surroundings do"};
+    "planes that dip toward the breakaway by 20 to 80 degrees. A disc has two planes of largest "
+    "shear; the one counts whose simple shear turns as its surroundings do"};
 constexpr Quantity fault_share{
     "kink_reverse_fault_share", "1",
-    "the part of `kink_reverse_strain_share` on faults: within the measure circle of a segment of "
-    "that kind that fault detection found in the same window. 0 without fault detection"};
-constexpr Quantity synrift_shortening{
-    "kink_synrift_shortening", "1",
-    "mean horizontal shortening of the sediment above the kink, summed over those windows"};
+    "part of `kink_reverse_strain_share` on faults: within the measure circle of a reverse segment "
+    "that fault detection found in the window. 0 without fault detection"};
+constexpr Quantity synrift_shortening{"kink_synrift_shortening", "1",
+                                      "mean horizontal shortening of the sediment above the kink, "
+                                      "summed over the windows since half of the extension"};
 constexpr Quantity reverse_trace{"kink_reverse_trace_m", "m",
                                  "length of the traced reverse faults above the kink"};
 

@@ -19,7 +19,7 @@ double gini(std::span<const double> density, std::span<const double> area);
 /// How much the strain of the pre-rift rock is in few places, and how fast it is there.
 struct Localisation {
     double top10 = 0.0;            ///< share of the last window's strain in a tenth of the area
-    double top10_cumulative = 0.0; ///< the same of all strain
+    double top10_cumulative = 0.0; ///< share of all strain
     double gini = 0.0;             ///< of the last window's strain
     double inertial_number = 0.0;  ///< of that tenth of the area where it is largest; 0 without
                                    ///< gravity

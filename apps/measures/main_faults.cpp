@@ -95,9 +95,8 @@ constexpr Measure<MainFault> of_main_fault[] = {
     {"_rate_mm_per_a", "mm/a", "`rate_mm_per_a` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.rate; }},
     {"_x_at_half_depth_m", "m",
-     "where the trace is half as deep as the flat; its change over the extension's is 1 for a "
-     "fault "
-     "that moves with the right wall",
+     "x of the trace at half the depth of the flat; its change over the change of extension is 1 "
+     "for a fault that moves with the right wall",
      [](F f) { return x_at(f.fault.trace.points, 0.5 * f.run.detachment.back().end.y); }},
     {"_bow", "1",
      "greatest distance of the best parabola from its chord, over the chord, positive convex "
@@ -106,7 +105,8 @@ constexpr Measure<MainFault> of_main_fault[] = {
      [](F f) -> Value { return bow(with_scarp(f.fault.trace.points, f.run.profile)); }},
     {"_dip_deg", "deg", "`dip_deg` of the part below the pre-rift top",
      [](F f) { return f.crosses_basement() ? Value(dip_of(f.basement)) : std::nullopt; }},
-    {"_bow_in_basement", "1", "bow of the trace's part below the pre-rift top",
+    {"_bow_in_basement", "1",
+     "`antithetic_bow` or `synthetic_bow` of the trace's part below the pre-rift top",
      [](F f) { return f.crosses_basement() ? Value(bow(f.basement)) : std::nullopt; }},
     {"_turn_over_head_block", "1",
      "`footwall_turn_deg` over the rotation of the head block since the fault's birth: 0 "
@@ -132,10 +132,10 @@ constexpr Quantity throw_over_throw{"antithetic_over_synthetic_throw", "1",
                                     "`antithetic_throw_m` over `synthetic_throw_m`"};
 constexpr Quantity inner_step{
     "inner_fault_step_m", "m",
-    "distance of a normal fault steeper than 45 degrees from the nearest such fault that was born "
-    "2 km of extension before it or earlier, where it is nearer to the breakaway than all of "
-    "those: "
-    "the largest, at the height of its middle. 0: no such fault"};
+    "largest step of a new fault toward the breakaway: horizontal distance, at the height of its "
+    "middle, between a new normal fault steeper than 45 degrees and the nearest one that is at "
+    "least 2 km of extension older. 0 if no new fault lies nearer to the breakaway than all older "
+    "ones"};
 constexpr Quantity throw_age{
     "throw_age_correlation", "1",
     "rank correlation (Spearman) of throw with stratum, -1 where each younger stratum has less: "
@@ -197,16 +197,18 @@ std::span<const Measure<FaultReport>> fault_report_measures() {
     using R = FaultReport;
     static constexpr Measure<R> all[] = {
         {"fault_width_diameters", "diameters", "median width of all traces, weighted by length",
-         taken<&R::width>},
+         taken<&R::width>, OverTime::last, "2.5 to 3.5"},
         {antithetic_foot, "m",
-         "where the main antithetic fault nucleated: `foot_x_m` of the line whose dip is "
+         "place where the main antithetic fault nucleated: `foot_x_m` of the line whose dip is "
          "`dip_at_birth_deg`, less the extension from `born_at_m` to `traced_since_m`",
          taken<&R::antithetic_foot>},
         {"main_antithetic_fault", index_unit,
-         "index in `faults` of the normal antithetic fault steeper than 30 degrees with most slip "
-         "rate × length, of those that reach the lower half of the hanging wall if there are any",
+         "index in `faults` of the main antithetic fault: normal, steeper than 30 degrees, with "
+         "the largest product of slip rate and length; one that reaches the lower half of the "
+         "hanging wall goes before one that does not",
          taken<&R::main_antithetic>},
-        {"main_synthetic_fault", index_unit, "index in `faults` of the synthetic one likewise",
+        {"main_synthetic_fault", index_unit,
+         "index in `faults` of the main synthetic fault, chosen as `main_antithetic_fault` is",
          taken<&R::main_synthetic>},
         {"sediment_weak_off_fault_fraction", "1",
          "share of the sediment, by area, that is weakened and further than 5 diameters from every "

@@ -26,8 +26,8 @@ std::vector<double> smoothed_depth(const Profile& profile);
 /// `width` m, m^2.
 double area_above(const Profile& profile, std::size_t columns, double width);
 
-/// The same at the start, m^2: a packing's top is rough, and some tens of metres from the original
-/// surface.
+/// Area above the pre-rift top at the start, m^2: a packing's top is rough, and some tens of metres
+/// from the original surface.
 double area_above_start(const Setting& setting, const dem::State& state);
 
 /// Where the pre-rift top meets the detachment as it stands, x and depth, m: the shallowest

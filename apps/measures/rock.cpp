@@ -24,9 +24,9 @@ constexpr Quantity porosity_error{
     "mean of abs(porosity / Phi(depth) - 1) over the sediment's mass, porosity by mass and radius "
     "of a disc, depth below the surface of the discs, without discs laid down in the last 100 m, "
     "which still compact and count for no burial yet"};
-constexpr Quantity porosity_off{
-    "porosity_off_fraction", "1",
-    "share of that mass whose porosity is more than 2 % off: what has risen keeps its porosity"};
+constexpr Quantity porosity_off{"porosity_off_fraction", "1",
+                                "share of the sediment's mass whose porosity is more than 2 % off: "
+                                "sediment that has risen keeps its porosity"};
 constexpr Quantity superposition_share{
     "superposition_fraction", "1",
     "share of touching pairs of sediment discs of different strata, one within 45 degrees above "

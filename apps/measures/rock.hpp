@@ -12,7 +12,7 @@
 
 namespace listric::measures {
 
-// What faults and burial have made of rock and sediment.
+// Changes of rock and sediment by faults and burial.
 
 /// Names of rocks, by what rocks() returns.
 inline constexpr const char* rock_names[] = {"basement", "weak basement", "sediment",

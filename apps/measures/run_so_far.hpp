@@ -12,7 +12,7 @@
 
 namespace listric::measures {
 
-/// What the measures of a moment need of an earlier one.
+/// Data of an earlier moment that the measures of a moment need.
 struct Past {
     DiscPlaces places;
     std::vector<Depocentre> basins;         ///< see find_basins

@@ -15,7 +15,7 @@ struct Sediment {
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
 };
 
-/// What measures need to know of a run beside its states.
+/// Facts of a run that measures need beside its states.
 struct Setting {
     double length = 0.0;          ///< of the hanging wall at the start, m
     double thickness = 0.0;       ///< of the hanging wall, m

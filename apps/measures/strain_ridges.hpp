@@ -7,7 +7,7 @@
 
 namespace listric::measures {
 
-/// What counts as a ridge of the shear strain.
+/// Criteria of a ridge of the shear strain.
 struct RidgeLimits {
     double least_strain = 0.0;   ///< along it
     double certain_strain = 0.0; ///< and somewhere on it

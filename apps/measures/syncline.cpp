@@ -29,8 +29,9 @@ constexpr Quantity upper_graben{"upper_graben_prominence_m", "m",
 constexpr Quantity syncline_basin{
     "syncline_basin_prominence_m", "m",
     "ramp-flat-ramp: largest prominence of the basins further beyond the kink. 0: none"};
-constexpr Quantity lower_graben{"lower_graben_prominence_m", "m",
-                                "ramp-flat-ramp: second largest prominence there. 0: none"};
+constexpr Quantity lower_graben{
+    "lower_graben_prominence_m", "m",
+    "ramp-flat-ramp: second largest prominence of the basins further beyond the kink. 0: none"};
 
 /// Beyond the kink the most prominent basin is the syncline's, the next a collapse graben.
 NamedNumbers measure_basins(const RunSoFar& run, double kink) {

@@ -97,10 +97,12 @@ double over_time(OverTime over, std::span<const double> values) {
 NamedNumbers summarise_effects(const Scene& scene, const Table& history) {
     NamedNumbers numbers;
     for (const EffectPart& part : scene.effects)
-        for (const auto& [name, unit, doc, value, over] : part.effect->measures) {
-            const bool is_known = value && over == OverTime::last; // as measured at the end
-            if (!is_known && over != OverTime::none && history.has(name))
-                numbers.emplace_back(name, over_time(over, history.get<double>(name)));
+        for (const Measure<Observation>& measure : part.effect->measures) {
+            const OverTime over = measure.over;
+            const bool is_known = measure.value && over == OverTime::last; // as at the end
+            if (!is_known && over != OverTime::none && history.has(measure.name))
+                numbers.emplace_back(measure.name,
+                                     over_time(over, history.get<double>(measure.name)));
         }
     return numbers;
 }

@@ -11,7 +11,7 @@
 
 namespace listric {
 
-/// What a scene asks for besides events: base, materials, physics, with every effect's share.
+/// Parts of a scene's model besides events: base, materials, physics, with every effect's share.
 ModelParts make_parts(const Scene& scene);
 
 /// The events of a scene, in the order in which they are applied at the same moment. An effect that
@@ -23,7 +23,7 @@ dem::Events make_events(const Scene& scene, const ModelParts& parts);
 std::vector<coupling::FootwallLoad> make_footwall_loads(const Scene& scene,
                                                         const ModelParts& parts);
 
-/// What moves the base's nodes; null where nothing does. The events of the loads on the base are
+/// Driver of the base's nodes; null where none moves them. The events of the loads on the base are
 /// appended to `events`, for the run to apply: they and the driver refer to each other.
 std::unique_ptr<BaseDriver> make_base_driver(const Scene& scene, const ModelParts& parts,
                                              std::vector<std::unique_ptr<dem::Event>>& events);

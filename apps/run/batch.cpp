@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 fs::path failure_of(const BatchRun& run) { return run.options.output / "failure.json"; }
 
-/// What a run has failed in before.
+/// Earlier failure of a run.
 struct Failure {
     BatchEnding ending;
     std::string scene_hash; ///< of the scene that failed
@@ -71,7 +71,7 @@ int make(const BatchRun& run) {
     try {
         make_folder(run.options.output);
         RunOptions options = run.options;
-        // What failed with other parameters is of no use to these; what is finished with others is
+        // A failure with other parameters is of no use to these; a finished run with others is
         // somebody's, and refused.
         const auto failure = read_failure(run);
         options.force = failure && is_final(*failure) && failure->scene_hash != scene_hash;

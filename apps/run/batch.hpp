@@ -20,7 +20,7 @@ struct BatchRun {
 /// How it ended.
 struct BatchEnding {
     int exit_code = 0;       ///< ExitCode's, or 128 and the signal that ended it
-    std::string reason = {}; ///< what was wrong, its first line; empty if it is finished
+    std::string reason = {}; ///< first line of its error; empty if it is finished
 };
 
 /// Makes runs, each in a process of its own, `jobs` at a time, so that what ends one does not end

@@ -21,7 +21,7 @@ struct Ending {
     std::string message; ///< for people, without a newline; may be empty
 };
 
-/// What an exception means for the call that it ended.
+/// Exit code and message of the exception that ended a call.
 Ending ending_of(const std::exception_ptr& exception);
 
 /// Writes the message, if there is one, to stderr.

@@ -41,7 +41,7 @@ std::string asked_for(const Scene& scene, const ModelParts& parts) {
                        build_flags, instruction_set);
 }
 
-/// What was kept in a file, if that is what is asked for: of the name alone nothing is believed.
+/// Content of a kept file, if it is the wanted one: the name alone is no proof.
 std::optional<State> recall(const fs::path& cache, const std::string& asked,
                             const std::vector<Material>& materials, Log& log) {
     std::error_code ignored;
@@ -55,7 +55,7 @@ std::optional<State> recall(const fs::path& cache, const std::string& asked,
         log.say("hanging wall: kept from an earlier run, " + cache.string());
         return std::move(kept.state);
     } catch (const std::runtime_error& error) {
-        log.say(std::string("warning: the kept hanging wall is made anew: ") + error.what());
+        log.say(std::string("warning: the kept hanging wall is made again: ") + error.what());
         return std::nullopt;
     }
 }

@@ -7,7 +7,7 @@
 
 namespace listric {
 
-// What a run that ends early tells its user.
+// Hints to the user of a run that ends early.
 
 /// The call that resumes the run of a folder.
 std::string resume_hint(const std::filesystem::path& output);

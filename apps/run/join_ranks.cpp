@@ -75,7 +75,7 @@ Launch read_launch() {
         const Launch launch{number_of(all), number_of(own)};
         if (launch.mine < 0 || launch.mine >= launch.count)
             throw UsageError(fmt::format("the environment has {}={} and {}={}, which no mpirun or "
-                                         "srun says; unset them, or --ranks=1 for one process",
+                                         "srun sets; unset them, or --ranks=1 for one process",
                                          count, shown(all), mine, shown(own)));
         return launch;
     }

@@ -6,7 +6,7 @@
 
 namespace listric {
 
-/// What mpirun or srun says of this process, in its environment.
+/// Rank of this process by mpirun or srun, from its environment.
 struct Launch {
     int count = 1; ///< processes that were started together
     int mine = 0;  ///< number of this one

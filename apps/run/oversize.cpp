@@ -40,7 +40,7 @@ Excess excess_of(const Prediction& p, const Room& room) {
             p.disk / room.disk, growth_of(p) / most_growth};
 }
 
-/// What the greatest excess is.
+/// Greatest excess.
 std::string size_of(const Prediction& p, const Room& room) {
     const Excess excess = excess_of(p, room);
     const double greatest = excess.greatest();
@@ -141,7 +141,7 @@ Room room_for(const std::filesystem::path& output) {
     while (!error && !std::filesystem::exists(place, error) && place != place.parent_path())
         place = place.parent_path();
     const auto space = std::filesystem::space(place, error);
-    // What has no size is no disk (/proc): writing there says what is wrong.
+    // A folder without a size is no disk (/proc): writing there fails with the reason.
     if (!error && space.available != static_cast<std::uintmax_t>(-1) && space.capacity > 0)
         room.disk = std::max(1.0, static_cast<double>(space.available));
     return room;

@@ -15,7 +15,7 @@ struct Oversize {
     bool is_of_disk = false; ///< the disk is too small, not the scene too large
 };
 
-/// What a machine has for a run, bytes; infinite where it does not tell.
+/// Room of a machine for a run, bytes; infinite where it is unknown.
 struct Room {
     double memory, disk;
 };

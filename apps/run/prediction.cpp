@@ -55,7 +55,7 @@ Lattice bonded_lattice(std::size_t discs) {
     return lattice;
 }
 
-/// What a piece of cycles takes, s.
+/// Time of a piece of cycles, s.
 struct PieceTime {
     double quiet = 0.0; ///< by processor time
     double wall = 0.0;
@@ -135,7 +135,7 @@ double disk_of_snapshot(const Scene& s, double discs) {
     return 2e4 + 215.0 * discs + series;
 }
 
-/// What the report keeps of all moments until it is written, bytes.
+/// Memory of the report for all moments until it is written, bytes.
 double memory_of_report(const Scene& s, double snapshots, double discs) {
     return s.output.report ? std::min(most_of_report, snapshots * 25.0 * discs) : 0.0;
 }

@@ -15,7 +15,7 @@ struct CycleSpeed {
     double busy = 1.0; ///< how many times longer things take now, as other programs run
 };
 
-/// What a scene will cost on a machine.
+/// Cost of a scene on a machine.
 struct Prediction {
     std::size_t discs_at_start = 0, discs_at_end = 0;
     double time_step = 0.0; ///< s

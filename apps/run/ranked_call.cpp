@@ -93,7 +93,7 @@ std::optional<std::string> first_difference(const std::vector<CallPart>& root,
     const auto [a, b] = std::ranges::mismatch(root, there, is_same);
     if (a == root.end() && b == there.end())
         return std::nullopt;
-    // What only one of them has stands where the other goes on.
+    // A difference of only one of them stands where the other goes on.
     const bool is_only_there =
         a == root.end() ||
         (b != there.end() && value_in(root, *b) == "none" && value_in(there, *a) != "none");

@@ -12,7 +12,7 @@ namespace listric {
 
 /// One of the things that all processes of a run must have been called with.
 struct CallPart {
-    std::string of;    ///< what it is of, as "was called with another scene"
+    std::string of;    ///< difference, as "was called with another scene"
     std::string name;  ///< "detachment.friction"
     std::string value; ///< as text
 };

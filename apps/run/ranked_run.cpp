@@ -43,7 +43,7 @@ namespace {
     end_all(ranks, ending);
 }
 
-/// What keeps a process from the run, as a letter.
+/// Reason that keeps a process from the run, as a letter.
 Bytes packed(const Ending& ending) {
     Bytes letter(1 + ending.message.size(), static_cast<std::byte>(ending.code));
     std::ranges::copy(std::as_bytes(std::span(ending.message)), letter.begin() + 1);
@@ -89,7 +89,7 @@ void agree(Ranks& ranks, const std::vector<CallPart>& call, const Ending& proble
     ranks.broadcast(go_on);
 }
 
-/// What all processes are to do, once they agree.
+/// Task of all processes, once they agree.
 std::pair<Scene, RunOptions> agreed_call(Ranks& ranks, const RankedRun& run) {
     std::optional<Scene> scene;
     RunOptions options;

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What to do about a run that ended early, after what was wrong.
+/// Cure for a run that ended early, after its error.
 std::string with_hint(const std::exception& error, const fs::path& output, std::string_view what) {
     const bool has_snapshot = !list_snapshots(output).empty();
     return has_snapshot ? fmt::format("{}\n{}; {}, {}", error.what(), last_good_state(output), what,

@@ -44,7 +44,7 @@ public:
     BaseWindow window_of_base;                      ///< that has ended last
     std::filesystem::path kept;                     ///< snapshot that was written last
     NamedNumbers numbers;                           ///< of outputs, for summary.json
-    std::vector<archive::ObservedHorizon> observed; ///< the same of picked horizons
+    std::vector<archive::ObservedHorizon> observed; ///< misfits of picked horizons
     std::string summary;                            ///< summary.json, once the run is closed
 
     const dem::State& state() const { return simulation.state(); }

@@ -120,7 +120,7 @@ void Session::keep() {
 }
 
 /// Tells how far an event is that takes long. A stop request waits some seconds for its end, since
-/// what was made after the last snapshot is lost without it.
+/// everything after the last snapshot is lost without it.
 void Session::report_step(const std::string& done) {
     constexpr double patience = 3.0; // s
     run_.log.progress(fmt::format("extension {:.2f} km: {}", run_.extension() / 1e3, done));

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-// What an effect says of itself, in one object: everything that the program does with effects is a
+// Description of an effect, in one object: everything that the program does with effects is a
 // loop over such descriptions, so that no other place knows one by name.
 
 namespace listric::coupling {
@@ -45,7 +45,7 @@ struct Objection {
 /// so that what a run writes stands alone.
 struct FileParameter {
     std::string_view key;
-    std::string_view doc;
+    std::string_view doc, changes; ///< as those of a Parameter
     /// @param refuse  takes the parameter's path
     void (*read)(Scene& scene, const std::string& file, const Refuse& refuse);
 };
@@ -58,9 +58,9 @@ struct FormerKey {
 
 /// A rock whose file, named in [materials], holds defaults of the effect's parameters.
 struct RockSource {
-    std::string_view key;  ///< in [materials]
-    std::string_view file; ///< default: name on the shelf of materials
-    std::string_view doc;
+    std::string_view key;          ///< in [materials]
+    std::string_view file;         ///< default: name on the shelf of materials
+    std::string_view doc, changes; ///< as those of a Parameter
     void (*take)(Scene& scene, const RockMaterial& rock);
     /// Why the effect cannot be on with that rock; none: it always can.
     std::string (*objection)(const RockMaterial& rock) = nullptr;
@@ -77,7 +77,8 @@ struct SedimentFacts {
     double porosity_interval = 0.0;       ///< from change to change of porosity, a
 };
 
-/// What effects put into a model besides events: each adds its share in the order of the list.
+/// Parts that effects put into a model besides events: each adds its share in the order of the
+/// list.
 struct ModelParts {
     dem::RigidBase base;
     dem::CyclePhysics physics;
@@ -120,7 +121,7 @@ enum class LayerKind {
     discs ///< ink on the discs; a row per disc, the ink's share from 0 to 1
 };
 
-/// What figures and the report show of an effect besides what they show of every run.
+/// Layer that an effect adds to figures and the report.
 struct FigureLayer {
     std::string_view name; ///< no other layer's
     LayerKind kind;
@@ -129,7 +130,7 @@ struct FigureLayer {
     std::vector<double> (*rows)(const Observation& now); ///< one after the other
 };
 
-/// What a prediction multiplies prices with.
+/// Factors of the prices in a prediction.
 struct Workload {
     double discs = 0.0; ///< mean over the run
     double at_start = 0.0;
@@ -180,7 +181,7 @@ struct Effect {
 
     /// Lines for `explain`. @param list  all effects that there are
     std::string (*explain)(const Scene& scene, EffectList list) = nullptr;
-    std::string_view absence = {}; ///< what the model lacks without it, for a base that bends
+    std::string_view absence = {}; ///< lack of a model without it, for a base that bends
 
     /// Time that it takes, disc-steps of the bare cycle.
     double (*price)(const Scene& scene, const Workload& work) = nullptr;

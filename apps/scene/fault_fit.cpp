@@ -303,7 +303,8 @@ bool ends_flat(const Pieces& pieces, double length, double tolerance) {
     return turn > 0.0 && (1.0 - std::cos(dip)) * pieces.length[last] / turn <= tolerance;
 }
 
-/// What turns by less than 0.006 degrees is a line: a scene has no arc of so large a radius.
+/// A piece that turns by less than 0.006 degrees is a line: a scene has no arc of so large a
+/// radius.
 DetachmentSegment segment_of(const Pieces& pieces, std::size_t k) {
     const double turn = turn_of(pieces, k), length = pieces.length[k];
     return std::abs(turn) < 1e-4 ? straight(length)
@@ -345,7 +346,7 @@ FaultFit fit_fault(std::span<const Point> points, double tolerance) {
     const Pieces free = fit.free_end().pieces;
     const Pieces pieces = fit.flat_end(free).pieces;
     FaultFit result = as_segments(pieces, points, fit.length());
-    // What is flat or upright but for noise is so.
+    // A piece that is flat or upright except for noise is made so.
     if (FaultFit plain = as_segments(without_slight_dips(pieces), points, fit.length());
         plain.misfit <= std::min(tolerance, result.misfit + close_enough * tolerance))
         result = std::move(plain);

@@ -5,8 +5,8 @@
 
 namespace listric {
 
-Parameter file_name(std::string_view key, std::string_view doc) {
-    return {key, at<&FileName::file>, "", {}, "", doc};
+Parameter file_name(std::string_view key, std::string_view doc, std::string_view changes) {
+    return {key, at<&FileName::file>, "", ranges::any, "", doc, changes};
 }
 
 std::vector<RockSource> rock_sources(EffectList effects) {
@@ -20,8 +20,9 @@ std::vector<RockSource> rock_sources(EffectList effects) {
 
 std::vector<Parameter> rock_file_names(EffectList effects) {
     std::vector<Parameter> names;
-    std::ranges::transform(rock_sources(effects), std::back_inserter(names),
-                           [](const RockSource& rock) { return file_name(rock.key, rock.doc); });
+    std::ranges::transform(
+        rock_sources(effects), std::back_inserter(names),
+        [](const RockSource& rock) { return file_name(rock.key, rock.doc, rock.changes); });
     return names;
 }
 
@@ -32,7 +33,7 @@ std::vector<Parameter> file_names(const SceneTable& table) {
     for (const FileParameter& file : table.effect->files)
         if (std::ranges::find(table.parameters, file.key, &Parameter::key) ==
             table.parameters.end())
-            names.push_back(file_name(file.key, file.doc));
+            names.push_back(file_name(file.key, file.doc, file.changes));
     return names;
 }
 

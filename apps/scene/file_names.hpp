@@ -15,14 +15,15 @@ struct FileName {
     std::string file;
 };
 
-Parameter file_name(std::string_view key, std::string_view doc);
+Parameter file_name(std::string_view key, std::string_view doc, std::string_view changes = {});
 
 /// Where [material] has its defaults from.
 inline constexpr RockSource basement_source{
-    "basement", "mat18-b", "material file with the defaults of [material] and [bonds]",
+    "basement", "mat18-b", "material, by name or path, with the defaults of [material] and [bonds]",
+    "Sets stiffness, friction and strength of sound rock at once.",
     [](Scene& scene, const RockMaterial& rock) { take_microproperties(scene.basement, rock); }};
 
-/// What [materials] can name, each key once.
+/// Rocks that [materials] can name, each key once.
 std::vector<RockSource> rock_sources(EffectList effects);
 
 /// Their parameters, of a FileName.

@@ -21,7 +21,7 @@ struct ObservedSource {
     std::optional<double> shift_x; ///< added to every x, m; none: as that of the detachment
 };
 
-/// What the model is compared with.
+/// Picks that the model is compared with.
 struct Observed {
     std::vector<PickedLine> horizons, faults;
 };

@@ -23,6 +23,11 @@ std::string text(const Range& range) {
     return fmt::format("{}", fmt::join(bounds, ", "));
 }
 
+std::string usual_text(const Parameter& parameter) {
+    const Range& usual = parameter.usual;
+    return usual.is_given() ? fmt::format("{} to {}", text(usual.from), text(usual.to)) : "";
+}
+
 std::string type_of(const Parameter& parameter) {
     struct {
         std::string operator()(const Place<double>&) const { return "number"; }

@@ -5,6 +5,7 @@
 #include "dem/genesis/detachment.hpp"
 #include "fem/footwall.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -29,10 +30,15 @@ struct Range {
     double to = infinity, below = infinity;     ///< to: included; below: excluded
     std::string_view reason = {};               ///< why not elsewhere, where that is not plain
 
+    bool is_given() const {
+        return std::max(from, above) > -infinity || std::min(to, below) < infinity;
+    }
     bool contains(double x) const {
         return std::isfinite(x) && x >= from && x > above && x <= to && x < below;
     }
 };
+
+constexpr Range between(double from, double to) { return {.from = from, .to = to}; }
 
 /// Where a parameter's value of type T is within the object that has it.
 template <class T> struct Place {
@@ -64,6 +70,8 @@ struct Parameter {
     Range range;
     std::string_view symbol; ///< in the paper
     std::string_view doc;
+    std::string_view changes = {}; ///< effect of another value on a run: "Raising it ..."
+    Range usual = {};    ///< where scenes of ours and published values lie; not given: not known
     double per_si = 1.0; ///< units of the key in one SI unit
 };
 
@@ -99,8 +107,8 @@ template <auto... Path>
 constexpr auto at = Place<std::remove_cvref_t<decltype(detail::get<Path...>(nullptr))>>{
     detail::get<Path...>, detail::reach<Path...>};
 
-/// The same for a choice: names in the order of the enumeration; of a switch the first means true;
-/// a string is one of them.
+/// A choice at a path of members: names in the order of the enumeration; of a switch the first
+/// means true; a string is one of them.
 template <auto... Path> Choice one_of(std::vector<std::string_view> names) {
     using T = std::remove_cvref_t<decltype(detail::get<Path...>(nullptr))>;
     using Names = std::vector<std::string_view>;
@@ -135,6 +143,9 @@ template <auto... Path> Choice one_of(std::vector<std::string_view> names) {
 /// "above 0, at most 10"; empty if every number is allowed.
 std::string text(const Range& range);
 
+/// "0.1 to 0.85"; empty if it is not known.
+std::string usual_text(const Parameter& parameter);
+
 /// "number", "integer", "string", "one of ..."
 std::string type_of(const Parameter& parameter);
 
@@ -142,11 +153,13 @@ std::vector<std::string_view> keys(const std::vector<Parameter>& parameters);
 
 // Ranges that several parameters share.
 namespace ranges {
+inline constexpr Range any;
 inline constexpr Range years{.from = 1, .to = 1e7};
 inline constexpr Range length{.from = 1e-3, .to = 1e6};
 inline constexpr Range height{.from = -1e5, .to = 1e5};
 inline constexpr Range dip{
     .from = 0, .to = 90, .reason = "else the detachment rises or folds back"};
+inline constexpr Range poisson_ratio{.from = 0, .below = 0.5};
 inline constexpr Range friction{.from = 0, .to = 10};
 inline constexpr Range stiffness{.from = 1e3, .to = 1e15};
 inline constexpr Range strength{.from = 0, .to = 1e12};

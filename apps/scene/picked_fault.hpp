@@ -29,7 +29,7 @@ PickedFault fit_detachment(dem::DetachmentParameters& detachment, const FaultPoi
 /// root mean square"
 std::string describe(const PickedFault& picked, const dem::DetachmentParameters& detachment);
 
-/// What is wrong with a detachment that turns more sharply than discs of a mean radius, m, can
+/// Objection to a detachment that turns more sharply than discs of a mean radius, m, can
 /// follow; empty if it does not.
 std::string too_sharp(const dem::DetachmentParameters& detachment, double mean_radius);
 

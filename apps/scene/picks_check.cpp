@@ -53,7 +53,7 @@ Room room_of(const Scene& scene, PickKind kind) {
     return {-margin, right + margin, 1.2 * thickness};
 }
 
-/// What is said of picks of one file.
+/// Message about the picks of one file.
 class Check {
 public:
     Check(Scene& scene, const PickedFile& picked, PickKind kind, double shift)

@@ -10,14 +10,19 @@ const std::vector<Parameter>& segment_parameters(dem::DetachmentSegment::Kind ki
         "deg",
         ranges::dip,
         "",
-        "dip at the near end, where the chain has a kink; 0 is flat, 90 straight down"};
+        "dip at the near end, where the chain has a kink; 0 is flat, 90 straight down",
+        "Makes a kink, above which rock breaks; without it the piece continues the one before."};
     static const std::vector<Parameter> line{
-        {"length_m", at<&Segment::length>, "m", ranges::length, "", "length of the line"},
+        {"length_m", at<&Segment::length>, "m", ranges::length, "", "length of the line",
+         "Raising it makes a flat or ramp longer; the last one must reach beyond the moving wall."},
         start_dip};
     static const std::vector<Parameter> arc{
-        {"radius_m", at<&Segment::radius>, "m", {.from = 1e-3, .to = 1e9}, "", "radius of the arc"},
+        {"radius_m", at<&Segment::radius>, "m", between(1e-3, 1e9), "", "radius of the arc",
+         "Raising it lowers the rotation of the rock that slides along it: extension over radius.",
+         between(300, 30e3)},
         {"end_dip_deg", at<&Segment::end_dip>, "deg", ranges::dip, "",
-         "dip at the far end; 0 is flat, 90 straight down"},
+         "dip at the far end; 0 is flat, 90 straight down",
+         "Ends the arc; above 0 the chain goes on as a ramp."},
         start_dip};
     return kind == Segment::Kind::line ? line : arc;
 }
@@ -25,10 +30,10 @@ const std::vector<Parameter>& segment_parameters(dem::DetachmentSegment::Kind ki
 const std::vector<Parameter>& picked_line_parameters() {
     using L = PickedLine;
     static const std::vector<Parameter> parameters{
-        {"name", at<&L::name>, "", {}, "", "what it is called"},
-        {"age_a", at<&L::age>, "a", {.from = 0, .to = 1e10}, "", "before the end of extension"},
-        {"x_m", at<&L::x>, "m", {.from = -1e7, .to = 1e7}, "", "of its points"},
-        {"depth_m", at<&L::depth>, "m", {.from = -1e6, .to = 1e6}, "", "of its points"},
+        {"name", at<&L::name>, "", ranges::any, "", "name of the line"},
+        {"age_a", at<&L::age>, "a", between(0, 1e10), "", "age before the end of extension"},
+        {"x_m", at<&L::x>, "m", between(-1e7, 1e7), "", "x of its points"},
+        {"depth_m", at<&L::depth>, "m", between(-1e6, 1e6), "", "depth of its points"},
     };
     return parameters;
 }
@@ -36,21 +41,16 @@ const std::vector<Parameter>& picked_line_parameters() {
 const std::vector<Parameter>& layer_parameters() {
     using fem::Layer;
     static const std::vector<Parameter> parameters{
-        {"top_depth_m", at<&Layer::top_depth>, "m", {.from = 0, .to = 1e6}, "", "where it begins"},
-        {"young_modulus_pa",
-         at<&Layer::young_modulus>,
-         "Pa",
-         {.from = 1e6, .to = 1e13},
-         "E",
-         "Young's modulus"},
-        {"poisson_ratio",
-         at<&Layer::poisson_ratio>,
-         "",
-         {.from = 0, .below = 0.5},
-         "nu",
-         "Poisson's ratio"},
+        {"top_depth_m", at<&Layer::top_depth>, "m", between(0, 1e6), "", "depth of its top",
+         "Moves the top of the layer; the first begins at 0."},
+        {"young_modulus_pa", at<&Layer::young_modulus>, "Pa", between(1e6, 1e13), "E",
+         "Young's modulus of the layer",
+         "Raising it stiffens the plate as far as the layer is above Te."},
+        {"poisson_ratio", at<&Layer::poisson_ratio>, "", ranges::poisson_ratio, "nu",
+         "Poisson's ratio of the layer", "Raising it stiffens the layer slightly."},
         {"density_kg_per_m3", at<&Layer::density>, "kg/m3", ranges::density, "",
-         "for pictures; what carries is crust_density_kg_per_m3"},
+         "density for pictures; crust_density_kg_per_m3 is the one that carries",
+         "Changes pictures only."},
     };
     return parameters;
 }

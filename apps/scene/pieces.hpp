@@ -21,11 +21,17 @@ template <auto... Path> std::vector<Parameter> material_parameters() {
     using dem::Material;
     return {
         {"normal_stiffness_pa", at<Path..., &Material::normal_stiffness>, "Pa", ranges::stiffness,
-         "k_n", "normal stiffness of one disc"},
+         "k_n", "normal stiffness of one disc",
+         "Raising it stiffens the rock (Young's modulus) and shortens the time step.",
+         between(8.5e10, 1.9e11)},
         {"shear_stiffness_pa", at<Path..., &Material::shear_stiffness>, "Pa", ranges::stiffness,
-         "k_s", "shear stiffness of one disc"},
+         "k_s", "shear stiffness of one disc",
+         "Raising it toward the normal stiffness lowers Poisson's ratio of the rock.",
+         between(1.4e10, 6.4e10)},
         {"friction", at<Path..., &Material::friction>, "", ranges::friction, "mu_d",
-         "of a disc; a contact has the smaller of its two discs'"},
+         "friction of a disc; a contact has the smaller of its two discs'",
+         "Raising it makes rock stronger under pressure, and lets it dilate where it shears.",
+         between(0.05, 2.8)},
     };
 }
 
@@ -34,19 +40,23 @@ template <auto... Path> std::vector<Parameter> bond_parameters() {
     using dem::BondStrength;
     return {
         {"tensile_strength_pa", at<Path..., &BondStrength::tensile_mean>, "Pa", ranges::strength,
-         "F_c^n", "mean tensile strength"},
+         "F_c^n", "mean tensile strength",
+         "Raising it raises cohesion: fewer bonds break, and deformation is more localised.",
+         between(2e4, 2.5e7)},
         {"tensile_strength_sd_pa", at<Path..., &BondStrength::tensile_deviation>, "Pa",
-         ranges::strength, "", "standard deviation of the tensile strength"},
+         ranges::strength, "", "standard deviation of the tensile strength",
+         "Raising it scatters the first cracks over the rock.", between(5e3, 6.2e6)},
         {"shear_strength_pa", at<Path..., &BondStrength::shear_mean>, "Pa", ranges::strength,
-         "F_c^s", "mean shear strength"},
+         "F_c^s", "mean shear strength",
+         "Far above the tensile strength it lets bonds break in tension only, so that strength "
+         "grows with pressure.",
+         between(2e8, 2e9)},
         {"shear_strength_sd_pa", at<Path..., &BondStrength::shear_deviation>, "Pa",
-         ranges::strength, "", "standard deviation of the shear strength"},
-        {"strength_is",
-         one_of<Path..., &BondStrength::reading>({"stress", "force"}),
-         "",
-         {},
-         "",
-         "strengths are stresses on the mean disc section, or forces in N"},
+         ranges::strength, "", "standard deviation of the shear strength",
+         "Matters only where bonds break in shear, which is rare.", between(5e7, 5e8)},
+        {"strength_is", one_of<Path..., &BondStrength::reading>({"stress", "force"}), "",
+         ranges::any, "", "strengths are stresses on the mean disc section, or forces in N",
+         "With \"force\" and the paper's numbers bonds fail under the weight of the rock."},
     };
 }
 

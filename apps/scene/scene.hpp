@@ -73,7 +73,7 @@ struct Scene : Heading {
 
     std::vector<EffectPart> effects; ///< in the order of the program's list
 
-    std::vector<std::string> warnings; ///< what was odd about its files; no part of what is run
+    std::vector<std::string> warnings;        ///< oddities of its files; no part of the run
     std::vector<std::filesystem::path> files; ///< that were read for it; none of them may be lost
 
     /// The parameters of an effect, by their type; null where it is off.

@@ -91,7 +91,7 @@ void check_resolution(const Scene& scene, const toml::table& document) {
              fmt::format("too {} ({}), gives {} discs, allowed: at {} {:.4g} ({} discs)", what,
                          text(radius), estimated_discs(scene), bound, allowed, text(discs)));
     };
-    // What is advised keeps away from the bound, because it is rounded.
+    // The advised value keeps away from the bound, because it is rounded.
     if (radius > radius_for(fewest))
         refuse("large", "most", 0.999 * radius_for(fewest), fewest);
     if (radius < radius_for(most))

@@ -15,7 +15,7 @@ Entry entry_at(const toml::table& document, const std::string& path);
 void check_name(const Heading& heading, const toml::table& document,
                 const std::filesystem::path& file);
 
-/// What tables need of each other, and what no single parameter shows. Throws SceneError.
+/// Checks of tables against each other, which no single parameter can fail. Throws SceneError.
 void check_scene(const Scene& scene, const toml::table& document, EffectList effects);
 
 } // namespace listric

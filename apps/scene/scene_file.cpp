@@ -368,7 +368,7 @@ std::string to_toml(const Scene& scene) {
     std::ranges::transform(scene.effects, std::back_inserter(effects), &EffectPart::effect);
     std::string lines = fmt::format("# All parameters in force.\n\n{}",
                                     write(top_level(), static_cast<const Heading*>(&scene)));
-    const FileName none; // what files said is in the parameters
+    const FileName none; // the parameters hold the content of files
     for (const SceneTable& table : scene_tables(effects))
         if (const void* part = table.find(table, scene))
             lines += fmt::format("\n[{}]  # {}\n{}{}", table.name, table.doc,
@@ -385,7 +385,7 @@ std::string parameter_reference(EffectList effects) {
     lines += "\n[materials]: files of apps/materials by name, others by path\n";
     for (const RockSource& rock : rock_sources(effects)) {
         const FileName name{std::string(rock.file)};
-        lines += explain(file_name(rock.key, rock.doc), &name);
+        lines += explain(file_name(rock.key, rock.doc, rock.changes), &name);
     }
     for (const SceneTable& table : scene_tables(effects)) {
         lines +=

@@ -51,7 +51,7 @@ Json closed_table(std::string_view doc, Json properties, Json required = Json::a
 Json table_schema(std::string_view doc, const std::vector<Parameter>& parameters,
                   const void* object);
 
-/// What a value may be, one function for each type.
+/// Schema of a value, one function for each type.
 struct Allowed {
     const Parameter& parameter;
 
@@ -131,9 +131,29 @@ bool is_required(const Parameter& parameter, const void* object) {
     return must_be_given(parameter, object) || (chain && chain->get(object).empty());
 }
 
+/// The declaration itself, of which docs/parameters.py makes the reference.
+Json declaration(const Parameter& parameter, const void* object) {
+    Json all{{"doc", parameter.doc},
+             {"changes", parameter.changes},
+             {"type", type_of(parameter)},
+             {"default", default_text(parameter, object)}};
+    for (const auto& [name, fact] :
+         {std::pair{"unit", parameter.unit}, std::pair{"symbol", parameter.symbol}})
+        if (!fact.empty())
+            all[name] = fact;
+    if (const std::string allowed = text(parameter.range); !allowed.empty())
+        all["allowed"] = allowed;
+    if (parameter.usual.is_given())
+        all["usual"] = {parameter.usual.from, parameter.usual.to};
+    return all;
+}
+
 Json parameter_schema(const Parameter& parameter, const void* object) {
     Json schema = std::visit(Allowed{parameter}, parameter.value);
-    schema["description"] = fmt::format("{} ({})", parameter.doc, facts(parameter));
+    const std::string changes =
+        parameter.changes.empty() ? "" : fmt::format(". {}", parameter.changes);
+    schema["description"] = fmt::format("{}{} ({})", parameter.doc, changes, facts(parameter));
+    schema["x-listric"] = declaration(parameter, object);
     if (!is_required(parameter, object))
         if (Json value = std::visit(Default{object, parameter.per_si}, parameter.value);
             !value.is_null())
@@ -158,13 +178,12 @@ Json needs(const std::vector<std::string_view>& tables) { return {{"required", t
 Json materials_schema(EffectList effects) {
     Json properties;
     for (const RockSource& rock : rock_sources(effects)) {
-        properties[std::string(rock.key)] = {
-            {"type", "string"},
-            {"anyOf", Json::array({{{"enum", materials.names()}}, {{"pattern", "/|\\.toml$"}}})},
-            {"description", fmt::format("{}: a name, or a path beside this file", rock.doc)},
-            {"default", rock.file}};
+        const FileName name{std::string(rock.file)};
+        Json& schema = properties[std::string(rock.key)];
+        schema = parameter_schema(file_name(rock.key, rock.doc, rock.changes), &name);
+        schema["anyOf"] = Json::array({{{"enum", materials.names()}}, {{"pattern", "/|\\.toml$"}}});
     }
-    return closed_table("what the rock is made of", properties);
+    return closed_table("rocks, by name or by path beside this file", properties);
 }
 
 /// Which tables need or exclude others, as scene_checks.cpp has it.

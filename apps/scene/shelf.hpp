@@ -12,7 +12,7 @@ namespace listric {
 /// A kind of file that the program ships in a folder, and users write too.
 struct Shelf {
     std::string_view kind;     ///< scene
-    std::string_view contents; ///< what such a file must have, told where it is empty
+    std::string_view contents; ///< least content of such a file, named where it is empty
     const char* variable;      ///< of the environment: another folder
     std::string_view folder;   ///< in resource_folder()
 

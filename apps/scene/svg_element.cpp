@@ -28,7 +28,7 @@ bool is_line(xml_node element) {
 
 std::string_view id_of(xml_node element) { return element.attribute("id").value(); }
 
-/// What Inkscape calls a label: an attribute of its own, whatever prefix its names have.
+/// Inkscape's label: an attribute of its own, whatever prefix its names have.
 std::string_view label_of(xml_node element) {
     for (const pugi::xml_attribute attribute : element.attributes())
         if (std::string_view(attribute.name()).ends_with(":label"))
@@ -135,7 +135,7 @@ private:
                     names.push_back(name);
         const auto meant = nearest(name_, names);
         refuse(fmt::format("has no path with the id {}{}; its paths: {}",
-                           name_.empty() ? "that detachment.svg_path must say"
+                           name_.empty() ? "for detachment.svg_path to name"
                                          : fmt::format("svg_path = \"{}\"", shown(name_)),
                            meant ? fmt::format(", did you mean {}?", shown(*meant)) : "",
                            listed(lines_)));

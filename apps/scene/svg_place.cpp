@@ -41,13 +41,13 @@ std::string_view namespace_of(xml_node element) {
     return {};
 }
 
-/// What an element says of a property: in its style or else as an attribute.
+/// Property of an element: in its style or else as an attribute.
 std::string said(xml_node element, const Declarations& style, const char* property) {
     const auto declared = style.find(property);
     return declared != style.end() ? declared->second : element.attribute(property).value();
 }
 
-/// What moves an element besides `transform` and is not read.
+/// Refuses attributes that move an element besides `transform`.
 void check_read(xml_node element, const Declarations& style, const std::string& where) {
     for (const char* property : {"translate", "rotate", "scale", "offset-path", "zoom", "d"})
         if (const auto declared = style.find(property);
@@ -82,7 +82,7 @@ void check_style_sheets(xml_node outer, const std::string& where) {
     }
 }
 
-/// What is written for it to be drawn elsewhere, or not at all, is not the drawing.
+/// Refuses elements that are drawn elsewhere, or not at all.
 void check_drawn(const std::vector<xml_node>& chain, const std::string& where) {
     std::string visibility, hidden_by;
     for (std::size_t k = 0; k < chain.size(); ++k) {
@@ -100,7 +100,7 @@ void check_drawn(const std::vector<xml_node>& chain, const std::string& where) {
             continue;
         const std::string_view name = svg_name(node);
         if (is_store(node) || name == "use")
-            refuse(where, fmt::format("is inside {}, which is not read: what is there is drawn "
+            refuse(where, fmt::format("is inside {}, which is not read: its content is drawn "
                                       "elsewhere or not at all; name a path of the drawing itself "
                                       "(Inkscape: Edit, Clone, Unlink Clone)",
                                       svg_tag(node)));

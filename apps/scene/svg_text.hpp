@@ -6,7 +6,7 @@
 
 namespace listric {
 
-/// What stands in an attribute of a drawing, one piece after the other: numbers, letters and words
+/// Tokens of an attribute of a drawing, one piece after the other: numbers, letters and words
 /// as SVG 1.1 writes them (sections 4.2 and 8.3.9), in every locale. Throws SceneError.
 class SvgText {
 public:

@@ -23,7 +23,7 @@ struct NumberWithUnit {
     std::string_view unit;
 };
 
-/// What a unit is in units of SVG (lengths) or radians (angles).
+/// Size of a unit in units of SVG (lengths) or radians (angles).
 struct Unit {
     std::string_view name;
     double size;

@@ -29,7 +29,7 @@ std::map<std::string, std::string> css_declarations(std::string_view style);
 /// @param whole  that 100 % stand for, if it is known
 double svg_length(std::string_view text, std::optional<double> whole, const std::string& where);
 
-/// What `viewBox` and `preserveAspectRatio` make of an inner <svg> (SVG 1.1, section 7.8).
+/// Transform of an inner <svg> by `viewBox` and `preserveAspectRatio` (SVG 1.1, section 7.8).
 /// @param size  of the viewport that it fills; on return of the view box
 Eigen::Affine2d svg_view(std::string_view view_box, std::string_view aspect, SvgViewport& size,
                          const std::string& where);

@@ -53,7 +53,7 @@ std::string toml_float(double x) {
     return number.find_first_of(".en") == number.npos ? number + ".0" : number;
 }
 
-/// What a wrong value is: integer 3, string "abc", table.
+/// Description of a wrong value: integer 3, string "abc", table.
 std::string type_and_value(const toml::node& node) {
     if (const auto* number = node.as_floating_point())
         return "number " + toml_float(number->get());
@@ -506,14 +506,23 @@ std::string facts(const Parameter& parameter) {
         all.push_back(range);
     if (!parameter.symbol.empty())
         all.push_back(fmt::format("symbol {}", parameter.symbol));
+    if (const std::string usual = usual_text(parameter); !usual.empty())
+        all.push_back(fmt::format("usual {}", usual));
     return fmt::format("{}", fmt::join(all, "; "));
 }
 
+std::string default_text(const Parameter& parameter, const void* object) {
+    if (must_be_given(parameter, object))
+        return "(required)";
+    const std::string value = write(parameter, object);
+    return value.empty() ? "(none)" : value;
+}
+
 std::string explain(const Parameter& parameter, const void* object) {
-    const std::string value =
-        must_be_given(parameter, object) ? "(required)" : write(parameter, object);
-    return fmt::format("    {} = {}\n        {}\n        {}\n", parameter.key,
-                       value.empty() ? "(none)" : value, parameter.doc, facts(parameter));
+    const std::string changes =
+        parameter.changes.empty() ? "" : fmt::format("        {}\n", parameter.changes);
+    return fmt::format("    {} = {}\n        {}\n{}        {}\n", parameter.key,
+                       default_text(parameter, object), parameter.doc, changes, facts(parameter));
 }
 
 } // namespace listric

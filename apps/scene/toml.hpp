@@ -57,8 +57,11 @@ double in_key_units(double si, double per_si);
 /// "number in m; at least 0.001, at most 1e6; symbol r_d"
 std::string facts(const Parameter& parameter);
 
-/// A parameter of the reference: a line with its default, the value in `object`, two with meaning,
-/// type and range.
+/// The value in `object` as TOML, or why there is none: "(required)", "(none)".
+std::string default_text(const Parameter& parameter, const void* object);
+
+/// A parameter of the reference: a line with its default, the value in `object`, others
+/// with meaning, what it changes, type and range.
 std::string explain(const Parameter& parameter, const void* object);
 
 } // namespace listric

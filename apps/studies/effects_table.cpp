@@ -60,9 +60,9 @@ std::string warning_of_few(int seeds) {
     if (seeds >= 3)
         return "";
     return seeds == 1
-               ? "one seed says nothing of chance: effects have neither standard errors nor p; "
+               ? "one seed shows nothing of chance: effects have neither standard errors nor p; "
                  "three seeds or more do (seeds = 3)"
-               : "two seeds say little of chance: by Student's t an effect of one parameter with "
+               : "two seeds show little of chance: by Student's t an effect of one parameter with "
                  "two values must be 12.7 standard errors large to be clear, with three seeds 4.3 "
                  "(seeds = 3)";
 }

@@ -17,7 +17,7 @@ std::string effects_csv(std::span<const SweepEffect> effects);
 /// Effects as text: each parameter's own, and of two together those that are clear.
 std::string effects_text(std::span<const SweepEffect> effects);
 
-/// What so few seeds let nobody see; empty from three seeds on.
+/// Warning of too few seeds; empty from three seeds on.
 std::string warning_of_few(int seeds);
 
 } // namespace listric

@@ -58,7 +58,7 @@ std::optional<Bulge> bulge(const Deflection& d) {
     return Bulge{-(b - 0.25 * (a - c) * shift), d.x[top] + shift * (d.x[top + 1] - d.x[top])};
 }
 
-/// What bends, what holds it and what it is compared with.
+/// Plate, its supports and its comparison.
 struct Case {
     fem::FootwallRequest request;
     fem::Plate plate;
@@ -222,7 +222,7 @@ Bent bend(const FlexurePlan& plan, const Case& c, const fs::path& output, Log& l
     return {d, base->reaction(), base->total_load()};
 }
 
-/// What theory says at the same places.
+/// Theory at the places of the solution.
 struct Theory {
     Deflection plate;
     std::optional<Deflection> layer; ///< exact

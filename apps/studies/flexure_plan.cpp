@@ -94,31 +94,23 @@ void check(const FlexurePlan& plan, const toml::table& document) {
 const std::vector<Parameter>& flexure_parameters() {
     using P = FlexureParameters;
     static const std::vector<Parameter> parameters{
-        {"load",
-         one_of<&P::load>({"line", "broken", "strip", "sinusoid"}),
-         "",
-         {},
-         "",
-         "line load on a continuous plate or on a broken one's end, strip load, sinusoidal load"},
-        {"line_load_n_per_m",
-         at<&P::line_load>,
-         "N/m",
-         {.from = 1, .to = 1e15},
-         "V",
-         "downward; the end of a broken plate carries half of it"},
-        {"pressure_pa",
-         at<&P::pressure>,
-         "Pa",
-         {.from = 1, .to = 1e10},
-         "",
-         "of the strip, downward; amplitude of the sinusoid"},
-        {"half_width_m", at<&P::half_width>, "m", {.from = 1, .to = 1e6}, "", "of the strip"},
-        {"wavelength_m",
-         at<&P::wavelength>,
-         "m",
-         {.from = 100, .to = 1e7},
-         "lambda",
-         "of the sinusoid"},
+        {"load", one_of<&P::load>({"line", "broken", "strip", "sinusoid"}), "", ranges::any, "",
+         "line load on a continuous plate or on the end of a broken one, strip load, sinusoidal "
+         "load",
+         "A broken plate sinks twice as far at its end as a continuous one under the line load."},
+        {"line_load_n_per_m", at<&P::line_load>, "N/m", between(1, 1e15), "V",
+         "line load, downward; the end of a broken plate carries half of it",
+         "Deflection is proportional to it."},
+        {"pressure_pa", at<&P::pressure>, "Pa", between(1, 1e10), "",
+         "pressure of the strip, downward; amplitude of the sinusoid",
+         "Deflection is proportional to it."},
+        {"half_width_m", at<&P::half_width>, "m", between(1, 1e6), "",
+         "half the width of the strip",
+         "Raising it brings the middle of the strip toward local isostasy."},
+        {"wavelength_m", at<&P::wavelength>, "m", between(100, 1e7), "lambda",
+         "wavelength of the sinusoid",
+         "Raising it brings the deflection toward local isostasy; short waves hardly bend the "
+         "base."},
     };
     return parameters;
 }

@@ -107,7 +107,7 @@ summaries_of_runs(const StudyRequest& request, std::span<const SeededRun> wanted
 std::optional<nlohmann::ordered_json> summary_of_run(const StudyRequest& request,
                                                      const StudyRun& run, std::int64_t seed);
 
-/// What errors are measured in.
+/// Quantity in which errors are measured.
 struct StudyQuantity {
     std::string name;
     double scale = 0.0;    ///< of the error, in the quantity's unit; 0: relative to the reference

@@ -56,7 +56,7 @@ double local_compensation(fem::Plate plate, const fem::LineLoads& loads) {
     return most;
 }
 
-/// What fills the basin, as changes of the scene.
+/// Fills of the basin, as changes of the scene.
 struct Fill {
     std::string name, without, set;
 };

@@ -83,7 +83,7 @@ std::vector<Values> values_of(const std::vector<std::optional<Json>>& seeds,
     return values;
 }
 
-/// What a run took, without its figures: mean over seeds.
+/// Time of a run without its figures: mean over seeds.
 void add_costs(const std::vector<std::optional<Json>>& seeds, StudyPoint& point) {
     double counted = 0.0;
     for (const auto& summary : seeds)

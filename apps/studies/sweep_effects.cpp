@@ -39,7 +39,7 @@ struct Columns {
     }
 };
 
-/// What is kept of a list by run.
+/// Values of a list, by run.
 template <class Value>
 std::vector<Value> kept(std::span<const Value> all, const std::vector<std::size_t>& runs) {
     std::vector<Value> result;

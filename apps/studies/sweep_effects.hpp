@@ -18,7 +18,7 @@ struct SweepFactor {
     std::vector<std::size_t> word = {};
 };
 
-/// What a parameter, or two together, change.
+/// Effect of a parameter, or of two together.
 struct SweepEffect {
     std::string measure;
     std::string term; ///< a or a:b

@@ -31,12 +31,22 @@ const std::vector<Parameter>& plan_parameters() {
     using T = PlanText;
     using P = SweepPlan;
     static const std::vector<Parameter> parameters{
-        {"scene", at<&T::plan, &P::scene>, "", {}, "", "that is run"},
+        {"scene", at<&T::plan, &P::scene>, "", {}, "", "scene that is run"},
         {"accuracy", at<&T::plan, &P::accuracy>, "", {}, "", "level; empty: the scene's"},
         {"set", at<&T::set>, "", {}, "", "changes for every run, table.key=value"},
         {"without", at<&T::without>, "", {}, "", "tables taken out of every run"},
-        {"seeds", at<&T::plan, &P::seeds>, "", {.from = 1, .to = 1000}, "", "runs a point"},
-        {"first_seed", at<&T::plan, &P::first_seed>, "", {.from = 0, .to = 1e9}, "", ""},
+        {"seeds",
+         at<&T::plan, &P::seeds>,
+         "",
+         {.from = 1, .to = 1000},
+         "",
+         "number of runs per point"},
+        {"first_seed",
+         at<&T::plan, &P::first_seed>,
+         "",
+         {.from = 0, .to = 1e9},
+         "",
+         "first of the seeds"},
         {"design",
          one_of<&T::plan, &P::design>({"grid", "list", "latin-hypercube"}),
          "",
@@ -48,7 +58,7 @@ const std::vector<Parameter>& plan_parameters() {
          "",
          {.from = 0, .to = static_cast<double>(most_runs)},
          "",
-         "of a Latin hypercube"}};
+         "number of points of a Latin hypercube"}};
     return parameters;
 }
 
@@ -201,10 +211,9 @@ void check_number(const Entry& top, const SweepPlan& plan, const std::vector<Ent
                               : points > most                             ? "vary"
                                                                           : "seeds";
     const toml::node* const node = top.node.as_table()->get(cause);
-    fail(
-        node ? Entry{*node, cause} : top,
-        fmt::format("asks for {:.10g} runs, {:.10g} points with {} seeds each; allowed: at most {}",
-                    runs, points, plan.seeds, most_runs));
+    fail(node ? Entry{*node, cause} : top,
+         fmt::format("makes {:.10g} runs, {:.10g} points with {} seeds each; allowed: at most {}",
+                     runs, points, plan.seeds, most_runs));
 }
 
 /// Places of a Latin hypercube's samples along one parameter: each of 0 .. samples - 1 once.

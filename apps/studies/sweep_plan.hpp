@@ -26,14 +26,14 @@ struct SweepValue {
     std::optional<double> number; ///< if it is one
 };
 
-/// What is varied.
+/// A parameter that varies.
 struct SweepParameter {
     std::string name;                               ///< table.key
     std::vector<SweepValue> values = {};            ///< or else
     std::optional<std::pair<double, double>> range; ///< least and greatest
 };
 
-/// What every run is measured by.
+/// A measure of every run.
 struct SweepMeasure {
     std::string text;         ///< as the plan has it: NAME or NAME@METRES
     std::string name;         ///< of docs/measures.md

@@ -35,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the summary of a finished run says of it; both empty if there is none.
+/// Facts from the summary of a finished run; both empty if there is none.
 struct FinishedRun {
     std::string hash;
     std::string made_by; ///< version and commit of Listric
@@ -181,9 +181,8 @@ private:
         for (const std::string& name : names)
             all += findings_.seeds_of(findings_.plan.run(name)).size();
         if (all > static_cast<std::size_t>(most_runs))
-            throw UsageError(
-                fmt::format("--seeds {}: the plan asks for {} runs, allowed: at most {}",
-                            request_.seeds, all, most_runs));
+            throw UsageError(fmt::format("--seeds {}: the plan needs {} runs, allowed: at most {}",
+                                         request_.seeds, all, most_runs));
         std::vector<BatchRun> runs;
         for (const std::string& name : names) {
             const ValidationRun& run = findings_.plan.run(name);
@@ -227,7 +226,7 @@ private:
             for (auto& [at, numbers] : examine_run(folder_of(run, seed), run.at))
                 store_[{run.name, seed, at}] = {
                     hash, made_by, std::string(version), {numbers.begin(), numbers.end()}};
-            save_measures(); // what is measured is kept, whatever comes next
+            save_measures(); // keeps the measures, whatever comes next
             measured = true;
         }
         if (measured)

@@ -36,8 +36,8 @@ ValidationRun read_run(const Entry& entry) {
     using T = RunText;
     using R = ValidationRun;
     static const std::vector<Parameter> parameters{
-        {"name", at<&T::run, &R::name>, "", {}, "", "of the folders"},
-        {"scene", at<&T::run, &R::scene>, "", {}, "", "that is run"},
+        {"name", at<&T::run, &R::name>, "", {}, "", "name of the folders"},
+        {"scene", at<&T::run, &R::scene>, "", {}, "", "scene that is run"},
         {"set", at<&T::set>, "", {}, "", "changes, table.key=value"},
         {"without", at<&T::without>, "", {}, "", "tables taken out"},
         {"seeds", at<&T::run, &R::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"},
@@ -58,7 +58,7 @@ const std::vector<Parameter>& expectation_parameters() {
     using E = Expectation;
     static const std::vector<Parameter> parameters{
         {"kind", one_of<&E::kind>(kinds), "", {}, "", ""},
-        {"needed", one_of<&E::needed>(needs), "", {}, "", "of the seeds"},
+        {"needed", one_of<&E::needed>(needs), "", {}, "", "seeds that must meet it"},
         {"absent", one_of<&E::absent>(absences), "", {}, "", "without a value"},
         {"measure", at<&E::measure>, "", {}, "", "name"},
         {"what", at<&E::what>, "", {}, "", "for people"},
@@ -89,7 +89,7 @@ Expectation read_expectation(const Entry& entry) {
 ValidationPicture read_picture(const Entry& entry) {
     ValidationPicture picture;
     read_table(entry,
-               {{"name", at<&ValidationPicture::name>, "", {}, "", "of the file"},
+               {{"name", at<&ValidationPicture::name>, "", {}, "", "name of the file"},
                 {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}},
                &picture, {"rows"});
     need_name(entry, "name", picture.name);
@@ -112,7 +112,7 @@ struct ExperimentText {
     std::string runs;
 };
 
-/// What an experiment expects, of other runs that take the places of its own. Without those that
+/// Expectations of an experiment for other runs in the places of its own. Without those that
 /// ask for more runs than there are: a control, say.
 std::vector<Expectation> expectations_of(const ValidationExperiment& experiment,
                                          const std::vector<std::string>& runs) {
@@ -206,7 +206,7 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
         plan.runs.push_back(read_run(entry));
         runs += std::max(1, plan.runs.back().seeds);
         if (runs > most_runs)
-            fail(entry, fmt::format("is beyond {} runs, all that a plan may ask for", most_runs));
+            fail(entry, fmt::format("is beyond {} runs, the most that a plan may have", most_runs));
     }
     const auto check = [&](const Entry& entry, const std::string& name) {
         std::vector<std::string_view> names;

@@ -21,7 +21,7 @@ struct ValidationRun {
     std::vector<double> at; ///< extensions at which it is measured, m
 };
 
-/// What is expected of a measure, and who says so.
+/// Expectation of a measure, with its source.
 struct Expectation {
     enum class Kind { kinematics, faults, conservation } kind = Kind::faults;
     enum class Needed { each, most, mean } needed = Needed::each; ///< of the seeds
@@ -60,7 +60,7 @@ struct ValidationPicture {
 struct ValidationExperiment {
     std::string name, title;
     std::string about; ///< before the table
-    std::string seen;  ///< what people saw in the pictures of the standard runs
+    std::string seen;  ///< people's reading of the pictures of the standard runs
     std::vector<std::string> runs;
     std::string like;    ///< an experiment whose expectations it has, of its own runs
     std::string compare; ///< a run whose values stand beside the first's
@@ -79,7 +79,7 @@ struct ValidationPlan {
 /// the shelf or a path beside it, may have experiments that are like those. Throws SceneError.
 ValidationPlan load_validation_plan(const std::filesystem::path& file);
 
-/// What the seeds say of an expectation.
+/// Verdict of the seeds on an expectation.
 struct Verdict {
     int met = 0, of = 0;
     bool fulfilled = false; ///< as far as the expectation needs

@@ -60,7 +60,7 @@ std::string makers(const ValidationFindings& f, const std::set<std::string>& run
                                       fmt::join(made, ", "), fmt::join(measured, ", "));
 }
 
-/// What the document is, and how to read it.
+/// Introduction of the document, and how to read it.
 std::string introduction(const ValidationFindings& f) {
     std::set<std::string> wanted, there; // experiments may share runs
     for (const ValidationExperiment& x : f.experiments) {
@@ -79,11 +79,11 @@ std::string introduction(const ValidationFindings& f) {
         f.beside.filename().string());
     return text + makers(f, there) +
            "A value is the mean over the seeds ± its standard deviation (smallest to "
-           "largest). *Met* says how many seeds fulfil the expectation; where it asks for "
-           "most seeds or for the mean, that decides. Rows of kind *kinematics* check the "
+           "largest). *Met* is the number of seeds that fulfil the expectation; where it requires "
+           "most seeds or the mean, that decides. Rows of kind *kinematics* check the "
            "machinery: a hanging wall that slides on that detachment has them with any "
-           "material, faults or none, so meeting them says nothing about faults. Rows of "
-           "kind *faults* are what the paper is about. Rows of kind *conservation* are "
+           "material, faults or none, so meeting them proves nothing about faults. Rows of kind "
+           "*faults* are the subject of the paper. Rows of kind *conservation* are "
            "bookkeeping.\n\n";
 }
 
@@ -110,7 +110,8 @@ std::string overview(const ValidationFindings& f) {
     return text + "\n";
 }
 
-/// What e expects and where: "width of faults, diameters, 10 km (`fault_width_diameters`)".
+/// Measure and place of an expectation: "width of faults, diameters, 10 km
+/// (`fault_width_diameters`)".
 std::string subject(const ValidationFindings& f, const Expectation& e) {
     std::string what = e.what;
     if (f.plan.run(e.run).at.size() > 1 || e.at)

@@ -10,7 +10,7 @@
 
 namespace listric {
 
-/// What a validation has found: all that its document is made of.
+/// Findings of a validation: the content of its document.
 struct ValidationFindings {
     const ValidationPlan& plan;
     std::string plan_name;                         ///< its file, for people

@@ -26,7 +26,7 @@ MeasureStore read_store(const std::filesystem::path& file) {
     MeasureStore store;
     std::vector<std::string> names;
     const auto refuse = [&](const std::string& what) {
-        throw StorageError(fmt::format("{}: {}; --remeasure writes it anew", file.string(), what));
+        throw StorageError(fmt::format("{}: {}; --remeasure writes it again", file.string(), what));
     };
     const auto number = [&](const std::string& cell) {
         const auto value = parse_number(cell);

@@ -60,7 +60,7 @@ std::string bytes_of(const fs::path& path) {
     return bytes;
 }
 
-/// What a file is that is no text in UTF-8, by its first bytes.
+/// Kind of a file that is no text in UTF-8, by its first bytes.
 std::string other_format(std::string_view bytes) {
     using namespace std::literals;
     if (bytes.starts_with("\xff\xfe\0\0"sv) || bytes.starts_with("\0\0\xfe\xff"sv))

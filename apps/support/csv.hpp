@@ -7,7 +7,7 @@
 
 namespace listric {
 
-/// What is wanted of a CSV file; it may have other columns.
+/// Columns to read from a CSV file; it may have others.
 struct CsvColumns {
     std::string_view words = {};                 ///< a column of words; none: no words are wanted
     std::vector<std::string_view> numbers = {};  ///< columns with a number in every row

@@ -57,7 +57,7 @@ std::size_t line_of_names(std::string_view text, const std::vector<std::string_v
 constexpr const char* lengths = "1 km = 1000 m, 1 ft = 0.3048 m";
 constexpr const char* times = "1 Ma = 1e6 a, 1 ka = 1000 a";
 
-/// What a column is called that holds depths or distances in other programs.
+/// Names of columns with depths or distances in other programs.
 bool is_other_name(std::string_view column, std::string_view missing) {
     const auto one_of = [&](std::initializer_list<std::string_view> names) {
         return std::ranges::any_of(names, [&](auto name) {

@@ -9,7 +9,7 @@ namespace listric {
 /// Names of columns as a message may hold them.
 std::string header_text(const std::vector<std::string>& header);
 
-/// What may be wrong with a header that lacks a column, and the cure: "; depth_km is in another
+/// Likely mistake of a header that lacks a column, and the cure: "; depth_km is in another
 /// unit ...". Empty where nobody can tell.
 /// @param text  of the whole file
 std::string header_hint(const std::vector<std::string>& header, std::string_view missing,

@@ -74,7 +74,7 @@ public:
     bool ended = false;
 
 private:
-    // What is thrown must not cross a library in C, so that cells are bounded by their lines.
+    // An exception must not cross a library in C, so cells are bounded by their lines.
     static void take_cell(void* bytes, std::size_t size, void* self) {
         auto& cells = static_cast<Parser*>(self)->record.cells;
         if (cells.size() <= most_cells)

@@ -12,7 +12,7 @@ namespace listric {
 /// complete or the old one, whenever the program or the machine stops. Throws StorageError.
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// The same with text.
+/// Writes a text as write_bytes() does.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
 /// Whether a name is there but of no regular file, nor of a folder: of a pipe or a device, which
@@ -22,7 +22,7 @@ bool is_pipe_or_device(const std::filesystem::path& path);
 /// All of a file. Throws StorageError.
 std::string read_text(const std::filesystem::path& path);
 
-/// The same; nothing of a file that cannot be read.
+/// All of a file; empty if it cannot be read.
 std::string read_text_if_there(const std::filesystem::path& path);
 
 /// Makes a folder and those above it, if they are not there. Throws StorageError.

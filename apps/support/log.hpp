@@ -16,7 +16,7 @@ std::string rough_duration(double seconds);
 /// "listric: warning: ..." on stderr, for work without a log.
 void warn(std::string_view message);
 
-/// What people are told while something runs: messages, which stay, and progress, which does not.
+/// Messages to people while something runs: lines, which stay, and progress, which does not.
 /// Both go to stderr unless it shall be quiet; messages also into a file, if there is one. On a
 /// terminal the line of progress is rewritten; elsewhere it appears as plain lines, a few per
 /// minute at most. Threads may share one.

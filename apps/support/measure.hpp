@@ -25,6 +25,7 @@ struct Quantity {
     std::string_view unit; ///< "1": a ratio or a count; none: no number
     std::string_view doc;
     OverTime over = OverTime::last;
+    std::string_view usual = {}; ///< value of a good run, where documents give one
 };
 
 /// A quantity that is a number, and the function that takes it.
@@ -33,8 +34,9 @@ template <class Subject> struct Measure {
     /// None: it has no meaning there. Not finite: it has one, but no value. Null: see who declares.
     std::optional<double> (*value)(const Subject& subject) = nullptr;
     OverTime over = OverTime::last;
+    std::string_view usual = {}; ///< as that of a Quantity
 
-    constexpr Quantity quantity() const { return {name, unit, doc, over}; }
+    constexpr Quantity quantity() const { return {name, unit, doc, over, usual}; }
 };
 
 inline void add(NamedNumbers& numbers, const Quantity& quantity, std::optional<double> value) {

@@ -6,7 +6,7 @@ namespace listric {
 /// Kept for the whole process, since it may give out on any thread.
 void note_memory_need(double bytes);
 
-/// What was noted last; 0: nothing.
+/// Size that was noted last; 0: none.
 double noted_memory_need();
 
 /// Lays memory by that is given back where there is no more, before std::bad_alloc is thrown: what

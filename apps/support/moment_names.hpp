@@ -8,7 +8,7 @@
 
 namespace listric {
 
-/// What the moments of a run are called in the names of its files. A window's end has as many
+/// Names of a run's moments in the names of its files. A window's end has as many
 /// decimals as tell it from the next one; another moment, at which a run was stopped, has as many
 /// as tell it from those.
 class MomentNames {

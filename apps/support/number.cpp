@@ -48,7 +48,7 @@ bool matches(const std::string& text, const char* pattern) {
     return std::regex_match(text, std::regex(pattern, std::regex::ECMAScript | std::regex::icase));
 }
 
-/// What a word in the place of a number says.
+/// Meaning of a word in the place of a number.
 std::string word_objection(const std::string& text) {
     if (matches(text, "[+-]?nan(\\(.*\\))?|#?n/?a|null|none|nil|no ?data|missing|-+|\\?+|x+"))
         return "no value; leave out what has none";
@@ -63,7 +63,7 @@ std::string word_objection(const std::string& text) {
     return "";
 }
 
-/// What is said of digits that commas, blanks or other marks part.
+/// Objection to digits that commas, blanks or other marks part.
 std::string marks_objection(const std::string& text) {
     if (matches(text, "[+-]?[0-9]{1,3},[0-9]{3}"))
         return fmt::format("a decimal comma, or one between thousands; write {} or {}",
@@ -91,7 +91,7 @@ std::optional<double> parse_number(std::string_view text) {
     std::string_view number = trimmed(text);
     if (number.starts_with('+') && number.find_first_of("0123456789.") == 1)
         number.remove_prefix(1);
-    constexpr std::size_t longest = 2000; // what writes more digits means no number
+    constexpr std::size_t longest = 2000; // a text with more digits is no number
     if (number.empty() || number.size() > longest)
         return std::nullopt;
     std::string digits(number);

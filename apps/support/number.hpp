@@ -11,7 +11,7 @@ namespace listric {
 /// 0.
 std::optional<double> parse_number(std::string_view text);
 
-/// What a text is that is no number, and what to write: "a decimal comma; write 1012.75". Empty
+/// Objection to a text that is no number, and the cure: "a decimal comma; write 1012.75". Empty
 /// where nobody can tell.
 std::string number_objection(std::string_view text);
 

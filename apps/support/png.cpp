@@ -141,7 +141,8 @@ private:
     }
 
     [[noreturn]] void refuse_broken(const std::string& how) const {
-        refuse(fmt::format("is a PNG that is damaged or cut off ({}); fetch or save it anew", how));
+        refuse(
+            fmt::format("is a PNG that is damaged or cut off ({}); fetch or save it again", how));
     }
 
     void read_header() {

@@ -76,7 +76,7 @@ std::string last_line(std::string text, const std::string& script) {
     if (end.code == no_room)
         throw StorageError(fmt::format("{}: {}", script, said));
     throw std::runtime_error(fmt::format("{} of {} failed with exit code {}: {}", script, python,
-                                         end.code, said.empty() ? "it says nothing" : said));
+                                         end.code, said.empty() ? "no message" : said));
 }
 
 /// Runs a script on the first interpreter that can load the modules.

@@ -10,7 +10,7 @@ namespace listric {
 /// script refuses what it is given, StorageError if there is no room, runtime_error if it is wrong.
 void run_drawing_script(const std::string& script, const std::vector<std::string>& arguments);
 
-/// The same; why it could not is a warning on stderr.
+/// Runs a drawing script; its failure is a warning on stderr.
 void draw_or_warn(const std::string& script, const std::vector<std::string>& arguments);
 
 /// Runs a script that needs another module than Matplotlib, of a Debian package.

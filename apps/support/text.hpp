@@ -25,7 +25,7 @@ std::string cut_to(std::string_view text, std::size_t columns);
 /// A text of several lines as shown() has it, but for their ends, which stay.
 std::string shown_lines(std::string_view text);
 
-/// What is wrong at a byte that unsound_byte() found: "has a NUL byte", "byte 0xf6 is not UTF-8".
+/// Mistake at a byte that unsound_byte() found: "has a NUL byte", "byte 0xf6 is not UTF-8".
 std::string objection_to_byte(std::string_view text, std::size_t place);
 
 /// Why a text cannot be the name of one file or folder ("has a /"); empty if it can. Names of

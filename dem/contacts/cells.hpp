@@ -62,7 +62,7 @@ public:
         });
     }
 
-    /// The same for runs of discs(): visit(begin, end).
+    /// Visits runs of discs(): visit(begin, end).
     template <class Visit> void for_each_run_near(double x, double y, Visit&& visit) const {
         if (discs_.empty())
             return;

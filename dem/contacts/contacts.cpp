@@ -38,7 +38,7 @@ Searched all_discs(const State& state) {
     return searched;
 }
 
-/// What a table is merged to: the former row that each row has, and the pairs that are new.
+/// Result of a merge: the former row of each row, and the new pairs.
 struct Merged {
     std::vector<std::int32_t> rows;
     std::vector<Pair> added;

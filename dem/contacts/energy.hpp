@@ -29,13 +29,13 @@ namespace listric::dem {
 // A base that deforms has an account of its own: elastic energy, virtual and reference loads. What
 // passes between the two is the work of the contact forces on the moving nodes, base_work.
 
-/// What cycles add up.
+/// Sums of cycles.
 struct EnergyFlows {
     double boundary_work = 0.0; ///< of base and walls on the discs, J/m
     double base_work = 0.0;     ///< of a base that deforms, by the motion of its nodes, J/m
     double friction = 0.0;      ///< lost by slip, J/m
     double damping = 0.0;       ///< lost by local damping, J/m
-    double bond_breaking = 0.0; ///< what springs lost of what they held when bonds broke, J/m
+    double bond_breaking = 0.0; ///< loss of the springs' energy when bonds broke, J/m
     double stepping = 0.0;      ///< lost by contacts that close or open within a step, J/m
     double radii = 0.0;         ///< work of radii that change with every cycle, J/m
 
@@ -51,7 +51,7 @@ struct EnergyFlows {
     }
 };
 
-/// What a state holds.
+/// Energy of a state.
 struct StoredEnergy {
     double kinetic = 0.0;                           ///< J/m
     double normal_strain = 0.0, shear_strain = 0.0; ///< of contacts, J/m

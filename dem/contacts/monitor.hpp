@@ -22,7 +22,7 @@ struct BaseForce {
     Point force; ///< on the disc, N
 };
 
-/// What all contacts do, by row of their tables.
+/// Forces of all contacts, by row of their tables.
 struct ContactForces {
     std::vector<PairForce> pairs;
     std::vector<BaseForce> base;
@@ -58,7 +58,7 @@ struct ForceBalance {
 /// Forces as they stand, without advancing anything. `gravity` in m/s^2.
 ForceBalance force_balance(const State& state, const RigidBase& base, double gravity);
 
-/// What a surface does to the discs.
+/// Forces of a surface on the discs.
 struct SurfaceLoad {
     Point force;      ///< on the discs, N
     int contacts = 0; ///< discs that touch it

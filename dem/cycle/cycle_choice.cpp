@@ -12,7 +12,7 @@ namespace {
 constexpr std::array all{Cycle::plain, Cycle::baseline, Cycle::v3, Cycle::v4};
 constexpr std::array<std::string_view, all.size()> names{"plain", "baseline", "v3", "v4"};
 
-/// What fast_cycle_kernels.cpp is compiled for, asked of processor and system.
+/// Level for which fast_cycle_kernels.cpp is compiled, by processor and system.
 Cycle highest() {
 #if defined __x86_64__
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&

@@ -14,7 +14,7 @@ namespace listric::dem {
 
 class FastCycle;
 
-/// What the fast cycle has packed, and what team is best for it, kept from call to call: packing
+/// Packed state of the fast cycle and its best team, kept from call to call: packing
 /// takes as long as some ten cycles. Whoever keeps it forgets what is packed when anything but
 /// advance() has changed the state.
 class Packed {
@@ -26,7 +26,7 @@ public:
     Packed& operator=(Packed&&) = default;
 
     void forget() { holds_ = false; }
-    /// What is packed of the discs' columns, where nothing else has changed.
+    /// Forgets the packed columns of discs, where nothing else has changed.
     void forget_discs() { holds_discs_ = false; }
     BestTeam& team() { return team_; }
 

@@ -38,7 +38,7 @@ namespace listric::dem {
 class Surroundings;
 struct Halo;
 
-/// The same as advance_plainly() without an account of energy.
+/// Does what advance_plainly() does without an account of energy.
 std::int64_t advance_fast(State& state, const RigidBase& base, const CyclePhysics& physics,
                           std::int64_t cycles, const Execution& execution, BaseResponse* response,
                           Surroundings& around);

@@ -9,10 +9,10 @@
 
 namespace listric::dem::fast {
 
-/// What the velocity of a disc is damped against; with or without a sample for the mean.
+/// Velocity against which that of a disc is damped; with or without a sample for the mean.
 enum class DampedAgainst { rest, mean_motion, mean_motion_sampled, stretching };
 
-/// What all strips share.
+/// Data that all strips share.
 struct Shared {
     std::span<Disc> discs;
     std::span<Inertia> inertia;

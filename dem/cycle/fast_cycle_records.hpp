@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-// What the fast cycle packs a state into: plain numbers, which all its levels read alike.
+// Packed state of the fast cycle: plain numbers, which all its levels read alike.
 
 namespace listric::dem::fast {
 
@@ -18,7 +18,7 @@ struct alignas(64) Disc {
     double velocity[4]; ///< vx, vy, spin, rate of the radius
 };
 
-/// What a disc's motion depends on beside the forces. The means are sampled rarely.
+/// Data of a disc's motion beside the forces. The means are sampled rarely.
 struct alignas(32) Inertia {
     double per_mass;        ///< time step over inertial mass, s/kg
     double weight;          ///< N

@@ -43,7 +43,7 @@ public:
     const EnergyFlows& flows() const { return flows_; }
 
 private:
-    struct BaseContact; ///< what a disc and a surface do to each other in the cycle
+    struct BaseContact; ///< forces between a disc and a surface in the cycle
     void enter(const BaseContact& contact);
     const Surface& surface_of(std::size_t k) const;
     double radius_rate_of(std::size_t k) const;

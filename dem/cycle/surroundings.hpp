@@ -21,7 +21,7 @@ struct Halo {
 
 enum class ListUpdate { unchanged, changed, runaway };
 
-/// What a cycle asks of what lies around the discs of its state. Here nothing does: the state is
+/// World around the discs of a state, as a cycle sees it. Here it is empty: the state is
 /// whole, and this its implementation "alone". That with others is dem/ranks/halo_exchange.hpp.
 /// Called by one thread.
 class Surroundings {

@@ -43,7 +43,7 @@ struct Columns {
     }
 };
 
-/// What discs occupy of a column above a place, and what they will once they have compacted.
+/// Share of a column above a place that discs occupy, now and once they have compacted.
 struct Cover {
     double now = 0.0, compacted = 0.0;
 

@@ -14,7 +14,7 @@ namespace listric::dem {
 /// The account has no parameters: the table is the switch.
 struct EnergyParameters {};
 
-/// What an account comes to, J per metre of thickness, since extension began.
+/// Totals of an account, J per metre of thickness, since extension began.
 struct EnergyBalance {
     double boundary_work, gravity_work;
     std::optional<double> base_work; ///< of a base that deforms
@@ -46,7 +46,7 @@ public:
     /// Starts the account with a state that has its contacts.
     void open(const State& state, const RigidBase& base);
 
-    /// What cycles are to add to, and where it is put afterwards.
+    /// Account that cycles add to, and its place afterwards.
     EnergyFlows flows() const;
     void put(const EnergyFlows& flows);
 

@@ -115,7 +115,7 @@ Band band_of(const FaultSegment& f, double length) {
     return {f.centre - half, f.centre + half};
 }
 
-/// What scan and weakening measure with, m.
+/// Lengths of scan and weakening, m.
 struct Lengths {
     double disc;   ///< mean diameter
     double circle; ///< diameter

@@ -44,7 +44,7 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
 struct LayerStress {
     double depth;                            ///< of its middle, m
     double ratio;                            ///< of what contacts carry
-    std::optional<double> after_event_ratio; ///< the same after compactions
+    std::optional<double> after_event_ratio; ///< ratio after compactions
     double damping_share;                    ///< of what local damping carries
 };
 

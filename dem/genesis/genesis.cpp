@@ -76,7 +76,7 @@ void set_masses(State& state, double rock_density, double area) {
         d.mass[i] = rock_density * area / solid * pi * d.radius[i] * d.radius[i];
 }
 
-/// What discs do counts from here.
+/// Motion of discs counts from here.
 void begin_history(State& state) {
     const DiscColumns d = disc_columns(state);
     std::iota(d.id.begin(), d.id.end(), 0);

@@ -32,7 +32,7 @@ std::size_t disc_count(const HangingWallParameters& p, double area);
 double stable_time_step(double mass, std::span<const Material> materials, double damping,
                         double safety);
 
-/// What genesis needs besides the hanging wall itself.
+/// Inputs of genesis besides the hanging wall itself.
 struct GenesisRequest {
     HangingWallParameters hanging_wall;
     RigidBase base; ///< surfaces as in the run; the last one closes the right side

@@ -68,7 +68,7 @@ void RankedCycles::advance(State& whole, std::int64_t cycles, bool state_is_unto
             cut_anew(whole);
         has_subdomains = true;
         is_ahead_ = true;
-        std::swap(subdomain_.state.base_memory, whole.base_memory); // what answers is the root's
+        std::swap(subdomain_.state.base_memory, whole.base_memory); // the root's responds
         cycles -= carry_out(order, response);
         std::swap(subdomain_.state.base_memory, whole.base_memory);
         whole.clock = subdomain_.state.clock;

@@ -19,7 +19,7 @@ public:
     /// The rank of every disc, by row.
     using Ownership = std::vector<std::int32_t> (*)(const State& whole, int count);
 
-    /// What is referred to must outlive it.
+    /// Referred objects must outlive it.
     RankedCycles(Ranks& ranks, const RigidBase& base, const CyclePhysics& physics,
                  const Execution& execution, Ownership ownership = ranks_by_rows)
         : ranks_(ranks), base_(base), physics_(physics), execution_(execution),

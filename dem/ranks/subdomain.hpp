@@ -13,14 +13,15 @@ namespace listric::dem {
 // forces on a disc are added in the order of rows, so a subdomain keeps that order; a contact of
 // two subdomains is computed by both from equal numbers.
 
-/// What one rank needs for cycles: its own discs, and ghosts, copies of those that they have
-/// contacts with, in the order of the whole's rows; and all contacts of its own discs.
+/// Part of the state that one rank needs for cycles: its own discs, and ghosts, copies of those
+/// that they have contacts with, in the order of the whole's rows; and all contacts of its own
+/// discs.
 struct Subdomain {
     State state;
     std::vector<std::int32_t> rows; ///< in the whole, by row of the subdomain's discs
     std::vector<std::uint8_t> own;  ///< by row of the subdomain's discs
 
-    /// What is renewed after every cycle, by the other rank: own discs that are ghosts there, and
+    /// Discs renewed after every cycle, by the other rank: own discs that are ghosts there, and
     /// ghosts that are its own, as rows of the subdomain in the order of the whole.
     std::vector<std::vector<std::int32_t>> sent, received;
 };
@@ -56,7 +57,7 @@ private:
     std::vector<std::int32_t> local_; ///< by row of the whole, that in the subdomain made last
 };
 
-/// What cycles have changed of own discs; contacts whose first disc is own, and those with the
+/// Changes of own discs by cycles; contacts whose first disc is own, and those with the
 /// base; and what all ranks know alike: its numbers and the nodes of the base.
 Bytes changes(const Subdomain& subdomain);
 

@@ -151,7 +151,7 @@ Candidates candidates_in(const Bytes& message) {
     return candidates;
 }
 
-/// What one other rank and this one have near each other.
+/// Discs of one other rank and this one that are near each other.
 struct Border {
     std::vector<std::int32_t> near; ///< rows of own discs
     std::vector<std::int32_t> told; ///< those that are no ghosts there
@@ -247,7 +247,7 @@ bool add_ghosts(Subdomain& subdomain, std::span<const Border> borders, double ga
     return any;
 }
 
-/// What the others' discs put on the base is theirs to add up.
+/// Loads of the others' discs on the base are theirs to add up.
 void drop_base_contacts_of_ghosts(Subdomain& subdomain) {
     const auto disc = base_contact_columns(std::as_const(subdomain.state)).disc;
     std::vector<std::int32_t> kept;

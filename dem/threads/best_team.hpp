@@ -16,7 +16,7 @@ public:
     /// that is too large for what the machine has free is not one for long.
     double piece() const;
 
-    /// What a team of that size has done, in so many seconds, and how long its threads were asleep
+    /// Work of a team of that size, its seconds, and how long its threads were asleep
     /// for each other, all together, s.
     void report(double work, double seconds, double asleep);
 

@@ -75,7 +75,7 @@ template <class Work> void in_pieces(std::size_t items, std::size_t least, Work&
     });
 }
 
-/// What work(begin, end) returns for the pieces of 0 .. items, in their order; for at least one.
+/// Results of work(begin, end) for the pieces of 0 .. items, in their order; for at least one.
 template <class Work> auto by_piece(std::size_t items, std::size_t least, Work&& work) {
     const Pieces pieces(items, least);
     std::vector<std::invoke_result_t<Work, std::size_t, std::size_t>> results(pieces.count);

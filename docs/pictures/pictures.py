@@ -39,7 +39,7 @@ def small(snapshot, deposits):
 
 def bent_footwall(picture):
     """The upper panel of figures/footwall.png, where an elastic footwall shows more than strata do."""
-    return Image.open(picture).convert("RGB").crop((60, 44, 1300, 448)).resize((440, 150), Image.LANCZOS)
+    return Image.open(picture).convert("RGB").crop((76, 88, 1236, 484)).resize((440, 150), Image.LANCZOS)
 
 
 def save(image, name):

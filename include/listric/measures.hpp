@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a section of moved points shows: faults, throws, rollover, depocentres. Link
+/// Measures of a section of moved points: faults, throws, rollover, depocentres. Link
 /// listric::measures; it needs no run of this program.
 
 #include "apps/measures/fault_history.hpp"

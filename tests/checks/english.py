@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""English of the documents: constructions that a stranger has to decode.
+"""English of documents and of what the program prints (declarations, help, errors): constructions that a stranger
+has to decode.
 
     python3 tests/checks/english.py     prints lines that have one, and what to write
 
@@ -7,13 +8,16 @@ Sentences go subject, verb, object; a row of a table begins with a noun or a ver
 need a name; say, tell, ask and take are for people. The lab book is as it was written.
 """
 
+import ast
 import re
 
 from links import CODE, read_documents
-from source_tree import report
+from source_tree import CPP, PYTHON, is_cpp, read_tree, report
 
-# The lab book and the changelog of old are records; the two others are generated from declarations.
-NOT_READ = ("docs/record/", "docs/measures.md", "docs/parameters.md", "docs/glossary.md", "docs/architecture.md")
+NOT_READ = ("docs/record/",)
+COMMANDS = "apps/commands/"
+# Texts of the program with fewer words are names, keys and pieces of sentences.
+LEAST_WORDS = 3
 
 THING = (r"(?:page|file|scene|table|run|test|program|call|option|message|key|report|row|launcher|summary|header|schema|plan"
          r"|document|name|log|warning|error|figure|record|paper|model|study|measure|it)s?")
@@ -28,7 +32,7 @@ PATTERNS = (
     (r"(?:^|(?<=[.!] ))What (?![^.?|]*\?)[^.?|]{3,}\.(?=\s|$)", "begin with the subject, not with What"),
     (r"(?:^|(?<=[.!] ))Of (?!course\b)[^.|]{3,}\.", "begin with the subject, not with Of"),
     (r"^\| *(?:the same|that of|those of|of that|of the|what is|what it|what they)\b", "begin a row with a noun or a verb"),
-    (r"\| (?:the same|that of|those of|of that|what is|what it|what they) (?!for\b)", "begin a cell with a noun or a verb"),
+    (r"\| (?:the same|that of|those of|of that|what) (?!for\b|\|)", "begin a cell with a noun or a verb"),
     (r"(?:^|(?<=[.!:] ))The same(?: of| for| by| at|[.,:])", "name the thing again"),
     (r"\bthe same (?:of|less|is so)\b", "name the thing again"),
     (r"\banew\b", "again"),
@@ -53,16 +57,73 @@ def prose(text):
     return re.sub(r"(?<=[^\n|:])\n(?=[^\n|#*\-\d>_])", " ", text)
 
 
-def violations(documents):
-    found = []
-    for path, text in documents.items():
-        if path.startswith(NOT_READ):
-            continue
-        for pattern, cure in COMPILED:
-            for match in pattern.finditer(prose(text)):
-                found.append(f"{path}: \"{match[0][:60]}\": {cure}")
+# Comments of C++ that begin so, at the start of a line or as a member's.
+COMMENT = re.compile(r"(?:^[ \t]*///? |///< )((?:What|The same|That of|Those of)\b[^\n?]{0,40}|the same$)", re.MULTILINE)
+# A literal's text, or what is none: comments, characters, any other sign.
+TOKEN = re.compile(r"""//[^\n]*|'(?:\\[^']*|[^'\\\n])'|"((?:\\.|[^"\\\n])*)"|\S""")
+
+
+def texts_of_cpp(source):
+    """Texts of literals, those beside each other joined."""
+    parts = []
+    for token in TOKEN.finditer(source):
+        if token[1] is not None:
+            parts.append(token[1])
+        elif parts and not token[0].startswith("//"):
+            yield "".join(parts).replace("\\n", "\n")
+            parts = []
+
+
+def texts_of_python(source):
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.JoinedStr):
+            yield "".join(part.value if isinstance(part, ast.Constant) else "_" for part in node.values)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.value
+
+
+def program_texts(tree):
+    """{path: texts of several words} of C++ and Python."""
+    return {path: [text for text in (texts_of_cpp if is_cpp(path) else texts_of_python)(source)
+                   if len(text.split()) >= LEAST_WORDS]
+            for path, source in tree.items()}
+
+
+def comments(source):
+    """Comments of C++ that begin without their subject."""
+    for match in COMMENT.finditer(source):
+        yield f"// \"{match[1]}\": begin with the thing"
+
+
+def constructions(text):
+    plain = prose(text)
+    for pattern, cure in COMPILED:
+        for match in pattern.finditer(plain):
+            yield f"\"{match[0][:60]}\": {cure}"
+
+
+def violations(documents, texts=None):
+    """`documents` by path, and `texts` of the program, a list by path."""
+    found = [f"{path}: {one}" for path, text in documents.items() if not path.startswith(NOT_READ)
+             for one in constructions(text)]
+    for path, many in (texts or {}).items():
+        found += dict.fromkeys(f"{path}: {one}" for text in many for one in constructions(text))
     return found
 
 
+def comment_violations(tree):
+    return [f"{path}: {one}" for path, source in tree.items() if is_cpp(path) for one in comments(source)]
+
+
+def read_program():
+    """Sources; of the command line's calls its own branch changes help and comments."""
+    return {path: text for path, text in read_tree(suffixes=CPP | PYTHON).items() if not path.startswith(COMMANDS)}
+
+
+def all_violations():
+    tree = read_program()
+    return violations(read_documents(), program_texts(tree)) + comment_violations(tree)
+
+
 if __name__ == "__main__":
-    raise SystemExit(report(violations(read_documents())))
+    raise SystemExit(report(all_violations()))

@@ -1,7 +1,6 @@
 import unittest
 
-from english import PATTERNS, violations
-from links import read_documents
+from english import PATTERNS, all_violations, comment_violations, program_texts, violations
 
 # One for each pattern, in its order; most stood in a page.
 PLANTED = (
@@ -54,9 +53,31 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(self.found("Made anew.", "docs/record/2026-11/a.md"), [])
 
 
-class Documents(unittest.TestCase):
-    def test_documents_are_plain(self):
-        self.assertEqual(violations(read_documents()), [])
+    def program(self, source, path="apps/a.cpp"):
+        return violations({}, program_texts({path: source}))
+
+    def test_texts_of_the_program(self):
+        for source in ('fail("the plan asks for " "{} runs");', '{"a_m", "share of the rock. What that leaves, it "\n "ends."},',
+                       'say("see http://a.b: it " // why\n "says no");', "say('\"', \"the file says no\");"):
+            self.assertEqual(len(self.program(source)), 1, source)
+        for source in ('"""What every script does."""', 'fail(f"{path}: the file says {what}, not {that}")', 'fail("a scene " "asks for it")'):
+            self.assertEqual(len(self.program(source, "apps/a.py")), 1, source)
+
+    def test_other_text_of_sources(self):
+        for source in ('// the file says why', '#include "what is there"', '"the file"; says("no")', 'x = "anew";'):
+            self.assertEqual(self.program(source), [], source)
+        self.assertEqual(self.program("says = 1  # the file says why", "apps/a.py"), [])
+
+    def test_comments(self):
+        for source in ("/// What a state holds.", "int a; ///< the same", "  // The same of a wall.", "/// Those of a scene."):
+            self.assertEqual(len(comment_violations({"dem/a.hpp": source})), 1, source)
+        for source in ("/// Energy of a state.", "// a list: what is\n// what it was", "int a; ///< the same of b", '"/// What"'):
+            self.assertEqual(comment_violations({"dem/a.hpp": source}), [], source)
+
+
+class Sources(unittest.TestCase):
+    def test_documents_and_program_are_plain(self):
+        self.assertEqual(all_violations(), [])
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from front_door import read_all, violations
 
 MENU = "nav:\n  - Start:\n      - A: a.md\n  - How to:\n      - B: b.md\n  - Explain:\n      - C: c.md\n"
 PAGES = {"README.md": "![x](x.webp) three words", "docs/index.md": "![x](x.webp)", "docs/a.md": "![x](x.webp)",
-         "docs/b.md": "![x](x.webp)", "docs/c.md": "no picture", "docs/gallery.md": "`lis1`"}
+         "docs/b.md": "![x](x.webp)", "docs/c.md": "no picture", "docs/gallery.md": "# Gallery\n\n## lis1\n\n![x](x.webp)\n"}
 
 
 class PlantedViolations(unittest.TestCase):
@@ -27,7 +27,9 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(len(self.found(menu=MENU.replace("Start", "Begin"))), 1)
 
     def test_a_scene_without_a_place(self):
-        self.assertEqual(self.found(scenes=("lis1", "lis3")), ["docs/gallery.md: lacks the scene lis3"])
+        lacks = ["docs/gallery.md: lacks the scene lis3, with a picture"]
+        self.assertEqual(self.found(scenes=("lis1", "lis3")), lacks)
+        self.assertEqual(self.found(scenes=("lis1", "lis3"), gallery=PAGES["docs/gallery.md"] + "## lis3\n`lis3`\n"), lacks)
 
     def test_a_large_picture(self):
         self.assertEqual(len(self.found(sizes={"docs/pictures/a.webp": 150_001})), 1)

@@ -109,7 +109,7 @@ class OddShapes(unittest.TestCase):
         for command in ("check", "sweep"):
             ended = listric(command, plan, cwd=self.folder)
             self.assertEqual(ended.returncode, 2)
-            self.assertIn(f"{plan}:5: samples: asks for 100000000 runs", ended.stdout + ended.stderr)
+            self.assertIn(f"{plan}:5: samples: makes 100000000 runs", ended.stdout + ended.stderr)
 
     def test_what_a_scene_will_make_is_told_or_refused(self):
         told = listric("explain", "lis1", "--set", "output.interval_m=0.5").stdout

@@ -171,7 +171,7 @@ class Launch(Processes):
                 self.environment |= {"PMI_SIZE": count, "PMI_RANK": mine}
                 ended = self.call(*self.run_words())
                 self.assertEqual(ended.returncode, 2)
-                self.assertIn("which no mpirun or srun says", ended.stderr)
+                self.assertIn("which no mpirun or srun sets", ended.stderr)
                 self.assertIn("--ranks=1", ended.stderr)
                 self.assertNotIn("\x1b", ended.stderr)
 

@@ -3,6 +3,7 @@
     python3 -m unittest site_test
 """
 
+import json
 import re
 import shutil
 import subprocess
@@ -49,6 +50,17 @@ class Site(unittest.TestCase):
 
     def test_the_lab_book_is_not_in_the_menu(self):
         self.assertIn("record/2026-11/accuracy.md", self.not_in_menu())
+
+    def test_the_search_finds_parameters_and_measures(self):
+        index = json.loads((self.site / "search/search_index.json").read_text())
+        separator = re.compile(index["config"]["separator"])
+        for page, word in (("parameters", "least_slip_m"), ("parameters", "fault_weakening.least_slip_m"),
+                           ("measures", "rollover_tilt_deg"), ("validation-measures", "hinge_step_m")):
+            found = [entry for entry in index["docs"] if entry["location"].startswith(f"{page}/#")
+                     and word in separator.split(f"{entry['title']} {entry['text']}") and entry["title"].endswith(word)]
+            self.assertEqual(len(found), 1, word)
+            anchor = found[0]["location"].partition("#")[2]
+            self.assertIn(f'id="{anchor}"', self.pages[Path(page, "index.html")])
 
     def test_asks_no_other_host(self):
         files = [file for file in self.site.rglob("*") if file.suffix in (".html", ".css")]

@@ -101,7 +101,7 @@ TEST_F(SweepTest, KilledInTheMiddleItGoesOnToTheSameTable) {
                 testing::ContainsRegex("\nunbalanced_ratio_mean,material.friction,[^,]+,[^,]+,3,"));
     EXPECT_THAT(whole.out, StartsWith("measure "));
     EXPECT_THAT(whole.out, testing::ContainsRegex("material.friction +[-.0-9e]+ +[.0-9e-]+ +3 +"));
-    EXPECT_THAT(whole.err, HasSubstr("warning: two seeds say little of chance"));
+    EXPECT_THAT(whole.err, HasSubstr("warning: two seeds show little of chance"));
     EXPECT_TRUE(fs::exists(folder / "whole/sheet.png")) << whole.err;
     EXPECT_TRUE(fs::exists(folder / "whole/effects.png")) << whole.err;
 

@@ -35,7 +35,7 @@ TEST(EffectsTable, TwoStandardErrorsOfOneDegreeOfFreedomAreNoFinding) {
 }
 
 TEST(EffectsTable, FewSeedsAreWarnedOf) {
-    EXPECT_THAT(warning_of_few(1), HasSubstr("one seed says nothing of chance"));
+    EXPECT_THAT(warning_of_few(1), HasSubstr("one seed shows nothing of chance"));
     EXPECT_THAT(warning_of_few(2), HasSubstr("12.7 standard errors"));
     EXPECT_EQ(warning_of_few(3), "");
 }

@@ -890,8 +890,12 @@ TEST_F(SceneTest, TheReferenceHasEveryParameter) {
         }
     }
     EXPECT_THAT(reference, HasSubstr("    porosity = 0.175\n"
-                                     "        of the closed packing, before gravity is applied\n"
-                                     "        number; at least 0.1, at most 0.4; symbol Phi_d\n"));
+                                     "        porosity of the closed packing, before gravity is "
+                                     "applied\n"
+                                     "        Raising it makes the packing looser, with fewer "
+                                     "contacts and bonds per disc.\n"
+                                     "        number; at least 0.1, at most 0.4; symbol Phi_d; "
+                                     "usual 0.17 to 0.175\n"));
     EXPECT_THAT(reference, HasSubstr("    radius_m = (required)\n"));
 }
 

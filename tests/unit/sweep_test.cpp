@@ -221,7 +221,7 @@ TEST_F(SweepPlanFile, MoreRunsThanAnybodyMakesAreRefusedBeforeTheyTakeMemory) {
         replaced(replaced(replaced(plan_text, "\"grid\"", "\"latin-hypercube\"\nsamples = 100000"),
                           "seeds = 2", "seeds = 1000"),
                  "values = [0, 0.2]", "range = [0.0, 0.2]");
-    EXPECT_THAT(said(hypercube), HasSubstr(":6: samples: asks for 100000000 runs, 100000 points "
+    EXPECT_THAT(said(hypercube), HasSubstr(":6: samples: makes 100000000 runs, 100000 points "
                                            "with 1000 seeds each; allowed: at most 100000"));
     std::string many = "0.1";
     for (int k = 0; k < 100; ++k)
@@ -229,10 +229,10 @@ TEST_F(SweepPlanFile, MoreRunsThanAnybodyMakesAreRefusedBeforeTheyTakeMemory) {
     const std::string list =
         replaced(replaced(replaced(plan_text, "\"grid\"", "\"list\""), "seeds = 2", "seeds = 1000"),
                  "0, 0.2", many);
-    EXPECT_THAT(said(list), HasSubstr(":3: seeds: asks for 101000 runs"));
+    EXPECT_THAT(said(list), HasSubstr(":3: seeds: makes 101000 runs"));
     const std::string grid =
         replaced(replaced(plan_text, "seeds = 2", "seeds = 1000"), "0, 0.2", many);
-    EXPECT_THAT(said(grid), HasSubstr(":3: seeds: asks for 202000 runs"));
+    EXPECT_THAT(said(grid), HasSubstr(":3: seeds: makes 202000 runs"));
 }
 
 TEST_F(SweepPlanFile, AValueThatMakesARunTooLargeIsRefused) {

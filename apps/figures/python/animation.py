@@ -47,7 +47,7 @@ def make_mp4(folder: str) -> str:
          "animation.mp4"], cwd=folder, check=False, stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     if made.returncode:
-        said = made.stderr.decode(errors="replace").strip().splitlines() or ["it says nothing"]
+        said = made.stderr.decode(errors="replace").strip().splitlines() or ["no message"]
         raise InputError(f"ffmpeg fails ({said[-1]}, exit code {made.returncode}); mend it, or take "
                          "it off PATH for an animation without it, as .gif")
     return os.path.join(folder, "animation.mp4")

@@ -13,8 +13,8 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
-from plot import (FAINT, InputError, colormaps, new_figure, read_order, read_table, run, save,
-                  without_frame)
+from plot import (FAINT, InputError, colormaps, moment_label, new_figure, read_order, read_table, run,
+                  save, without_frame)
 
 import numpy as np
 
@@ -57,7 +57,7 @@ def draw_displacement(profile, section, moments: dict[float, np.ndarray]) -> Non
     for extension in shown(extensions):
         x, y, ux, uy = moments[extension].T
         options = {"color": colours(0.15 + 0.8 * extension / last), "lw": 1.6,
-                   "label": f"{extension / 1e3:.1f} km"}
+                   "label": moment_label(extension, last)}
         profile.plot(x / 1e3, uy, **options)
         section.plot((x + EXAGGERATION * ux) / 1e3, (y + EXAGGERATION * uy) / 1e3, **options)
     profile.axhline(0.0, color=FAINT, lw=0.6)

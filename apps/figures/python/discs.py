@@ -59,7 +59,7 @@ def owner_map(frame: Frame) -> np.ndarray:
 
 
 def draw_raster(ax, frame: Frame, rgb: np.ndarray, segments, alpha: np.ndarray | None) -> None:
-    """The same as an image."""
+    """Discs in colours rgb, then segments, as an image."""
     if frame.owner is None:
         frame.owner = owner_map(frame)
     rows, columns = frame.owner.shape

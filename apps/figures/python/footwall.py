@@ -17,8 +17,8 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from frame import load_array
-from plot import (FAINT, InputError, colormaps, new_figure, read_order, read_table, run, save,
-                  without_frame)
+from plot import (FAINT, InputError, colormaps, moment_label, new_figure, read_order, read_table, run,
+                  save, without_frame)
 from vocabulary import VOCABULARY, layer_colours, palette, stratum_colours
 
 import numpy as np
@@ -100,7 +100,7 @@ def draw_uplift(axes, moments: dict[float, np.ndarray]) -> None:
     last = max(moments) or 1.0
     for extension, rows in moments.items():
         axes.plot(rows[:, 0] / 1e3, rows[:, 1], lw=1.8,
-                  color=colours(0.15 + 0.8 * extension / last), label=f"{extension / 1e3:.1f} km")
+                  color=colours(0.15 + 0.8 * extension / last), label=moment_label(extension, last))
     axes.axhline(0.0, color=FAINT, lw=0.6)
     axes.axvline(0.0, color=FAINT, lw=0.6, ls=":")
     top = axes.get_ylim()[1]
@@ -109,7 +109,7 @@ def draw_uplift(axes, moments: dict[float, np.ndarray]) -> None:
     axes.set_title("Uplift w(x)", loc="left", fontsize=11)
     axes.set_ylabel("m")
     axes.set_xlabel("distance from the breakaway, km")
-    axes.legend(frameon=False, fontsize=9, title="extension", loc="upper left")
+    axes.legend(frameon=False, fontsize=9, title="extension", loc="best")
 
 
 def draw(moments: dict[float, np.ndarray], patches: np.ndarray, end: float, discs: np.ndarray):
@@ -120,7 +120,10 @@ def draw(moments: dict[float, np.ndarray], patches: np.ndarray, end: float, disc
     factor = exaggeration(np.abs(moments[last][:, 1]).max())
     draw_section(figure, section, patches, end, discs, moments[last], factor)
     scale = "true to scale" if factor == 1 else f"vertical displacement × {factor}"
-    section.set_title(f"After {last / 1e3:.1f} km of extension, {scale}", loc="left", fontsize=11)
+    section.set_title(f"After {moment_label(last, last)} of extension, {scale}", loc="left",
+                      fontsize=11)
+    if factor != 1:
+        section.set_ylabel("height before bending, km")
     draw_uplift(profile, moments)
     profile.set_xlim(section.get_xlim())
     without_frame(section, profile)

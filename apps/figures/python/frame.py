@@ -41,7 +41,7 @@ COLUMNS = {"band": 3, "line": 2, "discs": None}   # of layers, by kind
 
 @dataclass(frozen=True)
 class Layer:
-    """What an effect shows besides what all frames do."""
+    """Layers that an effect adds to a frame."""
     kind: str
     label: str
     ink: str

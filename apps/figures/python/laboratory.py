@@ -41,7 +41,7 @@ def load_summary(directory: str) -> dict:
 
 
 def colour(index: int, count: int) -> str:
-    """Of the index-th of so many stresses."""
+    """Colour of the index-th of so many stresses."""
     return COLOURS[round(index * (len(COLOURS) - 1) / max(1, count - 1))]
 
 
@@ -225,7 +225,7 @@ PANELS = {"uniaxial": uniaxial, "biaxial": biaxial, "shear-box": shear_box,
 
 
 def subtitle(summary: dict) -> str:
-    """What the samples are, as small print."""
+    """Description of the samples, as small print."""
     parts = [f"{summary['discs']} discs, mean radius {summary['mean_radius_m']:.3g} m",
              f"{summary['seeds']} samples", f"floaters {summary['floaters']}"]
     if "accuracy" in summary:

@@ -23,7 +23,7 @@ def panel_size(frame: Frame) -> tuple[float, float]:
 
 
 def extension_text(frame: Frame) -> str:
-    """Extension in km: as the program says, with as many decimals as tell the run's moments apart;
+    """Extension in km: as the program writes it, with as many decimals as distinguish the run's moments;
     else one decimal, two when one is not enough."""
     value = frame.extension
     plain = f"{value:.1f}" if abs(value * 10 - round(value * 10)) < 0.05 else f"{value:.2f}"
@@ -31,7 +31,7 @@ def extension_text(frame: Frame) -> str:
 
 
 def footer(frame: Frame) -> list[str]:
-    """What was computed, as wrapped lines of small print."""
+    """Provenance of the run, as wrapped lines of small print."""
     meta, parts = frame.meta, []
     if meta.get("title"):
         parts.append(str(meta["title"]))

@@ -1,4 +1,4 @@
-"""What a panel of a figure shows: strata, bonds, behaviour, strain, sediment or kinematics.
+"""Panels of a figure: strata, bonds, behaviour, strain, sediment or kinematics.
 
 Every panel is drawn by a function of its axes, the axes of its colour bar and the frame.
 """
@@ -312,7 +312,7 @@ def pieces(curve: np.ndarray, gap: float = 0.5) -> list[np.ndarray]:
 
 
 def areas_text(meta: dict) -> list[str]:
-    """What is known of the basin's area."""
+    """Measures of the basin's area."""
     text = []
     if "area_balance" in meta:
         text.append(f"basin area = {meta['area_balance']:.3f} × extension × thickness")

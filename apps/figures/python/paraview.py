@@ -47,7 +47,7 @@ def part(series, name):
 
 
 def layer_colour(k, strata):
-    """Of band or stratum k, as in the figures: every second stratum slightly lighter."""
+    """Colour of band or stratum k, as in the figures: every second stratum slightly lighter."""
     if k < 0:
         return rgb(LOOK["pre_rift"]["colours"][(-k - 1) % 2][1:])
     place = int(255 * (k - 1) / max(strata - 1, 1) + 0.5) if k > 0 else 0

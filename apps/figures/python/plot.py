@@ -1,6 +1,6 @@
-"""What all figure scripts share: Matplotlib, style, a figure, its way to a file.
+"""Parts that all figure scripts share: Matplotlib, style, a figure, its way to a file.
 
-Import this module first: it says in one line which library is missing, and draws without a screen
+Import this module first: it reports a missing library in one line, and draws without a screen
 and without the caller's settings.
 """
 import contextlib
@@ -119,6 +119,11 @@ def read_table(path: str, may_be_empty: bool = False) -> dict[str, np.ndarray]:
     if len(rows) < 2 or len(columns) != len(rows[0]):
         raise InputError(f"{path}: an empty table")
     return dict(zip(rows[0], columns))
+
+
+def moment_label(extension: float, last: float) -> str:
+    """An extension of at most `last`, both m: in km, or in m where 0.1 km cannot separate moments."""
+    return f"{extension / 1e3:.1f} km" if last >= 1e3 or last == 0.0 else f"{extension:.3g} m"
 
 
 def new_figure(width: float, height: float, dpi: float, **options) -> Figure:

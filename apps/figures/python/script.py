@@ -1,4 +1,4 @@
-"""What every script does: libraries that the caller's settings do not change, errors of one line.
+"""Start of every script: libraries that the caller's settings do not change, errors of one line.
 
 Exit statuses are the program's own (docs/exit-codes.md), and one that says that a library is not there.
 """
@@ -53,7 +53,7 @@ def forget_settings() -> None:
 
 
 def library(name: str) -> ModuleType:
-    """The module of that name; without it the script ends and says why."""
+    """The module of that name; without it the script ends with the reason."""
     try:
         with elsewhere():
             return importlib.import_module(name)

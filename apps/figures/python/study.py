@@ -44,7 +44,7 @@ def load(folder: str) -> tuple[dict, Panels]:
 
 
 def curve_name(curve: str, quantity: str, curves: Curves) -> str:
-    """What tells the curve from the others of its panel."""
+    """Label that distinguishes the curve from the others of its panel."""
     methods = {c for c, _ in curves}
     quantities = {q for _, q in curves}
     words = ([curve] if len(methods) > 1 or len(quantities) == 1 else []) + \

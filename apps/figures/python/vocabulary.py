@@ -1,4 +1,4 @@
-"""What all painters share, ../vocabulary.json: classes of rock, colours, palettes, scales, layers."""
+"""Vocabulary of all painters, ../vocabulary.json: classes of rock, colours, palettes, scales, layers."""
 import json
 import os
 
@@ -15,7 +15,7 @@ def read() -> dict:
         with open(path, encoding="utf-8") as file:
             return json.load(file)
     except (OSError, ValueError) as failure:
-        end(MISTAKE, f"{path}: {failure}; install Listric anew")
+        end(MISTAKE, f"{path}: {failure}; install Listric again")
 
 
 VOCABULARY = read()

@@ -76,12 +76,15 @@ const Effect& base_motion() {
             {
                 {"uplift", at<&P::uplift>, "", ranges::height, "",
                  "upward displacement of the detachment: points [x, uplift] in m, or stages "
-                 "{time_a, points}; what counts is the change since time 0"},
-                {"shift", at<&P::shift>, "", ranges::height, "", "the same to the right"},
+                 "{time_a, points}; the change since time 0 counts",
+                 "Lifts and bends the detachment under the discs, as an elastic base would."},
+                {"shift", at<&P::shift>, "", ranges::height, "",
+                 "displacement of the detachment to the right, given as uplift is",
+                 "Moves the detachment sideways under the discs."},
             },
         .files = {{"csv",
                    "file with the motion: columns time_a, x_m and uplift_m, or dx_m and dy_m",
-                   read_motion}},
+                   "Stands in place of uplift and shift.", read_motion}},
         .needs = {"detachment"},
         .check = check,
         .contribute =

@@ -47,11 +47,14 @@ const Effect& basin_water() {
         .parameters =
             {
                 {"level_m", at<&P::level>, "m", ranges::height, "",
-                 "of its surface, above the original surface"},
+                 "height of its surface above the original surface",
+                 "Lowering it takes load off the base: the flank rises more."},
                 {"density_kg_per_m3", at<&P::density>, "kg/m3", ranges::density, "",
-                 "of the water"},
+                 "density of the water",
+                 "Raising it adds load in proportion: the basin sinks, and the flank rises less."},
                 {"interval_a", at<&P::interval>, "a", ranges::years, "",
-                 "time between adaptations of its depth"},
+                 "time between adaptations of its depth",
+                 "Raising it lets the load lag behind the basin."},
             },
         .load_footwall = load_footwall,
         .explain =
@@ -68,7 +71,7 @@ const Effect& basin_water() {
                       "weight of the water in the sediment's pores"},
                      {coupling::flank_water_name, "N/m",
                       "weight of the water where the footwall left of the breakaway has sunk below "
-                      "its level; negative where what was flooded has risen"}},
+                      "its level; negative where flooded ground has risen"}},
         .layers = {{"water", LayerKind::band, "water", "#c6dcef", water_band}},
     };
     return effect;

@@ -22,7 +22,8 @@ const Effect& bonds() {
         .rock = RockSource{
             .key = "basement",
             .file = "mat18-b",
-            .doc = "material file with the defaults of [material] and [bonds]",
+            .doc = "material, by name or path, with the defaults of [material] and [bonds]",
+            .changes = "Sets stiffness, friction and strength of sound rock at once.",
             .take =
                 [](Scene& scene, const RockMaterial& rock) {
                     if (rock.bonds)

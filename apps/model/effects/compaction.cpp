@@ -14,13 +14,16 @@ const Effect& compaction() {
         .parameters =
             {
                 {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_d",
-                 "time between looks at the depth of burial; discs shrink in every cycle"},
+                 "time between updates of the depth of burial; discs shrink in every cycle",
+                 "Raising it lets porosity lag behind burial."},
                 {"coefficient_per_km",
                  at<&P::coefficient>,
                  "1/km",
-                 {.from = 0, .to = 10},
+                 between(0, 10),
                  "c",
                  "decay of porosity with depth",
+                 "Raising it compacts sediment more, so that the basin takes more of it.",
+                 {},
                  1e3},
             },
         .needs = {"sedimentation"},

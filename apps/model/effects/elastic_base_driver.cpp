@@ -34,7 +34,7 @@ namespace {
 constexpr double strain_allowed = 0.10;
 constexpr double rotation_allowed = 0.20;
 
-/// What the footwall refuses is a scene's mistake.
+/// A refusal of the footwall is a mistake of the scene.
 auto refusing(auto&& make) {
     try {
         return make();

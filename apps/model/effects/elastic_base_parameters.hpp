@@ -31,7 +31,7 @@ struct ElasticBaseParameters {
     double swing_damping = 0.1; ///< of the modes with the discs, over critical
 };
 
-/// Those of a scene; null where its base does not bend.
+/// Parameters of a scene's base; null where it does not bend.
 inline const ElasticBaseParameters* elastic_base(const Scene& scene) {
     return scene.find<ElasticBaseParameters>();
 }

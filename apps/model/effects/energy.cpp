@@ -54,32 +54,30 @@ std::vector<Measure<Observation>> measures() {
          of<&E::gravity_work>},
         {"energy_events_j_per_m", unit,
          "change of kinetic and strain energy by events: radii, stiffnesses and masses that "
-         "change, "
-         "bonds made, sediment that comes and goes",
+         "change, bonds made, sediment that comes and goes",
          of<&E::events>},
         {"energy_kinetic_j_per_m", unit, "kinetic energy now", of<&E::stored, &Stored::kinetic>},
-        {"energy_strain_normal_j_per_m", unit, "in the contacts' normal springs now",
+        {"energy_strain_normal_j_per_m", unit, "energy in the contacts' normal springs now",
          of<&E::stored, &Stored::normal_strain>},
-        {"energy_strain_shear_j_per_m", unit, "in the contacts' shear springs now",
+        {"energy_strain_shear_j_per_m", unit, "energy in the contacts' shear springs now",
          of<&E::stored, &Stored::shear_strain>},
         {"energy_stored_change_j_per_m", unit,
          "change of kinetic and strain energy since extension began", of<&E::stored_change>},
-        {"energy_friction_j_per_m", unit, "lost by slip, between discs and on the base",
+        {"energy_friction_j_per_m", unit, "energy lost by slip, between discs and on the base",
          of<&E::friction>},
         {"energy_damping_j_per_m", unit,
-         "lost by local damping; where it is relative to a mean motion or to a stretching base, "
-         "less "
-         "what its force gives to that motion",
+         "energy lost by local damping; where damping is relative to a mean motion or to a "
+         "stretching base, less the work of its force on that motion",
          of<&E::damping>},
-        {"energy_bond_breaking_j_per_m", unit, "what the springs of bonds held when they broke",
+        {"energy_bond_breaking_j_per_m", unit, "energy in the springs of bonds when they broke",
          of<&E::bond_breaking>},
         {"energy_stepping_j_per_m", unit,
-         "lost by the integration where contacts close or open within a step; it shrinks with the "
-         "step",
+         "energy lost by the integration where contacts close or open within a step; it shrinks "
+         "with the step",
          of<&E::stepping>},
         {"energy_base_work_j_per_m", unit,
-         "work of a base that deforms, by moving; negative where it gives way to the discs. The "
-         "elastic energy, the reference load and the virtual loads are the base's own affair",
+         "work of a deforming base on the discs; negative where the base gives way to them. The "
+         "base's elastic energy, reference load and virtual loads are not counted",
          of<&E::base_work>},
         {"energy_residual", "1",
          "(stored change + friction + damping + bond breaking + stepping - boundary, base and "
@@ -100,8 +98,7 @@ std::optional<std::vector<NamedNumbers>> by_event(const Observation& now) {
 const Effect& energy() {
     static const Effect effect{
         .name = "energy",
-        .doc = "account of where the work goes; then the cycle takes one thread and five times as "
-               "long",
+        .doc = "energy budget; the cycle then takes one thread and five times as long",
         .defaults = make_defaults<P>,
         .address = address_of<P>,
         .on_ranks = [](const Scene&) -> std::optional<Objection> {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace listric::effects {
 
@@ -16,77 +17,78 @@ namespace {
 
 using P = dem::FaultWeakeningParameters;
 
-std::vector<Parameter> parameters() {
-    using dem::Material;
+std::vector<Parameter> detection_parameters() {
     return {
         {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_w",
-         "time between scans for faults"},
+         "time between scans for faults",
+         "Raising it finds faults later, and slower ones, which have longer to slip."},
         {"least_slip_m", at<&P::least_slip>, "m", ranges::length, "d_cw",
-         "least slip of a fault between scans"},
-        {"strain_rate_per_s",
-         at<&P::strain_rate>,
-         "1/s",
-         {.from = 0, .to = ranges::strain_rate.to},
+         "least slip of a fault between scans",
+         "Raising it leaves slow zones unweakened: less rock is weakened, sediment away from "
+         "faults most of all, and strain is more localised.",
+         between(43.4, 62)},
+        {"strain_rate_per_s", at<&P::strain_rate>, "1/s", between(0, ranges::strain_rate.to),
          "eps_cw",
-         "if not 0, in place of the least slip: least shear strain rate in the measure circle"},
-        {"circle_diameters",
-         at<&P::circle_diameters>,
-         "",
-         {.from = 2, .to = 100},
-         "",
-         "diameter of the measure circle, in mean disc diameters"},
-        {"spacing_diameters",
-         at<&P::spacing_diameters>,
-         "",
-         {.from = 0, .to = 1e3},
-         "l_csp",
-         "least distance to a more active fault, in mean disc diameters"},
-        {"band_diameters",
-         at<&P::band_diameters>,
-         "",
-         {.from = 0.01, .to = 100},
-         "",
-         "width of the weakened band, in mean disc diameters"},
-        {"sound_share",
-         at<&P::sound_share>,
-         "",
-         {.from = 0, .to = 1},
-         "",
-         "least share of sound discs in a band that is weakened"},
-        {"angles",
-         at<&P::angles>,
-         "",
-         {.from = 2, .to = 360},
-         "",
-         "fault angles tried at each sampling point"},
-        {"youngest_sediment_a",
-         at<&P::youngest_sediment>,
-         "a",
-         {.from = 0, .to = 1e9},
-         "",
-         "sediment younger than this is left alone, as loose sediment is"},
-        {"whole_domain", at<&P::whole_domain>, "", {}, "", "look at young and loose sediment, too"},
-        {"normal_stiffness_pa", at<&P::material, &Material::normal_stiffness>, "Pa",
-         ranges::stiffness, "k_n", "normal stiffness of one weakened disc"},
-        {"shear_stiffness_pa", at<&P::material, &Material::shear_stiffness>, "Pa",
-         ranges::stiffness, "k_s", "shear stiffness of one weakened disc"},
-        {"friction", at<&P::material, &Material::friction>, "", ranges::friction, "mu_d",
-         "of weakened discs"},
-        {"update_interval_a", at<&P::update_interval>, "a", ranges::years, "",
-         "time between property updates"},
-        {"mean_stress_ratio",
-         at<&P::mean_stress_ratio>,
-         "",
-         {.from = 0.01, .to = 2},
-         "",
-         "mean stress in a fault over the weight above it"},
-        {"largest_change",
-         at<&P::largest_change>,
-         "",
-         {.from = 1e-4, .to = 0.5},
-         "",
-         "largest relative change of a radius per property update"},
+         "least shear strain rate in the measure circle, in place of the least slip if not 0",
+         "Makes the least slip proportional to the disc size: large discs then have no faults.",
+         between(0, 1e-13)},
+        {"circle_diameters", at<&P::circle_diameters>, "", between(2, 100), "",
+         "diameter of the measure circle, in mean disc diameters",
+         "Raising it averages over more discs and finds fewer, longer segments."},
+        {"spacing_diameters", at<&P::spacing_diameters>, "", between(0, 1e3), "l_csp",
+         "least distance to a more active fault, in mean disc diameters",
+         "Lowering it lets bands lie side by side, so that wide zones are weakened as a whole.",
+         between(2.5, 5)},
+        {"band_diameters", at<&P::band_diameters>, "", between(0.01, 100), "",
+         "width of the weakened band, in mean disc diameters",
+         "Raising it widens faults; with the contacts to both sides a zone is one diameter wider."},
+        {"sound_share", at<&P::sound_share>, "", between(0, 1), "",
+         "least share of sound discs in a band that is weakened",
+         "Lowering it weakens again beside and along faults that are known, and widens them."},
+        {"angles", at<&P::angles>, "", between(2, 360), "",
+         "number of fault angles tried at each sampling point",
+         "Raising it resolves dips better than 15 degrees and makes scans longer."},
+        {"youngest_sediment_a", at<&P::youngest_sediment>, "a", between(0, 1e9), "",
+         "age below which sediment is not scanned, since it is loose",
+         "Lowering it weakens loose sediment all over, where it deforms without faults."},
+        {"whole_domain", at<&P::whole_domain>, "", ranges::any, "",
+         "whether young and loose sediment is scanned, too",
+         "true is the paper's way; it finds the base of loose sediment as a fault."},
     };
+}
+
+std::vector<Parameter> weakened_parameters() {
+    using dem::Material;
+    return {
+        {"normal_stiffness_pa", at<&P::material, &Material::normal_stiffness>, "Pa",
+         ranges::stiffness, "k_n", "normal stiffness of one weakened disc",
+         "Raising it keeps discs from overlapping, and makes fault zones wider.",
+         between(8.5e8, 1.7e10)},
+        {"shear_stiffness_pa", at<&P::material, &Material::shear_stiffness>, "Pa",
+         ranges::stiffness, "k_s", "shear stiffness of one weakened disc",
+         "Belongs to the normal stiffness: the shipped rocks keep the ratio 2.66.",
+         between(3.19e8, 6.4e9)},
+        {"friction", at<&P::material, &Material::friction>, "", ranges::friction, "mu_d",
+         "friction of weakened discs",
+         "Raising it from 0 to 0.2 lets deformation leave an old graben for a new one; 0.06 less "
+         "of the strain stays in the most strained tenth.",
+         between(0, 0.5)},
+        {"update_interval_a", at<&P::update_interval>, "a", ranges::years, "",
+         "time between property updates",
+         "Lowering it keeps the volume of weak zones better (volume_error_fraction)."},
+        {"mean_stress_ratio", at<&P::mean_stress_ratio>, "", between(0.01, 2), "",
+         "mean stress in a fault over the weight above it",
+         "Raising it makes weakened discs larger at once; the property update corrects the rest."},
+        {"largest_change", at<&P::largest_change>, "", between(1e-4, 0.5), "",
+         "largest relative change of a radius per property update",
+         "Lowering it slows the correction of the volume of weak zones."},
+    };
+}
+
+std::vector<Parameter> parameters() {
+    std::vector<Parameter> all = detection_parameters();
+    std::ranges::move(weakened_parameters(), std::back_inserter(all));
+    return all;
 }
 
 void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
@@ -96,7 +98,7 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
     dem::add(events, std::make_unique<dem::FaultWeakening>(p, rate, gravity));
 }
 
-/// What is a fault, in metres and as a rate.
+/// Definition of a fault, in metres and as a rate.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
     const double diameter = 2.0 * scene.hanging_wall.mean_radius;
@@ -124,9 +126,9 @@ std::vector<Measure<Observation>> measures() {
                         static_cast<double>(material.size());
              }},
             {"volume_error_fraction", "1",
-             "power-cell area of the weakened discs less what it was before weakening, over the "
+             "power-cell area of the weakened discs less their area before weakening, over the "
              "hanging wall's area; ends where there is more sediment than rock",
-             volume_error}};
+             volume_error, OverTime::last, "below 0.001"}};
 }
 
 std::vector<double> weak_discs(const Observation& now) {
@@ -150,7 +152,10 @@ const Effect& fault_weakening() {
             RockSource{
                 .key = "weakened",
                 .file = "mat18-w",
-                .doc = "material file with the defaults of weakened discs in [fault_weakening]",
+                .doc = "material, by name or path, with the defaults of weakened discs in "
+                       "[fault_weakening]",
+                .changes = "Sets how strong faults are: friction between their discs decides "
+                           "whether a graben keeps all of the extension.",
                 .take =
                     [](Scene& scene, const RockMaterial& rock) {
                         take_microproperties(scene.find<P>()->material, rock);

@@ -15,19 +15,20 @@ using P = coupling::FootwallErosionParameters;
 std::vector<Parameter> parameters() {
     return {
         {"interval_a", at<&P::interval>, "a", ranges::years, "",
-         "time between adaptations of the surface"},
+         "time between adaptations of the surface",
+         "Raising it lets the load lag behind uplift and erosion."},
         {"level_m", at<&P::level>, "m", ranges::height, "",
-         "of the target, above the original surface, where no target line is given"},
+         "height of the target above the original surface, where no target line is given",
+         "Lowering it erodes more of the flank, which then rises further."},
         {"target", at<&P::target>, "", ranges::height, "",
-         "target line: points [x, y] in m, or stages {time_a, points}"},
-        {"width_m",
-         at<&P::width>,
-         "m",
-         {.from = 4e3, .to = 1e7},
-         "",
-         "of the footwall, left of the breakaway, that is worked on"},
+         "target line: points [x, y] in m, or stages {time_a, points}",
+         "Sets where the footwall is eroded and where it is filled, also over time."},
+        {"width_m", at<&P::width>, "m", between(4e3, 1e7), "",
+         "width of the footwall, left of the breakaway, that is eroded and filled",
+         "Raising it beyond the flank changes little: the footwall hardly moves there."},
         {"sediment_density_kg_per_m3", at<&P::sediment_density>, "kg/m3", ranges::density, "",
-         "of what is laid down where the footwall sinks"},
+         "density of sediment that fills the footwall where it sinks",
+         "Raising it adds load where the footwall sinks."},
     };
 }
 
@@ -71,14 +72,15 @@ const Effect& footwall_erosion() {
         .parameters = parameters(),
         .files = {{"target_csv",
                    "file with the target line: columns time_a, x_m, y_m; linear between times",
-                   read_target}},
+                   "Stands in place of target.", read_target}},
         .check = check,
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = "erosion of the footwall",
         .measures = {{coupling::footwall_eroded_name, "m2",
-                      "rock that is gone from the footwall left of the breakaway"},
-                     {coupling::footwall_deposited_name, "m2", "sediment that lies there"}},
+                      "area of rock eroded from the footwall left of the breakaway"},
+                     {coupling::footwall_deposited_name, "m2",
+                      "area of sediment on the footwall left of the breakaway"}},
     };
     return effect;
 }

@@ -17,12 +17,11 @@ const Effect& gravity() {
         .doc = "weight of the discs",
         .defaults = make_defaults<P>,
         .address = address_of<P>,
-        .parameters = {{"acceleration_m_per_s2",
-                        at<&P::acceleration>,
-                        "m/s2",
-                        {.from = 1e-6, .to = 100},
-                        "g",
-                        "gravitational acceleration"}},
+        .parameters = {{"acceleration_m_per_s2", at<&P::acceleration>, "m/s2", between(1e-6, 100),
+                        "g", "gravitational acceleration",
+                        "Raising it raises all stresses in proportion, and with them the strength "
+                        "that friction gives."}},
+        .without_discs = true,
         .in_genesis = true,
         .contribute =
             [](const Scene& scene, ModelParts& parts) {

@@ -5,7 +5,7 @@
     x = run.snapshots[-1].discs["x"]                 # an array; x.units is "m"
     run = listric.simulate("lis1", set={"extension.distance_m": 5000.0}, accuracy="draft")
 
-SI units, but years (a) where a name says so. x is measured from the breakaway into the hanging
+SI units, except years (a) where a name ends with _a. x is measured from the breakaway into the hanging
 wall. Columns of snapshots are those of the file, bit for bit: there y points up, from the original
 surface. All else that has a depth has it positive down. docs/python.md says more.
 """

@@ -1,4 +1,4 @@
-"""What the program's files say under their names: units and definitions, as it declares them."""
+"""Units and definitions of the names in the program's files, as the program declares them."""
 
 import json
 from functools import cache

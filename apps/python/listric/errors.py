@@ -1,4 +1,4 @@
-"""What can go wrong. Every message is one line that names the file, or the call, and the cure."""
+"""Errors of this package. Every message is one line that names the file, or the call, and the cure."""
 
 import difflib
 

@@ -37,7 +37,7 @@ def find_program() -> Path:
 def call(*words, quiet: bool = True) -> str:
     """Calls the program, as `call("sweep", "plan.toml")`, and returns what it prints.
 
-    What it tells of its progress appears on stderr unless `quiet`. Throws ProgramError with its last
+    Its progress appears on stderr unless `quiet`. Throws ProgramError with its last
     line and exit code. Interrupted (Ctrl-C, the stop button), the program saves what it has reached.
     """
     command = [str(find_program()), *map(str, words)]
@@ -101,7 +101,7 @@ def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=N
 
 
 def _toml(value, nested: bool = False) -> str:
-    """As `--set` reads it: a word stands without quotes, but for those in a list."""
+    """As `--set` reads it: a word stands without quotes, except in a list."""
     if hasattr(value, "tolist"):
         value = value.tolist()  # of NumPy
     if isinstance(value, bool):

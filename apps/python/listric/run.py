@@ -101,12 +101,12 @@ class Run:
     @property
     def horizons(self) -> list[dict]:
         """Tops of strata and of pre-rift layers at the end, cut at faults: a dict per line with
-        `name`, `stratum`, `x_m`, `depth_m` and the others of docs/export.md, which says how they are
-        found. `snapshot.lines("horizons")` has those of any moment, and says where they come from."""
+        `name`, `stratum`, `x_m`, `depth_m` and the others of docs/export.md, which explains how they are
+        found. `snapshot.lines("horizons")` has the lines of any moment, with their source."""
         return self._some_snapshots()[-1].lines("horizons")
 
     def _unit_of(self, name: str) -> str | None:
-        """Of a measure; one that this package does not know may be an effect's of one's own."""
+        """Entry of a measure; an unknown one may belong to an effect of the reader's own."""
         if name not in dictionary() and self.snapshots:
             return self.snapshots[-1].table("run/history").units.get(name)
         return unit_of(name)
@@ -143,7 +143,7 @@ def _require_scene(snapshot: Snapshot, scene: dict, newest: Snapshot) -> None:
     try:
         found = snapshot.scene
     except RunError:
-        return  # damaged: whoever reads it is told
+        return  # damaged: reading it raises the error
     for name in sorted(scene.keys() | found.keys()):
         if found.get(name) != scene.get(name):
             raise RunError(f"{snapshot.path}: another run has made it: {name} = {found.get(name)} "

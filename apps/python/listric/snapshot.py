@@ -67,7 +67,7 @@ class Snapshot:
 
     @property
     def named_extension_m(self) -> float:
-        """The same by the file's name, to its decimals; the file is not opened."""
+        """Extension by the file's name, to its decimals; the file is not opened."""
         return float(self.path.stem.removeprefix("extension-").removesuffix("m"))
 
     @property
@@ -117,7 +117,7 @@ class Snapshot:
         return self._tables[name]
 
     def lines(self, kind: str) -> list[dict]:
-        """What `listric export KIND` has of this moment: "horizons", "faults", "surfaces", "base".
+        """Lines of `listric export KIND` at this moment: "horizons", "faults", "surfaces", "base".
 
         A dict per line with the columns of docs/export.md: one value for those of a line, an array of
         shape (points,) for those of a point, among them x_m and depth_m (positive down). Read from the
@@ -158,7 +158,7 @@ class Snapshot:
                 _check_format(file, self.path)
                 yield file
         except FileNotFoundError:
-            raise RunError(f"{self.path}: is not there any more; open the run anew") from None
+            raise RunError(f"{self.path}: is not there any more; open the run again") from None
         except (OSError, RuntimeError, KeyError, ValueError) as error:
             if isinstance(error, UnknownName):
                 raise
@@ -168,7 +168,7 @@ class Snapshot:
 
 
 def _check_end(path: Path) -> None:
-    """A file that was cut short is told from its end: HDF5 might read beyond it."""
+    """Refuses a file that was cut short, by its end: HDF5 might read beyond it."""
     with open(path, "rb") as file:
         size = file.seek(0, 2)
         file.seek(max(0, size - len(_END) - 8))

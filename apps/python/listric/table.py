@@ -47,7 +47,7 @@ def _plain(values):
 
 
 class Table(Mapping):
-    """Columns by name, in their order; each is read when it is asked for, every time anew: keep in
+    """Columns by name, in their order; each is read when it is asked for, every time again: keep in
     a variable what is used more than once.
 
     `table["x"]` is a Column, `table.units` {name: unit}, None where it is not known, `table.rows` the length of all columns,

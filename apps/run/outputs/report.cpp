@@ -80,7 +80,7 @@ private:
         }
     }
 
-    /// What takes too much memory is made anew at the end, from the snapshots.
+    /// A report that takes too much memory is made again at the end, from the snapshots.
     void limit(RunView& run) {
         if (static_cast<double>(moments_.bytes()) <= most_of_report)
             return;
