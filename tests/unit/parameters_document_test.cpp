@@ -3,6 +3,7 @@
 #include "apps/archive/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/schema.hpp"
+#include "apps/studies/flexure_plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,8 @@ TEST(ParametersDocument, IsCurrent) {
     const std::string document = contents("docs/parameters.md");
     const std::size_t begin = document.find("```\n"), end = document.rfind("```\n");
     ASSERT_LT(begin, end) << "docs/parameters.md has no block of parameters";
-    EXPECT_EQ(document.substr(begin + 4, end - begin - 4), parameter_reference(program_effects()))
+    EXPECT_EQ(document.substr(begin + 4, end - begin - 4),
+              parameter_reference(program_effects()) + flexure_reference())
         << "make it anew: docs/parameters.sh";
 }
 
