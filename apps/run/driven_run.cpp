@@ -37,18 +37,8 @@ struct Run::Parts {
     }
 };
 
-namespace {
-
-Scene with_hanging_wall(Scene scene) {
-    if (!scene.hanging_wall)
-        throw UsageError(scene.name + ": the scene has no hanging wall to extend");
-    return scene;
-}
-
-} // namespace
-
 Run::Run(Scene scene, int threads)
-    : parts_(std::make_unique<Parts>(with_hanging_wall(std::move(scene)), threads)) {}
+    : parts_(std::make_unique<Parts>(std::move(scene), threads)) {}
 Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
 

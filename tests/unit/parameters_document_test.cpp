@@ -4,6 +4,7 @@
 #include "apps/archive/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/schema.hpp"
+#include "apps/studies/flexure_plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -21,7 +21,6 @@ const Effect& gravity() {
                         "g", "gravitational acceleration",
                         "Raising it raises all stresses in proportion, and with them the strength "
                         "that friction gives."}},
-        .without_discs = true,
         .in_genesis = true,
         .contribute =
             [](const Scene& scene, ModelParts& parts) {
