@@ -1,6 +1,6 @@
 #pragma once
 
-/// Folders of runs: snapshots, scene, history, measures, and what is measured of them. Link
+/// Folders of runs: snapshots, scene, history, and measures of their moments. Link
 /// listric::archive.
 
 #include "apps/archive/examine.hpp"

@@ -3,6 +3,7 @@
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest notebooks_test
 """
 
+import os
 import re
 import shutil
 import sys

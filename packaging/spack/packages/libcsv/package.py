@@ -1,11 +1,11 @@
 """Untried. Spack has no libcsv of its own."""
 
-from spack.package import *
+from spack.package import depends_on, license, version
 
 try:
     from spack_repo.builtin.build_systems.autotools import AutotoolsPackage
-except ImportError:  # Spack before 1.0 has it in spack.package
-    pass
+except ImportError:  # before Spack 1.0
+    from spack.package import AutotoolsPackage
 
 
 class Libcsv(AutotoolsPackage):

@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from spack.package import *
+from spack.package import conflicts, depends_on, generator, license, variant, version
 
 try:
     from spack_repo.builtin.build_systems.cmake import CMakePackage
-except ImportError:  # Spack before 1.0 has it in spack.package
-    pass
+except ImportError:  # before Spack 1.0
+    from spack.package import CMakePackage
 
 
 class Listric(CMakePackage):
