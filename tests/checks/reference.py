@@ -5,6 +5,7 @@ sentences; usual ranges lie within the allowed ones and hold the default.
     python3 tests/checks/reference.py     prints the entries that lack something
 """
 
+import importlib.util
 import re
 import sys
 from collections import Counter
@@ -12,9 +13,13 @@ from collections import Counter
 from links import FENCE, HEADING
 from source_tree import ROOT, report
 
-sys.path.insert(0, str(ROOT / "docs"))
-import measures as measure_pages  # noqa: E402
+sys.path.append(str(ROOT / "docs"))
 import parameters as parameter_page  # noqa: E402
+
+# measures is also a check's name
+spec = importlib.util.spec_from_file_location("measure_pages", ROOT / "docs/measures.py")
+measure_pages = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(measure_pages)
 
 PARAMETERS, MEASURES = "docs/parameters.md", ("docs/measures.md", "docs/validation-measures.md")
 UNITS = {"_m": "m", "_m2": "m2", "_deg": "deg", "_a": "a", "_s": "s", "_pa": "Pa", "_per_s": "1/s", "_per_km": "1/km",

@@ -316,7 +316,7 @@ class Believed(TextTest):
         shutil.copy(files[0], files[1])
         again = self.run_small("--seed", "2", "--output", "2", "--force", **cache)
         self.assertEqual((again.code, self.summary("2")["state_hash"]), (0, expected))
-        self.assertIn("made anew", (self.folder / "2/log.txt").read_text())
+        self.assertIn("made again", (self.folder / "2/log.txt").read_text())
 
     def test_history_of_a_calibration(self):
         for content in ("[3]", '[{"what": 1}]', '[{"what":"elasticity","of":{},"result":["a"]}]', "{}",
