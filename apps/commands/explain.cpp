@@ -2,6 +2,7 @@
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
 #include "apps/model/model.hpp"
+#include "apps/scene/rock_line.hpp"
 #include "fem/plate.hpp"
 
 #include <fmt/format.h>
@@ -125,7 +126,7 @@ std::string explain(const Scene& scene, const CycleSpeed& speed, int threads, Ef
     if (scene.flexure)
         return explain_flexure(scene);
     const Prediction p = predict(scene, speed);
-    return fmt::format("{}: {}\n\n", scene.name, scene.description) +
+    return fmt::format("{}: {}\n\n{}\n\n", scene.name, scene.description, rock_line(scene)) +
            explain_effects(scene, effects) + explain_size(scene, p) +
            explain_parts(scene, effects) + explain_cost(scene, p, speed, threads) +
            "accuracy, from runs of lis1: rotation, cutoff and basin area are right at draft (1 "

@@ -7,6 +7,7 @@
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/run/session.hpp"
+#include "apps/scene/rock_line.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
@@ -62,8 +63,10 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options, OutputList o
     Log log(output / "log.txt", options.quiet);
     log.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
                         scene.accuracy, scene.seed, output.string()));
-    if (scene.hanging_wall)
+    if (scene.hanging_wall) {
+        log.say(rock_line(scene));
         note_memory_need(predict(scene).memory);
+    }
     try {
         if (!scene.flexure) {
             const Team team(options.threads);

@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -84,6 +86,8 @@ struct Scene {
 
     std::vector<std::string> warnings; ///< what was odd about its files; no part of what is run
     std::vector<std::filesystem::path> files; ///< that were read for it; none of them may be lost
+    std::map<std::string, std::filesystem::path, std::less<>>
+        rocks; ///< files by key of [materials]
 
     /// The parameters of an effect, by their type; null where it is off.
     template <class Parameters> const Parameters* find() const {

@@ -25,7 +25,8 @@ struct SceneRequest {
     std::vector<std::string> without = {};    ///< tables to drop
     std::optional<std::string> accuracy = {}; ///< draft, standard, fine, sandbox
     std::optional<std::int64_t> seed = {};
-    bool is_record = false; ///< what a run has left in its folder, which may have any name
+    bool is_record = false;    ///< what a run has left in its folder, which may have any name
+    bool former_rocks = false; ///< where it names none: those that older versions took
 };
 
 /// Reads, merges (default < accuracy level < scene file < set) and checks a scene with the effects

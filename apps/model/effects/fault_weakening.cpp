@@ -112,7 +112,7 @@ std::string explain(const Scene& scene, EffectList) {
 }
 
 /// Over the hanging wall's area at the start, of which nothing is told once there is more sediment.
-std::optional<double> volume_error(const Observation& now) {
+std::optional<double> volume_error_of(const Observation& now) {
     const dem::Ledger& ledger = now.state.ledger;
     if (ledger.deposited - ledger.removed > ledger.initial)
         return std::nullopt;
@@ -127,10 +127,10 @@ std::vector<Measure<Observation>> measures() {
                  return static_cast<double>(std::ranges::count(material, dem::weak)) /
                         static_cast<double>(material.size());
              }},
-            {"volume_error_fraction", "1",
+            {volume_error_fraction, "1",
              "power-cell area of the weakened discs less what it was before weakening, over the "
              "hanging wall's area; ends where there is more sediment than rock",
-             volume_error}};
+             volume_error_of}};
 }
 
 std::vector<double> weak_discs(const Observation& now) {
@@ -153,11 +153,17 @@ const Effect& fault_weakening() {
         .rock =
             RockSource{
                 .key = "weakened",
-                .file = "mat18-w",
+                .file = "mat18-w-frictional",
                 .doc = "material file with the defaults of weakened discs in [fault_weakening]",
                 .take =
                     [](Scene& scene, const RockMaterial& rock) {
                         take_microproperties(scene.find<P>()->material, rock);
+                    },
+                .former = "mat18-w",
+                .plural = "faults",
+                .remark =
+                    [](const Scene& scene) {
+                        return fmt::format("friction {:g}", scene.find<P>()->material.friction);
                     },
             },
         .contribute =
