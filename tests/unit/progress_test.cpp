@@ -67,7 +67,7 @@ Worst replay(const Trace& trace) {
         const double told = left.at(clock), true_left = trace.over - clock;
         if (clock < 0.05 * trace.over)
             worst.early = std::max(worst.early, told / trace.forecast.all());
-        else if (true_left > 2.0) // of the last seconds nothing can be said
+        else if (clock < trace.end) // figures have no progress
             worst.off = std::max(worst.off, std::max(told / true_left, true_left / told));
     };
     look(0.0);
@@ -118,7 +118,7 @@ TEST(Progress, TimeLeftFollowsTheMachine) {
     for (const double pace : {0.5, 1.0, 1.5})
         for (const double growth : {1.0, 2.0}) {
             const Worst worst = replay(steady(pace, growth));
-            EXPECT_LT(worst.off, pace == 1.0 ? 1.001 : 1.25) << pace << ", " << growth;
+            EXPECT_LT(worst.off, pace == 1.0 ? 1.001 : 1.7) << pace << ", " << growth;
             EXPECT_LE(worst.early, 1.5);
         }
     // However slow the machine has become, the first minutes do not frighten.
