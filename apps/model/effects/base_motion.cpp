@@ -1,7 +1,7 @@
 #include "dem/base/motion.hpp"
 
 #include "apps/model/base_driver.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/text.hpp"
@@ -9,8 +9,6 @@
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-const Effect& base_motion();
 
 namespace {
 

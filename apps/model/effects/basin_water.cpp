@@ -1,13 +1,11 @@
 #include "coupling/basin_water.hpp"
 
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/scene/effect.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-const Effect& basin_water();
 
 namespace {
 

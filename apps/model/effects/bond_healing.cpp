@@ -1,10 +1,8 @@
 #include "dem/events/bond_healing.hpp"
 
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 
 namespace listric::effects {
-
-const Effect& bond_healing();
 
 const Effect& bond_healing() {
     using P = dem::BondHealingParameters;

@@ -1,9 +1,7 @@
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/scene/pieces.hpp"
 
 namespace listric::effects {
-
-const Effect& bonds();
 
 namespace {
 

@@ -1,10 +1,8 @@
 #include "dem/events/compaction.hpp"
 
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 
 namespace listric::effects {
-
-const Effect& compaction();
 
 const Effect& compaction() {
     using P = dem::CompactionParameters;

@@ -1,10 +1,10 @@
 #include "apps/model/base_driver.hpp"
 #include "apps/model/effects/elastic_base_driver.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
-#include "apps/scene/effect.hpp"
 #include "apps/support/spelling.hpp"
 #include "fem/blocks.hpp"
 #include "fem/mesh_scan.hpp"
@@ -18,8 +18,6 @@
 #include <iterator>
 
 namespace listric::effects {
-
-const Effect& elastic_base();
 
 namespace {
 

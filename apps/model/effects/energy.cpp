@@ -1,13 +1,12 @@
-#include "apps/scene/effect.hpp"
 #include "dem/events/energy_account.hpp"
 #include "dem/events/equilibrium.hpp"
+
+#include "apps/model/effect_list.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace listric::effects {
-
-const Effect& energy();
 
 namespace {
 

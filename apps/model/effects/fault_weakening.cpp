@@ -1,8 +1,9 @@
 #include "dem/events/fault_weakening.hpp"
 
 #include "apps/model/measure_names.hpp"
-#include "apps/scene/effect.hpp"
 #include "dem/events/property_update.hpp"
+
+#include "apps/model/effect_list.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +11,6 @@
 #include <cmath>
 
 namespace listric::effects {
-
-const Effect& fault_weakening();
 
 namespace {
 

@@ -1,14 +1,12 @@
 #include "coupling/footwall_erosion.hpp"
 
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-const Effect& footwall_erosion();
 
 namespace {
 

@@ -1,8 +1,6 @@
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 
 namespace listric::effects {
-
-const Effect& gravity();
 
 namespace {
 

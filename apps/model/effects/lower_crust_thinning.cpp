@@ -1,13 +1,11 @@
 #include "coupling/lower_crust_thinning.hpp"
 
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/scene/effect.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-const Effect& lower_crust_thinning();
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include "dem/events/sedimentation.hpp"
 #include "dem/events/sediment_stress.hpp"
 
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
 #include "dem/genesis/genesis.hpp"
@@ -11,8 +11,6 @@
 #include <algorithm>
 
 namespace listric::effects {
-
-const Effect& sedimentation();
 
 namespace {
 
