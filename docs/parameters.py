@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/parameters.md from the declarations in apps/scene.schema.json, which docs/parameters.sh
-makes. A heading, and so an anchor, for every table and parameter.
+"""Writes docs/parameters.md from the declarations in apps/*.schema.json, which docs/parameters.sh makes. A heading, and so an anchor, for every table and parameter.
 """
 
 import json
@@ -10,6 +9,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/parameters.md"
 SCHEMA = ROOT / "apps/scene.schema.json"
+PLAN = ROOT / "apps/flexure.schema.json"
 
 HEAD = """# Parameters of a scene
 
@@ -176,7 +176,12 @@ def heading_anchor(table):
 
 
 def read_schema():
-    return json.loads(SCHEMA.read_text(encoding="utf-8"))
+    """That of a scene, and with it the table that plans of flexure have of their own."""
+    schema, plan = (json.loads(file.read_text(encoding="utf-8")) for file in (SCHEMA, PLAN))
+    table = dict(plan["properties"]["flexure"])
+    table["description"] = "of a plan of its own for `listric flexure`: " + table["description"]
+    schema["properties"]["flexure"] = table
+    return schema
 
 
 if __name__ == "__main__":

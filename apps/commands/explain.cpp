@@ -1,6 +1,7 @@
 #include "apps/commands/explain.hpp"
 
 #include "apps/model/model.hpp"
+#include "apps/scene/rock_line.hpp"
 
 #include <fmt/format.h>
 
@@ -101,7 +102,7 @@ std::string explain(const Scene& scene, int threads, EffectList effects) {
 
 std::string explain(const Scene& scene, const CycleSpeed& speed, int threads, EffectList effects) {
     const Prediction p = predict(scene, speed);
-    return fmt::format("{}: {}\n\n", scene.name, scene.description) +
+    return fmt::format("{}: {}\n\n{}\n\n", scene.name, scene.description, rock_line(scene)) +
            explain_effects(scene, effects) + explain_size(scene, p) +
            explain_parts(scene, effects) + explain_cost(scene, p, speed, threads) +
            "accuracy, from runs of lis1: rotation, cutoff and basin area are right at draft (1 "

@@ -1,4 +1,5 @@
 #include "apps/run/run.hpp"
+#include "apps/archive/scene_lines.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
 #include "apps/commands/start_ranks.hpp"
@@ -7,7 +8,9 @@
 #include "apps/run/oversize.hpp"
 #include "apps/run/rank_reports.hpp"
 #include "apps/run/ranked_run.hpp"
+#include "apps/scene/rock_line.hpp"
 #include "apps/studies/flexure.hpp"
+#include "apps/support/file.hpp"
 #include "apps/support/number.hpp"
 #include "apps/support/text.hpp"
 
@@ -109,12 +112,34 @@ ExitCode exit_code_of(RunOutcome outcome) {
     return outcome == RunOutcome::finished ? ExitCode::done : ExitCode::interrupted;
 }
 
+/// The scene of a call. Older versions took another rock where a scene names none: a run that one
+/// of them began goes on with it.
+Scene scene_of(const RunCall& call) {
+    const Scene scene = load_scene(call.scene);
+    const fs::path begun = output_of(call, scene.name) / "scene.toml";
+    const auto before = archive::scene_values(read_text_if_there(begun));
+    const auto is_before = [&](const Scene& other) {
+        return !archive::scene_difference(before, archive::scene_values(to_toml(other)));
+    };
+    if (!call.options.resume || is_before(scene))
+        return scene;
+    SceneRequest request = call.scene;
+    request.former_rocks = true;
+    Scene former = load_scene(request);
+    if (!is_before(former))
+        return scene;
+    former.warnings.push_back(fmt::format("{} names no rock: the run goes on with the one that it "
+                                          "began with; a new one would have {}",
+                                          call.scene.scene, rock_line(scene)));
+    return former;
+}
+
 /// This process's part of a run that several make.
 ExitCode run_part(const RunCall& call, dem::Ranks& ranks) {
     if (ranks.mine() != 0)
         ignore_signals(); // the root stops for all
     const ExitCode code =
-        exit_code_of(run_on_ranks(ranks, {[&] { return load_scene(call.scene); },
+        exit_code_of(run_on_ranks(ranks, {[&] { return scene_of(call); },
                                           [&](const Scene& scene, bool is_root) {
                                               if (is_root)
                                                   check_scene(call, scene, true);
@@ -133,7 +158,7 @@ ExitCode run_alone(const RunCall& call) {
         run_flexure(plan, options);
         return ExitCode::done;
     }
-    const Scene scene = load_scene(call.scene);
+    const Scene scene = scene_of(call);
     check_scene(call, scene, false);
     return exit_code_of(run_scene(scene, options_of(call, scene, false)));
 }

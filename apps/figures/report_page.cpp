@@ -6,6 +6,7 @@
 #include "apps/figures/vocabulary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/effect.hpp"
+#include "apps/scene/rock_line.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
@@ -68,11 +69,18 @@ json object_or_null(const std::string& text) {
     return object.is_object() ? json(object) : json();
 }
 
+/// Rocks by their properties alone: a report that is made again knows no files of the user's.
+std::string rock_of(Scene scene) {
+    scene.rocks.clear();
+    return rock_line(scene);
+}
+
 /// All of a run but its moments.
 json head_of(const ReportPage::Run& run) {
     const Scene& scene = run.scene;
     json head{{"scene", scene.name},
               {"description", scene.description},
+              {"rock", rock_of(scene)},
               {"accuracy", scene.accuracy},
               {"seed", scene.seed},
               {"layers", declared_layers(scene)},

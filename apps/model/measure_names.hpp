@@ -3,9 +3,12 @@
 // Names of effects' measures that other code takes or looks for in summary.json; the measures are
 // declared in the effects' descriptions.
 
+#include <string_view>
+
 namespace listric::effects {
 
 inline constexpr const char* weak_fraction = "weak_fraction";
+inline constexpr std::string_view volume_error_fraction = "volume_error_fraction";
 
 // Names of the elastic base's measures.
 inline constexpr const char* footwall_uplift = "footwall_uplift_m";

@@ -48,10 +48,13 @@ void drive(Simulation& simulation, RunView& run) {
 
 void start(Simulation& simulation, RunView& run) {
     drive(simulation, run);
+    const auto report = [&](std::string_view stage, double share) {
+        run.show_progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
+    };
     State state;
     {
         const PartWatch time = run.watch(Part::genesis);
-        state = make_or_recall_hanging_wall(run.scene, run.parts, run.log, run.options.stop,
+        state = make_or_recall_hanging_wall(run.scene, run.parts, run.log, report, run.options.stop,
                                             run.options.threads);
     }
     if (run.driver) {
@@ -59,7 +62,7 @@ void start(Simulation& simulation, RunView& run) {
         run.driver->settle(state, simulation.base(), simulation.physics(), run.options.execution(),
                            [&](std::string_view stage, double share) {
                                run.options.stop.check();
-                               run.log.progress(fmt::format("{} ({:.0f} %)", stage, 100.0 * share));
+                               report(stage, share);
                            });
     }
     simulation.begin(std::move(state));

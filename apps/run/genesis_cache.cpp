@@ -107,8 +107,8 @@ private:
     bool has_waited_ = false;
 };
 
-State make_anew(const Scene& scene, const ModelParts& parts, Log& log, const StopToken& stop,
-                int threads) {
+State make_anew(const Scene& scene, const ModelParts& parts, const StageReport& report,
+                const StopToken& stop, int threads) {
     // The hanging wall comes to rest on a base that does too, so its mean motion is none.
     const GenesisRequest request{
         .hanging_wall = scene.hanging_wall,
@@ -124,7 +124,7 @@ State make_anew(const Scene& scene, const ModelParts& parts, Log& log, const Sto
     return make_hanging_wall(request, [&](std::string_view stage, double share) {
         if (stop.requested())
             throw Interrupted{};
-        log.progress(fmt::format("hanging wall: {} ({:.0f} %)", stage, 100.0 * share));
+        report(fmt::format("hanging wall: {}", stage), share);
     });
 }
 
@@ -138,12 +138,12 @@ fs::path genesis_cache_path(const Scene& scene, const ModelParts& parts) {
 }
 
 State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, Log& log,
-                                  StopToken stop, int threads) {
+                                  const StageReport& report, StopToken stop, int threads) {
     const fs::path cache = genesis_cache_path(scene, parts);
     if (cache.empty()) {
         log.say("warning: the hanging wall cannot be kept for later runs: HOME is not set, and "
                 "there is no folder for temporary files; XDG_CACHE_HOME may name one");
-        return make_anew(scene, parts, log, stop, threads);
+        return make_anew(scene, parts, report, stop, threads);
     }
     const std::string asked = asked_for(scene, parts);
     if (auto state = recall(cache, asked, parts.materials, log))
@@ -152,7 +152,7 @@ State make_or_recall_hanging_wall(const Scene& scene, const ModelParts& parts, L
     if (lock.has_waited())
         if (auto state = recall(cache, asked, parts.materials, log))
             return std::move(*state);
-    State state = make_anew(scene, parts, log, stop, threads);
+    State state = make_anew(scene, parts, report, stop, threads);
     keep(state, cache, asked, log);
     return state;
 }

@@ -12,6 +12,7 @@
 // - Pictures are drawn by a process beside what comes next. They follow faults back, which the
 //   report shows, too.
 // - The summary holds what outputs before it have added; the report shows the summary.
+// - The results are for people, who are told once all is there.
 // - The status comes last: it says that all the others are there.
 // clang-format off
 #define LISTRIC_OUTPUTS(OUTPUT) \
@@ -25,6 +26,7 @@
     OUTPUT(observed) \
     OUTPUT(summary) \
     OUTPUT(report) \
+    OUTPUT(results) \
     OUTPUT(status)
 // clang-format on
 

@@ -197,14 +197,18 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     // effects are counted as work of one: drop and roll is a chain.
     double shared =
         cycle_price * p.disc_steps + price_of_genesis(h, start) + price_of_samples(work);
-    double serial = price_of_windows(scene, work) + price_of_effects(scene, work) +
-                    price_of_figures(scene, work.discs, parts.base_moves);
+    const double figures = price_of_figures(scene, work.discs, parts.base_moves);
+    double serial = price_of_windows(scene, work) + price_of_effects(scene, work) + figures;
     if (start < shared_from)
         serial += list_price_alone * p.disc_steps;
     else
         shared += list_price_shared * p.disc_steps;
     p.work = shared + serial;
     p.seconds = shared / speed.team + serial / speed.one_thread;
+    p.forecast = {.before = price_of_genesis(h, start) / speed.team,
+                  .after = figures / speed.one_thread,
+                  .growth = static_cast<double>(p.discs_at_end) / start};
+    p.forecast.extension = p.seconds - p.forecast.before - p.forecast.after;
     // Columns of a disc, its listed contacts, and the neighbour search's copies.
     const double contacts =
         std::max(3.0, 0.42 * (2.0 + scene.cycle.skin) * (2.0 + scene.cycle.skin));
@@ -219,11 +223,16 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     return p;
 }
 
-double seconds_from_now(const Scene& scene, int threads, int ranks) {
+Forecast forecast_now(const Scene& scene, double target, int threads, int ranks) {
     CycleSpeed speed =
         measure_speed(estimated_discs(scene), threads, 0.1, make_parts(scene).accounts_energy);
     speed.team *= ranks;
-    return speed.busy * predict(scene, speed).seconds;
+    Scene to_target = scene;
+    to_target.extension.distance = target;
+    Forecast forecast = predict(to_target, speed).forecast;
+    for (double* const part : {&forecast.before, &forecast.extension, &forecast.after})
+        *part *= speed.busy;
+    return forecast;
 }
 
 } // namespace listric

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/run/time_left.hpp"
 #include "apps/scene/scene.hpp"
 
 #include <cstddef>
@@ -26,6 +27,7 @@ struct Prediction {
     double snapshots = 0.0;
     double disk = 0.0;    ///< of all that is written, bytes
     double seconds = 0.0; ///< wall time, when nothing else runs
+    Forecast forecast;    ///< the same by parts
 };
 
 Prediction predict(const Scene& scene, const CycleSpeed& speed = {});
@@ -35,8 +37,8 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed = {});
 /// tells the speed, so that other programs do not change it.
 CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool accounted);
 
-/// Predicted wall time of a run that begins now, beside other programs, s.
+/// Predicted wall time of a run to an extension, m, that begins now, beside other programs.
 /// @param threads  of each rank
-double seconds_from_now(const Scene& scene, int threads, int ranks);
+Forecast forecast_now(const Scene& scene, double target, int threads, int ranks);
 
 } // namespace listric

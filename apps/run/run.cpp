@@ -6,6 +6,7 @@
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/run/session.hpp"
+#include "apps/scene/rock_line.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/memory.hpp"
@@ -52,6 +53,7 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options, OutputList o
     Log log(output / "log.txt", options.quiet);
     log.say(fmt::format("listric {} runs {} ({}, seed {}) into {}", version, scene.name,
                         scene.accuracy, scene.seed, output.string()));
+    log.say(rock_line(scene));
     note_memory_need(predict(scene).memory);
     try {
         const Team team(options.threads);

@@ -7,12 +7,14 @@
 #include "apps/archive/setting.hpp"
 #include "apps/archive/summary.hpp"
 #include "apps/model/model.hpp"
+#include "apps/run/progress_line.hpp"
 #include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <utility>
 
 namespace listric {
@@ -97,19 +99,21 @@ void RunView::require_elasticity() const {
         throw BeyondElasticity(*window_of_base.beyond_elasticity);
 }
 
-double RunView::seconds_left() const {
-    const double share = std::max(1e-3, extension() / target());
-    return extension() > 0.0 ? std::max(0.0, wall_seconds() / share * (1.0 - share))
-                             : record.predicted_seconds;
+void RunView::count_cycles() {
+    const dem::Clock& clock = state().clock;
+    const dem::Motion& motion = simulation.base().motion;
+    const double to_go = motion.time_at(target()) - motion.time_at(std::min(extension(), target()));
+    const auto done = static_cast<double>(clock.cycle);
+    time_left_.read(done, done + to_go / clock.time_step, seconds_since(started_));
 }
 
-std::string RunView::progress() const {
-    const auto cycling = record.seconds_by_part.find(name(Part::cycle));
-    const double seconds = cycling == record.seconds_by_part.end() ? 0.0 : cycling->second;
-    return fmt::format("cycle {}  extension {}  {:.1f} M disc-steps/s  {} left",
-                       state().clock.cycle, way_text(extension(), target()),
-                       record.disc_steps / std::max(1e-9, seconds) / 1e6,
-                       rough_duration(seconds_left()));
+void RunView::show_progress(const std::string& what) {
+    log.progress([&](std::size_t columns) {
+        return progress_line({time_left_.share_done(seconds_since(started_)),
+                              what.empty() ? way_text(extension(), target()) : what, seconds_left(),
+                              std::time(nullptr)},
+                             columns);
+    });
 }
 
 void RunView::go_on_with(RunRecord earlier) {

@@ -8,6 +8,7 @@
 #include "apps/model/base_driver.hpp"
 #include "apps/run/options.hpp"
 #include "apps/run/part.hpp"
+#include "apps/run/time_left.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/moment_names.hpp"
@@ -82,8 +83,18 @@ public:
     void require_elasticity() const;
 
     double wall_seconds() const { return seconds_before_ + seconds_since(started_); }
-    double seconds_left() const;
-    std::string progress() const; ///< a line about it
+    double seconds_left() const { return time_left_.at(seconds_since(started_)); }
+
+    /// Begins to count time: what the session is expected to take.
+    void expect(const Forecast& forecast) {
+        time_left_ = TimeLeft(forecast);
+        record.predicted_seconds = forecast.all(); // of the first session, once it is known
+    }
+    void count_cycles(); ///< takes a reading of what has been done
+    void end_cycles() { time_left_.end_extension(seconds_since(started_)); }
+
+    /// Shows people how far the run is, and what it does; nothing said: the extension.
+    void show_progress(const std::string& what = {});
 
     /// Takes over the record of the sessions that this one resumes; their wall time counts, too.
     void go_on_with(archive::RunRecord earlier);
@@ -99,6 +110,7 @@ private:
     };
     template <class T, class Make> const T& made_once(Made<T>& made, Make&& make);
 
+    TimeLeft time_left_;
     double seconds_before_ = 0.0;
     SteadyClock::time_point started_ = SteadyClock::now();
     Made<measures::Measures> measures_;

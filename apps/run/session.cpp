@@ -24,6 +24,9 @@ Session::Session(const Scene& scene, const RunOptions& options, Log& log, Output
 }
 
 RunOutcome Session::run() {
+    run_.expect(forecast_now(run_.scene, run_.target(), run_.options.threads, run_.ranks()));
+    for (const std::string& warning : run_.scene.warnings)
+        run_.log.say("warning: " + warning);
     try {
         if (!run_.options.resume || !resume())
             begin();
@@ -77,13 +80,9 @@ bool Session::resume() {
 }
 
 void Session::begin() {
-    const Scene& scene = run_.scene;
-    run_.record.scene = to_toml(scene);
-    run_.record.predicted_seconds = seconds_from_now(scene, run_.options.threads, run_.ranks());
-    if (scene.picked_fault)
-        run_.log.say(describe(*scene.picked_fault, *scene.detachment));
-    for (const std::string& warning : scene.warnings)
-        run_.log.say("warning: " + warning);
+    run_.record.scene = to_toml(run_.scene);
+    if (run_.scene.picked_fault)
+        run_.log.say(describe(*run_.scene.picked_fault, *run_.scene.detachment));
     enter(Phase::genesis);
     start(simulation_, run_);
     end_window(&Output::begin);
@@ -93,9 +92,11 @@ void Session::extend() {
     simulation_.report_steps_to([this](const std::string& done) { report_step(done); });
     enter(Phase::extension);
     const double steps_before = run_.record.disc_steps;
+    run_.count_cycles();
     const auto report = [&](const Simulation& simulation) {
         run_.record.disc_steps = steps_before + simulation.disc_steps();
-        run_.log.progress(run_.progress());
+        run_.count_cycles();
+        run_.show_progress();
         return !run_.options.stop.requested();
     };
     const auto end_of_window = [&] {
@@ -123,7 +124,7 @@ void Session::keep() {
 /// everything after the last snapshot is lost without it.
 void Session::report_step(const std::string& done) {
     constexpr double patience = 3.0; // s
-    run_.log.progress(fmt::format("extension {:.2f} km: {}", run_.extension() / 1e3, done));
+    run_.show_progress(done);
     if (!run_.options.stop.requested())
         return;
     if (!stop_seen_)
@@ -136,14 +137,13 @@ void Session::report_step(const std::string& done) {
 }
 
 void Session::finish() {
+    run_.end_cycles();
+    run_.show_progress("figures and report");
     keep();
     run_.options.stop.check(); // all is kept: resumed, the run ends from here
     tell(&Output::finish);
     tell(&Output::close);
     enter(Phase::finished);
-    run_.log.say(fmt::format("done: {} of extension in {}, figures in {}",
-                             length_text(run_.extension()), rough_duration(run_.wall_seconds()),
-                             (run_.options.output / "figures").string()));
 }
 
 } // namespace listric

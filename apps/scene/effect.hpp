@@ -64,6 +64,10 @@ struct RockSource {
     void (*take)(Scene& scene, const RockMaterial& rock);
     /// Why the effect cannot be on with that rock; none: it always can.
     std::string (*objection)(const RockMaterial& rock) = nullptr;
+    /// Default of older versions, with which a run that one of them began goes on; none: `file`.
+    std::string_view former = {};
+    std::string_view plural = {};                  ///< for people, where the key says too little
+    std::string (*remark)(const Scene&) = nullptr; ///< what matters most about the rock
 };
 
 /// Sediment as effects describe it to each other and to measures.

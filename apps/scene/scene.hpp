@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -75,6 +77,8 @@ struct Scene : Heading {
 
     std::vector<std::string> warnings;        ///< oddities of its files; no part of the run
     std::vector<std::filesystem::path> files; ///< that were read for it; none of them may be lost
+    std::map<std::string, std::filesystem::path, std::less<>>
+        rocks; ///< files by key of [materials]
 
     /// The parameters of an effect, by their type; null where it is off.
     template <class Parameters> const Parameters* find() const {

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <ranges>
 
 namespace listric {
 
@@ -84,8 +85,8 @@ std::string located(const std::string& path, const toml::node* node, const fs::p
 /// Rocks by their key in [materials], read when asked for.
 class Rocks {
 public:
-    Rocks(const toml::table& document, EffectList effects, fs::path folder)
-        : table_(document.get("materials")), folder_(std::move(folder)) {
+    Rocks(const toml::table& document, EffectList effects, fs::path folder, bool former)
+        : table_(document.get("materials")), folder_(std::move(folder)), former_(former) {
         if (!table_)
             return;
         if (!table_->is_table())
@@ -107,8 +108,9 @@ public:
         if (known != rocks_.end())
             return known->second;
         const auto named = names_.find(source.key);
-        const std::string name =
-            named == names_.end() ? std::string(source.file) : named->second.file;
+        const std::string name(named != names_.end()               ? named->second.file
+                               : former_ && !source.former.empty() ? source.former
+                                                                   : source.file);
         const toml::node* node = table_ ? table_->as_table()->get(source.key) : nullptr;
         fs::path file;
         try {
@@ -118,19 +120,20 @@ public:
                 fail({*node, fmt::format("materials.{}", source.key)}, error.what());
             throw;
         }
-        files_.push_back(file);
+        files_.emplace(source.key, file);
         return rocks_.emplace(source.key, read_material(file)).first->second;
     }
 
-    /// That have been read.
-    const std::vector<fs::path>& files() const { return files_; }
+    /// That have been read, by key.
+    const auto& files() const { return files_; }
 
 private:
     const toml::node* table_;
     fs::path folder_;
+    bool former_;
     std::map<std::string, FileName, std::less<>> names_;
     std::map<std::string, RockMaterial, std::less<>> rocks_;
-    std::vector<fs::path> files_;
+    std::map<std::string, fs::path, std::less<>> files_;
 };
 
 /// Puts what the material files say where the scene file's tables will then be read.
@@ -330,7 +333,7 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     if (!request.is_record)
         check_name(scene, document, path);
     set_accuracy(scene);
-    Rocks rocks(document, effects, path.parent_path());
+    Rocks rocks(document, effects, path.parent_path(), request.former_rocks);
     take_rocks(scene, rocks, effects);
     const auto table_named = [&](std::string_view name) -> const SceneTable& {
         return *std::ranges::find(all, name, &SceneTable::name);
@@ -348,7 +351,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     check_rocks(scene, rocks, document);
     take_observed(scene, table_named("observed"), document, path.parent_path(), shift);
     scene.files.push_back(path);
-    scene.files.insert(scene.files.end(), rocks.files().begin(), rocks.files().end());
+    scene.rocks = rocks.files();
+    std::ranges::copy(std::views::values(scene.rocks), std::back_inserter(scene.files));
     return scene;
 }
 

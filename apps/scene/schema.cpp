@@ -245,6 +245,15 @@ std::string scene_schema(EffectList effects) {
     return finished("A scene of Listric", schema);
 }
 
+std::string plan_schema(const char* title, std::span<const PlanTable> tables) {
+    const Heading heading;
+    Json schema = table_schema("", top_level(), &heading);
+    for (const PlanTable& table : tables)
+        schema["properties"][std::string(table.name)] =
+            table_schema(table.doc, table.parameters, table.object);
+    return finished(title, schema);
+}
+
 std::string material_schema() {
     const auto whole = [](const char* doc, const std::vector<Parameter>& parameters,
                           const void* object) {

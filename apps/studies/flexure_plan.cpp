@@ -2,6 +2,7 @@
 
 #include "apps/model/effects.hpp"
 #include "apps/scene/scene_checks.hpp"
+#include "apps/scene/schema.hpp"
 #include "apps/scene/tables.hpp"
 #include "apps/support/spelling.hpp"
 
@@ -21,12 +22,6 @@ constexpr Shelf flexure_shelf{"flexure plan", "it needs [flexure]", "", "studies
 constexpr std::string_view flexure_doc = "a load on the base alone, without discs";
 
 /// A table of a plan, and the object whose parameters it has.
-struct PlanTable {
-    std::string_view name, doc;
-    std::vector<Parameter> parameters;
-    void* object;
-};
-
 std::vector<PlanTable> tables_of(FlexurePlan& plan) {
     const Effect& bender = *plan.base.effect;
     return {
@@ -165,6 +160,11 @@ std::string to_toml(const FlexurePlan& plan) {
         lines += fmt::format("\n[{}]  # {}\n{}", table.name, table.doc,
                              write(table.parameters, table.object));
     return lines;
+}
+
+std::string flexure_schema() {
+    FlexurePlan plan = default_plan();
+    return plan_schema("A plan of flexure of Listric", tables_of(plan));
 }
 
 std::string flexure_reference() {

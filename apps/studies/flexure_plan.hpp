@@ -50,4 +50,7 @@ const std::vector<Parameter>& flexure_parameters();
 /// Their reference, as parameter_reference() has it.
 std::string flexure_reference();
 
+/// JSON schema of its file.
+std::string flexure_schema();
+
 } // namespace listric

@@ -2,10 +2,13 @@
 
 #include "apps/support/text.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <string_view>
 #include <sys/ioctl.h>
@@ -16,6 +19,7 @@ namespace listric {
 namespace {
 
 constexpr std::string_view clear_line = "\r\x1b[K";
+constexpr std::string_view warning_mark = "warning: "; ///< with which a message begins
 
 /// Whether standard error is a terminal that obeys "\r" and escape sequences.
 bool rewrites_lines() {
@@ -70,25 +74,50 @@ Log::~Log() {
 void Log::say(std::string_view text) {
     const std::lock_guard lock(mutex_);
     const std::string message = shown_lines(text);
+    if (message.starts_with(warning_mark))
+        warnings_.push_back(message);
     if (file_.is_open())
-        file_ << message << std::endl;
+        file_ << fmt::format("{:%Y-%m-%d %H:%M:%S}  {}", fmt::localtime(std::time(nullptr)),
+                             message)
+              << std::endl;
     if (!quiet_)
         tell(fmt::format("{}{}\n", terminal_ ? clear_line : "", message));
     shows_progress_ = false;
 }
 
 void Log::progress(std::string_view line) {
+    progress([&](std::size_t) { return std::string(line); });
+}
+
+void Log::progress(const std::function<std::string(std::size_t columns)>& line) {
     const std::lock_guard lock(mutex_);
-    const double pause = terminal_ ? 0.2 : 10.0; // s
+    const double pause = // s
+        terminal_ ? 0.2 : std::clamp(0.05 * seconds_since(begun_), 10.0, 600.0);
     if (quiet_ || (has_progressed_ && seconds_since(last_progress_) < pause))
         return;
     has_progressed_ = true;
     last_progress_ = SteadyClock::now();
-    if (terminal_) // the last column stays free: some wrap a line that ends in it
-        tell(fmt::format("{}{}", clear_line, cut_to(shown(line), terminal_width() - 1)));
-    else
-        tell(shown(line) + "\n");
+    if (terminal_) { // the last column stays free: some wrap a line that ends in it
+        const std::size_t columns = terminal_width() - 1;
+        tell(fmt::format("{}{}", clear_line, cut_to(shown(line(columns)), columns)));
+    } else {
+        tell(shown(line(std::string::npos)) + "\n");
+    }
     shows_progress_ = terminal_;
+}
+
+void Log::repeat_warnings() {
+    std::vector<std::string> warnings;
+    {
+        const std::lock_guard lock(mutex_);
+        warnings.swap(warnings_);
+    }
+    if (!warnings.empty())
+        say(fmt::format("there {}:", warnings.size() == 1
+                                         ? "was a warning"
+                                         : fmt::format("were {} warnings", warnings.size())));
+    for (const std::string& warning : warnings)
+        say("  " + warning);
 }
 
 /// A closed or full stderr must not end a run.

@@ -2,11 +2,14 @@
 
 #include "apps/support/stopwatch.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace listric {
 
@@ -16,10 +19,10 @@ std::string rough_duration(double seconds);
 /// "listric: warning: ..." on stderr, for work without a log.
 void warn(std::string_view message);
 
-/// Messages to people while something runs: lines, which stay, and progress, which does not.
-/// Both go to stderr unless it shall be quiet; messages also into a file, if there is one. On a
-/// terminal the line of progress is rewritten; elsewhere it appears as plain lines, a few per
-/// minute at most. Threads may share one.
+/// Messages to people while something runs: messages, which stay, and progress, which does not.
+/// Both go to stderr unless it shall be quiet; messages, with their time, also into a file, if
+/// there is one. On a terminal the line of progress is rewritten; elsewhere it appears as plain
+/// lines, a few per minute at most, and the fewer the longer the work takes. Threads may share one.
 class Log {
 public:
     /// Without a file.
@@ -36,6 +39,12 @@ public:
     void say(std::string_view message);
     void progress(std::string_view line);
 
+    /// A line that depends on the columns that it may take; made only where it is shown.
+    void progress(const std::function<std::string(std::size_t columns)>& line);
+
+    /// Says the warnings of before once more, if there were any.
+    void repeat_warnings();
+
 private:
     void tell(std::string_view text) const;
 
@@ -45,6 +54,8 @@ private:
     bool shows_progress_ = false; ///< on the terminal's current line
     bool has_progressed_ = false;
     SteadyClock::time_point last_progress_; ///< that was shown
+    SteadyClock::time_point begun_ = SteadyClock::now();
+    std::vector<std::string> warnings_;
 };
 
 } // namespace listric

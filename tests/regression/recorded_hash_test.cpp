@@ -5,7 +5,10 @@
 // Sines, exponentials and the like are the C library's, which on processors without fused
 // multiply-add takes other code with other last bits: there the record may not hold.
 
+#include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
+
+#include <gmock/gmock.h>
 
 #include <sstream>
 
@@ -56,6 +59,29 @@ TEST_F(RecordedHash, HoldsForARunThatAnEarlierVersionBegan) {
     o.resume = true;
     const auto summary = run(load_scene({.scene = test_scene("every-effect.toml")}), o);
     EXPECT_EQ(summary["state_hash"], recorded("state"));
+}
+
+// That version took Table 1's fault rock where a scene names none; the run goes on with it.
+TEST_F(RecordedHash, HoldsForARunThatAnEarlierVersionBeganWithItsDefaultRock) {
+    std::string text = contents(test_scene("every-effect.toml"));
+    const std::string named = "[materials]\nweakened = \"mat18-w\"\n";
+    ASSERT_NE(text.find(named), text.npos);
+    text.erase(text.find(named), named.size());
+    const auto file = folder / "every-effect.toml", output = folder / "begun";
+    std::ofstream(file) << text;
+    std::filesystem::copy(test_scene("every-effect-begun"), output,
+                          std::filesystem::copy_options::recursive);
+    const auto resume = [&] {
+        return Program(folder, {"run", file, "--output", output, "--resume", "--no-report"}).wait();
+    };
+    const Ended ended = resume();
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::HasSubstr("names no rock: the run goes on with the one that"));
+    EXPECT_EQ(nlohmann::json::parse(contents(output / "summary.json"))["state_hash"],
+              recorded("state"));
+    EXPECT_EQ(resume().code, 0) << "finished";
+    // A new run of the scene has the rock of the shipped scenes.
+    EXPECT_NE(run(load_scene({.scene = file}), options("new"))["state_hash"], recorded("state"));
 }
 
 } // namespace

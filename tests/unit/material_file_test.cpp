@@ -114,7 +114,7 @@ TEST_F(MaterialFileTest, ShippedMaterials) {
     EXPECT_EQ(scenes.shear_stiffness, table.shear_stiffness);
 }
 
-TEST_F(MaterialFileTest, TheDefaultsOfTheProgramAreTable1) {
+TEST_F(MaterialFileTest, TheDefaultsOfTheProgramAreTheShippedScenesRock) {
     const auto expect_same = [](const Material& a, const Material& b) {
         EXPECT_EQ(a.normal_stiffness, b.normal_stiffness);
         EXPECT_EQ(a.shear_stiffness, b.shear_stiffness);
@@ -122,7 +122,7 @@ TEST_F(MaterialFileTest, TheDefaultsOfTheProgramAreTable1) {
     };
     const RockMaterial rock = load_material("mat18-b");
     expect_same(rock.material, Material{});
-    expect_same(load_material("mat18-w").material, FaultWeakeningParameters{}.material);
+    expect_same(load_material("mat18-w-frictional").material, FaultWeakeningParameters{}.material);
     expect_same(load_material("sediment").material, SedimentationParameters{}.material);
     EXPECT_EQ(rock.bonds->tensile_mean, BondStrength{}.tensile_mean);
     EXPECT_EQ(rock.bonds->tensile_deviation, BondStrength{}.tensile_deviation);
@@ -258,8 +258,9 @@ TEST_F(MaterialFileTest, WhatARunWritesNeedsNoMaterialFile) {
     const Scene scene = load(scene_text + "[materials]\nbasement = 'rocks/rock.toml'\n[bonds]\n");
     fs::remove(folder / "rocks/rock.toml");
     EXPECT_EQ(to_toml(load(to_toml(scene))), to_toml(scene));
-    EXPECT_THAT(parameter_reference(program_effects()),
-                AllOf(HasSubstr("\n[materials]"), HasSubstr("    weakened = \"mat18-w\"\n")));
+    EXPECT_THAT(
+        parameter_reference(program_effects()),
+        AllOf(HasSubstr("\n[materials]"), HasSubstr("    weakened = \"mat18-w-frictional\"\n")));
 }
 
 } // namespace

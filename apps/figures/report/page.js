@@ -380,6 +380,8 @@ function addWords() {
   $("subtitle").textContent = page.runs.map((run, r) => `${page.runs.length > 1 ? `${"AB"[r]}: ` : ""}${run.head.scene}, ` +
     `${run.head.accuracy}, seed ${run.head.seed}`).join("; ") + (page.data.live ? "; the run goes on" : "") +
     (page.data.left_out ? `; left out so that the file is smaller: ${page.data.left_out}` : "");
+  const rocks = [...new Set(page.runs.map(run => run.head.rock))];
+  $("rock").textContent = rocks.map((rock, r) => rocks.length > 1 ? `${"AB"[r]}: ${rock}` : rock).join(". ");
   const hashes = page.runs.map(run => run.head.summary?.state_hash).filter(Boolean);
   const words = Object.entries(page.runs[0].head.summary?.provenance || {}).map(([name, value]) => `${name} ${value}`);
   $("footer").textContent = `${words.length ? `Run: ${words.join(", ")}. Page: ` : ""}${page.data.program}${hashes.length ? `; state_hash ${hashes.join(", ")}` : ""}. To cite: ` +

@@ -110,7 +110,7 @@ std::string explain(const Scene& scene, EffectList) {
 }
 
 /// Over the hanging wall's area at the start, of which nothing is told once there is more sediment.
-std::optional<double> volume_error(const Observation& now) {
+std::optional<double> volume_error_of(const Observation& now) {
     const dem::Ledger& ledger = now.state.ledger;
     if (ledger.deposited - ledger.removed > ledger.initial)
         return std::nullopt;
@@ -125,10 +125,10 @@ std::vector<Measure<Observation>> measures() {
                  return static_cast<double>(std::ranges::count(material, dem::weak)) /
                         static_cast<double>(material.size());
              }},
-            {"volume_error_fraction", "1",
+            {volume_error_fraction, "1",
              "power-cell area of the weakened discs less their area before weakening, over the "
              "hanging wall's area; ends where there is more sediment than rock",
-             volume_error, OverTime::last, "below 0.001"}};
+             volume_error_of, OverTime::last, "below 0.001"}};
 }
 
 std::vector<double> weak_discs(const Observation& now) {
@@ -151,7 +151,7 @@ const Effect& fault_weakening() {
         .rock =
             RockSource{
                 .key = "weakened",
-                .file = "mat18-w",
+                .file = "mat18-w-frictional",
                 .doc = "material, by name or path, with the defaults of weakened discs in "
                        "[fault_weakening]",
                 .changes = "Sets how strong faults are: friction between their discs decides "
@@ -159,6 +159,12 @@ const Effect& fault_weakening() {
                 .take =
                     [](Scene& scene, const RockMaterial& rock) {
                         take_microproperties(scene.find<P>()->material, rock);
+                    },
+                .former = "mat18-w",
+                .plural = "faults",
+                .remark =
+                    [](const Scene& scene) {
+                        return fmt::format("friction {:g}", scene.find<P>()->material.friction);
                     },
             },
         .contribute =

@@ -1,0 +1,54 @@
+#include "apps/run/results.hpp"
+
+#include "apps/measures/profile.hpp"
+#include "apps/model/measure_names.hpp"
+#include "apps/model/model.hpp"
+#include "apps/run/outputs.hpp"
+#include "apps/run/run_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace listric {
+
+using namespace measures;
+
+namespace {
+
+/// What a run has come to, a line each.
+std::vector<std::string> results_of(RunView& run) {
+    const Profile profile = measure_profile(run.setting, run.state(), run.parts.base);
+    const std::vector<double> depth = smoothed_depth(profile);
+    Results results{run.measured(), run.faults(), {}, {}};
+    if (!depth.empty())
+        results.basin_depth = std::ranges::max(depth);
+    for (const auto& [name, value] : measure_effects(run.now()).numbers)
+        if (name == effects::volume_error_fraction)
+            results.volume_error_fraction = value;
+    return result_lines(results);
+}
+
+/// What shows it best of what there is.
+std::string place_to_look(const RunView& run) {
+    std::error_code error;
+    for (const char* name : {"report.html", "figures"})
+        if (const auto path = run.options.output / name; std::filesystem::exists(path, error))
+            return path.string();
+    return run.options.output.string();
+}
+
+void say(RunView& run) {
+    run.log.say(fmt::format("done: {} of extension in {}", length_text(run.extension()),
+                            rough_duration(run.wall_seconds())));
+    for (const std::string& line : results_of(run))
+        run.log.say("  " + line);
+    run.log.repeat_warnings();
+    run.log.say("look: " + place_to_look(run));
+}
+
+} // namespace
+
+std::optional<Output> outputs::results(const RunView&) { return Output{.close = say}; }
+
+} // namespace listric

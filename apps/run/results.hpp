@@ -1,0 +1,24 @@
+#pragma once
+
+#include "apps/measures/fault.hpp"
+#include "apps/measures/measures.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// What a run has come to, for people. What has no meaning in the run is absent.
+struct Results {
+    const measures::Measures& measures;
+    const measures::FaultReport& faults;
+    std::optional<double> basin_depth;           ///< deepest pre-rift top, smoothed over 1 km, m
+    std::optional<double> volume_error_fraction; ///< of weakened discs
+};
+
+/// Five lines at most: head block, basin, depocentres, main faults, and whether the run is good by
+/// the bounds of docs/trust.md.
+std::vector<std::string> result_lines(const Results& results);
+
+} // namespace listric

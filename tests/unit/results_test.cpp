@@ -1,0 +1,93 @@
+// What a run says at its end.
+
+#include "apps/run/results.hpp"
+
+#include "apps/support/log.hpp"
+#include "tests/small_halfgraben.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace listric {
+namespace {
+
+using namespace measures;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+Measures good_measures() {
+    Measures m;
+    m.basin_area = 147.6e6;
+    m.mass_error_fraction = 2e-15;
+    m.quasi_static = true;
+    return m;
+}
+
+TEST(Results, SayWhatTheRunHasComeTo) {
+    Measures m = good_measures();
+    m.rollover_tilt = 38.12;
+    m.cutoff = {9300.0, 3200.0};
+    m.area_balance = 0.984;
+    m.depocentres = {{3200.0, 4120.0, 900.0}, {14600.0, 2310.0, 400.0}};
+    FaultReport faults;
+    faults.faults.resize(2);
+    faults.faults[0].trace.points = {{17.9e3, -500.0}, {15e3, -9e3}};
+    faults.faults[0].dip = 61.3;
+    faults.faults[0].pre_rift_throw = 1247.0;
+    faults.faults[1].trace.points = {{12e3, -500.0}, {15e3, -9e3}};
+    faults.faults[1].dip = 55.0;
+    faults.main_antithetic = 0;
+    faults.main_synthetic = 1;
+    EXPECT_THAT(
+        result_lines({m, faults, 7120.0, 3e-4}),
+        ElementsAre("tilt of the head block 38.1 degrees; cutoff at x = 9.3 km, 3.2 km deep",
+                    "basin 147.6 km2, 7.1 km deep; area balance 0.98",
+                    "2 depocentres: 4.1 km of sediment at x = 3.2 km, 2.3 km of sediment at x = "
+                    "14.6 km",
+                    "main faults: antithetic at x = 17.9 km, dip 61 degrees, throw 1.2 km; "
+                    "synthetic at x = 12.0 km, dip 55 degrees",
+                    "good: quasi-static, mass error 2e-15, volume error 0.03 %"));
+}
+
+TEST(Results, AreFewerWhereLessIsInTheScene) {
+    EXPECT_THAT(result_lines({good_measures(), {}, {}, {}}),
+                ElementsAre("basin 147.6 km2", "no fault is traced in the last window",
+                            "good: quasi-static, mass error 2e-15"));
+    FaultReport minor;
+    minor.faults.resize(3);
+    EXPECT_THAT(result_lines({good_measures(), minor, {}, {}})[1],
+                StartsWith("3 faults are traced, but none is a main one"));
+}
+
+TEST(Results, SayWhatIsDoubtful) {
+    Measures hasty = good_measures();
+    hasty.quasi_static = false;
+    EXPECT_THAT(result_lines({hasty, {}, {}, {}}).back(), StartsWith("doubtful: not quasi-static"));
+    EXPECT_THAT(result_lines({good_measures(), {}, {}, 2e-3}).back(),
+                StartsWith("doubtful: quasi-static"));
+    Measures leaky = good_measures();
+    leaky.mass_error_fraction = 1e-9;
+    EXPECT_THAT(result_lines({leaky, {}, {}, {}}).back(), StartsWith("doubtful: "));
+}
+
+TEST(Results, LogHasTimesAndRepeatsItsWarnings) {
+    const auto file = std::filesystem::path(testing::TempDir()) / "listric-results-log.txt";
+    std::filesystem::remove(file);
+    {
+        Log log(file, true);
+        log.say("begun");
+        log.say("warning: too fast");
+        log.repeat_warnings();
+        log.repeat_warnings();
+    }
+    std::string text = support::contents(file);
+    std::filesystem::remove(file);
+    const std::string time = "[0-9]{4}-[0-9]{2}-[0-9]{2} [0-9]{2}:[0-9]{2}:[0-9]{2}  ";
+    EXPECT_THAT(text, MatchesRegex(time + "begun\n" + time + "warning: too fast\n" + time +
+                                   "there was a warning:\n" + time + "  warning: too fast\n"));
+}
+
+} // namespace
+} // namespace listric

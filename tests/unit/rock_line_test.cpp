@@ -1,0 +1,112 @@
+// Scenes that name no rock have that of the shipped scenes, and people are told which they have.
+
+#include "apps/scene/rock_line.hpp"
+
+#include "apps/model/effects.hpp"
+#include "tests/small_halfgraben.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace listric {
+namespace {
+
+namespace fs = std::filesystem;
+using support::contents;
+
+constexpr const char* shipped =
+    "rock: mat18-b; faults: mat18-w-frictional (friction 0.2); detachment friction 0.5";
+
+class RockLine : public testing::Test {
+protected:
+    RockLine() { fs::create_directories(folder); }
+    ~RockLine() override { fs::remove_all(folder); }
+
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder / name) << text;
+        return (folder / name).string();
+    }
+    static std::string line(const std::string& scene, const std::vector<std::string>& set = {}) {
+        return rock_line(load_scene({.scene = scene, .set = set}));
+    }
+
+    /// The blocks of TOML in a document that are scenes.
+    static std::vector<std::string> scenes_in(const fs::path& document) {
+        const std::string text = contents(fs::path(LISTRIC_SOURCE_DIR) / document);
+        const std::string fence = "```toml\n";
+        std::vector<std::string> scenes;
+        for (std::size_t at = text.find(fence); at != text.npos; at = text.find(fence, at + 1)) {
+            const std::size_t begin = at + fence.size();
+            const std::string block = text.substr(begin, text.find("```", begin) - begin);
+            if (block.find("[fault_weakening]") != block.npos)
+                scenes.push_back(block);
+        }
+        return scenes;
+    }
+
+    const fs::path folder = fs::path(testing::TempDir()) / "listric-rock-line";
+};
+
+TEST_F(RockLine, ScenesOfTheDocumentsHaveTheShippedRock) {
+    write("fault.csv",
+          "x_m,depth_m\n0,0\n128,1957\n511,3882\n1141,5740\n2009,7499\n3099,9131\n4393,10606\n5868,"
+          "11900\n7499,12990\n9259,13858\n11117,14488\n13042,14871\n14999,15000\n30000,15000\n");
+    for (const char* document : {"README.md", "docs/your-own-section.md"}) {
+        const auto scenes = scenes_in(document);
+        EXPECT_EQ(scenes.size(), 1u) << document;
+        for (const std::string& scene : scenes)
+            EXPECT_EQ(line(write("scene.toml", scene)), shipped) << document;
+    }
+    // The tutorial makes these tables.
+    fs::copy_file(fs::path(LISTRIC_SOURCE_DIR) / "docs/your-own-section/scene.toml",
+                  folder / "tutorial.toml", fs::copy_options::overwrite_existing);
+    write("picks.csv", "name,x_m,depth_m\na,3000,100\na,4000,200\n");
+    EXPECT_EQ(line((folder / "tutorial.toml").string()), shipped);
+    for (const auto& entry :
+         fs::directory_iterator(fs::path(LISTRIC_SOURCE_DIR) / "docs/cookbook")) {
+        const bool is_scene = contents(entry.path()).find("[fault_weakening]") != std::string::npos;
+        EXPECT_EQ(is_scene ? line(entry.path().string()) : shipped, shipped) << entry.path();
+    }
+    for (const char* scene : {"lis1", "lis2", "rfr", "lis1-elastic", "lis2-elastic", "rfr-elastic"})
+        EXPECT_EQ(line(scene), shipped) << scene;
+}
+
+TEST_F(RockLine, NamesWhatIsInForce) {
+    EXPECT_EQ(line("pure-shear"), "rock: mat18-b; faults: mat18-w (friction 0); base friction 0.3");
+    EXPECT_EQ(line("lis1-0"), "rock: mat18-b; detachment friction 0.5");
+    // What the scene changes is no shipped rock any more, and what it makes of one may be another.
+    EXPECT_EQ(line("lis1", {"fault_weakening.friction=0.3", "detachment.friction=0.1"}),
+              "rock: mat18-b; faults: its own (friction 0.3); detachment friction 0.1");
+    EXPECT_EQ(line("lis1", {"fault_weakening.friction=0"}),
+              "rock: mat18-b; faults: mat18-w (friction 0); detachment friction 0.5");
+    EXPECT_EQ(line("lis1", {"bonds.shear_strength_pa=9e9"}).substr(0, 13), "rock: its own");
+    const std::string sandstone =
+        (fs::path(LISTRIC_SOURCE_DIR) / "docs/cookbook/sandstone.toml").string();
+    EXPECT_EQ(line("lis1", {"materials.basement=" + sandstone}).substr(0, 16), "rock: sandstone;");
+}
+
+TEST_F(RockLine, OfARecordAreFoundByTheirProperties) {
+    for (const char* weakened : {"mat18-w", "mat18-w-calibrated"}) {
+        const Scene scene =
+            load_scene({.scene = "lis1", .set = {fmt::format("materials.weakened={}", weakened)}});
+        EXPECT_EQ(line(write("record.toml", to_toml(scene))), rock_line(scene));
+    }
+}
+
+TEST_F(RockLine, OlderVersionsTookTable1) {
+    const std::string file = write("old.toml", support::small_halfgraben() + "[fault_weakening]\n");
+    EXPECT_EQ(rock_line(load_scene({.scene = file, .former_rocks = true})),
+              "rock: mat18-b; faults: mat18-w (friction 0); detachment friction 0.5");
+    // What a scene names holds.
+    const std::string named = file.substr(0, file.size() - 5) + "-named.toml";
+    write("old-named.toml", contents(file) + "[materials]\nweakened = 'mat18-w-calibrated'\n");
+    EXPECT_EQ(rock_line(load_scene({.scene = named, .former_rocks = true})),
+              rock_line(load_scene({.scene = named})));
+}
+
+} // namespace
+} // namespace listric
