@@ -7,7 +7,6 @@
 #include "apps/run/prediction.hpp"
 #include "apps/run/session.hpp"
 #include "apps/scene/rock_line.hpp"
-#include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/memory.hpp"
 #include "apps/support/version.hpp"
