@@ -207,9 +207,15 @@ complete -F _listric listric
 
 Command add_completion(CLI::App& program) {
     CLI::App* command =
-        program.add_subcommand("completion", "Script with which a shell completes calls");
+        add_call(program, {"Shell",
+                           "completion",
+                           "print a script with which a shell completes calls",
+                           "docs/editors.md",
+                           {{{"completion bash > listric.bash", "to source in ~/.bashrc"},
+                             {"completion bash", "look at the script"},
+                             {"help completion", "this text"}}}});
     const auto shell = std::make_shared<std::string>();
-    command->add_option("SHELL", *shell, "Which shell")->required()->check(CLI::IsMember(shells()));
+    command->add_option("SHELL", *shell, "bash")->required()->check(CLI::IsMember(shells()));
     return {command, [&program, shell] {
                 std::cout << bash_script(program);
                 return ExitCode::done;
