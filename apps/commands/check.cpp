@@ -159,7 +159,7 @@ Command add_check(CLI::App& program) {
                              {"check plan.toml", "a plan of a sweep or of a validation"},
                              {"check lis1 my-rock.toml", "several files at once"}}}});
     command->add_option("FILE", *files, "scenes, by name or file, plans or materials")
-        ->type_name("FILE")
+        ->type_name("SCENE")
         ->required()
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     return {command, [files] {

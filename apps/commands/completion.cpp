@@ -1,4 +1,5 @@
 #include "apps/commands/command.hpp"
+#include "apps/figures/export_run.hpp"
 #include "apps/laboratory/laboratory.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/accuracy.hpp"
@@ -40,6 +41,11 @@ Words study_names() {
     return names;
 }
 
+Words kind_names() {
+    const auto kinds = export_kinds();
+    return {kinds.begin(), kinds.end()};
+}
+
 Words all_effect_names() {
     Words names;
     for (const Effect* effect : program_effects())
@@ -67,6 +73,13 @@ Words material_assignments() {
     return words;
 }
 
+Words call_names(const CLI::App& program) {
+    Words names;
+    for (const CLI::App* call : program.get_subcommands({}))
+        names.push_back(call->get_name());
+    return names;
+}
+
 /// What follows an option, or stands as an argument.
 struct Answer {
     std::string words; ///< separated by blanks
@@ -75,52 +88,40 @@ struct Answer {
     auto operator<=>(const Answer&) const = default;
 };
 
-/// What the program's own checks do not tell of a text, by the name of its option or argument, if
-/// need be with its call.
-const std::map<std::string, std::pair<Words (*)(), bool>> texts{
+/// What is offered for a kind of value, if need be with its call. Of a kind that is not here any
+/// value is one that nobody can guess.
+const std::map<std::string, std::pair<Words (*)(), bool>> kinds{
     {"SCENE", {scene_names, true}},
-    {"FILE", {scene_names, true}},
-    {"scene", {scene_names, true}},
-    {"accuracy", {accuracy_names, false}},
+    {"FILE", {nothing, true}},
+    {"DIR", {nothing, true}},
+    {"LEVEL", {accuracy_names, false}},
     {"MATERIAL", {material_names, true}},
-    {"weakened", {material_names, true}},
-    {"vice", {material_names, true}},
     {"TEST", {test_names, false}},
-    {"NAME", {study_names, false}},
-    {"SHELL", {shells, false}},
-    {"without", {all_effect_names, false}},
-    {"set", {assignments, false}},
-    {"laboratory set", {material_assignments, false}},
-    {"until", {nothing, false}},
-    {"task", {nothing, false}},
-    {"name", {nothing, false}},
-    {"only", {nothing, false}}};
-
-bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
+    {"STUDY", {study_names, false}},
+    {"KIND", {kind_names, false}},
+    {"TABLE", {all_effect_names, false}},
+    {"KEY=VALUE", {assignments, false}},
+    {"laboratory KEY=VALUE", {material_assignments, false}}};
 
 Answer answer_to(const CLI::App& call, const CLI::Option& option) {
-    const std::string type = option.get_type_name(); // TEXT:{stress,force}
-    if (!type.starts_with("TEXT"))
+    if (const Words choices = choices_of(option); !choices.empty())
+        return {fmt::format("{}", fmt::join(choices, " ")), false};
+    const std::string kind = kind_of(option);
+    if (kind == "CALL")
+        return {fmt::format("{}", fmt::join(call_names(*call.get_parent()), " ")), false};
+    auto known = kinds.find(call.get_name() + " " + kind);
+    if (known == kinds.end())
+        known = kinds.find(kind);
+    if (known == kinds.end())
         return {};
-    if (const auto brace = type.find('{'); brace != type.npos) {
-        std::string words = type.substr(brace + 1, type.find('}') - brace - 1);
-        std::ranges::replace(words, ',', ' ');
-        return {words, false};
-    }
-    const std::string& name = option.get_single_name();
-    auto known = texts.find(call.get_name() + " " + name);
-    if (known == texts.end())
-        known = texts.find(name);
-    if (known == texts.end())
-        return {"", true};
     return {fmt::format("{}", fmt::join(known->second.first(), " ")), known->second.second};
 }
 
 Words options_of(const CLI::App& call) {
     Words words;
     for (const CLI::Option* option : call.get_options())
-        for (const std::string& name : option->get_lnames())
-            words.push_back("--" + name);
+        std::ranges::copy_if(names_of(*option), std::back_inserter(words),
+                             [](const std::string& name) { return name.starts_with("--"); });
     return words;
 }
 
@@ -128,10 +129,9 @@ Words options_of(const CLI::App& call) {
 /// with.
 void add_answers(const CLI::App& call, std::map<Answer, Words>& patterns) {
     for (const CLI::Option* option : call.get_options())
-        if (!is_flag(*option))
-            for (const std::string& name : option->get_lnames())
-                patterns[answer_to(call, *option)].push_back(
-                    fmt::format("{},--{}", call.get_name(), name));
+        if (option->get_items_expected_max() > 0)
+            for (const std::string& name : names_of(*option))
+                patterns[answer_to(call, *option)].push_back(call.get_name() + "," + name);
 }
 
 /// What the arguments of a call may be, together.
@@ -157,12 +157,10 @@ std::string assignment_of(const Answer& answer) {
 }
 
 std::string bash_script(const CLI::App& program) {
-    Words calls;
     std::map<Answer, Words> patterns;
     std::string arguments;
     for (const CLI::App* call : program.get_subcommands({})) {
         const std::string& name = call->get_name();
-        calls.push_back(name);
         add_answers(*call, patterns);
         arguments +=
             fmt::format("        {0},-*) words=\"{1}\" ;;\n        {0},*){2} ;;\n", name,
@@ -199,8 +197,8 @@ _listric() {{
 }}
 complete -F _listric listric
 )",
-                       fmt::join(calls, " "), fmt::join(options_of(program), " "), answers,
-                       arguments);
+                       fmt::join(call_names(program), " "), fmt::join(options_of(program), " "),
+                       answers, arguments);
 }
 
 } // namespace

@@ -60,8 +60,11 @@ std::string two_columns(const std::vector<Entry>& entries, std::size_t width) {
         indent = std::max(indent, entry.head.size() + 4);
     indent = std::min(indent, std::max<std::size_t>(6, width * 2 / 5));
     std::string text;
-    for (const Entry& entry : entries)
-        text += wrapped("  " + entry.head, entry.text, indent, width);
+    for (const Entry& entry : entries) {
+        std::string head = "  " + entry.head;
+        for (const std::string& line : CLI::detail::split(entry.text, '\n'))
+            text += wrapped(std::exchange(head, ""), line, indent, width);
+    }
     return text;
 }
 
@@ -143,6 +146,15 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
                              : CLI::detail::split(type.substr(from + 1, to - from - 1), ',');
 }
 
+std::vector<std::string> names_of(const CLI::Option& option) {
+    std::vector<std::string> names;
+    for (const std::string& name : option.get_snames())
+        names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames())
+        names.push_back("--" + name);
+    return names;
+}
+
 std::string head_of(const CLI::Option& option) {
     if (option.get_positional()) {
         const std::string& name = option.get_name();
@@ -151,14 +163,9 @@ std::string head_of(const CLI::Option& option) {
                : option.get_items_expected_max() > 2 ? once + "..."
                                                      : once;
     }
-    std::vector<std::string> names;
-    for (const std::string& name : option.get_snames())
-        names.push_back("-" + name);
-    for (const std::string& name : option.get_lnames())
-        names.push_back("--" + name);
     const std::string kind = kind_of(option);
     const char* form = option.get_items_expected_max() == 0 ? "[={}]" : " {}";
-    return CLI::detail::join(names, ", ") +
+    return CLI::detail::join(names_of(option), ", ") +
            (kind.empty() ? "" : fmt::format(fmt::runtime(form), kind));
 }
 

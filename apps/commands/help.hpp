@@ -39,6 +39,9 @@ std::string kind_of(const CLI::Option& option);
 /// The words that an option's own check allows; empty: any.
 std::vector<std::string> choices_of(const CLI::Option& option);
 
+/// "-o", "--output"; none of an argument.
+std::vector<std::string> names_of(const CLI::Option& option);
+
 /// "-o, --output DIR", or an argument's name.
 std::string head_of(const CLI::Option& option);
 

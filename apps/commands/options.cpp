@@ -67,7 +67,7 @@ CLI::Option* read_alike(CLI::Option* option) {
 std::string short_number(double number) {
     std::string text = fmt::format("{:g}", number);
     if (const auto plus = text.find("e+"); plus != text.npos)
-        text.erase(plus + 1, 1);
+        text.erase(plus + 1, text[plus + 2] == '0' ? 2 : 1);
     return text;
 }
 
@@ -112,7 +112,7 @@ void add_scene(CLI::App& command, SceneRequest& request) {
     add_words(command, "--set", "KEY=VALUE", request.set,
               "change a parameter, such as extension.distance_m=5000; repeatable");
     add_words(command, "--without", "TABLE", request.without,
-              "switch off an effect, such as sedimentation; repeatable");
+              "switch off an effect, by the name of its table; repeatable");
     command
         .add_option("--accuracy", request.accuracy,
                     fmt::format("resolution: {}", fmt::join(accuracy_names(), ", ")))

@@ -23,7 +23,7 @@ Command add_study(CLI::App& program) {
     std::vector<std::string> names;
     for (const Study& study : studies())
         names.push_back(fmt::format("{}: {}", study.name, study.doc));
-    command->add_option("STUDY", request->name, fmt::format("{}", fmt::join(names, "; ")))
+    command->add_option("STUDY", request->name, fmt::format("one of\n{}", fmt::join(names, "\n")))
         ->type_name("STUDY")
         ->required();
     command->add_option("--scene", request->scene, "scene of studies made of runs")

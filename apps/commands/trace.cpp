@@ -45,8 +45,8 @@ Command add_trace(CLI::App& program) {
                            "find faults in displacements of any code or image",
                            "docs/install.md",
                            {{{"trace points.csv", "faults as JSON"},
-                             {"trace points.csv --least-strain 0.5", "longer faults"},
-                             {"trace points.csv --certain-strain 1.5", "more faults"}}}});
+                             {"trace points.csv --least-strain 0.02", "longer faults"},
+                             {"trace points.csv --certain-strain 0.1", "more faults"}}}});
     command
         ->add_option("POINTS", request->file,
                      "CSV with the columns x_m, depth_m (before), dx_m, ddepth_m (displacement)")

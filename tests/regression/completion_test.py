@@ -75,7 +75,7 @@ class Manual(unittest.TestCase):
         sections = page.split(".SS listric ")[1:]
         self.assertEqual([section.split()[0].rstrip(".") for section in sections], calls)
         for call, section in zip(calls, sections):
-            options = re.findall(r"^  (?:-\w,)?(--[\w-]+)", output(PROGRAM, call, "--help"),
+            options = re.findall(r"^  (?:-\w, )?(--[\w-]+)", output(PROGRAM, call, "--help"),
                                  re.MULTILINE)
             for option in set(options) - {"--help"}:
                 self.assertRegex(section, rf"\n\.B [^\n]*{option}\b", call)
