@@ -4,6 +4,7 @@ has every call and option.
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest completion_test
 """
 
+import os
 import re
 import subprocess
 import tempfile
@@ -85,6 +86,19 @@ class Manual(unittest.TestCase):
         done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z"], input=page, text=True,
                               capture_output=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+class Page(unittest.TestCase):
+    def test_has_the_help_of_every_call(self):
+        """docs/calls.md, which the launcher prints; docs/parameters.sh writes it again."""
+        environment = {name: value for name, value in os.environ.items() if name != "LISTRIC_CALL"}
+        environment["COLUMNS"] = "80"
+        page = (SOURCES / "docs/calls.md").read_text()
+        sections = re.findall(r"^## (\w+)\n\n```\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+        overview = output(PROGRAM, "help", env=environment)
+        self.assertEqual(sections[0], ("listric", overview))
+        self.assertEqual(sections[1:], [(call, output(PROGRAM, "help", call, env=environment))
+                                        for call in re.findall(r"^  ([a-z]+)  ", overview, re.MULTILINE)])
 
 
 if __name__ == "__main__":
