@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::pair<ExitCode, const char*> endings[] = {
     {ExitCode::done, "done"},
+    {ExitCode::differs, "diff has found a difference"},
     {ExitCode::bad_call, "the call or the scene is wrong; the message names file, line, what is "
                          "allowed"},
     {ExitCode::numerics_failed, "the numbers went wrong; the message names the moment"},

@@ -1,4 +1,5 @@
 #include "apps/model/effects.hpp"
+#include "apps/model/works.hpp"
 
 #include <array>
 
@@ -23,7 +24,9 @@
 namespace listric {
 
 namespace effects {
-#define EFFECT(name) const Effect& name();
+#define EFFECT(name)                                                                               \
+    const Effect& name();                                                                          \
+    Works name##_works();
 LISTRIC_EFFECTS
 #undef EFFECT
 } // namespace effects
@@ -33,6 +36,15 @@ EffectList program_effects() {
     static const std::array list{LISTRIC_EFFECTS};
 #undef EFFECT
     return list;
+}
+
+Works works_behind(std::string_view effect) {
+#define EFFECT(name)                                                                               \
+    if (effect == #name)                                                                           \
+        return effects::name##_works();
+    LISTRIC_EFFECTS
+#undef EFFECT
+    return {};
 }
 
 } // namespace listric

@@ -1,6 +1,7 @@
 #include "dem/base/motion.hpp"
 
 #include "apps/model/base_driver.hpp"
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/csv.hpp"
@@ -9,6 +10,8 @@
 #include <fmt/format.h>
 
 namespace listric::effects {
+
+Works base_motion_works() { return {}; }
 
 const Effect& base_motion();
 

@@ -1,11 +1,14 @@
 #include "coupling/basin_water.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
+
+Works basin_water_works() { return {}; }
 
 const Effect& basin_water();
 

@@ -1,8 +1,11 @@
 #include "dem/events/bond_healing.hpp"
 
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 
 namespace listric::effects {
+
+Works bond_healing_works() { return {}; }
 
 const Effect& bond_healing();
 

@@ -1,7 +1,10 @@
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/scene/pieces.hpp"
 
 namespace listric::effects {
+
+Works bonds_works() { return {&works::itasca}; }
 
 const Effect& bonds();
 

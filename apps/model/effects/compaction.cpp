@@ -1,8 +1,11 @@
 #include "dem/events/compaction.hpp"
 
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 
 namespace listric::effects {
+
+Works compaction_works() { return {&works::baldwin_butler}; }
 
 const Effect& compaction();
 

@@ -4,6 +4,7 @@
 #include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/support/spelling.hpp"
 #include "fem/blocks.hpp"
@@ -18,6 +19,8 @@
 #include <iterator>
 
 namespace listric::effects {
+
+Works elastic_base_works() { return {&works::hetenyi, &works::turcotte_schubert}; }
 
 const Effect& elastic_base();
 

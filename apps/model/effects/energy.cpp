@@ -1,3 +1,4 @@
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 #include "dem/events/energy_account.hpp"
 #include "dem/events/equilibrium.hpp"
@@ -6,6 +7,8 @@
 #include <cmath>
 
 namespace listric::effects {
+
+Works energy_works() { return {}; }
 
 const Effect& energy();
 

@@ -1,6 +1,7 @@
 #include "dem/events/fault_weakening.hpp"
 
 #include "apps/model/measure_names.hpp"
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 #include "dem/events/property_update.hpp"
 
@@ -10,6 +11,8 @@
 #include <cmath>
 
 namespace listric::effects {
+
+Works fault_weakening_works() { return {}; }
 
 const Effect& fault_weakening();
 

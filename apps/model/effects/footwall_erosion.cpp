@@ -1,12 +1,15 @@
 #include "coupling/footwall_erosion.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
+
+Works footwall_erosion_works() { return {}; }
 
 const Effect& footwall_erosion();
 

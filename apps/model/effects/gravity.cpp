@@ -1,6 +1,9 @@
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 
 namespace listric::effects {
+
+Works gravity_works() { return {}; }
 
 const Effect& gravity();
 

@@ -1,11 +1,14 @@
 #include "coupling/lower_crust_thinning.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
+
+Works lower_crust_thinning_works() { return {&works::kusznir}; }
 
 const Effect& lower_crust_thinning();
 

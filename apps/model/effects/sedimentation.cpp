@@ -1,6 +1,7 @@
 #include "dem/events/sedimentation.hpp"
 #include "dem/events/sediment_stress.hpp"
 
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
@@ -11,6 +12,8 @@
 #include <algorithm>
 
 namespace listric::effects {
+
+Works sedimentation_works() { return {}; }
 
 const Effect& sedimentation();
 
