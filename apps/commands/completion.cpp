@@ -16,7 +16,7 @@
 #include <map>
 #include <memory>
 
-// A script for bash, made from the declarations of calls and options.
+// Scripts for bash, zsh and fish, made from the declarations of calls and options.
 
 namespace listric {
 
@@ -27,7 +27,7 @@ using Words = std::vector<std::string>;
 Words nothing() { return {}; }
 Words scene_names() { return scenes.names(); }
 Words material_names() { return materials.names(); }
-Words shells() { return {"bash"}; }
+Words shells() { return {"bash", "zsh", "fish"}; }
 
 Words test_names() {
     const auto tests = laboratory_tests();
@@ -150,72 +150,139 @@ Answer arguments_of(const CLI::App& call) {
 std::string assignment_of(const Answer& answer) {
     std::string text;
     if (!answer.words.empty())
-        text += fmt::format(" words=\"{}\"", answer.words);
+        text += fmt::format(" offers=\"{}\"", answer.words);
     if (answer.files)
         text += " files=yes";
     return text;
 }
 
-std::string bash_script(const CLI::App& program) {
+/// For bash and zsh: `offers` and `files` by `call`, the word `before` and the `word` itself.
+std::string cases(const CLI::App& program) {
     std::map<Answer, Words> patterns;
     std::string arguments;
     for (const CLI::App* call : program.get_subcommands({})) {
         const std::string& name = call->get_name();
         add_answers(*call, patterns);
         arguments +=
-            fmt::format("        {0},-*) words=\"{1}\" ;;\n        {0},*){2} ;;\n", name,
+            fmt::format("        {0},-*) offers=\"{1}\" ;;\n        {0},*){2} ;;\n", name,
                         fmt::join(options_of(*call), " "), assignment_of(arguments_of(*call)));
     }
     std::string answers;
     for (const auto& [answer, of] : patterns)
         answers += fmt::format("    {}){} ;;\n", fmt::join(of, " | "), assignment_of(answer));
-    return fmt::format(R"(# Completion of listric in bash, made by `listric completion bash`.
-_listric() {{
-    local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}}
-    local call=${{COMP_WORDS[1]}} words= files=
-    # bash takes --option=value apart.
-    if [[ $word == "=" ]]; then
-        word=
-    elif [[ $before == "=" ]]; then
-        before=${{COMP_WORDS[COMP_CWORD - 2]}}
-    fi
-    ((COMP_CWORD == 1)) && call= before=
-    case $call,$before in
-    ,) words="{} {}" ;;
+    return fmt::format(R"(    case $call,$before in
+    ,) offers="{} {}" ;;
 {}    *)
         case $call,$word in
 {}        esac
         ;;
     esac
-    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
-    if [[ $files ]]; then
-        mapfile -t -O ${{#COMPREPLY[@]}} COMPREPLY < <(compgen -f -- "$word")
-        compopt -o filenames 2>/dev/null
-    fi
-    [[ ${{COMPREPLY[*]}} == *= ]] && compopt -o nospace 2>/dev/null
-    return 0
-}}
-complete -F _listric listric
 )",
                        fmt::join(call_names(program), " "), fmt::join(options_of(program), " "),
                        answers, arguments);
 }
 
+std::string bash_script(const CLI::App& program) {
+    return R"(# Completion of listric in bash, made by `listric completion bash`.
+_listric() {
+    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
+    local call=${COMP_WORDS[1]} offers= files=
+    # bash takes --option=value apart.
+    if [[ $word == "=" ]]; then
+        word=
+    elif [[ $before == "=" ]]; then
+        before=${COMP_WORDS[COMP_CWORD - 2]}
+    fi
+    ((COMP_CWORD == 1)) && call= before=
+)" + cases(program) +
+           R"(    mapfile -t COMPREPLY < <(compgen -W "$offers" -- "$word")
+    if [[ $files ]]; then
+        mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -- "$word")
+        compopt -o filenames 2>/dev/null
+    fi
+    [[ ${COMPREPLY[*]} == *= ]] && compopt -o nospace 2>/dev/null
+    return 0
+}
+complete -F _listric listric
+)";
+}
+
+std::string zsh_script(const CLI::App& program) {
+    return R"(#compdef listric
+# Completion of listric in zsh, made by `listric completion zsh`.
+_listric() {
+    local word=${words[CURRENT]} before=${words[CURRENT-1]} call=${words[2]} offers= files=
+    if [[ $word == --*=* ]]; then
+        before=${word%%=*}
+        compset -P '*='
+    fi
+    ((CURRENT == 2)) && call= before=
+)" + cases(program) +
+           R"(    local -a list=(${=offers})
+    compadd -S '' -- ${(M)list:#*=}
+    compadd -- ${list:#*=}
+    [[ -n $files ]] && _files
+    return 0
+}
+# In a folder of fpath this is the function itself; sourced, it is registered.
+if [[ $funcstack[1] == _listric ]]; then _listric "$@"; else compdef _listric listric; fi
+)";
+}
+
+/// A text between quotes of fish, its first line.
+std::string fish_quoted(std::string text) {
+    text = text.substr(0, text.find('\n'));
+    for (std::size_t at = 0; (at = text.find('\'', at)) != text.npos; at += 2)
+        text.insert(at, 1, '\\');
+    return fmt::format("'{}'", text);
+}
+
+std::string fish_script(const CLI::App& program) {
+    std::string text = "# Completion of listric in fish, made by `listric completion fish`.\n"
+                       "complete -c listric -f\n";
+    const auto line = [&](const std::string& when, const std::string& what, const Answer& answer,
+                          const std::string& doc) {
+        text += fmt::format(
+            "complete -c listric -n '{}'{}{}{} -d {}\n", when, what, answer.files ? " -F" : "",
+            answer.words.empty() ? "" : " -a " + fish_quoted(answer.words), fish_quoted(doc));
+    };
+    for (const CLI::App* call : program.get_subcommands({})) {
+        line("test (count (commandline -opc)) -eq 1", "", {call->get_name()},
+             call->get_description());
+        const std::string inside =
+            fmt::format("string match -q {} -- (commandline -opc)[2]", call->get_name());
+        for (const CLI::Option* option : call->get_options()) {
+            std::string names;
+            for (const std::string& name : names_of(*option))
+                names += (name.starts_with("--") ? " -l " : " -s ") +
+                         name.substr(name.find_first_not_of('-'));
+            if (option->get_items_expected_max() > 0 && !names.empty())
+                names += " -r";
+            line(inside, names, answer_to(*call, *option), option->get_description());
+        }
+    }
+    return text;
+}
+
 } // namespace
 
 Command add_completion(CLI::App& program) {
-    CLI::App* command =
-        add_call(program, {"Shell",
-                           "completion",
-                           "print a script with which a shell completes calls",
-                           "docs/editors.md",
-                           {{{"completion bash > listric.bash", "to source in ~/.bashrc"},
-                             {"completion bash", "look at the script"},
-                             {"help completion", "this text"}}}});
+    CLI::App* command = add_call(
+        program, {"Shell",
+                  "completion",
+                  "print a script with which a shell completes calls",
+                  "docs/editors.md",
+                  {{{"completion bash > listric.bash", "to source in ~/.bashrc"},
+                    {"completion zsh > _listric", "in a folder of zsh's fpath"},
+                    {"completion fish > listric.fish", "in ~/.config/fish/completions"}}}});
     const auto shell = std::make_shared<std::string>();
-    command->add_option("SHELL", *shell, "bash")->required()->check(CLI::IsMember(shells()));
+    command->add_option("SHELL", *shell, "bash, zsh or fish")
+        ->required()
+        ->check(CLI::IsMember(shells()));
     return {command, [&program, shell] {
-                std::cout << bash_script(program);
+                std::cout << (*shell == "bash"  ? bash_script(program)
+                              : *shell == "zsh" ? zsh_script(program)
+                                                : fish_script(program));
                 return ExitCode::done;
             }};
 }

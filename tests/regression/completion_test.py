@@ -1,4 +1,4 @@
-"""A real bash completes calls with the script of `listric completion bash`, and the manual's page
+"""Real shells complete calls with the scripts of `listric completion`, and the manual's page
 has every call and option.
 
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest completion_test
@@ -6,6 +6,7 @@ has every call and option.
 
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -66,6 +67,34 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.completed("laboratory", "biaxial", "mat18-b", "--strength-is", "f"),
                          ["force"])
         self.assertEqual(self.completed("sweep", "--task", "1/2", "--jo"), ["--jobs"])
+
+    @unittest.skipUnless(shutil.which("zsh"), "no zsh")
+    def test_zsh_completes_as_bash_does(self):
+        script = Path(self.folder.name, "_script")
+        script.write_text(output(PROGRAM, "completion", "zsh"))
+        stubs = ('compdef() {}; compset() {}; _files() { print -- FILES }; '
+                 'compadd() { while [[ $1 != -- ]]; do shift; done; shift; print -l -- "$@" }; '
+                 '. "$0"; words=("$@"); CURRENT=$#; _listric')
+        for words in (("ru",), ("run", "lis1", "--accuracy", ""), ("run", "lis1", "--set", "hanging_wall.len"),
+                      ("laboratory", "biaxial", "mat18-b", "--set", "bonds.shear"), ("sweep", "--jo"),
+                      ("help", "swe"), ("export", "hor")):
+            offered = output("zsh", "-fc", stubs, script, "listric", *words, cwd=self.folder.name).splitlines()
+            wanted = [word for word in self.completed(*words) if word]
+            self.assertEqual([word for word in offered if word.startswith(words[-1]) and word not in ("", "FILES")],
+                             wanted, words)
+        self.assertIn("FILES", output("zsh", "-fc", stubs, script, "listric", "run", ""))
+        self.assertNotIn("FILES", output("zsh", "-fc", stubs, script, "listric", "help", ""))
+
+    @unittest.skipUnless(shutil.which("fish"), "no fish")
+    def test_fish_completes_as_bash_does(self):
+        script = Path(self.folder.name, "script.fish")
+        script.write_text(output(PROGRAM, "completion", "fish"))
+        for words in (("ru",), ("run", "lis1", "--accuracy", "d"), ("run", "lis1", "--set", "hanging_wall.len"),
+                      ("run", "lis"), ("sweep", "--jo"), ("help", "swe"), ("export", "hor")):
+            offered = output("fish", "--no-config", "-c", "source $argv[1]; complete -C $argv[2]", script,
+                             " ".join(("listric", *words)), cwd=self.folder.name).splitlines()
+            self.assertEqual(sorted(line.partition("\t")[0].replace("\\ ", " ") for line in offered),
+                             sorted(self.completed(*words)), words)
 
 
 class Manual(unittest.TestCase):
