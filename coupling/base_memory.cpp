@@ -8,7 +8,7 @@ using namespace dem;
 
 namespace {
 
-constexpr const char* modes = "modes";
+constexpr const char* modes_name = "modes";
 constexpr const char* reference = "reference";
 constexpr const char* window = "window";
 constexpr const char* window_means = "window_means";
@@ -38,14 +38,14 @@ template <class Means> Means means_of(auto& means) {
 } // namespace
 
 void add_mode_columns(State& state, std::size_t count) {
-    Table& motion = state.base_memory[modes];
+    Table& motion = state.base_memory[modes_name];
     motion.resize(count);
     motion.add<double>("displacement", "m", 0.0);
     motion.add<double>("velocity", "m/s", 0.0);
 }
 
 ModeColumns mode_columns(State& state) {
-    Table& motion = table(state, modes);
+    Table& motion = table(state, modes_name);
     return {motion.get<double>("displacement"), motion.get<double>("velocity")};
 }
 

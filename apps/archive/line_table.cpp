@@ -13,15 +13,15 @@ namespace listric::archive {
 
 namespace {
 
-/// @param none  in place of a number that is not finite
-std::string number(double value, std::string_view none) {
-    return std::isfinite(value) ? fmt::format("{}", value + 0.0) : std::string(none); // not -0
+/// @param absent  in place of a number that is not finite
+std::string number(double value, std::string_view absent) {
+    return std::isfinite(value) ? fmt::format("{}", value + 0.0) : std::string(absent); // not -0
 }
 
-std::string word(const LineValue& value, std::string_view none) {
+std::string word(const LineValue& value, std::string_view absent) {
     if (const auto* text = std::get_if<std::string>(&value))
         return *text;
-    return number(std::get<double>(value), none);
+    return number(std::get<double>(value), absent);
 }
 
 /// A text of JSON.

@@ -166,7 +166,7 @@ void prepare_output(const Scene& scene, const fs::path& output, ExistingRun exis
         throw StorageError(output.string() + ": cannot make the output folder: " + error.message());
     remove_all(remains(output));
     const fs::path test = output / ".listric-write-test";
-    write_text(test, "x");
+    listric::write_text(test, "x");
     fs::remove(test, error);
     fs::remove(output / "summary.json", error); // of a run that now goes on
 }

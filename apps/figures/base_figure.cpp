@@ -39,7 +39,7 @@ void write_table(const fs::path& file, const std::string& header, const std::str
 }
 
 /// Beyond this x the picture ends, m, left of the breakaway and right of the wall.
-constexpr double beside = 100e3;
+constexpr double margin = 100e3;
 
 /// The snapshots nearest to a fifth, half and the whole of the newest one's extension.
 std::vector<fs::path> shown(const std::vector<fs::path>& snapshots) {
@@ -62,7 +62,7 @@ std::string uplift_rows(const State& state, const fem::Field& field, int decimal
     };
     for (std::size_t k = 0; k < field.place.size(); ++k)
         if (std::abs(field.place[k].y) < 1e-3 && field.place[k].x < 0.0 &&
-            field.place[k].x > -beside)
+            field.place[k].x > -margin)
             add(field.place[k].x, field.displacement[k].y);
     const ConstBaseNodeColumns nodes = base_node_columns(state);
     for (std::size_t k = 0; k < nodes.x.size(); ++k)
@@ -76,10 +76,10 @@ std::string uplift_rows(const State& state, const fem::Field& field, int decimal
 void export_section(const Observation& now, const std::vector<fem::StressPatch>& patches,
                     const fs::path& folder) {
     const ConstDiscColumns d = disc_columns(now.state);
-    const double right = now.right_end() + beside;
+    const double right = now.right_end() + margin;
     std::vector<double> rows;
     for (const fem::StressPatch& p : patches) {
-        if (p.corner[0].x < -beside || p.corner[0].x > right)
+        if (p.corner[0].x < -margin || p.corner[0].x > right)
             continue;
         for (std::size_t k = 0; k < 4; ++k)
             rows.insert(rows.end(),

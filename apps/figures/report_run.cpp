@@ -52,7 +52,7 @@ struct ReadRun {
 };
 
 /// Throws UsageError if it is no folder of a section's run.
-ReadRun open_run(const fs::path& output) {
+ReadRun opened(const fs::path& output) {
     if (list_snapshots(output).empty())
         throw UsageError(output.string() + ": no snapshots to report on; is this a run's folder?");
     RunFolder folder(output);
@@ -168,7 +168,7 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
 WrittenReport report_run(const ReportRequest& request, LinesOfMoments lines) {
     std::vector<ReadRun> runs;
     for (const fs::path& output : request.outputs)
-        runs.push_back(open_run(output));
+        runs.push_back(opened(output));
     runs.front().lines = std::move(lines);
     const double most_bytes = 1e6 * request.most_mb;
     std::string html;

@@ -23,13 +23,14 @@ namespace fs = std::filesystem;
 
 enum class Test { uniaxial, biaxial, shear_box, pure_shear };
 
-const std::vector<std::string_view> tests = {"uniaxial", "biaxial", "shear-box", "pure-shear"};
+const std::vector<std::string_view> test_names = {"uniaxial", "biaxial", "shear-box", "pure-shear"};
 
 Test test_of(const LaboratoryRequest& request) {
-    const auto found = std::ranges::find(tests, request.test);
-    if (found == tests.end())
-        throw UsageError(fmt::format("no test {}, {}", request.test, advice(request.test, tests)));
-    return static_cast<Test>(found - tests.begin());
+    const auto found = std::ranges::find(test_names, request.test);
+    if (found == test_names.end())
+        throw UsageError(
+            fmt::format("no test {}, {}", request.test, advice(request.test, test_names)));
+    return static_cast<Test>(found - test_names.begin());
 }
 
 /// What the zone is held by: the call's wish, or the basement rock that goes with it.
@@ -130,7 +131,7 @@ void carry_out(LaboratoryReport& report, const LaboratoryRequest& request, Test 
 
 } // namespace
 
-std::span<const std::string_view> laboratory_tests() { return tests; }
+std::span<const std::string_view> laboratory_tests() { return test_names; }
 
 void run_laboratory(const LaboratoryRequest& request) {
     const auto started = SteadyClock::now();

@@ -15,8 +15,8 @@ using namespace dem;
 
 namespace {
 
-constexpr int servo_cycles = 5; ///< between adjustments of the walls
-constexpr double far = 1e6;     ///< m
+constexpr int box_servo_cycles = 5; ///< between adjustments of the walls
+constexpr double far = 1e6;         ///< m
 
 /// Walls of the shear box, as surfaces. The first two are a sample's.
 enum BoxWall : std::size_t {
@@ -60,8 +60,8 @@ public:
         const double one = contact_parameters(s_.base.material, s_.state.materials[basement], 1.0)
                                .normal_stiffness;
         const double missing = p_.normal_stress * length_ + loads[top_platen].force.y;
-        const double descent =
-            servo_.speed(missing, one * std::max(1, loads[top_platen].contacts), servo_cycles * dt);
+        const double descent = servo_.speed(missing, one * std::max(1, loads[top_platen].contacts),
+                                            box_servo_cycles * dt);
         for (std::size_t wall : {bottom_platen, lower_left, lower_right})
             s_.steer(wall, {-0.5 * speed, 0.0});
         for (std::size_t wall : {top_platen, upper_left, upper_right})
@@ -73,7 +73,7 @@ public:
             const Point a = end_of(lower), b = end_of(upper);
             s_.reshape(zone, {zone == zone_left ? line(b, a) : line(a, b)}, {0.0, -0.5 * descent});
         }
-        s_.advance(servo_cycles);
+        s_.advance(box_servo_cycles);
     }
 
     ShearPoint point() const {

@@ -277,7 +277,7 @@ Point end_direction(const Polyline& line) {
 
 /// Joins b to the end of a if it goes on in it: beyond a gap of up to 10 diameters or a side step
 /// of up to five.
-bool append(Polyline& a, Polyline& b, double diameter) {
+bool join_lines(Polyline& a, Polyline& b, double diameter) {
     const double cosine = std::cos(30.0 * pi / 180.0);
     const Point gap = b.front() - a.back();
     const Point out = end_direction(a);
@@ -311,7 +311,7 @@ bool join_two(std::vector<Polyline>& lines, double diameter) {
             for (int turns = 0; turns < 4; ++turns) {
                 // All pairings of ends: the end of a with the start of b.
                 std::ranges::reverse(turns % 2 ? lines[a] : lines[b]);
-                if (append(lines[a], lines[b], diameter)) {
+                if (join_lines(lines[a], lines[b], diameter)) {
                     lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(b));
                     return true;
                 }

@@ -4,7 +4,7 @@
 
 namespace listric {
 
-/// All effects that the program has (effects.cpp).
+/// All effects that the program has (effect_list.hpp).
 EffectList program_effects();
 
 /// A scene of the program's effects. Throws SceneError.

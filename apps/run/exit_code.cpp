@@ -101,7 +101,7 @@ void guard_threads() {
             _exit(static_cast<int>(ending.code));
         } catch (...) { // there is not even memory to say so
             constexpr std::string_view text = "listric: memory is short\n";
-            [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+            [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
             _exit(static_cast<int>(ExitCode::storage_failed));
         }
     });

@@ -42,7 +42,7 @@ void report(const Report& said) {
         return;
     struct stat what {};
     if (fstat(to, &what) == 0 && S_ISFIFO(what.st_mode) &&
-        write(to, &said, sizeof said) != sizeof said) {
+        ::write(to, &said, sizeof said) != sizeof said) {
         // nobody listens any more
     }
     close(to);
@@ -88,7 +88,7 @@ std::optional<int> RankReports::root_code() const {
 }
 
 void RankReports::hear() {
-    for (Report said{}; read_ >= 0 && read(read_, &said, sizeof said) == sizeof said;) {
+    for (Report said{}; read_ >= 0 && ::read(read_, &said, sizeof said) == sizeof said;) {
         Rank& rank = ranks_[said.rank];
         if (said.code >= 0)
             rank.code = said.code;

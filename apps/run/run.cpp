@@ -37,7 +37,7 @@ std::string with_hint(const std::exception& error, const fs::path& output, std::
                         : error.what();
 }
 
-MemoryError out_of_memory(const Scene& scene) {
+MemoryError memory_error(const Scene& scene) {
     const double bytes = scene.hanging_wall ? predict(scene).memory : 0.0;
     const std::string discs =
         bytes > 0.0 ? fmt::format("the run needs about {:.0f} MB", std::ceil(bytes / 1e6))
@@ -84,7 +84,7 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options, OutputList o
     } catch (const StorageError& failure) {
         throw StorageError(with_hint(failure, output, "once files can be written"));
     } catch (const std::bad_alloc&) {
-        const MemoryError failure = out_of_memory(scene);
+        const MemoryError failure = memory_error(scene);
         throw MemoryError(with_hint(failure, output, "where there is more memory"));
     }
 }

@@ -29,10 +29,6 @@ constexpr double flatness = 0.05; ///< of the tolerance: how far a curve may be 
 constexpr double steps_of_a_path = 60.0; ///< at least: the fit must see straight lines, too
 constexpr double least_share = 0.01;     ///< of the path's size that svg_points must span
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) {
-    throw SceneError(fmt::format("{}: {}", where, what));
-}
-
 void load(pugi::xml_document& document, const std::filesystem::path& file) {
     constexpr std::uintmax_t largest = 1'000'000'000; // bytes
     std::error_code error;

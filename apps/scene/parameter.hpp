@@ -97,11 +97,7 @@ template <auto... Path> auto& reach(void* object) {
 /// The value at a path of members: at<&FaultParameters::material, &Material::friction>.
 template <auto... Path>
 constexpr auto at = Place<std::remove_cvref_t<decltype(detail::get<Path...>(nullptr))>>{
-    [](const void* object) -> const auto& {return detail::get<Path...>(object);
-} // namespace listric
-, [](void* object) -> auto& { return detail::reach<Path...>(object); }
-}
-;
+    detail::get<Path...>, detail::reach<Path...>};
 
 /// The same for a choice: names in the order of the enumeration; of a switch the first means true;
 /// a string is one of them.

@@ -24,10 +24,6 @@ constexpr std::size_t fewest_points = 3, most_points = 20'000;
 constexpr double sharp_turn = 20.0; ///< degrees
 constexpr double wide_gap = 4.0;    ///< median distances of neighbours
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) {
-    throw SceneError(fmt::format("{}: {}", where, what));
-}
-
 FaultPoints read_csv_points(const FaultSource& source, const std::filesystem::path& file) {
     const CsvRows rows =
         read_csv(file, {.numbers = {"x_m", "depth_m"}, .delimiter = source.csv_delimiter});

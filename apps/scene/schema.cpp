@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(const Range& range, const char* type = "number") {
+Json number_schema(const Range& range, const char* type = "number") {
     Json schema{{"type", type}};
     if (const double least = std::max(range.from, range.above); std::isfinite(least)) {
         schema["minimum"] = least;
@@ -48,17 +48,20 @@ Json closed_table(std::string_view doc, Json properties, Json required = Json::a
     return schema;
 }
 
-Json table_of(std::string_view doc, const std::vector<Parameter>& parameters, const void* object);
+Json table_schema(std::string_view doc, const std::vector<Parameter>& parameters,
+                  const void* object);
 
 /// What a value may be, one function for each type.
 struct Allowed {
     const Parameter& parameter;
 
-    Json operator()(const Place<double>&) const { return number(parameter.range); }
-    Json operator()(const Place<std::optional<double>>&) const { return number(parameter.range); }
-    Json operator()(const Place<int>&) const { return number(parameter.range, "integer"); }
+    Json operator()(const Place<double>&) const { return number_schema(parameter.range); }
+    Json operator()(const Place<std::optional<double>>&) const {
+        return number_schema(parameter.range);
+    }
+    Json operator()(const Place<int>&) const { return number_schema(parameter.range, "integer"); }
     Json operator()(const Place<std::uint64_t>&) const {
-        return number(parameter.range, "integer");
+        return number_schema(parameter.range, "integer");
     }
     Json operator()(const Place<bool>&) const { return {{"type", "boolean"}}; }
     Json operator()(const Place<std::string>&) const { return {{"type", "string"}}; }
@@ -66,7 +69,7 @@ struct Allowed {
         return {{"type", "string"}, {"enum", choice.names}};
     }
     Json operator()(const Place<std::vector<double>>&) const {
-        return array_of(number(parameter.range));
+        return array_of(number_schema(parameter.range));
     }
     Json operator()(const Place<std::vector<dem::DetachmentSegment>>&) const {
         const dem::DetachmentSegment segment;
@@ -74,32 +77,33 @@ struct Allowed {
         for (const auto kind :
              {dem::DetachmentSegment::Kind::arc, dem::DetachmentSegment::Kind::line})
             kinds[kind == dem::DetachmentSegment::Kind::arc ? "arc" : "line"] =
-                table_of("", segment_parameters(kind), &segment);
+                table_schema("", segment_parameters(kind), &segment);
         Json item = closed_table("one of arc and line", kinds);
         item["minProperties"] = item["maxProperties"] = 1;
         return array_of(item, 1);
     }
     Json operator()(const Place<std::vector<dem::TargetStage>>&) const {
-        Json point = array_of(Json::array({number(ranges::target_x), number(parameter.range)}), 2);
+        Json point = array_of(
+            Json::array({number_schema(ranges::target_x), number_schema(parameter.range)}), 2);
         point["maxItems"] = 2;
         const Json points = array_of(point, 1);
         const Json stage =
-            closed_table("", {{"time_a", number(ranges::target_time)}, {"points", points}},
+            closed_table("", {{"time_a", number_schema(ranges::target_time)}, {"points", points}},
                          {"time_a", "points"});
         return {{"type", "array"}, {"anyOf", Json::array({points, array_of(stage, 1)})}};
     }
     Json operator()(const Place<std::vector<std::array<double, 4>>>&) const {
-        Json four = array_of(number(parameter.range), 4);
+        Json four = array_of(number_schema(parameter.range), 4);
         four["maxItems"] = 4;
         return array_of(four, 2);
     }
     Json operator()(const Place<std::vector<PickedLine>>&) const {
         const PickedLine line;
-        return array_of(table_of("", picked_line_parameters(), &line));
+        return array_of(table_schema("", picked_line_parameters(), &line));
     }
     Json operator()(const Place<std::vector<fem::Layer>>&) const {
         const fem::Layer layer;
-        return array_of(table_of("", layer_parameters(), &layer));
+        return array_of(table_schema("", layer_parameters(), &layer));
     }
 };
 
@@ -137,7 +141,8 @@ Json parameter_schema(const Parameter& parameter, const void* object) {
     return schema;
 }
 
-Json table_of(std::string_view doc, const std::vector<Parameter>& parameters, const void* object) {
+Json table_schema(std::string_view doc, const std::vector<Parameter>& parameters,
+                  const void* object) {
     Json properties = Json::object(), required = Json::array();
     for (const Parameter& parameter : parameters) {
         properties[std::string(parameter.key)] = parameter_schema(parameter, object);
@@ -207,7 +212,7 @@ std::string finished(const char* title, const Json& schema) {
 
 std::string scene_schema(EffectList effects) {
     Scene scene;
-    Json schema = table_of("", top_level(), &scene);
+    Json schema = table_schema("", top_level(), &scene);
     Json& properties = schema["properties"];
     // As objection_to_name() has it.
     properties["name"].update({{"pattern", "^[^/\\x00-\\x1f\\x7f-\\x9f]+$"},
@@ -217,8 +222,8 @@ std::string scene_schema(EffectList effects) {
     for (const SceneTable& table : scene_tables(effects)) {
         const void* part = table.add(table, scene);
         Json& entry = properties[std::string(table.name)];
-        entry = table_of(fmt::format("{}{}", table.effect ? "effect: " : "", table.doc),
-                         table.parameters, part);
+        entry = table_schema(fmt::format("{}{}", table.effect ? "effect: " : "", table.doc),
+                             table.parameters, part);
         const FileName none;
         for (const Parameter& parameter : file_names(table))
             entry["properties"][std::string(parameter.key)] = parameter_schema(parameter, &none);
@@ -235,7 +240,7 @@ std::string scene_schema(EffectList effects) {
 std::string material_schema() {
     const auto whole = [](const char* doc, const std::vector<Parameter>& parameters,
                           const void* object) {
-        Json schema = table_of(doc, parameters, object);
+        Json schema = table_schema(doc, parameters, object);
         schema["required"] = Json::array();
         for (const Parameter& parameter : parameters) {
             if (!must_be_said(parameter))

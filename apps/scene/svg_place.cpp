@@ -21,10 +21,6 @@ using Declarations = std::map<std::string, std::string>;
 
 constexpr std::string_view svg_namespace = "http://www.w3.org/2000/svg";
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) {
-    throw SceneError(fmt::format("{}: {}", where, what));
-}
-
 /// The element and all that it is in, the outer one first.
 std::vector<xml_node> chain_to(xml_node element) {
     std::vector<xml_node> chain;

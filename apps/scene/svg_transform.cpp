@@ -18,7 +18,7 @@ namespace {
 using Affine = Eigen::Affine2d;
 using Eigen::Vector2d;
 
-struct Quantity {
+struct NumberWithUnit {
     double value = 0.0;
     std::string_view unit;
 };
@@ -59,7 +59,7 @@ public:
 private:
     template <std::size_t count>
     double in(const std::array<Unit, count>& units, double bare, std::size_t k) const {
-        const Quantity& q = all_[k];
+        const NumberWithUnit& q = all_[k];
         if (q.unit.empty() && (!css_ || q.value == 0.0))
             return q.value * bare;
         if (q.unit.empty())
@@ -79,10 +79,10 @@ private:
     SvgText& text_;
     std::string_view function_;
     bool css_;
-    std::vector<Quantity> all_;
+    std::vector<NumberWithUnit> all_;
 };
 
-Affine moved(double x, double y) { return Affine(Eigen::Translation2d(x, y)); }
+Affine translation(double x, double y) { return Affine(Eigen::Translation2d(x, y)); }
 Affine sheared(double xy, double yx) {
     Affine shear = Affine::Identity();
     shear.matrix() << 1.0, xy, 0.0, yx, 1.0, 0.0, 0.0, 0.0, 1.0;
@@ -106,11 +106,11 @@ Affine one_transformation(SvgText& text, bool css) {
         return one;
     }
     if (has("translate", 1, 2))
-        return moved(v.length(0), n == 2 ? v.length(1) : 0.0);
+        return translation(v.length(0), n == 2 ? v.length(1) : 0.0);
     if (css && has("translateX", 1, 1))
-        return moved(v.length(0), 0.0);
+        return translation(v.length(0), 0.0);
     if (css && has("translateY", 1, 1))
-        return moved(0.0, v.length(0));
+        return translation(0.0, v.length(0));
     if (has("scale", 1, 2))
         return scaled(v.number(0), v.number(n - 1));
     if (css && has("scaleX", 1, 1))
@@ -120,8 +120,8 @@ Affine one_transformation(SvgText& text, bool css) {
     if (has("rotate", 1, 1))
         return Affine(Eigen::Rotation2Dd(v.angle(0)));
     if (!css && has("rotate", 3, 3)) // about a point
-        return moved(v.length(1), v.length(2)) * Eigen::Rotation2Dd(v.angle(0)) *
-               moved(-v.length(1), -v.length(2));
+        return translation(v.length(1), v.length(2)) * Eigen::Rotation2Dd(v.angle(0)) *
+               translation(-v.length(1), -v.length(2));
     if (has("skewX", 1, 1))
         return sheared(std::tan(v.angle(0)), 0.0);
     if (has("skewY", 1, 1))
@@ -257,8 +257,8 @@ Affine svg_view(std::string_view view_box, std::string_view aspect, SvgViewport&
     if (left < 0.0 || above < 0.0 || !(how.empty() || how == "meet" || how == "slice") ||
         !ratio.at_end())
         ratio.refuse(fmt::format("preserveAspectRatio=\"{}\" is not read", shown(aspect)));
-    const Affine view = moved(left * (*size.width - across * width) - across * x,
-                              above * (*size.height - down * height) - down * y) *
+    const Affine view = translation(left * (*size.width - across * width) - across * x,
+                                    above * (*size.height - down * height) - down * y) *
                         Eigen::Scaling(across, down);
     size = {width, height};
     return view;

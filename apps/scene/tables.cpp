@@ -293,7 +293,7 @@ auto part_of(const Effect* effect, auto& scene) {
     return std::ranges::find(scene.effects, effect, &EffectPart::effect);
 }
 
-SceneTable table_of(const Effect& effect) {
+SceneTable table_of_effect(const Effect& effect) {
     return {effect.name,
             effect.doc,
             effect.parameters,
@@ -377,7 +377,7 @@ std::vector<SceneTable> scene_tables(EffectList effects) {
     add_source(tables, "detachment", fault_source_parameters(), FaultSource{});
     add_source(tables, "observed", observed_source_parameters(), ObservedSource{});
     std::ranges::transform(effects, std::back_inserter(tables),
-                           [](const Effect* effect) { return table_of(*effect); });
+                           [](const Effect* effect) { return table_of_effect(*effect); });
     tables.push_back(optional<&Scene::flexure>(
         "flexure", "a load on the elastic base alone, without discs", flexure_parameters()));
     return tables;

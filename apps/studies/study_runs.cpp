@@ -31,7 +31,7 @@ using Values = std::vector<double>; ///< one number, or the coordinates of a pla
 constexpr double graben_from = 12e3; ///< x beyond which a depocentre is the collapse graben's, m
 
 /// A quantity of a finished run; nothing where it has no meaning.
-std::optional<Values> value_of(const Json& summary, const std::string& quantity) {
+std::optional<Values> value_in(const Json& summary, const std::string& quantity) {
     if (quantity == "cutoff")
         return Values{
             need_number(summary,
@@ -77,7 +77,7 @@ std::vector<Values> values_of(const std::vector<std::optional<Json>>& seeds,
                               const std::string& quantity) {
     std::vector<Values> values;
     for (const auto& summary : seeds)
-        if (const auto value = summary ? value_of(*summary, quantity) : std::nullopt)
+        if (const auto value = summary ? value_in(*summary, quantity) : std::nullopt)
             values.push_back(*value);
     return values;
 }

@@ -18,7 +18,8 @@ using namespace dem;
 
 namespace {
 
-const Shelf shelf{"validation plan", "it needs [[run]] and [[experiment]]", "", "studies"};
+const Shelf validation_shelf{"validation plan", "it needs [[run]] and [[experiment]]", "",
+                             "studies"};
 
 /// The names of an enumeration's values, in their order.
 const std::vector<std::string_view> kinds = {"kinematics", "faults", "conservation"};
@@ -179,26 +180,26 @@ std::vector<std::string> effects_of(const ValidationPlan& plan) {
 }
 
 /// A plan's own keys.
-struct PlanText {
+struct ExtensionText {
     std::string extends;
 };
 
 /// @param extended  by another: then it cannot extend a third, or itself
 ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
-    const toml::table document = shelf.read(file);
+    const toml::table document = validation_shelf.read(file);
     const Entry top{document, ""};
-    PlanText text;
-    read_values(top, {{"extends", at<&PlanText::extends>, "", {}, "", "a plan"}}, &text,
+    ExtensionText text;
+    read_values(top, {{"extends", at<&ExtensionText::extends>, "", {}, "", "a plan"}}, &text,
                 {"run", "experiment"});
     ValidationPlan plan;
     std::vector<ValidationExperiment> known; // that others can be like
     if (const std::string& other = text.extends; !other.empty()) {
         if (extended)
             fail({*document.get("extends"), "extends"}, "is of a plan that is extended itself");
-        known =
-            read_plan(shelf.find(is_path(other) ? (file.parent_path() / other).string() : other),
-                      true)
-                .experiments;
+        known = read_plan(validation_shelf.find(
+                              is_path(other) ? (file.parent_path() / other).string() : other),
+                          true)
+                    .experiments;
     }
     int runs = 0;
     for (const Entry& entry : tables(top, "run")) {

@@ -36,10 +36,6 @@ struct Delimiter {
 constexpr std::array<Delimiter, 4> delimiters{
     {{",", ','}, {";", ';'}, {"tab", '\t'}, {"blank", ' '}}};
 
-[[noreturn]] void refuse(const std::string& place, const std::string& what) {
-    throw SceneError(fmt::format("{}: {}", place, what));
-}
-
 /// Bytes of a file that could hold a table.
 std::string bytes_of(const fs::path& path) {
     const std::string name = shown(path.string());
@@ -84,7 +80,7 @@ std::string other_format(std::string_view bytes) {
 }
 
 /// The text of a file, whatever wrote it.
-std::string text_of(const fs::path& path) {
+std::string decoded_text(const fs::path& path) {
     std::string text = bytes_of(path);
     if (const std::string format = other_format(text); !format.empty())
         refuse(shown(path.string()), fmt::format("is {}; save it as CSV UTF-8", format));
@@ -226,7 +222,7 @@ std::vector<std::string_view> csv_delimiters() {
 }
 
 CsvRows read_csv(const fs::path& path, const CsvColumns& wanted) {
-    const std::string file = path.string(), text = text_of(path);
+    const std::string file = path.string(), text = decoded_text(path);
     const Reading reading = read_header(text, file, wanted);
     const CsvRecord& header = reading.header;
     std::vector<std::string_view> names = wanted.numbers;
@@ -270,7 +266,7 @@ CsvRows read_csv(const fs::path& path, const CsvColumns& wanted) {
 }
 
 bool csv_has_column(const fs::path& path, std::string_view name) {
-    const std::string text = text_of(path);
+    const std::string text = decoded_text(path);
     return best_reading(text, path.string(), {name}, "auto").found > 0;
 }
 

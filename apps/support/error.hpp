@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace listric {
 
@@ -13,6 +14,10 @@ struct UsageError : std::runtime_error {
 struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+
+[[noreturn]] inline void refuse(const std::string& place, const std::string& what) {
+    throw SceneError(place + ": " + what);
+}
 
 /// A file could not be written or read; what() names it and the cause.
 struct StorageError : std::runtime_error {

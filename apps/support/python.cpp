@@ -43,7 +43,7 @@ std::vector<Interpreter> interpreters() {
 }
 
 /// Whether it is a Python with these modules, as far as can be told without loading them.
-bool has(Interpreter python, const std::vector<std::string>& modules) {
+bool has_modules(Interpreter python, const std::vector<std::string>& modules) {
     python.insert(python.end(), {"-c", "import importlib.util as u, sys\n"
                                        "sys.exit(not all(map(u.find_spec, sys.argv[1:])))"});
     python.insert(python.end(), modules.begin(), modules.end());
@@ -61,8 +61,8 @@ std::string last_line(std::string text, const std::string& script) {
 }
 
 /// Throws what the end of a script means.
-[[noreturn]] void refuse(const SilentEnd& end, const std::string& script,
-                         const std::string& python) {
+[[noreturn]] void refuse_end(const SilentEnd& end, const std::string& script,
+                             const std::string& python) {
     const std::string said = last_line(end.said, script);
     if (end.code == interrupted)
         throw Interrupted();
@@ -93,7 +93,7 @@ void run_script(const std::vector<std::string>& modules, const std::string& pack
     }
     std::string lacking;
     for (const Interpreter& python : candidates) {
-        if (candidates.size() > 1 && !has(python, modules))
+        if (candidates.size() > 1 && !has_modules(python, modules))
             continue;
         std::vector<std::string> words = python;
         words.push_back((resource_folder() / "figures/python" / script).string());
@@ -105,7 +105,7 @@ void run_script(const std::vector<std::string>& modules, const std::string& pack
         }
         const std::lock_guard lock(mutex);
         that_did[modules.back()] = python;
-        return end.code == 0 ? void() : refuse(end, script, python[0]);
+        return end.code == 0 ? void() : refuse_end(end, script, python[0]);
     }
     throw UsageError(fmt::format("{} needs Python with {}, and {} has them not{}: install {}, or "
                                  "name another Python in LISTRIC_PYTHON",

@@ -22,7 +22,7 @@ HealedColumns healed_columns(State& state) {
             state.discs.get<double>("healed_rotation")};
 }
 
-void remember(State& state) {
+void remember_bonded(State& state) {
     const DiscColumns d = disc_columns(state);
     const HealedColumns h = healed_columns(state);
     std::ranges::copy(d.x, h.x.begin());
@@ -75,7 +75,7 @@ bool BondHealing::apply(State& state, const RigidBase&) {
                 install_bond(state, k, strength_, state.clock.cycle);
         }
     });
-    remember(state);
+    remember_bonded(state);
     return false;
 }
 

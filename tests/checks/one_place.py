@@ -19,7 +19,7 @@ from typing import NamedTuple
 from source_tree import CPP, PAGE, PYTHON, is_cpp, read_tree, report
 
 DESCRIPTIONS = "apps/model/effects/"
-LIST = "apps/model/effects.cpp"  # one line each
+LIST = "apps/model/effect_list.hpp"  # one line each
 MOST_EXCEPTIONS = 5
 GENERATED = ("apps/*.schema.json", "apps/python/listric/dictionary.json")  # from the descriptions
 

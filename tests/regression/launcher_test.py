@@ -4,6 +4,7 @@ beside sources that are built in a moment; dpkg, apt and sudo are scripts that n
 
 import os
 import pathlib
+import pty
 import shutil
 import subprocess
 import tempfile
@@ -45,8 +46,9 @@ class Launcher(unittest.TestCase):
         self.root, self.notes, self.scripts = (self.place / name for name in ("sources", "notes", "scripts"))
         for folder in (self.root / "apps/scenes", self.notes, self.scripts):
             folder.mkdir(parents=True)
-        for name in ("listric", "CMakePresets.json"):
-            shutil.copy2(SOURCES / name, self.root)
+        (self.root / "cmake").mkdir()
+        for name in ("listric", "CMakePresets.json", "cmake/packages.sh"):
+            shutil.copy2(SOURCES / name, self.root / name)
         (self.root / "CMakeLists.txt").write_text(PROJECT)
         (self.root / "apps/scenes/rigid.toml").write_text("[gravity]\n")
         (self.root / "apps/scenes/elastic.toml").write_text("[gravity]\n\t[ elastic_base.rock ]\n")
@@ -133,6 +135,25 @@ class Launcher(unittest.TestCase):
         self.assertFalse((self.place / "trap").exists())
         self.call("scenes", OMPI_COMM_WORLD_SIZE="08", OMPI_COMM_WORLD_RANK="09")
         self.call("scenes", PMI_SIZE="", PMI_RANK="-1")
+
+    def test_tells_how_far_a_build_is(self):
+        steps = "".join(f"""add_custom_command(OUTPUT {k} COMMAND ${{CMAKE_COMMAND}} -E touch {k} COMMENT "Building {k}")
+            """ for k in range(40))
+        (self.root / "CMakeLists.txt").write_text(PROJECT.replace(
+            "add_custom_target(listric)", steps + f"add_custom_target(listric DEPENDS {' '.join(map(str, range(40)))})"))
+        _, said = self.call("scenes")
+        self.assertRegex(said, r"listric: building \(native\): \d+ of 40\n")
+        self.assertLess(said.count("building"), 4)
+
+        ours, theirs = pty.openpty()
+        subprocess.run([self.root / "listric", "scenes"], stdout=subprocess.DEVNULL, stderr=theirs, check=True,
+                       env={"PATH": self.path, "NOTES": str(self.notes), "LISTRIC_BUILD": str(self.place / "other")})
+        os.close(theirs)
+        said = os.read(ours, 1 << 16).decode()
+        os.close(ours)
+        self.assertIn("\r\x1b[Klistric: building 40 of 40", said)
+        self.assertTrue(said.endswith("\r\x1b[K"), said)
+        self.assertNotIn("\n", said[said.index("building"):])
 
     def test_presets_that_are_none(self):
         for preset in ("release", "strict", "nonsense", "../native", "native ci", "nat*", "$(id)"):

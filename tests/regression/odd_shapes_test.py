@@ -12,7 +12,7 @@ import time
 import unittest
 from pathlib import Path
 
-from program import PROGRAM, SOURCES
+from program import PROGRAM
 
 PLAN = """scene = "lis1"
 accuracy = "draft"

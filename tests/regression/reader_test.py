@@ -3,7 +3,6 @@
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest reader_test
 """
 
-import csv
 import json
 import os
 import re
@@ -50,8 +49,6 @@ interval_a = 20000.0
 [base_motion]
 uplift = [[0, 0], [4000, 10]]
 """
-
-# A picture takes longer than these runs: a NumPy that ends the script.
 
 
 def tables_of(file):

@@ -14,7 +14,7 @@ import zlib
 
 try:
     import numpy
-    import vtkmodules.vtkRenderingOpenGL2  # makes the classes below able to draw
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: makes the classes below able to draw
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkVersion
     from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject

@@ -8,7 +8,6 @@ import json
 import os
 import random
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -26,12 +25,12 @@ from selenium.webdriver.common.keys import Keys
 from program import PROGRAM, SOURCES
 
 sys.path.insert(0, str(SOURCES / "apps/figures/python"))
-import plot  # without which the figures' modules do not find Matplotlib's backend
+import plot  # noqa: without it the modules of figures do not find Matplotlib's backend
 import frame as frames
 import sections
 from matplotlib.collections import EllipseCollection
 from matplotlib.colors import to_hex
-from vocabulary import VOCABULARY, stratum_colours
+from vocabulary import VOCABULARY
 
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 

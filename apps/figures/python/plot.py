@@ -10,7 +10,7 @@ import os
 import re
 from dataclasses import dataclass
 
-from script import InputError, forget_settings, library, run
+from script import InputError, forget_settings, library, run  # noqa: for those who import this module
 
 forget_settings()
 np = library("numpy")
@@ -18,7 +18,7 @@ matplotlib = library("matplotlib")
 matplotlib.use("Agg")
 library("matplotlib.figure")
 library("matplotlib.backends.backend_agg")
-from matplotlib import colormaps
+from matplotlib import colormaps  # noqa: for those who import this module
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.figure import Figure
@@ -72,8 +72,8 @@ def read_order(text: str) -> Order:
     """From the JSON object that the program gives a script."""
     try:
         words = json.loads(text)
-        run = words["provenance"]
-        return Order(tuple(words["formats"]), words["software"], json.dumps(run) if run else "")
+        provenance = words["provenance"]
+        return Order(tuple(words["formats"]), words["software"], json.dumps(provenance) if provenance else "")
     except (ValueError, TypeError, KeyError, RecursionError) as failure:
         raise InputError(f"not an order of figures ({failure!r}): {text}") from failure
 

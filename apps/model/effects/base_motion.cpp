@@ -1,8 +1,7 @@
 #include "dem/base/motion.hpp"
 
 #include "apps/model/base_driver.hpp"
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/text.hpp"
@@ -10,10 +9,6 @@
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-Works base_motion_works() { return {}; }
-
-const Effect& base_motion();
 
 namespace {
 
@@ -70,6 +65,8 @@ private:
 };
 
 } // namespace
+
+Works base_motion_works() { return {}; }
 
 const Effect& base_motion() {
     static const Effect effect{

@@ -1,16 +1,11 @@
 #include "coupling/basin_water.hpp"
 
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-Works basin_water_works() { return {}; }
-
-const Effect& basin_water();
 
 namespace {
 
@@ -42,6 +37,8 @@ std::vector<double> water_band(const Observation& now) {
 }
 
 } // namespace
+
+Works basin_water_works() { return {}; }
 
 const Effect& basin_water() {
     static const Effect effect{

@@ -1,13 +1,10 @@
 #include "dem/events/bond_healing.hpp"
 
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 
 namespace listric::effects {
 
 Works bond_healing_works() { return {}; }
-
-const Effect& bond_healing();
 
 const Effect& bond_healing() {
     using P = dem::BondHealingParameters;

@@ -1,12 +1,7 @@
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/scene/pieces.hpp"
 
 namespace listric::effects {
-
-Works bonds_works() { return {&works::itasca}; }
-
-const Effect& bonds();
 
 namespace {
 
@@ -16,6 +11,8 @@ struct RockBonds {
 };
 
 } // namespace
+
+Works bonds_works() { return {&works::itasca}; }
 
 const Effect& bonds() {
     static const Effect effect{

@@ -1,13 +1,10 @@
 #include "dem/events/compaction.hpp"
 
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 
 namespace listric::effects {
 
 Works compaction_works() { return {&works::baldwin_butler}; }
-
-const Effect& compaction();
 
 const Effect& compaction() {
     using P = dem::CompactionParameters;

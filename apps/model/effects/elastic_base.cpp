@@ -1,11 +1,10 @@
 #include "apps/model/base_driver.hpp"
 #include "apps/model/effects/elastic_base_driver.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
 #include "apps/support/spelling.hpp"
 #include "fem/blocks.hpp"
 #include "fem/mesh_scan.hpp"
@@ -19,10 +18,6 @@
 #include <iterator>
 
 namespace listric::effects {
-
-Works elastic_base_works() { return {&works::hetenyi, &works::turcotte_schubert}; }
-
-const Effect& elastic_base();
 
 namespace {
 
@@ -396,6 +391,8 @@ std::vector<Measure<Observation>> measures() {
 }
 
 } // namespace
+
+Works elastic_base_works() { return {&works::hetenyi, &works::turcotte_schubert}; }
 
 const Effect& elastic_base() {
     static const Effect effect{

@@ -1,16 +1,12 @@
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
 #include "dem/events/energy_account.hpp"
 #include "dem/events/equilibrium.hpp"
+
+#include "apps/model/effect_list.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace listric::effects {
-
-Works energy_works() { return {}; }
-
-const Effect& energy();
 
 namespace {
 
@@ -103,6 +99,8 @@ std::optional<std::vector<NamedNumbers>> by_event(const Observation& now) {
 }
 
 } // namespace
+
+Works energy_works() { return {}; }
 
 const Effect& energy() {
     static const Effect effect{

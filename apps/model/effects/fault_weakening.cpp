@@ -1,9 +1,9 @@
 #include "dem/events/fault_weakening.hpp"
 
 #include "apps/model/measure_names.hpp"
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
 #include "dem/events/property_update.hpp"
+
+#include "apps/model/effect_list.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,6 @@
 #include <cmath>
 
 namespace listric::effects {
-
-Works fault_weakening_works() { return {}; }
-
-const Effect& fault_weakening();
 
 namespace {
 
@@ -144,6 +140,8 @@ std::vector<double> weak_discs(const Observation& now) {
 }
 
 } // namespace
+
+Works fault_weakening_works() { return {}; }
 
 const Effect& fault_weakening() {
     static const Effect effect{

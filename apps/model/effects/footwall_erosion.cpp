@@ -1,17 +1,12 @@
 #include "coupling/footwall_erosion.hpp"
 
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
 #include "apps/scene/target_csv.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-Works footwall_erosion_works() { return {}; }
-
-const Effect& footwall_erosion();
 
 namespace {
 
@@ -66,6 +61,8 @@ std::string explain(const Scene& scene, EffectList) {
 }
 
 } // namespace
+
+Works footwall_erosion_works() { return {}; }
 
 const Effect& footwall_erosion() {
     static const Effect effect{

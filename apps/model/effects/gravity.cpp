@@ -1,11 +1,6 @@
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 
 namespace listric::effects {
-
-Works gravity_works() { return {}; }
-
-const Effect& gravity();
 
 namespace {
 
@@ -14,6 +9,8 @@ struct GravityParameters {
 };
 
 } // namespace
+
+Works gravity_works() { return {}; }
 
 const Effect& gravity() {
     using P = GravityParameters;

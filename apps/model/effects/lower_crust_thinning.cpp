@@ -1,16 +1,11 @@
 #include "coupling/lower_crust_thinning.hpp"
 
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
 
 #include <fmt/format.h>
 
 namespace listric::effects {
-
-Works lower_crust_thinning_works() { return {&works::kusznir}; }
-
-const Effect& lower_crust_thinning();
 
 namespace {
 
@@ -36,6 +31,8 @@ std::string explain(const Scene& scene, EffectList) {
 }
 
 } // namespace
+
+Works lower_crust_thinning_works() { return {&works::kusznir}; }
 
 const Effect& lower_crust_thinning() {
     static const Effect effect{

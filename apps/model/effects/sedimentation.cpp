@@ -1,8 +1,7 @@
 #include "dem/events/sedimentation.hpp"
 #include "dem/events/sediment_stress.hpp"
 
-#include "apps/model/works.hpp"
-#include "apps/scene/effect.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
 #include "dem/genesis/genesis.hpp"
@@ -12,10 +11,6 @@
 #include <algorithm>
 
 namespace listric::effects {
-
-Works sedimentation_works() { return {}; }
-
-const Effect& sedimentation();
 
 namespace {
 
@@ -191,6 +186,8 @@ std::vector<MeasuredObjects> objects() {
 }
 
 } // namespace
+
+Works sedimentation_works() { return {}; }
 
 const Effect& sedimentation() {
     static const Effect effect{

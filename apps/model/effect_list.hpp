@@ -1,0 +1,32 @@
+#pragma once
+
+#include "apps/model/works.hpp"
+#include "apps/scene/effect.hpp"
+
+// The program's effects, in the order in which tables, names and events of the same stage come.
+// Each is described in effects/NAME.cpp.
+// clang-format off
+#define LISTRIC_EFFECTS \
+    EFFECT(gravity) \
+    EFFECT(bonds) \
+    EFFECT(fault_weakening) \
+    EFFECT(bond_healing) \
+    EFFECT(sedimentation) \
+    EFFECT(compaction) \
+    EFFECT(energy) \
+    EFFECT(elastic_base) \
+    EFFECT(lower_crust_thinning) \
+    EFFECT(basin_water) \
+    EFFECT(footwall_erosion) \
+    EFFECT(base_motion)
+// clang-format on
+
+namespace listric::effects {
+
+#define EFFECT(name)                                                                               \
+    const Effect& name();                                                                          \
+    Works name##_works();
+LISTRIC_EFFECTS
+#undef EFFECT
+
+} // namespace listric::effects
