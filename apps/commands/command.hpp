@@ -33,6 +33,7 @@ Command add_export(CLI::App& program);
 Command add_figures(CLI::App& program);
 Command add_report(CLI::App& program);
 Command add_cite(CLI::App& program);
+Command add_view(CLI::App& program);
 Command add_diff(CLI::App& program);
 Command add_check(CLI::App& program);
 Command add_bench(CLI::App& program);

@@ -3,6 +3,7 @@
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest front_door_test
 """
 
+import os
 import re
 import subprocess
 import tempfile
@@ -55,6 +56,24 @@ class FrontDoor(unittest.TestCase):
         self.assertNotIn("doi", text.lower())
         (self.folder / "cited/summary.json").unlink()
         self.assertIn("not finished", self.call("cite", "cited", code=2))
+
+    def test_view_shows_a_report_or_cards_of_all_runs(self):
+        self.assertIn("there is no folder out", self.call("view", code=2, env=self.without_display()))
+        self.run_briefly("out/one")
+        self.run_briefly("out/<many>/two", "--seed", "2")
+        self.assertEqual(self.call("view", "out/one", env=self.without_display()), "out/one/report.html\n")
+        self.assertTrue((self.folder / "out/one/report.html").exists())
+        self.assertEqual(self.call("view", env=self.without_display()), "out/index.html\n")
+        page = (self.folder / "out/index.html").read_text()
+        self.assertEqual(page.count("<article>"), 2)
+        self.assertIn('<a href="one/report.html">out/one</a>', page)
+        self.assertIn("<h2>out/&lt;many>/two</h2>", page)  # it has no report
+        self.assertRegex(page, r"lis1, standard, seed 2; \d{4}-\d\d-\d\d ")
+        self.assertNotRegex(page, r"(src|href)=\"?https?:")
+
+    @staticmethod
+    def without_display():
+        return {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
 
     def test_works_are_those_of_the_documents(self):
         listed = (SOURCES / "docs/references.md").read_text()

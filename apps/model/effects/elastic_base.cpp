@@ -1,7 +1,7 @@
 #include "apps/model/base_driver.hpp"
+#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_driver.hpp"
 #include "apps/model/effects/elastic_base_parameters.hpp"
-#include "apps/model/effect_list.hpp"
 #include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
