@@ -13,12 +13,18 @@ install(DIRECTORY apps/studies/ DESTINATION ${share}/studies COMPONENT program
 set(own_names --unset=LISTRIC_SHARE --unset=LISTRIC_SCENES --unset=LISTRIC_MATERIALS)
 set(own "COMMAND \"${CMAKE_COMMAND}\" -E env ${own_names} \"$<TARGET_FILE:listric>\"")
 install(CODE "
-  execute_process(${own} completion bash OUTPUT_FILE \"${PROJECT_BINARY_DIR}/listric.bash\"
-    COMMAND_ERROR_IS_FATAL ANY)
+  foreach(shell bash zsh fish)
+    execute_process(${own} completion \${shell} OUTPUT_FILE \"${PROJECT_BINARY_DIR}/listric.\${shell}\"
+      COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()
   execute_process(${own} manual OUTPUT_FILE \"${PROJECT_BINARY_DIR}/listric.1\"
     COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
 install(FILES ${PROJECT_BINARY_DIR}/listric.bash RENAME listric COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${PROJECT_BINARY_DIR}/listric.zsh RENAME _listric COMPONENT program
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${PROJECT_BINARY_DIR}/listric.fish COMPONENT program
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(FILES ${PROJECT_BINARY_DIR}/listric.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
   COMPONENT program)
 install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT program

@@ -9,18 +9,18 @@ namespace listric {
 namespace {
 
 void add_targets(CLI::App& command, CalibrationTargets& t) {
-    command.add_option("--young", t.young, "Young's modulus in plane strain, Pa (5e10)");
-    command.add_option("--poisson", t.poisson, "Poisson's ratio in plane strain (0.25)");
+    add_number(command, "--young", t.young, "Young's modulus in plane strain, Pa");
+    add_number(command, "--poisson", t.poisson, "Poisson's ratio in plane strain");
     CLI::Option* friction =
-        command.add_option("--friction", t.friction, "Slope of the strength envelope (0.6)");
+        add_number(command, "--friction", t.friction, "slope of the strength envelope");
     CLI::Option* cohesion =
-        command.add_option("--cohesion", t.cohesion, "Cohesion of the strength envelope, Pa (1e7)");
-    command.add_flag("--byerlee", t.byerlee, "Byerlee's law instead of friction and cohesion")
+        add_number(command, "--cohesion", t.cohesion, "cohesion of the strength envelope, Pa");
+    command.add_flag("--byerlee", t.byerlee, "fit Byerlee's law instead of friction and cohesion")
         ->excludes(friction)
         ->excludes(cohesion);
-    command.add_option(
-        "--bulk-friction", t.bulk_friction,
-        "Bulk friction of the weakened rock in the shear box; default: no weakened rock");
+    add_number(command, "--bulk-friction", t.bulk_friction,
+               "bulk friction of the weakened rock in the shear box")
+        ->default_str("no weakened rock");
 }
 
 } // namespace
@@ -29,15 +29,25 @@ Command add_calibrate(CLI::App& program) {
     const auto request = std::make_shared<CalibrationRequest>();
     request->threads = all_threads();
     CLI::App* command =
-        program.add_subcommand("calibrate", "Find microproperties of a wanted rock");
+        add_call(program, {"Rock",
+                           "calibrate",
+                           "find the microproperties of a wanted rock",
+                           "docs/laboratory.md",
+                           {{{"calibrate --young 20e9 --name sandstone", "a softer rock"},
+                             {"calibrate --byerlee --seeds 5", "strength after Byerlee's law"},
+                             {"calibrate --name sandstone --resume", "continue after a stop"}}}});
     add_targets(*command, request->targets);
-    command->add_option("--name", request->name, "Name of the material files");
-    command->add_option("--discs", request->discs, "Discs per sample");
-    command->add_option("--seed", request->seed, "Seed of the first sample");
-    command->add_option("--seeds", request->seeds, "Samples for the fit, as many for validation");
+    command->add_option("--name", request->name, "name of the material files")
+        ->type_name("NAME")
+        ->default_str(request->name);
+    add_count(*command, "--discs", request->discs, "discs per sample");
+    add_count(*command, "--seed", request->seed, "seed of the first sample");
+    add_count(*command, "--seeds", request->seeds,
+              "samples for the fit, and as many for validation");
     add_threads(*command, request->threads);
-    command->add_option("--output", request->output, "Folder of results (out/calibrate-NAME)");
-    command->add_flag("--resume", request->resume, "Go on with the measurements made so far");
+    add_output(*command, request->output, "out/calibrate-NAME");
+    command->add_flag("--resume", request->resume, "continue with the measurements made so far");
+    add_quiet(*command, request->quiet);
     return {command,
             [request] {
                 request->stop = stop_on_signals();

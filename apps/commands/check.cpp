@@ -153,8 +153,15 @@ ExitCode report(const std::string& name, Times& times) {
 Command add_check(CLI::App& program) {
     const auto files = std::make_shared<std::vector<std::string>>();
     CLI::App* command =
-        program.add_subcommand("check", "Say whether scenes, plans and materials are correct");
-    command->add_option("FILE", *files, "Scenes, by name or path, plans or materials")
+        add_call(program, {"Run",
+                           "check",
+                           "check scenes, plans and materials",
+                           "docs/editors.md",
+                           {{{"check my-scene.toml", "what is wrong, with line and cure"},
+                             {"check plan.toml", "a plan of a sweep or of a validation"},
+                             {"check lis1 my-rock.toml", "several files at once"}}}});
+    command->add_option("FILE", *files, "scenes, by name or file, plans or materials")
+        ->type_name("SCENE")
         ->required()
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     return {command, [files] {

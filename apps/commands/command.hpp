@@ -1,11 +1,14 @@
 #pragma once
 
+#include "apps/commands/help.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/scene/scene_file.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,14 +21,21 @@ struct Command {
     std::string after_stop = {};    ///< what to do after an interruption, if that is to be said
 };
 
+/// All calls of the program, in the order of the overview. They own what is parsed.
+[[nodiscard]] std::vector<Command> add_calls(CLI::App& program);
+
 // Each adds a call and its options to the program's.
 Command add_run(CLI::App& program);
+Command add_new(CLI::App& program);
 Command add_scenes(CLI::App& program);
 Command add_explain(CLI::App& program);
 Command add_export(CLI::App& program);
 Command add_figures(CLI::App& program);
 Command add_flexure(CLI::App& program);
 Command add_report(CLI::App& program);
+Command add_cite(CLI::App& program);
+Command add_view(CLI::App& program);
+Command add_diff(CLI::App& program);
 Command add_check(CLI::App& program);
 Command add_bench(CLI::App& program);
 Command add_laboratory(CLI::App& program);
@@ -33,12 +43,16 @@ Command add_calibrate(CLI::App& program);
 Command add_study(CLI::App& program);
 Command add_sweep(CLI::App& program);
 Command add_schema(CLI::App& program);
+Command add_help(CLI::App& program);
 Command add_completion(CLI::App& program);
 Command add_manual(CLI::App& program);
 Command add_trace(CLI::App& program);
 Command add_validate(CLI::App& program);
 
-// Options that several calls share.
+/// Refuses a call that there is none of, with the one that may be meant. Throws UsageError.
+void require_call(const CLI::App& program, const std::string& name);
+
+// Options that several calls share. Each shows the value that it has as its default.
 
 /// Cores that this process may use.
 int all_threads();
@@ -49,13 +63,40 @@ std::vector<std::string> accuracy_names();
 /// --threads; more than all_threads() are told and not started.
 CLI::Option* add_threads(CLI::App& command, int& threads);
 
-/// An option that may be given several times, with one word each time.
-void add_words(CLI::App& command, const char* option, std::vector<std::string>& words,
-               const char* what);
+/// A whole number.
+template <class Integer>
+CLI::Option* add_count(CLI::App& command, const char* option, Integer& count, const char* what,
+                       Integer least = std::numeric_limits<Integer>::lowest(),
+                       Integer most = std::numeric_limits<Integer>::max()) {
+    CLI::Option* added =
+        command.add_option(option, count, what)->type_name("N")->default_str(std::to_string(count));
+    return most == std::numeric_limits<Integer>::max()
+               ? added
+               : added->check(CLI::Range(least, most).description(""));
+}
+
+/// A number, read as those of files are: in every locale, and by the same rules.
+CLI::Option* add_number(CLI::App& command, const char* option, double& number, const char* what);
+CLI::Option* add_number(CLI::App& command, const char* option, std::optional<double>& number,
+                        const char* what);
 
 /// An option of numbers, separated by commas or given several times.
 CLI::Option* add_numbers(CLI::App& command, const char* option, std::vector<double>& numbers,
                          const std::string& what);
+
+/// An option that may be given several times, with one word each time.
+void add_words(CLI::App& command, const char* option, const char* kind,
+               std::vector<std::string>& words, const char* what);
+
+/// -o, --output; without it results go to `otherwise`.
+template <class Path>
+void add_output(CLI::App& command, Path& output, const char* otherwise,
+                const char* what = "folder of results") {
+    command.add_option("-o,--output", output, what)->type_name("DIR")->default_str(otherwise);
+}
+
+/// -q, --quiet
+void add_quiet(CLI::App& command, bool& quiet);
 
 /// SCENE and what changes it.
 void add_scene(CLI::App& command, SceneRequest& request);

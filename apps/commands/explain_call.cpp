@@ -40,11 +40,18 @@ ExitCode explain(const ExplainCall& call) {
 Command add_explain(CLI::App& program) {
     const auto call = std::make_shared<ExplainCall>();
     CLI::App* command =
-        program.add_subcommand("explain", "Say what a scene would simulate and cost; run nothing");
+        add_call(program, {"Run",
+                           "explain",
+                           "print what a scene simulates and costs",
+                           "docs/choosing.md",
+                           {{{"explain lis1", "sizes, memory and expected time"},
+                             {"explain lis1 --accuracy fine", "the price of a higher resolution"},
+                             {"explain --parameters", "every parameter of a scene"}}}});
     add_scene(*command, call->scene);
-    command->get_option("SCENE")->required(false);
+    command->get_option("SCENE")->required(false)->default_str("none, with --parameters");
     add_threads(*command, call->threads);
-    command->add_flag("--parameters", call->parameters, "Reference of all parameters");
+    command->add_flag("--parameters", call->parameters,
+                      "print the reference of all parameters instead");
     return {command, [call] { return explain(*call); }};
 }
 

@@ -11,19 +11,28 @@ namespace listric {
 
 Command add_export(CLI::App& program) {
     const auto request = std::make_shared<ExportRequest>();
-    CLI::App* command = program.add_subcommand(
-        "export", "Horizons, faults, surfaces or discs of a run for other programs");
+    CLI::App* command = add_call(
+        program, {"Look",
+                  "export",
+                  "write lines or discs of a run for other programs",
+                  "docs/export.md",
+                  {{{"export horizons out/lis1", "tops of all strata as CSV"},
+                    {"export faults out/lis1 --format geojson", "faults for a GIS"},
+                    {"export discs out/lis1 --at 5000", "discs after 5 km of extension"}}}});
     command->add_option("KIND", request->kind, fmt::format("{}", fmt::join(export_kinds(), ", ")))
+        ->type_name("KIND")
         ->required();
-    command->add_option("DIR", request->output, "The run's output folder")->required();
+    command->add_option("DIR", request->output, "folder of a run")->type_name("DIR")->required();
     command
         ->add_option("--format", request->formats,
-                     "csv, geojson, gmt; discs: csv, gsd. Several with commas")
+                     "csv, geojson or gmt, of discs csv or gsd; several with commas")
+        ->type_name("FORMAT")
+        ->default_str("csv")
         ->delimiter(',')
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->capture_default_str();
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     add_numbers(*command, "--at", request->extensions,
-                "Extension of a snapshot, m, or several with commas; default: all snapshots");
+                "extension of a snapshot, m, or several with commas")
+        ->default_str("all snapshots");
     return {command, [request] {
                 for (const std::filesystem::path& file : export_run(*request))
                     std::cout << file.string() << '\n';

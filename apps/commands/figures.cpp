@@ -44,19 +44,27 @@ void require_formats(const FiguresCall& call) {
 
 Command add_figures(CLI::App& program) {
     const auto call = std::make_shared<FiguresCall>();
-    CLI::App* command = program.add_subcommand("figures", "Draw the figures of a run");
-    command->add_option("DIR", call->folder, "The run's output folder")->required();
+    CLI::App* command =
+        add_call(program, {"Look",
+                           "figures",
+                           "draw the figures of a run",
+                           "docs/figures.md",
+                           {{{"figures out/lis1", "all figures as PNG"},
+                             {"figures out/lis1 --format pdf,svg", "figures for print"},
+                             {"figures out/lis1 --animation", "a film of all snapshots"}}}});
+    command->add_option("DIR", call->folder, "folder of a run")->type_name("DIR")->required();
     command->add_flag("--animation", call->animation,
-                      "An animation of all snapshots instead of the figures");
+                      "make a film of all snapshots instead of the figures");
     add_underlay(*command, call->underlay);
     add_numbers(*command, "--at", call->extensions,
                 "Extension of a snapshot whose sections are drawn, m, or several with commas; "
                 "default: those of the scene, and the end");
     command
         ->add_option("--format", call->formats,
-                     "png, pdf, svg, or several: png,pdf; discs are an image in all of them")
-        ->delimiter(',')
-        ->capture_default_str();
+                     "png, pdf or svg, or several: png,pdf; discs are an image in all of them")
+        ->type_name("FORMAT")
+        ->default_str("png")
+        ->delimiter(',');
     return {command, [call] {
                 const std::optional<Underlay> underlay = underlay_of(call->underlay);
                 if (underlay && call->animation)

@@ -12,14 +12,22 @@ Command add_flexure(CLI::App& program) {
         RunOptions options;
     };
     const auto call = std::make_shared<Call>();
-    CLI::App* command = program.add_subcommand(
-        "flexure", "Bend the elastic base alone under a load, against theory");
-    command->add_option("PLAN", call->plan.scene, "TOML file (the plan that the program ships)");
-    add_words(*command, "--set", call->plan.set, "table.key=value; repeatable");
-    command->add_option("--output", call->options.output, "Folder of results (out/PLAN)");
-    command->add_flag("--resume", call->options.resume, "Leave a finished one as it is");
-    command->add_flag("--force", call->options.force, "Replace what is in the folder");
-    command->add_flag("--quiet", call->options.quiet, "No messages");
+    CLI::App* command =
+        add_call(program, {"Run",
+                           "flexure",
+                           "bend the elastic base alone under a load, and compare with theory",
+                           "docs/elastic-base.md",
+                           {{{"flexure", "a line load on the plate of the shipped plan"},
+                             {"flexure --set flexure.load=broken", "on the end of a broken plate"},
+                             {"flexure my-plan.toml -o out/mine", "a plan of one's own"}}}});
+    command->add_option("PLAN", call->plan.scene, "plan, a TOML file")
+        ->type_name("FILE")
+        ->default_str("the shipped plan");
+    add_words(*command, "--set", "KEY=VALUE", call->plan.set, "change a parameter; repeatable");
+    add_output(*command, call->options.output, "out/PLAN");
+    command->add_flag("--resume", call->options.resume, "leave a finished run as it is");
+    command->add_flag("--force", call->options.force, "replace the run in the folder");
+    add_quiet(*command, call->options.quiet);
     return {command, [call] {
                 const FlexurePlan plan = load_flexure_plan(call->plan);
                 if (call->options.output.empty())

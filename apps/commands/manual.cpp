@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::pair<ExitCode, const char*> endings[] = {
     {ExitCode::done, "done"},
+    {ExitCode::differs, "diff has found a difference"},
     {ExitCode::bad_call, "the call or the scene is wrong; the message names file, line, what is "
                          "allowed"},
     {ExitCode::numerics_failed, "the numbers went wrong; the message names the moment"},
@@ -42,37 +43,25 @@ std::string entry(std::string_view head, std::string_view text) {
     return fmt::format(".TP\n.B {}\n{}\n", roff(head), roff(text));
 }
 
-/// "--accuracy TEXT", or an argument's name.
-std::string head_of(const CLI::Option& option) {
-    std::string head = option.get_name(true, true);
-    if (const std::string type = option.get_type_name();
-        option.get_items_expected_max() > 0 && !option.get_positional())
-        head += " " + type.substr(0, type.find(':'));
-    return head;
-}
-
 std::string section_of(const CLI::App& call) {
-    std::string arguments, entries;
-    for (const CLI::Option* option : call.get_options()) {
-        if (option->get_positional())
-            arguments += " " + option->get_name();
+    std::string entries;
+    for (const CLI::Option* option : call.get_options())
         if (option != call.get_help_ptr())
-            entries += entry(head_of(*option), option->get_description());
-    }
-    return fmt::format(".SS {}\n{}.\n{}",
-                       roff(fmt::format("listric {}{}", call.get_name(), arguments)),
-                       roff(call.get_description()), entries);
+            entries += entry(head_of(*option), text_of(*option));
+    return fmt::format(".SS listric {}\n{}.\n{}.PP\n.nf\n{}.fi\n", roff(usage_of(call)),
+                       roff(call.get_description()), entries, roff(call.get_footer()));
 }
 
 std::string manual(const CLI::App& program) {
-    std::string text = fmt::format(".TH LISTRIC 1 \"\" \"listric {}\" \"User Commands\"\n"
-                                   ".SH NAME\nlistric \\- numerical sandbox for halfgrabens\n"
-                                   ".SH SYNOPSIS\n.B listric\n.I CALL\n[ARGUMENTS] [OPTIONS]\n"
-                                   ".SH DESCRIPTION\nA hanging wall of bonded discs is pulled over "
-                                   "a detachment; it breaks, bends and fills with sediment.\n"
-                                   ".B listric CALL \\-\\-help\nsays what a call takes.\n"
-                                   ".SH CALLS\n",
-                                   roff(version));
+    std::string text = fmt::format(
+        ".TH LISTRIC 1 \"\" \"listric {}\" \"User Commands\"\n"
+        ".SH NAME\nlistric \\- numerical sandbox for halfgrabens\n"
+        ".SH SYNOPSIS\n.B listric\n.I CALL\n[ARGUMENTS] [OPTIONS]\n"
+        ".SH DESCRIPTION\nA hanging wall of bonded discs is pulled over "
+        "a detachment; it breaks, bends and fills with sediment.\n"
+        ".B listric CALL \\-\\-help\nprints arguments, options and examples of a call.\n"
+        ".SH CALLS\n",
+        roff(version));
     for (const CLI::App* call : program.get_subcommands({}))
         text += section_of(*call);
     text += ".SH EXIT STATUS\n";
@@ -84,7 +73,14 @@ std::string manual(const CLI::App& program) {
 } // namespace
 
 Command add_manual(CLI::App& program) {
-    return {program.add_subcommand("manual", "The manual's page, for man"), [&program] {
+    CLI::App* command = add_call(program, {"Shell",
+                                           "manual",
+                                           "print the manual's page, for man",
+                                           "docs/commands.md",
+                                           {{{"manual > listric.1", "write the page"},
+                                             {"manual | man -l -", "read the page"},
+                                             {"manual | groff -man -Tpdf", "the page as PDF"}}}});
+    return {command, [&program] {
                 std::cout << manual(program);
                 return ExitCode::done;
             }};

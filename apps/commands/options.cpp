@@ -4,6 +4,7 @@
 #include "apps/scene/accuracy.hpp"
 #include "apps/support/cores.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/number.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,33 +40,87 @@ CLI::Option* add_threads(CLI::App& command, int& threads) {
             return std::string();
         },
         "");
-    return command.add_option("--threads", threads, "Processor cores to use")
-        ->check(CLI::Range(1, most_threads))
+    return command.add_option("--threads", threads, "cores to use")
+        ->type_name("N")
+        ->default_str("all")
+        ->check(CLI::Range(1, most_threads).description(""))
         ->transform(no_more_than_cores);
 }
 
-void add_words(CLI::App& command, const char* option, std::vector<std::string>& words,
-               const char* what) {
-    command.add_option(option, words, what)
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+namespace {
+
+/// A number of a call, as those of files are.
+CLI::Option* read_alike(CLI::Option* option) {
+    const CLI::Validator number(
+        [](std::string& word) {
+            const auto value = parse_number(word);
+            if (!value)
+                return no_number(word);
+            word = fmt::format("{}", *value);
+            return std::string();
+        },
+        "");
+    return option->check(number);
+}
+
+/// "5e10"
+std::string short_number(double number) {
+    std::string text = fmt::format("{:g}", number);
+    if (const auto plus = text.find("e+"); plus != text.npos)
+        text.erase(plus + 1, text[plus + 2] == '0' ? 2 : 1);
+    return text;
+}
+
+} // namespace
+
+CLI::Option* add_number(CLI::App& command, const char* option, double& number, const char* what) {
+    return read_alike(command.add_option(option, number, what))
+        ->type_name("NUMBER")
+        ->default_str(short_number(number));
+}
+
+CLI::Option* add_number(CLI::App& command, const char* option, std::optional<double>& number,
+                        const char* what) {
+    return read_alike(command.add_option(option, number, what))->type_name("NUMBER");
 }
 
 CLI::Option* add_numbers(CLI::App& command, const char* option, std::vector<double>& numbers,
                          const std::string& what) {
-    return command.add_option(option, numbers, what)
+    return read_alike(command.add_option(option, numbers, what))
+        ->type_name("NUMBERS")
         ->delimiter(',')
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void add_words(CLI::App& command, const char* option, const char* kind,
+               std::vector<std::string>& words, const char* what) {
+    command.add_option(option, words, what)
+        ->type_name(kind)
+        ->default_str("none")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_quiet(CLI::App& command, bool& quiet) {
+    command.add_flag("-q,--quiet", quiet, "show no progress");
+}
+
 void add_scene(CLI::App& command, SceneRequest& request) {
-    command.add_option("SCENE", request.scene, "Name of a scene (listric scenes) or a path")
+    command.add_option("SCENE", request.scene, "name of a scene (listric scenes), or a file")
+        ->type_name("SCENE")
         ->required();
-    add_words(command, "--set", request.set, "table.key=value; repeatable");
-    add_words(command, "--without", request.without, "Switch off the effect TABLE; repeatable");
-    command.add_option("--accuracy", request.accuracy,
-                       fmt::format("{}", fmt::join(accuracy_names(), ", ")));
-    command.add_option("--seed", request.seed, "Seed of the packing and of everything random");
+    add_words(command, "--set", "KEY=VALUE", request.set,
+              "change a parameter, such as extension.distance_m=5000; repeatable");
+    add_words(command, "--without", "TABLE", request.without,
+              "switch off an effect, by the name of its table; repeatable");
+    command
+        .add_option("--accuracy", request.accuracy,
+                    fmt::format("resolution: {}", fmt::join(accuracy_names(), ", ")))
+        ->type_name("LEVEL")
+        ->default_str("the scene's, or standard");
+    command.add_option("--seed", request.seed, "seed of the packing and of everything random")
+        ->type_name("N")
+        ->default_str("the scene's, or 1");
 }
 
 } // namespace listric

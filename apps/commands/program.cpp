@@ -38,10 +38,7 @@ void require_known(std::string_view kind, std::string_view word,
 void refuse_unknown_words(const CLI::App& app, const std::vector<std::string>& words) {
     const CLI::App* call = &app;
     if (!words.empty() && !words[0].starts_with("-")) {
-        std::vector<std::string> calls;
-        for (const CLI::App* command : app.get_subcommands({}))
-            calls.push_back(command->get_name());
-        require_known("call", words[0], calls);
+        require_call(app, words[0]);
         call = app.get_subcommand(words[0]);
     }
     std::vector<std::string> options;
@@ -72,23 +69,6 @@ void require_cycle() {
     }
 }
 
-/// Numbers of all calls are read as those of files are: in every locale, and by the same rules.
-void read_numbers_alike(CLI::App& app) {
-    const CLI::Validator number(
-        [](std::string& word) {
-            const auto value = parse_number(word);
-            if (!value)
-                return no_number(word);
-            word = fmt::format("{}", *value);
-            return std::string();
-        },
-        "");
-    for (CLI::App* command : app.get_subcommands({}))
-        for (CLI::Option* option : command->get_options())
-            if (option->get_type_name().find("FLOAT") != std::string::npos)
-                option->check(number);
-}
-
 /// Refuses a word that is no UTF-8: names of files and texts end in scenes, summaries and figures.
 void require_sound(const std::vector<std::string>& words) {
     for (const std::string& word : words)
@@ -99,19 +79,21 @@ void require_sound(const std::vector<std::string>& words) {
                             shown(word), objection_to_byte(word, *place)));
 }
 
+/// What is wrong with a call, and where its help is.
+std::string failure_of(const CLI::App* app, const CLI::Error& error) {
+    const auto calls = app->get_subcommands();
+    const std::string call = calls.empty() ? "" : " " + calls.back()->get_name();
+    return fmt::format("listric: {}; listric help{} shows the options\n", error.what(), call);
+}
+
 ExitCode dispatch(int argc, char** argv) {
     require_sound({argv + std::min(argc, 1), argv + argc});
     CLI::App app{"listric: a numerical sandbox for halfgrabens", "listric"};
-    app.set_version_flag("--version", std::string(version));
-    app.require_subcommand(1);
-    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    const std::vector<Command> commands{
-        add_run(app),        add_scenes(app),    add_explain(app),  add_check(app),
-        add_export(app),     add_figures(app),   add_report(app),   add_bench(app),
-        add_laboratory(app), add_calibrate(app), add_study(app),    add_sweep(app),
-        add_flexure(app),    add_trace(app),     add_validate(app), add_schema(app),
-        add_completion(app), add_manual(app)};
-    read_numbers_alike(app);
+    const std::vector<Command> commands = add_calls(app);
+    if (argc < 2) { // a script whose variable is empty has to notice
+        std::cerr << app.help();
+        return ExitCode::bad_call;
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -151,6 +133,38 @@ void keep_standard_files_open() {
 }
 
 } // namespace
+
+void require_call(const CLI::App& program, const std::string& name) {
+    std::vector<std::string> calls;
+    for (const CLI::App* command : program.get_subcommands({}))
+        calls.push_back(command->get_name());
+    require_known("call", name, calls);
+}
+
+std::vector<Command> add_calls(CLI::App& program) {
+    program.set_help_flag("-h,--help", "print this text");
+    program.set_version_flag("--version", fmt::format("listric {}", version), "print the version");
+    program.require_subcommand(1);
+    program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    program.formatter_fn([](const CLI::App* call, std::string, CLI::AppFormatMode) {
+        return help_of(*call, help_width());
+    });
+    program.failure_message(failure_of);
+    program.footer("Examples\n"
+                   "  a quick look at the first experiment\n"
+                   "    listric run lis1 --accuracy draft\n"
+                   "  arguments, options and examples of a call\n"
+                   "    listric help run\n"
+                   "\nDocuments: README.md, docs/index.md\n");
+    return {add_new(program),      add_run(program),        add_check(program),
+            add_explain(program),  add_scenes(program),     add_view(program),
+            add_report(program),   add_figures(program),    add_export(program),
+            add_diff(program),     add_cite(program),       add_trace(program),
+            add_flexure(program),  add_sweep(program),      add_study(program),
+            add_validate(program), add_laboratory(program), add_calibrate(program),
+            add_help(program),     add_completion(program), add_manual(program),
+            add_schema(program),   add_bench(program)};
+}
 
 int program(int argc, char** argv) {
     keep_standard_files_open();

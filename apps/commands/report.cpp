@@ -15,18 +15,25 @@ Command add_report(CLI::App& program) {
     };
     const auto call = std::make_shared<Call>();
     CLI::App* command =
-        program.add_subcommand("report", "A run, or two side by side, as one file for a browser");
-    command->add_option("DIR", call->request.outputs, "The folders of one or two runs")
+        add_call(program, {"Look",
+                           "report",
+                           "write one or two runs as a page for a browser",
+                           "docs/report.md",
+                           {{{"report out/lis1", "write out/lis1/report.html"},
+                             {"report out/lis1 out/lis2", "two runs side by side"},
+                             {"report out/lis1 --most-mb 5", "a smaller file, to send"}}}});
+    command->add_option("DIR", call->request.outputs, "folders of one or two runs")
+        ->type_name("DIR")
         ->required()
         ->expected(1, 2);
-    command->add_option("--output", call->request.file, "The file (default: DIR/report.html)");
-    command
-        ->add_option("--most-mb", call->request.most_mb,
-                     "Size of the file, MB, that is kept by leaving out detail")
-        ->check(CLI::Range(0.1, 1000.0))
-        ->capture_default_str();
+    command->add_option("-o,--output", call->request.file, "the page")
+        ->type_name("FILE")
+        ->default_str("DIR/report.html");
+    add_number(*command, "--most-mb", call->request.most_mb,
+               "largest size of the page, MB; detail is left out to keep it")
+        ->check(CLI::Range(0.1, 1000.0).description(""));
     command->add_flag("--every-line", call->request.every_line,
-                      "Horizons and the past of faults at all moments; takes longer");
+                      "have horizons and the past of faults at all moments; takes longer");
     add_underlay(*command, call->underlay);
     return {command, [call] {
                 call->request.underlay = underlay_of(call->underlay);

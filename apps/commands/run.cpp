@@ -193,25 +193,36 @@ ExitCode run(RunCall& call) {
 Command add_run(CLI::App& program) {
     const auto call = std::make_shared<RunCall>();
     call->options.threads = all_threads();
-    CLI::App* command = program.add_subcommand("run", "Run a scene");
+    CLI::App* command =
+        add_call(program, {"Run",
+                           "run",
+                           "run a scene",
+                           "docs/first-run.md",
+                           {{{"run lis1 --accuracy draft", "a quick look at half the resolution"},
+                             {"run lis1 --seed 2 -o out/second", "another random packing"},
+                             {"run lis1 --resume", "continue a run that was stopped"}}}});
     add_scene(*command, call->scene);
     call->threads = add_threads(*command, call->options.threads);
     command
         ->add_flag("--ranks{all}", call->ranks,
-                   "--ranks=N: made by N processes, which mpirun starts; 1: by this one, whatever "
-                   "the environment says; without a number: by those that were started, though "
-                   "the environment does not say so")
+                   "share the run between N processes, which mpirun starts; 1: this process "
+                   "alone; without N: the processes that were started together, even where the "
+                   "environment does not show them")
+        ->type_name("N")
+        ->default_str("what mpirun or srun started, else 1")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    command->add_flag("--plain", call->options.plain, "The scalar cycle: same bits, slower");
-    command->add_option("--output", call->output, "Folder of results (default: out/SCENE)");
-    command->add_option("--until", call->until, "End at this extension, such as 5km");
-    command->add_flag("--resume", call->options.resume, "Go on from the newest snapshot");
-    command->add_flag("--force", call->options.force, "Replace a run in the same folder");
-    command->add_flag("--force-size", call->force_size, "Begin a run however large it is");
+    command->add_flag("--plain", call->options.plain, "use the scalar cycle: same bits, slower");
+    add_output(*command, call->output, "out/SCENE");
+    command->add_option("--until", call->until, "end at this extension, such as 5km")
+        ->type_name("LENGTH")
+        ->default_str("extension.distance_m of the scene");
+    command->add_flag("--resume", call->options.resume, "continue from the newest snapshot");
+    command->add_flag("--force", call->options.force, "replace a run in the same folder");
+    command->add_flag("--force-size", call->force_size, "begin a run however large it is");
     command->add_flag("--live", call->options.live,
-                      "Write report.html after every window; an open page follows");
-    command->add_flag("--no-report", call->no_report, "Write no report.html");
-    command->add_flag("--quiet", call->options.quiet, "No progress");
+                      "write report.html after every window; an open page follows");
+    command->add_flag("--no-report", call->no_report, "write no report.html");
+    add_quiet(*command, call->options.quiet);
     return {command, [call] { return run(*call); }};
 }
 

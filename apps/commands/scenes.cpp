@@ -9,7 +9,14 @@
 namespace listric {
 
 Command add_scenes(CLI::App& program) {
-    return {program.add_subcommand("scenes", "List the scenes"), [] {
+    CLI::App* command = add_call(program, {"Run",
+                                           "scenes",
+                                           "list the shipped scenes",
+                                           "docs/gallery.md",
+                                           {{{"scenes", "all scenes, a line each"},
+                                             {"explain lis2", "what one of them simulates"},
+                                             {"run lis2 --accuracy draft", "run one of them"}}}});
+    return {command, [] {
                 const FlexurePlan plan = load_flexure_plan({.scene = "flexure"});
                 std::cout << fmt::format("{:<12} {}\n", plan.name, plan.description);
                 for (const auto& [name, description] : list_scenes())

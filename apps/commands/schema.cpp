@@ -15,10 +15,18 @@ Command add_schema(CLI::App& program) {
     const auto material = std::make_shared<bool>(false);
     const auto flexure = std::make_shared<bool>(false);
     const auto measures = std::make_shared<bool>(false);
-    CLI::App* command = program.add_subcommand("schema", "JSON schema of scene files, for editors");
-    command->add_flag("--material", *material, "Of material files instead");
-    command->add_flag("--flexure", *flexure, "Of plans of flexure instead");
-    command->add_flag("--measures", *measures, "What is measured: names, units, definitions");
+    CLI::App* command =
+        add_call(program, {"Shell",
+                           "schema",
+                           "print the JSON schema of scenes, for editors",
+                           "docs/editors.md",
+                           {{{"schema > scene.schema.json", "for an editor of scenes"},
+                             {"schema --material", "the schema of material files"},
+                             {"schema --measures", "names, units and definitions of measures"}}}});
+    command->add_flag("--material", *material, "print the schema of material files instead");
+    command->add_flag("--flexure", *flexure, "print the schema of plans of flexure instead");
+    command->add_flag("--measures", *measures,
+                      "print names, units and definitions of measures instead");
     return {command, [material, flexure, measures] {
                 if (*measures) {
                     std::cout << to_text(archive::dictionary_json(program_effects()), 1) << '\n';

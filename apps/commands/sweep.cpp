@@ -26,18 +26,30 @@ SweepTask parse_task(const std::string& text) {
 Command add_sweep(CLI::App& program) {
     const auto request = std::make_shared<SweepRequest>();
     const auto task = std::make_shared<std::string>();
-    CLI::App* command =
-        program.add_subcommand("sweep", "Runs of a plan, a table of their measures, and effects");
-    command->add_option("PLAN", request->plan, "TOML file (docs/sweeps.md)")->required();
+    CLI::App* command = add_call(
+        program, {"Many runs",
+                  "sweep",
+                  "make the runs of a plan and compare them",
+                  "docs/sweeps.md",
+                  {{{"sweep plan.toml --jobs 2", "two runs at a time"},
+                    {"sweep plan.toml --task 1/4", "the first of four parts, on a cluster"},
+                    {"sweep plan.toml --merge a b c d", "the tables of the four parts"}}}});
+    command->add_option("PLAN", request->plan, "plan of the sweep, a TOML file")
+        ->type_name("FILE")
+        ->required();
     const CLI::Option* jobs =
-        command->add_option("--jobs", request->jobs, "Runs at a time (cores over threads)")
-            ->check(CLI::Range(1, 1024));
-    add_threads(*command, request->threads);
-    command->add_option("--output", request->output, "Folder of results (out/sweep-PLAN)");
-    command->add_option("--task", *task, "Part i/n of the runs, for job arrays");
-    command->add_option("--merge", request->merge, "Folders of all tasks: makes no run")
+        add_count(*command, "-j,--jobs", request->jobs, "runs at a time", 1, 1024)
+            ->default_str("cores over threads");
+    add_threads(*command, request->threads)->default_str("1");
+    add_output(*command, request->output, "out/sweep-PLAN");
+    command->add_option("--task", *task, "part i/n of the runs, for job arrays")
+        ->type_name("PART")
+        ->default_str("all runs");
+    command->add_option("--merge", request->merge, "read the folders of all tasks; make no run")
+        ->type_name("DIR")
+        ->default_str("none")
         ->expected(1, 100'000);
-    command->add_flag("--quiet", request->quiet, "No progress");
+    add_quiet(*command, request->quiet);
     return {command,
             [request, task, jobs] {
                 if (jobs->count() == 0)

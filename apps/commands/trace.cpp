@@ -40,18 +40,24 @@ Command add_trace(CLI::App& program) {
     };
     const auto request = std::make_shared<Request>();
     CLI::App* command =
-        program.add_subcommand("trace", "Faults in points of any code or image, as JSON");
+        add_call(program, {"Look",
+                           "trace",
+                           "find faults in displacements of any code or image",
+                           "docs/install.md",
+                           {{{"trace points.csv", "faults as JSON"},
+                             {"trace points.csv --least-strain 0.02", "longer faults"},
+                             {"trace points.csv --certain-strain 0.1", "more faults"}}}});
     command
         ->add_option("POINTS", request->file,
                      "CSV with the columns x_m, depth_m (before), dx_m, ddepth_m (displacement)")
+        ->type_name("FILE")
         ->required();
-    command
-        ->add_option("--least-strain", request->options.least_strain, "Shear strain along a fault")
-        ->check(CLI::Range(1e-6, 1e3))
-        ->capture_default_str();
-    command->add_option("--certain-strain", request->options.certain_strain, "and somewhere on it")
-        ->check(CLI::Range(1e-6, 1e3))
-        ->capture_default_str();
+    add_number(*command, "--least-strain", request->options.least_strain,
+               "least shear strain everywhere along a fault")
+        ->check(CLI::Range(1e-6, 1e3).description(""));
+    add_number(*command, "--certain-strain", request->options.certain_strain,
+               "shear strain that a fault has somewhere")
+        ->check(CLI::Range(1e-6, 1e3).description(""));
     return {command, [request] {
                 std::cout << archive::to_json(
                     measures::trace_faults(read_moved_points(request->file), request->options));

@@ -14,11 +14,16 @@
 namespace listric {
 
 void add_underlay(CLI::App& command, UnderlayOptions& options) {
-    command.add_option("--underlay", options.image,
-                       "PNG of a section, over which the model's lines are drawn");
+    command
+        .add_option("--underlay", options.image,
+                    "PNG of a section, over which the model's lines are drawn")
+        ->type_name("FILE")
+        ->default_str("none");
     command
         .add_option("--corners", options.corners,
-                    "x0,z0,x1,z1: its upper left and lower right corner in the section, m")
+                    "upper left and lower right corner of the PNG in the section, m: x0,z0,x1,z1")
+        ->type_name("NUMBERS")
+        ->default_str("none; required with --underlay")
         ->delimiter(',');
 }
 

@@ -150,7 +150,7 @@ void run_calibration(const CalibrationRequest& request) {
     lab.seeds = request.seeds;
     lab.threads = request.threads;
     lab.stop = request.stop;
-    Log log(false);
+    Log log(request.quiet);
     Calibration c{request.targets, lab, CalibrationHistory(history, request.resume), log};
     Rocks rocks = find_rocks(c, request.name);
     const Json summary = validate(c, rocks, request);

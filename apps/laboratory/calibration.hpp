@@ -19,6 +19,7 @@ struct CalibrationRequest {
     int threads = 1;
     bool resume = false;
     std::filesystem::path output = {}; ///< empty: out/calibrate-NAME
+    bool quiet = false;
     StopToken stop = {};
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/model/works.hpp"
 #include "apps/scene/effect.hpp"
 
 // The program's effects, in the order in which tables, names and events of the same stage come.
@@ -22,7 +23,9 @@
 
 namespace listric::effects {
 
-#define EFFECT(name) const Effect& name();
+#define EFFECT(name)                                                                               \
+    const Effect& name();                                                                          \
+    Works name##_works();
 LISTRIC_EFFECTS
 #undef EFFECT
 

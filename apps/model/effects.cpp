@@ -13,4 +13,13 @@ EffectList program_effects() {
     return list;
 }
 
+Works works_behind(std::string_view effect) {
+#define EFFECT(name)                                                                               \
+    if (effect == #name)                                                                           \
+        return effects::name##_works();
+    LISTRIC_EFFECTS
+#undef EFFECT
+    return {};
+}
+
 } // namespace listric

@@ -9,6 +9,7 @@ namespace listric {
 /// How a call ended.
 enum class ExitCode {
     done = 0,
+    differs = 1,         ///< listric diff has found a difference
     bad_call = 2,        ///< UsageError, SceneError: the user's to correct
     numerics_failed = 3, ///< NumericalFailure
     storage_failed = 4,  ///< StorageError; memory does not suffice

@@ -489,6 +489,10 @@ std::string Writer::operator()(const Place<std::vector<dem::TargetStage>>& x) co
 
 } // namespace
 
+std::string value_text(const Parameter& parameter, const void* object) {
+    return write(parameter, object);
+}
+
 std::string write(const std::vector<Parameter>& parameters, const void* object) {
     std::string lines;
     for (const Parameter& parameter : parameters)

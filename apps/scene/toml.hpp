@@ -47,6 +47,9 @@ toml::table parse(const std::string& text, const std::string& origin);
 /// `assignment` is "table.key=value"; a value that is not TOML is a string.
 void set(toml::table& document, const std::string& assignment, const std::string& origin);
 
+/// A parameter's value as TOML; empty: none.
+std::string value_text(const Parameter& parameter, const void* object);
+
 /// Lines "key = value  # doc".
 std::string write(const std::vector<Parameter>& parameters, const void* object);
 

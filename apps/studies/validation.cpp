@@ -193,7 +193,7 @@ private:
                 RunOptions options;
                 options.output = folder_of(run, seed);
                 options.threads = request_.threads;
-                options.quiet = request_.jobs > 1;
+                options.quiet = request_.quiet || request_.jobs > 1;
                 options.report = false;
                 options.stop = request_.stop;
                 runs.push_back({run_name(run.name, seed), scene_of(run, seed), std::move(options)});
@@ -295,7 +295,7 @@ private:
     MeasureStore store_;
     ValidationFindings findings_;
     std::set<std::string> renewed_; ///< runs that were measured in this call
-    Log log_{false};
+    Log log_{request_.quiet};
 };
 
 } // namespace

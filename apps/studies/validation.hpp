@@ -21,6 +21,7 @@ struct ValidationRequest {
     std::optional<std::string> only; ///< one experiment
     bool remeasure = false;          ///< even runs that are measured already
     bool without_runs = false;       ///< takes the runs that are there
+    bool quiet = false;
     StopToken stop = {};
 };
 

@@ -84,7 +84,9 @@ class Installed(unittest.TestCase):
         schema = scene.parent / scene.read_text().split()[1]
         self.assertIn("hanging_wall", json.loads(schema.read_text())["properties"])
         self.assertIn("lis1: correct: ", self.program("check", "lis1"))
-        self.assertIn("lis1-elastic", (share / "bash-completion/completions/listric").read_text())
+        for script in ("bash-completion/completions/listric", "zsh/site-functions/_listric",
+                       "fish/vendor_completions.d/listric.fish"):
+            self.assertIn("lis1-elastic", (share / script).read_text())
         self.assertIn(".TH LISTRIC 1", (share / "man/man1/listric.1").read_text())
 
     def test_python_finds_the_package_and_the_package_the_program(self):

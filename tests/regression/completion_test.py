@@ -1,10 +1,12 @@
-"""A real bash completes calls with the script of `listric completion bash`, and the manual's page
+"""Real shells complete calls with the scripts of `listric completion`, and the manual's page
 has every call and option.
 
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest completion_test
 """
 
+import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -66,6 +68,34 @@ class Completion(unittest.TestCase):
                          ["force"])
         self.assertEqual(self.completed("sweep", "--task", "1/2", "--jo"), ["--jobs"])
 
+    @unittest.skipUnless(shutil.which("zsh"), "no zsh")
+    def test_zsh_completes_as_bash_does(self):
+        script = Path(self.folder.name, "_script")
+        script.write_text(output(PROGRAM, "completion", "zsh"))
+        stubs = ('compdef() {}; compset() {}; _files() { print -- FILES }; '
+                 'compadd() { while [[ $1 != -- ]]; do shift; done; shift; print -l -- "$@" }; '
+                 '. "$0"; words=("$@"); CURRENT=$#; _listric')
+        for words in (("ru",), ("run", "lis1", "--accuracy", ""), ("run", "lis1", "--set", "hanging_wall.len"),
+                      ("laboratory", "biaxial", "mat18-b", "--set", "bonds.shear"), ("sweep", "--jo"),
+                      ("help", "swe"), ("export", "hor")):
+            offered = output("zsh", "-fc", stubs, script, "listric", *words, cwd=self.folder.name).splitlines()
+            wanted = [word for word in self.completed(*words) if word]
+            self.assertEqual([word for word in offered if word.startswith(words[-1]) and word not in ("", "FILES")],
+                             wanted, words)
+        self.assertIn("FILES", output("zsh", "-fc", stubs, script, "listric", "run", ""))
+        self.assertNotIn("FILES", output("zsh", "-fc", stubs, script, "listric", "help", ""))
+
+    @unittest.skipUnless(shutil.which("fish"), "no fish")
+    def test_fish_completes_as_bash_does(self):
+        script = Path(self.folder.name, "script.fish")
+        script.write_text(output(PROGRAM, "completion", "fish"))
+        for words in (("ru",), ("run", "lis1", "--accuracy", "d"), ("run", "lis1", "--set", "hanging_wall.len"),
+                      ("run", "lis"), ("sweep", "--jo"), ("help", "swe"), ("export", "hor")):
+            offered = output("fish", "--no-config", "-c", "source $argv[1]; complete -C $argv[2]", script,
+                             " ".join(("listric", *words)), cwd=self.folder.name).splitlines()
+            self.assertEqual(sorted(line.partition("\t")[0].replace("\\ ", " ") for line in offered),
+                             sorted(self.completed(*words)), words)
+
 
 class Manual(unittest.TestCase):
     def test_has_every_call_and_option(self):
@@ -75,7 +105,7 @@ class Manual(unittest.TestCase):
         sections = page.split(".SS listric ")[1:]
         self.assertEqual([section.split()[0].rstrip(".") for section in sections], calls)
         for call, section in zip(calls, sections):
-            options = re.findall(r"^  (?:-\w,)?(--[\w-]+)", output(PROGRAM, call, "--help"),
+            options = re.findall(r"^  (?:-\w, )?(--[\w-]+)", output(PROGRAM, call, "--help"),
                                  re.MULTILINE)
             for option in set(options) - {"--help"}:
                 self.assertRegex(section, rf"\n\.B [^\n]*{option}\b", call)
@@ -85,6 +115,19 @@ class Manual(unittest.TestCase):
         done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z"], input=page, text=True,
                               capture_output=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+class Page(unittest.TestCase):
+    def test_has_the_help_of_every_call(self):
+        """docs/calls.md, which the launcher prints; docs/parameters.sh writes it again."""
+        environment = {name: value for name, value in os.environ.items() if name != "LISTRIC_CALL"}
+        environment["COLUMNS"] = "80"
+        page = (SOURCES / "docs/calls.md").read_text()
+        sections = re.findall(r"^## (\w+)\n\n```\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+        overview = output(PROGRAM, "help", env=environment)
+        self.assertEqual(sections[0], ("listric", overview))
+        self.assertEqual(sections[1:], [(call, output(PROGRAM, "help", call, env=environment))
+                                        for call in re.findall(r"^  ([a-z]+)  ", overview, re.MULTILINE)])
 
 
 if __name__ == "__main__":

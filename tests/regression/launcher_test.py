@@ -100,6 +100,31 @@ class Launcher(unittest.TestCase):
         self.assertTrue((self.place / "-other/native/listric").exists())
         self.assertEqual(self.call("explain", "a b", "*"), (wanted, ""))  # later calls start at once
 
+    def test_help_and_version_need_no_build(self):
+        (self.root / "docs").mkdir()
+        shutil.copy2(SOURCES / "docs/calls.md", self.root / "docs")
+        (self.root / "CMakeLists.txt").write_text("project(listric VERSION 1.2.3 LANGUAGES CXX)\n")
+        self.only_tools("cmake", "ninja", "c++")
+        self.assertEqual(self.call("--version")[0], "listric 1.2.3\n")
+        run = self.call("run", "--help")[0]
+        self.assertTrue(run.startswith("listric run: run a scene\n"), run)
+        self.assertIn(f"\n    {self.root}/listric run lis1 --accuracy draft\n", run)
+        self.assertEqual(self.call("help", "run")[0], run)
+        for words in (), ("--help",), ("help",):
+            self.assertIn("\nMany runs\n", "".join(self.call(*words, code=0 if words else 2)))
+        self.assertEqual(self.call(code=2)[0], "") # a script whose variable is empty reads nothing
+        self.assertFalse((self.root / "build").exists())
+        self.call("help", "rnu", code=2) # asks the program, which cannot be built
+
+    def test_newer_program_answers_itself(self):
+        (self.root / "docs").mkdir()
+        shutil.copy(SOURCES / "docs/calls.md", self.root / "docs")
+        os.utime(self.root / "docs/calls.md", (0, 0))
+        self.call("scenes")
+        self.assertEqual(self.call("run", "--help")[0], "program: <run><--help>")
+        os.utime(self.root / "docs/calls.md")
+        self.assertIn("run a scene", self.call("run", "--help")[0])
+
     def test_numbers_of_the_environment_are_no_commands(self):
         trap = f"a[$(touch '{self.place}/trap')]"
         for count, mine in (("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"), ("PMI_SIZE", "PMI_RANK"),

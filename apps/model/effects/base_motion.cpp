@@ -66,6 +66,8 @@ private:
 
 } // namespace
 
+Works base_motion_works() { return {}; }
+
 const Effect& base_motion() {
     static const Effect effect{
         .name = "base_motion",

@@ -38,6 +38,8 @@ std::vector<double> water_band(const Observation& now) {
 
 } // namespace
 
+Works basin_water_works() { return {}; }
+
 const Effect& basin_water() {
     static const Effect effect{
         .name = "basin_water",

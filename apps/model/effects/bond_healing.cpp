@@ -4,6 +4,8 @@
 
 namespace listric::effects {
 
+Works bond_healing_works() { return {}; }
+
 const Effect& bond_healing() {
     using P = dem::BondHealingParameters;
     static const Effect effect{

@@ -12,6 +12,8 @@ struct RockBonds {
 
 } // namespace
 
+Works bonds_works() { return {&works::itasca}; }
+
 const Effect& bonds() {
     static const Effect effect{
         .name = "bonds",

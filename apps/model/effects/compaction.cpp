@@ -4,6 +4,8 @@
 
 namespace listric::effects {
 
+Works compaction_works() { return {&works::baldwin_butler}; }
+
 const Effect& compaction() {
     using P = dem::CompactionParameters;
     static const Effect effect{

@@ -316,6 +316,8 @@ std::vector<Measure<Observation>> measures() {
 
 } // namespace
 
+Works elastic_base_works() { return {&works::hetenyi, &works::turcotte_schubert}; }
+
 const Effect& elastic_base() {
     static const Effect effect{
         .name = "elastic_base",

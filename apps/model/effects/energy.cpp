@@ -95,6 +95,8 @@ std::optional<std::vector<NamedNumbers>> by_event(const Observation& now) {
 
 } // namespace
 
+Works energy_works() { return {}; }
+
 const Effect& energy() {
     static const Effect effect{
         .name = "energy",

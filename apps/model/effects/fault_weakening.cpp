@@ -140,6 +140,8 @@ std::vector<double> weak_discs(const Observation& now) {
 
 } // namespace
 
+Works fault_weakening_works() { return {}; }
+
 const Effect& fault_weakening() {
     static const Effect effect{
         .name = "fault_weakening",

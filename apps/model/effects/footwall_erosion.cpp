@@ -63,6 +63,8 @@ std::string explain(const Scene& scene, EffectList) {
 
 } // namespace
 
+Works footwall_erosion_works() { return {}; }
+
 const Effect& footwall_erosion() {
     static const Effect effect{
         .name = "footwall_erosion",

@@ -10,6 +10,8 @@ struct GravityParameters {
 
 } // namespace
 
+Works gravity_works() { return {}; }
+
 const Effect& gravity() {
     using P = GravityParameters;
     static const Effect effect{

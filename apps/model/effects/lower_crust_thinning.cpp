@@ -32,6 +32,8 @@ std::string explain(const Scene& scene, EffectList) {
 
 } // namespace
 
+Works lower_crust_thinning_works() { return {&works::kusznir}; }
+
 const Effect& lower_crust_thinning() {
     static const Effect effect{
         .name = "lower_crust_thinning",

@@ -187,6 +187,8 @@ std::vector<MeasuredObjects> objects() {
 
 } // namespace
 
+Works sedimentation_works() { return {}; }
+
 const Effect& sedimentation() {
     static const Effect effect{
         .name = "sedimentation",

@@ -1,0 +1,150 @@
+#include "apps/archive/headline.hpp"
+#include "apps/commands/command.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/scene/differences.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/log.hpp"
+#include "apps/support/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+namespace listric {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A scene, or a run with its scene and what it has found.
+struct Side {
+    std::string name;
+    Scene scene;
+    JsonObject summary; ///< empty: no finished run
+};
+
+Side read_side(const std::string& name) {
+    if (!fs::is_directory(name))
+        return {name, load_scene({.scene = name}), {}};
+    const fs::path scene = fs::path(name) / "scene.toml";
+    if (!fs::exists(scene))
+        throw UsageError(
+            fmt::format("{}: is no folder of a run, which has scene.toml", shown(name)));
+    return {name, load_scene({.scene = scene.string(), .is_record = true}),
+            object_in(fs::path(name) / "summary.json")};
+}
+
+struct Row {
+    std::string what, first, second, unit;
+};
+
+/// Lines of a table; nothing without rows.
+std::string table_text(const char* heading, const std::vector<Row>& rows) {
+    std::size_t what = std::string_view(heading).size(), first = 1, second = 1;
+    for (const Row& row : rows) {
+        what = std::max(what, row.what.size());
+        first = std::max(first, row.first.size());
+        second = std::max(second, row.second.size());
+    }
+    std::string text;
+    for (const Row& row : rows) {
+        if (text.empty())
+            text = fmt::format("\n{:<{}}  {:<{}}  {}\n", heading, what, "A", first, "B");
+        std::string line = fmt::format("{:<{}}  {:<{}}  {:<{}}  {}", row.what, what, row.first,
+                                       first, row.second, second, row.unit);
+        text += line.erase(line.find_last_not_of(' ') + 1) + '\n';
+    }
+    return text;
+}
+
+/// A value in one line of a readable length.
+std::string short_value(std::string value) {
+    constexpr std::size_t longest = 40;
+    std::ranges::replace(value, '\n', ' ');
+    for (std::size_t at; (at = value.find("  ")) != value.npos;)
+        value.erase(at, 1);
+    if (value.size() > longest)
+        value = value.substr(0, longest - 3) + "...";
+    return value.empty() ? "-" : value;
+}
+
+std::vector<Row> parameter_rows(const Side& a, const Side& b) {
+    std::vector<Row> rows;
+    for (const SceneDifference& one : scene_differences(a.scene, b.scene, program_effects())) {
+        Row row{one.path, short_value(one.first), short_value(one.second), one.unit};
+        if (row.first == row.second) // long lists that differ beyond what is shown
+            row.second = "another one";
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+std::vector<Row> program_rows(const JsonObject& a, const JsonObject& b) {
+    std::vector<Row> rows;
+    for (const char* key : {"version", "commit"}) {
+        const std::string first = text_at(object_at(a, "provenance"), key);
+        const std::string second = text_at(object_at(b, "provenance"), key);
+        if (first != second)
+            rows.push_back({key, first, second, ""});
+    }
+    return rows;
+}
+
+std::vector<Row> result_rows(const JsonObject& a, const JsonObject& b) {
+    const auto text = [](const std::optional<double>& value) {
+        return value ? fmt::format("{:.5g}", *value) : "-";
+    };
+    std::vector<Row> rows;
+    const auto first = archive::headline_of(a), second = archive::headline_of(b);
+    for (std::size_t k = 0; k < first.size(); ++k)
+        if (first[k].value != second[k].value)
+            rows.push_back(
+                {first[k].name, text(first[k].value), text(second[k].value), first[k].unit});
+    if (text_at(a, "state_hash") != text_at(b, "state_hash"))
+        rows.push_back({"state_hash", text_at(a, "state_hash"), text_at(b, "state_hash"), ""});
+    return rows;
+}
+
+ExitCode compare(const std::string& first, const std::string& second) {
+    const Side a = read_side(first), b = read_side(second);
+    std::string text = table_text("parameter", parameter_rows(a, b));
+    if (!a.summary.empty() && !b.summary.empty())
+        text += table_text("program", program_rows(a.summary, b.summary)) +
+                table_text("result", result_rows(a.summary, b.summary));
+    else if (a.summary.empty() != b.summary.empty())
+        warn(fmt::format("{} has no summary.json: only parameters are compared",
+                         shown((a.summary.empty() ? a : b).name)));
+    if (text.empty())
+        return ExitCode::done;
+    std::cout << shown_lines(fmt::format("A: {}\nB: {}\n{}", a.name, b.name, text));
+    return ExitCode::differs;
+}
+
+} // namespace
+
+Command add_diff(CLI::App& program) {
+    struct Call {
+        std::string first, second;
+    };
+    const auto call = std::make_shared<Call>();
+    CLI::App* command =
+        add_call(program, {"Look",
+                           "diff",
+                           "show what differs between two runs or scenes",
+                           "docs/commands.md",
+                           {{{"diff out/lis1 out/lis1-second", "parameters, program and results"},
+                             {"diff lis1 my.toml", "parameters of two scenes"},
+                             {"diff lis1 out/lis1", "what a call has changed"}}}});
+    command->add_option("A", call->first, "a scene, by name or file, or the folder of a run")
+        ->type_name("SCENE")
+        ->required();
+    command->add_option("B", call->second, "another one; the exit code is 1 if they differ, else 0")
+        ->type_name("SCENE")
+        ->required();
+    return {command, [call] { return compare(call->first, call->second); }};
+}
+
+} // namespace listric

@@ -1,0 +1,185 @@
+#include "apps/archive/headline.hpp"
+#include "apps/commands/command.hpp"
+#include "apps/figures/report_run.hpp"
+#include "apps/support/base64.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
+#include "apps/support/log.hpp"
+#include "apps/support/process.hpp"
+#include "apps/support/text.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <sys/stat.h>
+
+namespace listric {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A finished run, for its card.
+struct Card {
+    fs::path run;
+    std::time_t when = 0; ///< it was finished
+    JsonObject summary;
+};
+
+/// Finished runs in a folder and in the folders in it, newest first.
+std::vector<Card> cards_in(const fs::path& folder) {
+    constexpr int deepest = 2; // runs of sweeps and validations
+    std::vector<Card> cards;
+    const auto options = fs::directory_options::skip_permission_denied;
+    for (auto at = fs::recursive_directory_iterator(folder, options); at != end(at); ++at) {
+        if (at.depth() >= deepest)
+            at.disable_recursion_pending();
+        struct stat facts {};
+        const fs::path summary = at->path() / "summary.json";
+        if (!at->is_directory() || !fs::exists(at->path() / "scene.toml") ||
+            stat(summary.c_str(), &facts) != 0)
+            continue;
+        at.disable_recursion_pending();
+        if (JsonObject found = object_in(summary); is_true_at(found, "finished"))
+            cards.push_back({at->path(), facts.st_mtime, std::move(found)});
+    }
+    std::ranges::sort(cards, std::greater{}, &Card::when);
+    return cards;
+}
+
+std::string html(const std::string& text) {
+    std::string out;
+    for (const char letter : shown(text))
+        out += letter == '<'   ? "&lt;"
+               : letter == '&' ? "&amp;"
+               : letter == '"' ? "&quot;"
+                               : std::string(1, letter);
+    return out;
+}
+
+/// The run's last picture of strata, as it stands in the page; empty: there is none.
+std::string picture_of(const fs::path& run) {
+    fs::path newest;
+    std::error_code error;
+    for (const auto& file : fs::directory_iterator(run / "figures", error))
+        if (file.path().filename().string().starts_with("strata-") &&
+            file.path().extension() == ".png" &&
+            (newest.empty() || file.last_write_time() > fs::last_write_time(newest)))
+            newest = file.path();
+    std::ifstream stream(newest, std::ios::binary);
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+    if (bytes.empty())
+        return "";
+    const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
+    return fmt::format("<img alt=\"strata\" src=\"data:image/png;base64,{}\">",
+                       base64({first, bytes.size()}));
+}
+
+std::string card_html(const Card& card, const fs::path& page) {
+    const fs::path relative = fs::relative(card.run / "report.html", page.parent_path());
+    const bool has_report = fs::exists(card.run / "report.html");
+    std::string rows;
+    for (const archive::Headline& one : archive::headline_of(card.summary))
+        if (one.value)
+            rows += fmt::format("<tr><td>{}<td>{:.4g} {}", html(one.name), *one.value, one.unit);
+    const std::string name = html(card.run.lexically_normal().string());
+    return fmt::format(
+        "<article>{}<h2>{}</h2><p>{}, {}, seed {:.0f}; {:%Y-%m-%d %H:%M}</p><table>{}</table>"
+        "</article>\n",
+        picture_of(card.run),
+        has_report ? fmt::format("<a href=\"{}\">{}</a>", html(relative.string()), name) : name,
+        html(text_at(card.summary, "scene")), html(text_at(card.summary, "accuracy")),
+        number_at(card.summary, "seed").value_or(0.0), fmt::localtime(card.when), rows);
+}
+
+/// Writes a page of cards; its links lead to the runs' reports. Returns the file.
+fs::path write_cards(const fs::path& folder) {
+    constexpr std::size_t most = 40; // a picture each
+    if (!fs::is_directory(folder))
+        throw UsageError(fmt::format("there is no folder {} here; listric run makes it",
+                                     shown(folder.string())));
+    std::vector<Card> cards = cards_in(folder);
+    if (cards.empty())
+        throw UsageError(fmt::format("{} has no finished run", shown(folder.string())));
+    const std::size_t all = cards.size();
+    cards.resize(std::min(all, most));
+    const fs::path page = folder / "index.html";
+    std::string text = fmt::format(R"(<!doctype html>
+<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>Runs in {0}</title>
+<style>
+:root {{ color-scheme: light dark; --edge: #ccc; --page: #fff; --ink: #222; --link: #05c }}
+@media (prefers-color-scheme: dark) {{ :root {{ --edge: #444; --page: #181818; --ink: #ddd; --link: #8bf }} }}
+body {{ font: 15px/1.4 sans-serif; background: var(--page); color: var(--ink); margin: 1rem }}
+main {{ display: grid; gap: 1rem; grid-template-columns: repeat(auto-fill, minmax(min(100%, 22rem), 1fr)) }}
+article {{ border: 1px solid var(--edge); border-radius: 6px; padding: .8rem; overflow: hidden }}
+img {{ width: 100%; background: #fff; border-radius: 3px }}
+h2 {{ font-size: 1.05rem; margin: .4rem 0 0; overflow-wrap: anywhere }}
+p {{ margin: .1rem 0 .4rem }}
+a {{ color: var(--link) }}
+table {{ width: 100%; border-collapse: collapse; font-size: .9em }}
+td {{ border-top: 1px solid var(--edge); padding: .1rem 0 }}
+td + td {{ text-align: right; white-space: nowrap }}
+</style>
+<h1>Runs in {0}</h1>
+<p>{1} of {2} finished runs, newest first. A name leads to the report.</p>
+<main>
+)",
+                                   html(folder.string()), cards.size(), all);
+    for (const Card& card : cards)
+        text += card_html(card, page);
+    write_text(page, text + "</main>\n");
+    return page;
+}
+
+/// The report of a run, made if it is not there.
+fs::path report_of(const fs::path& run) {
+    const fs::path page = run / "report.html";
+    if (fs::exists(page))
+        return page;
+    for (const std::string& lack : report_run({.outputs = {run}}).lacks)
+        warn("the page is not whole: " + lack);
+    return page;
+}
+
+/// Shows a page in the user's browser, where there is a display.
+void open_page(const fs::path& page) {
+    const auto has = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value && *value;
+    };
+    std::cout << page.string() << std::endl;
+    if (has("DISPLAY") || has("WAYLAND_DISPLAY"))
+        run_silently({"xdg-open", fs::absolute(page).string()});
+}
+
+} // namespace
+
+Command add_view(CLI::App& program) {
+    const auto run = std::make_shared<std::string>();
+    CLI::App* command =
+        add_call(program, {"Look",
+                           "view",
+                           "open the report of a run, or cards of all runs",
+                           "docs/report.md",
+                           {{{"view out/lis1", "the report of a run, made if it is missing"},
+                             {"view", "a page of cards of the runs in out"},
+                             {"report out/lis1", "write the report again"}}}});
+    command->add_option("DIR", *run, "folder of a run; without a display its page is printed only")
+        ->type_name("DIR")
+        ->default_str("cards of out");
+    return {command, [run] {
+                open_page(run->empty() ? write_cards("out") : report_of(*run));
+                return ExitCode::done;
+            }};
+}
+
+} // namespace listric
