@@ -179,7 +179,7 @@ def read_schema():
     """That of a scene, and with it the table that plans of flexure have of their own."""
     schema, plan = (json.loads(file.read_text(encoding="utf-8")) for file in (SCHEMA, PLAN))
     table = dict(plan["properties"]["flexure"])
-    table["description"] = "of a plan of its own for `listric flexure`: " + table["description"]
+    table["description"] = "table of plans for `listric flexure`, " + table["description"]
     schema["properties"]["flexure"] = table
     return schema
 

@@ -26,7 +26,7 @@ private:
 /// Treatment of a run that is in the output folder already.
 enum class ExistingRun { refused, resumed, replaced };
 
-/// What a run reads and writes, as far as the folder of its results is concerned.
+/// A run's claims on the folder of its results.
 struct FolderUse {
     std::string parameters;                    ///< all in force, the text of scene.toml
     std::vector<std::filesystem::path> files;  ///< that were read for it; none of them may be lost
@@ -35,7 +35,7 @@ struct FolderUse {
     bool with_snapshots = true;
 };
 
-/// That of a scene's run to the extension `target`, m.
+/// The claims of a scene's run to the extension `target`, m.
 FolderUse folder_use(const Scene& scene, double target);
 
 /// Makes the output folder ready for a run, and keeps others out. Before any work it refuses a

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What runs take on this machine, whose speed is measured once for scenes of about the same size.
+/// Time that runs take on this machine, whose speed is measured once for scenes of about the same size.
 class Times {
 public:
     Prediction of(const Scene& scene) {
@@ -53,7 +53,7 @@ std::string about(double number) {
     return "about " + digits;
 }
 
-/// What is odd about the files of a scene, a line each.
+/// Oddities of a scene's files, a line each.
 std::string warnings_of(const Scene& scene) {
     std::string lines;
     for (const std::string& warning : scene.warnings)
@@ -111,7 +111,7 @@ std::string check_validation(const fs::path& file) {
                        plan.runs.size());
 }
 
-/// What is right about a file; it tells by its keys what it is for. Throws SceneError.
+/// Good news of a file, whose keys show its purpose. Throws SceneError.
 std::string check(const std::string& name, const fs::path& file, Times& times) {
     const toml::table document = scenes.read(file);
     const auto has = [&](std::initializer_list<std::string_view> keys) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What made a run, and with which effects.
+/// The program that made a run, and the effects that were on.
 struct Origin {
     std::string version, commit; ///< commit: may be empty
     std::vector<std::string> effects = {};

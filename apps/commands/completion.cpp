@@ -73,7 +73,7 @@ Words assignments() {
     return words;
 }
 
-/// The same of a material.
+/// Assignments to a material.
 Words material_assignments() {
     Words words;
     for (const Parameter& parameter : material_parameters<>())
@@ -90,7 +90,7 @@ Words call_names(const CLI::App& program) {
     return names;
 }
 
-/// What follows an option, or stands as an argument.
+/// Words after an option, or in an argument's place.
 struct Answer {
     std::string words; ///< separated by blanks
     bool files = false;
@@ -98,7 +98,7 @@ struct Answer {
     auto operator<=>(const Answer&) const = default;
 };
 
-/// What is offered for a kind of value, if need be with its call. Of a kind that is not here any
+/// Offers for a kind of value, if need be with its call. Of a kind that is not here any
 /// value is one that nobody can guess.
 const std::map<std::string, std::pair<Words (*)(), bool>> kinds{
     {"SCENE", {scenes_and_plan, true}},
@@ -135,7 +135,7 @@ Words options_of(const CLI::App& call) {
     return words;
 }
 
-/// What follows the options of a call: patterns of the shell's case, by what they are answered
+/// Words after the options of a call: patterns of the shell's case, by what they are answered
 /// with.
 void add_answers(const CLI::App& call, std::map<Answer, Words>& patterns) {
     for (const CLI::Option* option : call.get_options())
@@ -144,7 +144,7 @@ void add_answers(const CLI::App& call, std::map<Answer, Words>& patterns) {
                 patterns[answer_to(call, *option)].push_back(call.get_name() + "," + name);
 }
 
-/// What the arguments of a call may be, together.
+/// Words that the arguments of a call may be, together.
 Answer arguments_of(const CLI::App& call) {
     Answer all;
     for (const CLI::Option* option : call.get_options()) {

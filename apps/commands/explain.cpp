@@ -59,7 +59,7 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
                        scene.output.interval);
 }
 
-/// What effects say of themselves; those that need another one are spoken for by it.
+/// Lines of the effects on themselves; an effect speaks for those that need it.
 std::string explain_parts(const Scene& scene, EffectList effects) {
     std::string text;
     for (const EffectPart& part : scene.effects)

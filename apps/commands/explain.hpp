@@ -16,12 +16,12 @@ std::string size_text(double bytes);
 /// "21 snapshots, 130 MB of disk"
 std::string output_text(const Prediction& prediction);
 
-/// What would be simulated and what it costs on this machine, as text.
+/// The model and its cost on this machine, as text.
 /// @param speed    with that many threads
 /// @param effects  all that there are
 std::string explain(const Scene& scene, const CycleSpeed& speed, int threads, EffectList effects);
 
-/// The same at the speed that is measured now.
+/// The model and its cost at the speed that is measured now.
 std::string explain(const Scene& scene, int threads, EffectList effects);
 
 } // namespace listric

@@ -57,8 +57,8 @@ Command add_figures(CLI::App& program) {
                       "make a film of all snapshots instead of the figures");
     add_underlay(*command, call->underlay);
     add_numbers(*command, "--at", call->extensions,
-                "Extension of a snapshot whose sections are drawn, m, or several with commas; "
-                "default: those of the scene, and the end");
+                "extensions of snapshots whose sections are drawn, m, with commas between")
+        ->default_str("those of the scene, and the end");
     command
         ->add_option("--format", call->formats,
                      "png, pdf or svg, or several: png,pdf; discs are an image in all of them")

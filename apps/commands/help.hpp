@@ -18,7 +18,7 @@ struct Example {
     const char* purpose;
 };
 
-/// What help shows of a call beside its options.
+/// Help on a call beside its options.
 struct CallHelp {
     const char* group; ///< in the overview
     const char* name;
@@ -45,7 +45,7 @@ std::vector<std::string> names_of(const CLI::Option& option);
 /// "-o, --output DIR", or an argument's name.
 std::string head_of(const CLI::Option& option);
 
-/// What an option does, with its default.
+/// An option's purpose, with its default.
 std::string text_of(const CLI::Option& option);
 
 /// "run SCENE"

@@ -30,7 +30,7 @@ CLI::Option* add_threads(CLI::App& command, int& threads) {
         [](std::string& text) {
             int wanted = 0;
             std::from_chars(text.data(), text.data() + text.size(), wanted);
-            // What is no number, or out of range, is refused next.
+            // The next check refuses words and numbers out of range.
             if (const int most = all_threads(); wanted > most && wanted <= most_threads) {
                 warn(
                     fmt::format("--threads {}: here this program may use {} core{}, so {} thread{}",

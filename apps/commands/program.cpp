@@ -79,7 +79,7 @@ void require_sound(const std::vector<std::string>& words) {
                             shown(word), objection_to_byte(word, *place)));
 }
 
-/// What is wrong with a call, and where its help is.
+/// The fault of a call, and where its help is.
 std::string failure_of(const CLI::App* app, const CLI::Error& error) {
     const auto calls = app->get_subcommands();
     const std::string call = calls.empty() ? "" : " " + calls.back()->get_name();
@@ -157,10 +157,10 @@ std::vector<Command> add_calls(CLI::App& program) {
                    "    listric help run\n"
                    "\nDocuments: README.md, docs/index.md\n");
     return {add_new(program),      add_run(program),        add_check(program),
-            add_explain(program),  add_scenes(program),     add_view(program),
-            add_report(program),   add_figures(program),    add_export(program),
-            add_diff(program),     add_cite(program),       add_trace(program),
-            add_flexure(program),  add_sweep(program),      add_study(program),
+            add_explain(program),  add_scenes(program),     add_flexure(program),
+            add_view(program),     add_report(program),     add_figures(program),
+            add_export(program),   add_diff(program),       add_cite(program),
+            add_trace(program),    add_sweep(program),      add_study(program),
             add_validate(program), add_laboratory(program), add_calibrate(program),
             add_help(program),     add_completion(program), add_manual(program),
             add_schema(program),   add_bench(program)};

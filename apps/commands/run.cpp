@@ -72,7 +72,7 @@ fs::path output_of(const RunCall& call, const std::string& scene) {
     return call.output.empty() ? "out/" + scene : call.output;
 }
 
-/// What there is for a run that may end early. Nobody knows what of the disk a run that goes on, or
+/// Room for a run that may end early. Nobody knows what of the disk a run that goes on, or
 /// takes the place of another, will find.
 Room room_of(const RunCall& call, const Scene& scene) {
     Room room = room_for(output_of(call, scene.name));
@@ -98,7 +98,7 @@ void check_scene(const RunCall& call, const Scene& scene, bool on_ranks) {
         refuse_scene(call.scene, objection->path, objection->message);
 }
 
-/// What was asked for; on ranks a process has one thread unless it is told otherwise.
+/// Options of a call; on ranks a process has one thread unless it is told otherwise.
 RunOptions options_of(const RunCall& call, const Scene& scene, bool on_ranks) {
     RunOptions options = call.options;
     if (on_ranks && call.threads->count() == 0)

@@ -38,7 +38,7 @@ std::vector<std::string> words_of_call() {
     return words;
 }
 
-/// What another mpirun has left in the environment would mislead this one. It adds nothing to our
+/// Variables that another mpirun has left would mislead this one. It adds nothing to our
 /// messages: its option for that has gone with Open MPI 5, these variables trouble neither.
 void prepare_environment() {
     std::vector<std::string> names;

@@ -9,7 +9,7 @@
 
 namespace listric {
 
-/// What a run has come to, for people. What has no meaning in the run is absent.
+/// Results of a run, for people. A value without a meaning in the run is absent.
 struct Results {
     const measures::Measures& measures;
     const measures::FaultReport& faults;

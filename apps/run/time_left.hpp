@@ -2,7 +2,7 @@
 
 namespace listric {
 
-/// What a run is expected to take, s, before anything of it has been seen.
+/// Time that a run is expected to take, s, before anything of it has been seen.
 struct Forecast {
     double before = 0.0;    ///< hanging wall and base, until the first cycle
     double extension = 0.0; ///< cycles, events and windows, from the first cycle to the last

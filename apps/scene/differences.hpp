@@ -14,7 +14,7 @@ struct SceneDifference {
     std::string first, second; ///< values as TOML; "on", "off" of a table
 };
 
-/// What differs between two scenes, defaults filled in, in the order of scene files. Names and
+/// Differences of two scenes, defaults filled in, in the order of scene files. Names and
 /// descriptions do not count.
 std::vector<SceneDifference> scene_differences(const Scene& first, const Scene& second,
                                                EffectList effects);

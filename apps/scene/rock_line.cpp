@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 using Sources = std::vector<RockSource>;
 
-/// What takes the rock of a key in a scene.
+/// Takers of the rock of a key in a scene.
 Sources sources_of(const Scene& scene, std::string_view key) {
     Sources sources;
     if (basement_source.key == key)

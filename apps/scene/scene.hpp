@@ -53,7 +53,7 @@ struct EffectPart {
     std::any parameters;
 };
 
-/// What stands above the tables of a file.
+/// Values above the tables of a file.
 struct Heading {
     std::string name;
     std::string description;

@@ -12,7 +12,7 @@ namespace listric {
 /// footwall can be made, StorageError.
 void run_flexure(const FlexurePlan& plan, const RunOptions& options);
 
-/// What would be bent, as text.
+/// The plate and its load, as text.
 std::string explain(const FlexurePlan& plan);
 
 } // namespace listric

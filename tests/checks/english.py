@@ -15,7 +15,6 @@ from links import CODE, read_documents
 from source_tree import CPP, PYTHON, is_cpp, read_tree, report
 
 NOT_READ = ("docs/record/",)
-COMMANDS = "apps/commands/"
 # Texts of the program with fewer words are names, keys and pieces of sentences.
 LEAST_WORDS = 3
 
@@ -116,8 +115,8 @@ def comment_violations(tree):
 
 
 def read_program():
-    """Sources; of the command line's calls its own branch changes help and comments."""
-    return {path: text for path, text in read_tree(suffixes=CPP | PYTHON).items() if not path.startswith(COMMANDS)}
+    """Sources, by path."""
+    return {path: text for path, text in read_tree(suffixes=CPP | PYTHON).items()}
 
 
 def all_violations():

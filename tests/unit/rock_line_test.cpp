@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <fstream>
 #include <string>
 #include <vector>
@@ -48,7 +50,8 @@ protected:
         return scenes;
     }
 
-    const fs::path folder = fs::path(testing::TempDir()) / "listric-rock-line";
+    const fs::path folder =
+        fs::path(testing::TempDir()) / fmt::format("listric-rock-line-{}", getpid());
 };
 
 TEST_F(RockLine, ScenesOfTheDocumentsHaveTheShippedRock) {

@@ -65,7 +65,7 @@ protected:
         if (advance)
             sandbox.advance_by(advance, collect);
         Log log(true);
-        State state = make_or_recall_hanging_wall(scene, parts, log, {}, 1);
+        State state = make_or_recall_hanging_wall(scene, parts, log, {}, {}, 1);
         if (!nodes.empty()) {
             std::vector<double> x, y;
             for (const Point& node : nodes) {

@@ -16,7 +16,7 @@ using namespace measures;
 
 namespace {
 
-/// What a run has come to, a line each.
+/// Results of a run, a line each.
 std::vector<std::string> results_of(RunView& run) {
     const Profile profile = measure_profile(run.setting, run.state(), run.parts.base);
     const std::vector<double> depth = smoothed_depth(profile);
@@ -29,7 +29,7 @@ std::vector<std::string> results_of(RunView& run) {
     return result_lines(results);
 }
 
-/// What shows it best of what there is.
+/// The best view of them that there is.
 std::string place_to_look(const RunView& run) {
     std::error_code error;
     for (const char* name : {"report.html", "figures"})
