@@ -1,7 +1,6 @@
 #include "apps/archive/headline.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/figures/report_run.hpp"
-#include "apps/support/base64.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
@@ -12,12 +11,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <sys/stat.h>
 
@@ -65,8 +63,20 @@ std::string html(const std::string& text) {
     return out;
 }
 
-/// The run's last picture of strata, as it stands in the page; empty: there is none.
-std::string picture_of(const fs::path& run) {
+/// A file beside the page or below its folder, as a link has it.
+std::string link_to(const fs::path& file, const fs::path& page) {
+    std::string link;
+    for (const unsigned char letter : fs::relative(file, page.parent_path()).generic_string())
+        if (std::isalnum(letter) ||
+            std::string_view("/._-~").find(letter) != std::string_view::npos)
+            link += static_cast<char>(letter);
+        else
+            link += fmt::format("%{:02X}", letter);
+    return link;
+}
+
+/// The run's last picture of strata; empty: there is none.
+std::string picture_of(const fs::path& run, const fs::path& page) {
     fs::path newest;
     std::error_code error;
     for (const auto& file : fs::directory_iterator(run / "figures", error))
@@ -74,18 +84,13 @@ std::string picture_of(const fs::path& run) {
             file.path().extension() == ".png" &&
             (newest.empty() || file.last_write_time() > fs::last_write_time(newest)))
             newest = file.path();
-    std::ifstream stream(newest, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (bytes.empty())
-        return "";
-    const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
-    return fmt::format("<img alt=\"strata\" src=\"data:image/png;base64,{}\">",
-                       base64({first, bytes.size()}));
+    return newest.empty() ? ""
+                          : fmt::format("<img alt=\"strata\" loading=\"lazy\" src=\"{}\">",
+                                        link_to(newest, page));
 }
 
 std::string card_html(const Card& card, const fs::path& page) {
-    const fs::path relative = fs::relative(card.run / "report.html", page.parent_path());
-    const bool has_report = fs::exists(card.run / "report.html");
+    const fs::path report = card.run / "report.html";
     std::string rows;
     for (const archive::Headline& one : archive::headline_of(card.summary))
         if (one.value)
@@ -94,15 +99,16 @@ std::string card_html(const Card& card, const fs::path& page) {
     return fmt::format(
         "<article>{}<h2>{}</h2><p>{}, {}, seed {:.0f}; {:%Y-%m-%d %H:%M}</p><table>{}</table>"
         "</article>\n",
-        picture_of(card.run),
-        has_report ? fmt::format("<a href=\"{}\">{}</a>", html(relative.string()), name) : name,
+        picture_of(card.run, page),
+        fs::exists(report) ? fmt::format("<a href=\"{}\">{}</a>", link_to(report, page), name)
+                           : name,
         html(text_at(card.summary, "scene")), html(text_at(card.summary, "accuracy")),
         number_at(card.summary, "seed").value_or(0.0), fmt::localtime(card.when), rows);
 }
 
-/// Writes a page of cards; its links lead to the runs' reports. Returns the file.
+/// Writes a page of cards, whose pictures and links are files of the runs. Returns the file.
 fs::path write_cards(const fs::path& folder) {
-    constexpr std::size_t most = 40; // a picture each
+    constexpr std::size_t most = 200;
     if (!fs::is_directory(folder))
         throw UsageError(fmt::format("there is no folder {} here; listric run makes it",
                                      shown(folder.string())));
