@@ -19,12 +19,9 @@ void add_underlay(CLI::App& command, UnderlayOptions& options) {
                     "PNG of a section, over which the model's lines are drawn")
         ->type_name("FILE")
         ->default_str("none");
-    command
-        .add_option("--corners", options.corners,
-                    "upper left and lower right corner of the PNG in the section, m: x0,z0,x1,z1")
-        ->type_name("NUMBERS")
-        ->default_str("none; required with --underlay")
-        ->delimiter(',');
+    add_numbers(command, "--corners", options.corners,
+                "upper left and lower right corner of the PNG in the section, m: x0,z0,x1,z1")
+        ->default_str("none; required with --underlay");
 }
 
 namespace {

@@ -124,7 +124,8 @@ State make_anew(const Scene& scene, const ModelParts& parts, const StageReport& 
     return make_hanging_wall(request, [&](std::string_view stage, double share) {
         if (stop.requested())
             throw Interrupted{};
-        report(fmt::format("hanging wall: {}", stage), share);
+        if (report)
+            report(fmt::format("hanging wall: {}", stage), share);
     });
 }
 
