@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Time that runs take on this machine, whose speed is measured once for scenes of about the same size.
+/// Time that runs take on this machine, whose speed is measured once for scenes of about the same
+/// size.
 class Times {
 public:
     Prediction of(const Scene& scene) {

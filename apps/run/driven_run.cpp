@@ -37,8 +37,7 @@ struct Run::Parts {
     }
 };
 
-Run::Run(Scene scene, int threads)
-    : parts_(std::make_unique<Parts>(std::move(scene), threads)) {}
+Run::Run(Scene scene, int threads) : parts_(std::make_unique<Parts>(std::move(scene), threads)) {}
 Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
 

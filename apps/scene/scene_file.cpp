@@ -352,7 +352,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     take_observed(scene, table_named("observed"), document, path.parent_path(), shift);
     scene.files.push_back(path);
     scene.rocks = rocks.files();
-    std::ranges::copy(std::views::values(scene.rocks), std::back_inserter(scene.files));
+    for (const auto& [key, file] : scene.rocks)
+        scene.files.push_back(file);
     return scene;
 }
 

@@ -56,7 +56,7 @@ int main(int count, char** words) {
         } else {
             Log log(true);
             State state = make_or_recall_hanging_wall(
-                scene, parts, log, {}, static_cast<int>(std::thread::hardware_concurrency()));
+                scene, parts, log, {}, {}, static_cast<int>(std::thread::hardware_concurrency()));
             add_mean_velocities(state);
             find_contacts(state, parts.base);
             malloc_trim(0);

@@ -62,7 +62,8 @@ TEST_F(Template, OfAPickedFaultReadsItsFileFromAnotherFolder) {
 
 TEST_F(Template, NamesTheRockAndShowsUnitsAndDefaults) {
     const std::string text = scene_template("lis1", program_effects());
-    EXPECT_THAT(text, ContainsRegex("\n\\[materials\\]\nbasement = \"mat18-b\" .*# material, by name"));
+    EXPECT_THAT(text,
+                ContainsRegex("\n\\[materials\\]\nbasement = \"mat18-b\" .*# material, by name"));
     EXPECT_THAT(text, ContainsRegex("\nlength_m = 40000.0 +# m: length from the breakaway"));
     EXPECT_THAT(text, ContainsRegex("\n# radius_ratio = 1.66 +# largest over smallest"));
     EXPECT_THAT(text, ContainsRegex("\n# \\[elastic_base\\] +# footwall and basement bend"));
