@@ -137,7 +137,7 @@ std::vector<fs::path> RunFolder::snapshots_at(const std::vector<double>& extensi
                 snapshot_extension(snapshots.front()), snapshot_extension(snapshots.back())));
     }
     std::ranges::sort(paths, {}, snapshot_extension);
-    paths.erase(std::ranges::unique(paths).begin(), paths.end());
+    paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
     return paths;
 }
 

@@ -78,7 +78,7 @@ std::vector<Entry> entries_of(const CLI::App& call, bool arguments) {
         if (option->get_positional() == arguments)
             entries.push_back({head_of(*option), text_of(*option)});
     if (!arguments) // help last
-        std::ranges::rotate(entries, entries.begin() + 1);
+        std::rotate(entries.begin(), entries.begin() + 1, entries.end());
     return entries;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/commands/underlay.hpp"
 
+#include "apps/commands/command.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/png.hpp"
 #include "apps/support/text.hpp"

@@ -5,6 +5,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/statistics.hpp"
+#include "fem/byerlee.hpp"
 
 #include <fmt/format.h>
 

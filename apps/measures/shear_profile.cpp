@@ -25,7 +25,7 @@ std::vector<std::int32_t> discs_across(const ShearField& field, const Cells& cel
                 seen.push_back(row);
         });
     std::ranges::sort(seen);
-    seen.erase(std::ranges::unique(seen).begin(), seen.end());
+    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
     return seen;
 }
 

@@ -43,7 +43,8 @@ Lattice bonded_lattice(std::size_t discs) {
         d.mass[i] = 3000.0 * pi * radius * radius;
     }
     const double width = 2.02 * radius * static_cast<double>(columns);
-    lattice.base.surfaces = {{"floor", {line({-width, 0.0}, {2.0 * width, 0.0})}, 0.5, 0.0, 0.0}};
+    lattice.base.surfaces = {
+        {"floor", {line({-width, 0.0}, {2.0 * width, 0.0})}, 0.5, 0.0, {0.0, 0.0}}};
     state.clock.time_step = 0.1 * stable_time_step(d.mass[0], state.materials[0], 0.7, 1.0);
     sort_discs(state);
     find_contacts(state, lattice.base);

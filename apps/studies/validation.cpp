@@ -209,7 +209,8 @@ private:
     void measure_runs(const ValidationRun& run) {
         bool measured = false;
         for (int seed : findings_.seeds_of(run)) {
-            const auto [hash, made_by] = finished(run, seed);
+            const auto [found, made_by] = finished(run, seed);
+            const std::string& hash = found; // clang 14 captures no structured binding
             if (hash.empty())
                 continue;
             check_scene_of(run, seed);
