@@ -146,7 +146,7 @@ std::vector<Command> add_calls(CLI::App& program) {
     program.set_version_flag("--version", fmt::format("listric {}", version), "print the version");
     program.require_subcommand(1);
     program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    program.formatter_fn([](const CLI::App* call, std::string, CLI::AppFormatMode) {
+    program.formatter_fn([](const CLI::App* call, const std::string&, CLI::AppFormatMode) {
         return help_of(*call, help_width());
     });
     program.failure_message(failure_of);

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A finished run, for its card.
-struct Card {
+struct Card { // NOLINT(bugprone-exception-escape): JSON that is moved does not throw
     fs::path run;
     std::time_t when = 0; ///< it was finished
     JsonObject summary;

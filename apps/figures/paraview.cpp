@@ -81,7 +81,7 @@ private:
 
 /// Cells of `size` consecutive points each.
 void cells(PolyData& file, std::string& section, std::size_t count, std::size_t size,
-           std::vector<std::int64_t> connectivity) {
+           const std::vector<std::int64_t>& connectivity) {
     std::vector<std::int64_t> offsets(count);
     for (std::size_t k = 0; k < count; ++k)
         offsets[k] = static_cast<std::int64_t>((k + 1) * size);

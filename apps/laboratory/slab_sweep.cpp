@@ -185,7 +185,7 @@ std::string faults_csv(const std::vector<SweepPoint>& points, std::uint64_t seed
 
 std::vector<CriticalRates> sweep_rates(const LaboratoryRequest& request,
                                        const CriticalRates& standard) {
-    const auto wished = [](const std::vector<double>& given, std::vector<double> otherwise,
+    const auto wished = [](const std::vector<double>& given, const std::vector<double>& otherwise,
                            std::string_view option) {
         for (double rate : given)
             if (!(rate > 0.0 && rate <= 1e-3))

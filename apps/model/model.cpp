@@ -26,10 +26,6 @@ ModelParts make_parts(const Scene& scene) {
     return parts;
 }
 
-double gravity_of(const Scene& scene) {
-    return has_effect(scene, "gravity") ? make_parts(scene).physics.gravity : standard_gravity;
-}
-
 Events make_events(const Scene& scene, const ModelParts& parts) {
     const double rate = scene.extension.rate;
     Events events;

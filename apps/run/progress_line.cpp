@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace listric {
 
@@ -32,9 +33,10 @@ std::string progress_line(const Progress& progress, std::size_t columns) {
     const double share = std::clamp(progress.share, 0.0, 1.0);
     const std::string line = fmt::format("{:.0f} %  {}  {} left", std::floor(100.0 * share),
                                          progress.what, rough_duration(progress.left));
-    const std::string end = fmt::format(
-        " (ends {})",
-        clock_text(progress.now + static_cast<std::time_t>(progress.left + 0.5), progress.now));
+    const std::string end =
+        fmt::format(" (ends {})",
+                    clock_text(progress.now + static_cast<std::time_t>(std::llround(progress.left)),
+                               progress.now));
     const std::string tries[] = {bar(share, 10) + line + end, bar(share, 10) + line,
                                  bar(share, 5) + line};
     const auto fits = std::ranges::find_if(

@@ -63,7 +63,7 @@ std::string listed(const std::vector<xml_node>& elements) {
 class Search {
 public:
     Search(const pugi::xml_document& document, std::string_view name, const std::string& file)
-        : all_(svg_elements(document)), name_(name), file_(file) {
+        : all_(svg_elements(static_cast<const xml_node&>(document))), name_(name), file_(file) {
         std::ranges::copy_if(all_, std::back_inserter(lines_), is_line);
     }
 

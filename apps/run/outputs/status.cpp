@@ -2,6 +2,7 @@
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 
+#include <cmath>
 #include <cstdint>
 
 namespace listric {
@@ -20,7 +21,7 @@ void tell(const RunView& run) {
                  {{"phase", name(run.phase)},
                   {"extension_m", run.extension()},
                   {"of_m", run.target()},
-                  {"seconds_left", static_cast<std::int64_t>(left + 0.5)}});
+                  {"seconds_left", std::int64_t{std::llround(left)}}});
 }
 
 } // namespace
