@@ -451,8 +451,10 @@ void ElasticFootwall::refine(double share_of_cells) {
 } // namespace listric::fem
 
 extern "C" __attribute__((visibility("default"))) listric::fem::Footwall*
-// NOLINTNEXTLINE(clang-diagnostic-missing-prototypes): its name is made by CMake
-LISTRIC_FEM_ENTRY(const listric::fem::FootwallRequest& request, std::string& message) {
+LISTRIC_FEM_ENTRY(const listric::fem::FootwallRequest& request, std::string& message);
+
+listric::fem::Footwall* LISTRIC_FEM_ENTRY(const listric::fem::FootwallRequest& request,
+                                          std::string& message) {
     try {
         return new listric::fem::ElasticFootwall(request, listric::fem::start_once());
     } catch (const std::exception& error) {
