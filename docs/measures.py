@@ -8,7 +8,6 @@ and so an anchor; the rest of a page is by hand.
 import json
 import re
 import sys
-from pathlib import Path
 
 from parameters import ROOT, anchor, sentence
 
