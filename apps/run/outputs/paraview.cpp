@@ -8,14 +8,14 @@ namespace listric {
 namespace {
 
 /// Writes the discs of the present moment.
-void save(const RunView& run) {
+void save_step(const RunView& run) {
     write_paraview(run.options.output, run.state(), run.simulation.base(), run.names(),
                    run.scene.extension.rate);
 }
 
 /// Where pictures are drawn, writes the field below the discs, too: a file of it is larger.
 void save_window(const RunView& run) {
-    save(run);
+    save_step(run);
     if (!run.is_drawn() || !run.is_window_end())
         return;
     if (const fem::Footwall* footwall = run.footwall())
@@ -28,7 +28,7 @@ void save_window(const RunView& run) {
 std::optional<Output> outputs::paraview(const RunView& run) {
     if (run.scene.output.series != SeriesFormat::paraview)
         return std::nullopt;
-    return Output{.begin = save, .resume = save_window, .window = save_window, .save = save};
+    return Output{.begin = save_step, .resume = save_window, .window = save_window, .save = save_step};
 }
 
 } // namespace listric

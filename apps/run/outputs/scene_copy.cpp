@@ -8,7 +8,7 @@ namespace listric {
 namespace {
 
 /// Writes scene.toml, all parameters in force, unless it is there and says the same.
-void keep(const RunView& run) {
+void keep_scene(const RunView& run) {
     const std::filesystem::path file = run.options.output / "scene.toml";
     if (archive::scene_lines(read_text_if_there(file)) != archive::scene_lines(run.record.scene))
         write_text(file, run.record.scene);
@@ -16,13 +16,13 @@ void keep(const RunView& run) {
 
 void enter(const RunView& run) {
     if (run.phase == Phase::genesis)
-        keep(run);
+        keep_scene(run);
 }
 
 } // namespace
 
 std::optional<Output> outputs::scene_copy(const RunView&) {
-    return Output{.enter = enter, .resume = keep};
+    return Output{.enter = enter, .resume = keep_scene};
 }
 
 } // namespace listric
