@@ -78,7 +78,7 @@ public:
             write_effects(rows);
             draw_sheet(rows);
         }
-        return failed < std::ssize(rows);
+        return rows.empty() || failed < std::ssize(rows);
     }
 
 private:

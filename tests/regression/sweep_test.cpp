@@ -146,6 +146,7 @@ TEST_F(SweepTest, TasksMergedAreOneTask) {
     EXPECT_EQ(incomplete.code, 2);
     EXPECT_THAT(incomplete.err, HasSubstr("run 2, seed 2 is in none of the folders"));
     EXPECT_EQ(sweep("x", {"--task", "5/4"}).code, 2);
+    EXPECT_EQ(sweep("none", {"--task", "99/99"}).code, 0); // more parts than runs
 }
 
 TEST_F(SweepTest, EqualHangingWallsAreMadeOnce) {
