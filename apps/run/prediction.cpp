@@ -129,7 +129,7 @@ double number_of_snapshots(const Scene& s, double cycles) {
     return 1.0 + std::min(std::ceil(s.extension.distance / s.output.interval), cycles);
 }
 
-/// Of each disc a snapshot has its columns and those of three contacts; the series has less.
+/// Snapshots have a disc's columns and those of three contacts; the series has less.
 /// Measured on a scene of 3,400 discs with all effects but an elastic base.
 double disk_of_snapshot(const Scene& s, double discs) {
     const double series = s.output.series == SeriesFormat::paraview ? 5e3 + 93.0 * discs : 0.0;

@@ -1,4 +1,4 @@
-// What a run says at its end.
+// Lines of results at the end of a run.
 
 #include "apps/run/results.hpp"
 
