@@ -102,7 +102,7 @@ std::vector<Row> result_rows(const JsonObject& a, const JsonObject& b) {
     for (std::size_t k = 0; k < first.size(); ++k)
         if (first[k].value != second[k].value)
             rows.push_back(
-                {first[k].name, text(first[k].value), text(second[k].value), first[k].unit});
+                {first[k].key, text(first[k].value), text(second[k].value), first[k].unit});
     if (text_at(a, "state_hash") != text_at(b, "state_hash"))
         rows.push_back({"state_hash", text_at(a, "state_hash"), text_at(b, "state_hash"), ""});
     return rows;

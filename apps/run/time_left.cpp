@@ -7,17 +7,25 @@ namespace listric {
 
 namespace {
 
-/// Shares of the run's cycles: seen before anything follows from it, seen once all does, and that
-/// over which what was seen is forgotten, long enough for several windows.
-constexpr double too_few = 0.005, enough = 0.06, memory = 0.25;
-constexpr double early = 0.05; ///< share before which the forecast bounds
+// Shares of the run. The three are the middle of ranges within which the recorded traces
+// (tests/traces) are met about as well.
+constexpr double memory = 0.4;  ///< of cycles, over which what was seen is forgotten
+constexpr double belief = 0.02; ///< of the work: as much counts as seen at the forecast's pace
+constexpr double early = 0.05;  ///< of cycles, before which the forecast bounds
+
+constexpr double few_cycles = 1e-5; ///< by which the end of a window may be off its share
 
 } // namespace
 
-/// Work up to a share of the cycles, in the forecast's seconds.
+/// Work up to a share of the cycles, in the forecast's seconds. A window that ends there is to
+/// come: its work is seen by the next cycle.
 double TimeLeft::work_until(double share) const {
     const double growth = forecast_.growth - 1.0;
-    return forecast_.extension * (share + 0.5 * growth * share * share) / (1.0 + 0.5 * growth);
+    const double cycles = (share + 0.5 * growth * share * share) / (1.0 + 0.5 * growth);
+    const double ended = (share - few_cycles - forecast_.ramp_share) / forecast_.window_share;
+    const double all = (1.0 - forecast_.ramp_share) / forecast_.window_share;
+    const double windows = std::max(0.0, std::floor(ended)) / all;
+    return (forecast_.extension - forecast_.windows) * cycles + forecast_.windows * windows;
 }
 
 void TimeLeft::read(double done, double all, double clock) {
@@ -35,9 +43,8 @@ void TimeLeft::read(double done, double all, double clock) {
 
 /// How many times longer things take than the forecast says.
 double TimeLeft::pace() const {
-    const double seen = share_ - first_share_;
-    const double weight = std::clamp((seen - too_few) / (enough - too_few), 0.0, 1.0);
-    return work_ > 0.0 ? 1.0 + weight * (seconds_ / work_ - 1.0) : 1.0;
+    const double believed = belief * forecast_.extension;
+    return work_ > 0.0 ? (believed + seconds_) / (believed + work_) : 1.0;
 }
 
 double TimeLeft::at(double clock) const {
@@ -45,7 +52,7 @@ double TimeLeft::at(double clock) const {
         return std::max(0.0, forecast_.before - clock) + forecast_.extension + forecast_.after;
     if (ended_ >= 0.0)
         return std::max(0.0, pace() * forecast_.after - (clock - ended_));
-    const double extension = work_until(1.0) - work_until(share_);
+    const double extension = forecast_.extension - work_until(share_);
     const double left = pace() * (extension + forecast_.after) - (clock - read_at_);
     const double most = share_ - first_share_ < early ? 2.0 * forecast_.all() : left;
     return std::clamp(left, 0.0, std::max(0.0, most));

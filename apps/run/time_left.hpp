@@ -8,6 +8,9 @@ struct Forecast {
     double extension = 0.0; ///< cycles, events and windows, from the first cycle to the last
     double after = 0.0;     ///< figures and report, after the last cycle
     double growth = 1.0;    ///< price of the last cycle over that of the first: discs are added
+    double windows = 0.0;   ///< part of the extension that goes at the ends of windows, s
+    double window_share = 1.0; ///< of the cycles in a window
+    double ramp_share = 0.0;   ///< of the cycles that the first window has more, for the ramp
 
     double all() const { return before + extension + after; }
 };
@@ -24,9 +27,9 @@ public:
     /// Says that the last cycle is done.
     void end_extension(double clock) { ended_ = clock; }
 
-    /// Seconds to go at a clock's reading: before 2 % of the cycles have been seen by the
-    /// forecast, then more and more by what cycles take; never more than twice the forecast before
-    /// 5 %.
+    /// Seconds to go at a clock's reading: the forecast of the work to come times the pace of the
+    /// work that was seen, where the forecast counts as a few per cent of the run seen before.
+    /// Never more than twice the forecast before 5 % of the cycles have been seen.
     double at(double clock) const;
 
     /// Share of the run's work that is done at a clock's reading, by the forecast.

@@ -220,7 +220,8 @@ class Section {
       if (column > width) break;
       pen.moveTo(column, 0);
       pen.lineTo(column, 5 * ratio);
-      if (column > 30 * ratio) pen.fillText(`${number(x, across)} km`, column + 3 * ratio, 11 * ratio);
+      const text = `${number(x, across)} km`, end = column + 3 * ratio + pen.measureText(text).width;
+      if (column > 30 * ratio && end < width) pen.fillText(text, column + 3 * ratio, 11 * ratio);
     }
     for (let z = Math.ceil(view.top / 1000 / down) * down; ; z += down) {
       const [, row] = this.toPixel(view, 0, 1000 * z);
