@@ -25,8 +25,7 @@ std::string_view unit_of_measure(std::string_view name) {
 std::vector<Headline> headline_of(const JsonObject& summary) {
     using M = measures::Measures;
     using measures::name_of;
-    std::vector<Headline> all{
-        {"extension_m", "extension", "m", number_at(summary, "extension_m")}};
+    std::vector<Headline> all{{"extension_m", "extension", "m", number_at(summary, "extension_m")}};
     const std::pair<std::string, const char*> numbers[] = {
         {name_of<&M::basin_area>(), "basin area"},
         {name_of<&M::area_balance>(), "basin area over extension × thickness"},
@@ -35,15 +34,16 @@ std::vector<Headline> headline_of(const JsonObject& summary) {
         {name_of<&M::halfgraben_area_share>(), "halfgraben's share of the basin"},
         {name_of<&M::strain_top10>(), "strain in the most strained tenth"}};
     for (const auto& [key, name] : numbers)
-        all.push_back({key, name, std::string(unit_of_measure(key)),
-                       number_at(summary, key.c_str())});
+        all.push_back(
+            {key, name, std::string(unit_of_measure(key)), number_at(summary, key.c_str())});
     const std::pair<std::string, const char*> lists[] = {
         {std::string(measures::depocentres.name), "depocentres"}, {"faults", "traced faults"}};
     for (const auto& [key, name] : lists) {
         const auto found = summary.find(key);
         const bool is_there = found != summary.end() && found->is_array();
-        all.push_back({"number of " + key, name, "",
-                       is_there ? std::optional(static_cast<double>(found->size())) : std::nullopt});
+        all.push_back(
+            {"number of " + key, name, "",
+             is_there ? std::optional(static_cast<double>(found->size())) : std::nullopt});
     }
     return all;
 }

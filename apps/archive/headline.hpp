@@ -12,7 +12,7 @@ namespace listric::archive {
 struct Headline {
     std::string key; ///< in summary.json; "number of " a list's key
     std::string name;
-    std::string unit; ///< empty: none
+    std::string unit;            ///< empty: none
     std::optional<double> value; ///< none: the run does not have it
 };
 

@@ -137,7 +137,7 @@ Command add_diff(CLI::App& program) {
                            "docs/commands.md",
                            {{{"diff out/lis1 out/lis1-second", "parameters, program and results"},
                              {"diff lis1 my.toml", "parameters of two scenes"},
-                             {"diff lis1 out/lis1", "what a call has changed"}}}});
+                             {"diff lis1 out/lis1", "parameters that a run's options changed"}}}});
     command->add_option("A", call->first, "a scene, by name or file, or the folder of a run")
         ->type_name("SCENE")
         ->required();

@@ -180,7 +180,9 @@ Command add_view(CLI::App& program) {
                            {{{"view out/lis1", "the report of a run, made if it is missing"},
                              {"view", "a page of cards of the runs in out"},
                              {"report out/lis1", "write the report again"}}}});
-    command->add_option("DIR", *run, "folder of a run; without a display its page is printed only")
+    command
+        ->add_option("DIR", *run,
+                     "folder of a run; without a display the call prints only the page's path")
         ->type_name("DIR")
         ->default_str("cards of out");
     return {command, [run] {

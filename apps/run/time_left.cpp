@@ -7,11 +7,10 @@ namespace listric {
 
 namespace {
 
-// Shares of the run. The three are the middle of ranges within which the recorded traces
-// (tests/traces) are met about as well.
-constexpr double memory = 0.4;  ///< of cycles, over which what was seen is forgotten
-constexpr double belief = 0.02; ///< of the work: as much counts as seen at the forecast's pace
-constexpr double early = 0.05;  ///< of cycles, before which the forecast bounds
+/// Share of the work that counts as seen before the first cycle, at the forecast's pace: so much
+/// must be seen until cycles weigh as much as the forecast.
+constexpr double belief = 0.015;
+constexpr double early = 0.05; ///< share of the cycles before which the forecast bounds
 
 constexpr double few_cycles = 1e-5; ///< by which the end of a window may be off its share
 
@@ -32,19 +31,18 @@ void TimeLeft::read(double done, double all, double clock) {
     const double share = all > 0.0 ? std::clamp(done / all, 0.0, 1.0) : 1.0;
     if (share_ < 0.0) {
         first_share_ = share;
-    } else {
-        const double kept = std::exp(-(share - share_) / memory);
-        work_ = work_ * kept + work_until(share) - work_until(share_);
-        seconds_ = seconds_ * kept + clock - read_at_;
+        first_at_ = clock;
     }
     share_ = share;
     read_at_ = clock;
 }
 
-/// How many times longer things take than the forecast says.
+/// How many times longer things take than the forecast says, since the first cycle. No older
+/// reading is forgotten: other programs come and go, and the last minute predicts no more.
 double TimeLeft::pace() const {
     const double believed = belief * forecast_.extension;
-    return work_ > 0.0 ? (believed + seconds_) / (believed + work_) : 1.0;
+    const double seen = believed + work_until(share_) - work_until(first_share_);
+    return seen > 0.0 ? (believed + read_at_ - first_at_) / seen : 1.0;
 }
 
 double TimeLeft::at(double clock) const {

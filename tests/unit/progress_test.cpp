@@ -77,8 +77,8 @@ Worst replay(const Trace& trace) {
         else if (clock < trace.end)
             worst.off = std::max(worst.off, std::max(told / true_left, true_left / told));
         else // at their end any number of seconds is many times the truth
-            worst.figures = std::max(worst.figures,
-                                     std::abs(told - true_left) / (trace.over - trace.end));
+            worst.figures =
+                std::max(worst.figures, std::abs(told - true_left) / (trace.over - trace.end));
     };
     look(0.0);
     double before = 0.0;
@@ -143,7 +143,7 @@ TEST(Progress, AResumedRunCountsItsOwnCycles) {
     EXPECT_NEAR(left.at(0.0), 55.0, 1e-9);
     for (int k = 1; k <= 100; ++k)
         left.read(500.0 + k, 1000.0, 0.2 * k); // twice as slow as foreseen
-    // The forecast counts as 2 % of the run beside the 10 % that were seen.
+    // The forecast counts as 1.5 % of the run beside the 10 % that were seen.
     EXPECT_NEAR(left.at(20.0), 80.0 + 10.0, 9.0);
 }
 

@@ -79,7 +79,8 @@ TEST(Results, JudgeTheBalanceOfAreasWhereItHasBounds) {
         return result_lines({m, {}, {}, {}, extension, base_moves}).back();
     };
     EXPECT_THAT(last(5e3, false), MatchesRegex("doubtful: .*, areas do not balance"));
-    EXPECT_THAT(last(1e3, false), MatchesRegex("good: .*, balance of areas not judged before 5 km"));
+    EXPECT_THAT(last(1e3, false),
+                MatchesRegex("good: .*, balance of areas not judged before 5 km"));
     EXPECT_THAT(last(5e3, true),
                 MatchesRegex("good: .*, balance of areas not judged on a moving base"));
 }
