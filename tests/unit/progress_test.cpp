@@ -130,7 +130,8 @@ TEST(Progress, TimeLeftFollowsTheMachine) {
     for (const double pace : {0.5, 1.0, 1.5})
         for (const double growth : {1.0, 2.0}) {
             const Worst worst = replay(steady(pace, growth));
-            EXPECT_LT(worst.off, pace == 1.0 ? 1.001 : 1.35) << pace << ", " << growth;
+            // A forecast that is off by two: at 5 % it still counts as a third of what was seen.
+            EXPECT_LT(worst.off, pace == 1.0 ? 1.001 : 1.4) << pace << ", " << growth;
             EXPECT_LE(worst.early, 1.5);
         }
     // However slow the machine has become, the first minutes do not frighten.
