@@ -20,7 +20,7 @@ std::size_t columns_of(const ConstDiscColumns& d, double width) {
     return static_cast<std::size_t>(std::max(0.0, std::ranges::max(d.x) / width));
 }
 
-/// Of forces on the interface, which are vertical, N per m of strike.
+/// Sum of forces on the interface, which are vertical, N per m of strike.
 double downward(std::span<const double> forces) {
     return -std::accumulate(forces.begin(), forces.end(), 0.0);
 }

@@ -56,7 +56,7 @@ double pore_water_weight(const dem::State& state);
 struct Flank {
     SurfaceResponse response;
     std::vector<double> forces; ///< equivalent to the response's interface displacements, N/Pa
-    /// Of the response's knots, by all but this water, m.
+    /// Height of the response's knots without the weight of this water, m.
     std::function<std::vector<double>(const dem::State&)> height;
 };
 

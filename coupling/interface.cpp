@@ -64,7 +64,7 @@ InterfaceBalance interface_balance(const State& state, const RigidBase& base) {
     const BasePlace place = base_place(state);
     const auto places = state.base_contacts.get<double>("place");
     std::vector<Point> load(nodes.x.size());
-    // Of the discs, from what acts on each of them about its centre.
+    // Resultants of the discs, from the forces on each of them about its centre.
     double fx = 0.0, fy = 0.0, moment = 0.0, power = 0.0;
     double magnitude = 0.0, moments = 0.0, powers = 0.0;
     for (std::size_t k = 0; k < c.disc.size(); ++k) {

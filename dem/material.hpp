@@ -25,7 +25,7 @@ struct BondStrength {
     StrengthReading reading = StrengthReading::stress;
 };
 
-/// Of bonds that never fail.
+/// Strength of bonds that never fail.
 inline constexpr BondStrength unbreakable{1e30, 0.0, 1e30, 0.0, StrengthReading::force};
 
 /// Index of a disc's material in State::materials. The order is fixed.

@@ -64,7 +64,7 @@ BlockMesh flat_blocks(const FootwallRequest& request) {
     return mesh;
 }
 
-/// Of the strip of cells along a detachment whose lowest point is at a depth.
+/// Thickness of the strip of cells along a detachment whose lowest point is at a depth.
 double strip_thickness(const FootwallRequest& request, double lowest) {
     double thickness = request.skin_thickness;
     if (thickness <= 0.0) // cells along the detachment all the same: they follow it better

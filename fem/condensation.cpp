@@ -110,7 +110,7 @@ void ElasticFootwall::find_interface() {
 
 namespace {
 
-/// Of a face's start, end and middle.
+/// Shape functions of a face's start, end and middle.
 using Shapes = std::array<double, 3>;
 
 /// Shape functions at t from 0 to 1 along a face.

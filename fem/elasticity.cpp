@@ -172,7 +172,7 @@ void ElasticFootwall::measure_mesh() {
         throw FootwallError("no mesh: cells fold over; make cells or skin smaller");
 }
 
-/// Of every unknown of an element: 0 for x, 1 for y.
+/// Component of every unknown of an element: 0 for x, 1 for y.
 std::vector<unsigned> ElasticFootwall::components() const {
     std::vector<unsigned> component(element_.n_dofs_per_cell());
     for (unsigned i = 0; i < component.size(); ++i)

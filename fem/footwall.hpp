@@ -22,7 +22,7 @@ struct InterfaceNode {
     double arc_length = 0.0; ///< along the detachment (or the flat surface) from its start, m
 };
 
-/// Of the elements on the interface: nodes in the order start, end, middle (degree 2 only).
+/// Edge of an element on the interface: nodes in the order start, end, middle (degree 2 only).
 struct InterfaceFace {
     std::array<std::size_t, 3> nodes;
 };
@@ -45,7 +45,7 @@ struct Load {
 /// Responses of the footwall to m loads, each alone.
 struct Responses {
     std::vector<double> interface; ///< displacement of the interface's n nodes: m rows of 2 n, m
-    /// Of every other load on a load's displacement: m by m, symmetric (Betti), J/m. The work of a
+    /// Work of every load on another's displacement: m by m, symmetric (Betti), J/m. The work of a
     /// unit pressure over its width is the mean displacement of the boundary there.
     std::vector<double> work;
     std::vector<Vector> sums; ///< of the loads, N/m

@@ -20,7 +20,7 @@ struct Stress {
     double xx, yy, xy;
 };
 
-/// Of a displacement's gradient.
+/// Stress by a displacement's gradient.
 Stress stress_of(const Rock& rock, const Tensor<2, 2>& g) {
     const double trace = rock.lambda * (g[0][0] + g[1][1]);
     return {trace + 2.0 * rock.mu * g[0][0], trace + 2.0 * rock.mu * g[1][1],

@@ -112,7 +112,7 @@ inline Coupled settled(Interface interface, CouplingParameters p = {}) {
     }();
     Coupled coupled(std::move(interface), p);
     coupled.state = state;
-    // Of all modes: memory is as large as the modes that are kept.
+    // All modes are kept: memory is as large as their number.
     add_mode_columns(coupled.state, coupled.elastic.modes().count());
     coupled.physics.averaging_time = 50.0;
     return coupled;

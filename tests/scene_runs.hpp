@@ -74,7 +74,7 @@ protected:
         return nlohmann::json::parse(contents(options.output / "summary.json"));
     }
 
-    /// The same in the folder `name`, from the beginning, to `until`, or on from there.
+    /// Runs the scene in the folder `name`, from the beginning, to `until`, or on from there.
     nlohmann::json run(const Scene& scene, const std::string& name,
                        std::optional<double> until = {}, bool resume = false,
                        int threads = 1) const {

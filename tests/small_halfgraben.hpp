@@ -1,6 +1,6 @@
 #pragma once
 
-// What tests of whole runs share without the program's libraries: some need its executable alone.
+// Helpers of tests of whole runs without the program's libraries: some need its executable alone.
 
 #include <filesystem>
 #include <fstream>

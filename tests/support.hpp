@@ -133,7 +133,7 @@ inline RigidBase listric_base(double radius, double length) {
     return base;
 }
 
-/// Of the contact of two discs of one material: two springs in series.
+/// Stiffness of the contact of two discs of one material: two springs in series.
 inline double contact_stiffness(const Material& m) { return 0.5 * m.normal_stiffness; }
 
 /// Row of the contact of two discs given by their ids; the table's size if there is none.

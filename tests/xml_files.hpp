@@ -7,7 +7,7 @@
 
 namespace listric::support {
 
-/// What a strict parser (expat) says of VTK's files below a folder: "3 of .pvd", sorted, a line for
+/// Verdict of a strict parser (expat) on VTK's files in a folder: "3 of .pvd", sorted, a line for
 /// each kind if all are XML; else a line for each that is not.
 inline std::string xml_files(const std::filesystem::path& folder) {
     const std::string script = R"(

@@ -9,7 +9,7 @@
 
 namespace listric::archive {
 
-/// Of every parameter in force: of scene.toml without its comments.
+/// Hash of every parameter in force: of scene.toml without its comments.
 std::uint64_t scene_hash(const std::string& parameters);
 std::uint64_t scene_hash(const Scene& scene);
 

@@ -79,7 +79,7 @@ bool is_export(std::string_view name) {
            });
 }
 
-/// Of a section at a moment.
+/// Whether a file is the picture of a section at a moment.
 bool is_section_picture(std::string_view name) {
     const auto is_of = [&](std::string_view kind, std::string_view ending) {
         const auto km = between(name, fmt::format("{}-", kind), fmt::format("km{}", ending));

@@ -158,7 +158,7 @@ Command add_check(CLI::App& program) {
                            "check",
                            "check scenes, plans and materials",
                            "docs/editors.md",
-                           {{{"check my-scene.toml", "what is wrong, with line and cure"},
+                           {{{"check my-scene.toml", "errors, with line and cure"},
                              {"check plan.toml", "a plan of a sweep or of a validation"},
                              {"check lis1 my-rock.toml", "several files at once"}}}});
     command->add_option("FILE", *files, "scenes, by name or file, plans or materials")

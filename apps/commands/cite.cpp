@@ -102,7 +102,7 @@ Command add_cite(CLI::App& program) {
                              {"cite", "this program and the method"}}}});
     command->add_option("DIR", *output, "folder of a finished run")
         ->type_name("DIR")
-        ->default_str("none: this program");
+        ->default_str("this program alone");
     return {command, [output] {
                 std::cout << shown_lines(
                     record_of(output->empty() ? program_origin() : origin_of(*output)));

@@ -282,9 +282,9 @@ Command add_completion(CLI::App& program) {
                   "completion",
                   "print a script with which a shell completes calls",
                   "docs/editors.md",
-                  {{{"completion bash > listric.bash", "to source in ~/.bashrc"},
-                    {"completion zsh > _listric", "in a folder of zsh's fpath"},
-                    {"completion fish > listric.fish", "in ~/.config/fish/completions"}}}});
+                  {{{"completion bash > listric.bash", "a script to source in ~/.bashrc"},
+                    {"completion zsh > _listric", "a file for a folder of zsh's fpath"},
+                    {"completion fish > listric.fish", "a file for ~/.config/fish/completions"}}}});
     const auto shell = std::make_shared<std::string>();
     command->add_option("SHELL", *shell, "bash, zsh or fish")
         ->required()

@@ -102,7 +102,7 @@ std::vector<Row> result_rows(const JsonObject& a, const JsonObject& b) {
     for (std::size_t k = 0; k < first.size(); ++k)
         if (first[k].value != second[k].value)
             rows.push_back(
-                {first[k].name, text(first[k].value), text(second[k].value), first[k].unit});
+                {first[k].key, text(first[k].value), text(second[k].value), first[k].unit});
     if (text_at(a, "state_hash") != text_at(b, "state_hash"))
         rows.push_back({"state_hash", text_at(a, "state_hash"), text_at(b, "state_hash"), ""});
     return rows;
@@ -137,7 +137,7 @@ Command add_diff(CLI::App& program) {
                            "docs/commands.md",
                            {{{"diff out/lis1 out/lis1-second", "parameters, program and results"},
                              {"diff lis1 my.toml", "parameters of two scenes"},
-                             {"diff lis1 out/lis1", "what a call has changed"}}}});
+                             {"diff lis1 out/lis1", "parameters that a run's options changed"}}}});
     command->add_option("A", call->first, "a scene, by name or file, or the folder of a run")
         ->type_name("SCENE")
         ->required();

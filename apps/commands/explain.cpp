@@ -48,7 +48,7 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
                            : "";
     return fmt::format("size\n{}"
                        "  {} discs at the start, about {} at the end, mean radius {} m\n"
-                       "  {:g} km of extension at {} m/a: {:g} Ma\n"
+                       "  {:g} km of extension at {} m/a: {:g} Myr\n"
                        "  time step {:.3g} s, {:.3g} million cycles at {} m/s\n"
                        "  {:.2g} disc-steps, about {:.0f} MB of memory\n"
                        "  {}, one every {} m\n\n",

@@ -48,7 +48,10 @@ Command add_explain(CLI::App& program) {
                              {"explain lis1 --accuracy fine", "the price of a higher resolution"},
                              {"explain --parameters", "every parameter of a scene"}}}});
     add_scene(*command, call->scene);
-    command->get_option("SCENE")->required(false)->default_str("none, with --parameters");
+    command->get_option("SCENE")
+        ->required(false)
+        ->description("name of a scene (listric scenes), or a file; --parameters needs none")
+        ->default_str("none");
     add_threads(*command, call->threads);
     command->add_flag("--parameters", call->parameters,
                       "print the reference of all parameters instead");

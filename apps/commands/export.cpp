@@ -25,7 +25,7 @@ Command add_export(CLI::App& program) {
     command->add_option("DIR", request->output, "folder of a run")->type_name("DIR")->required();
     command
         ->add_option("--format", request->formats,
-                     "csv, geojson or gmt, of discs csv or gsd; several with commas")
+                     "csv, geojson or gmt; for discs csv or gsd; several with commas")
         ->type_name("FORMAT")
         ->default_str("csv")
         ->delimiter(',')

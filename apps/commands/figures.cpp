@@ -58,7 +58,7 @@ Command add_figures(CLI::App& program) {
     add_underlay(*command, call->underlay);
     add_numbers(*command, "--at", call->extensions,
                 "extensions of snapshots whose sections are drawn, m, with commas between")
-        ->default_str("those of the scene, and the end");
+        ->default_str("the scene's output.figures_at_m, and the end");
     command
         ->add_option("--format", call->formats,
                      "png, pdf or svg, or several: png,pdf; discs are an image in all of them")

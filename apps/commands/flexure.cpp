@@ -12,14 +12,14 @@ Command add_flexure(CLI::App& program) {
         RunOptions options;
     };
     const auto call = std::make_shared<Call>();
-    CLI::App* command =
-        add_call(program, {"Run",
-                           "flexure",
-                           "bend the elastic base alone under a load, and compare with theory",
-                           "docs/elastic-base.md",
-                           {{{"flexure", "a line load on the plate of the shipped plan"},
-                             {"flexure --set flexure.load=broken", "on the end of a broken plate"},
-                             {"flexure my-plan.toml -o out/mine", "a plan of one's own"}}}});
+    CLI::App* command = add_call(
+        program, {"Run",
+                  "flexure",
+                  "bend the elastic base alone under a load, and compare with theory",
+                  "docs/elastic-base.md",
+                  {{{"flexure", "a line load on the plate of the shipped plan"},
+                    {"flexure --set flexure.load=broken", "a load on the end of a broken plate"},
+                    {"flexure my-plan.toml -o out/mine", "a plan of your own"}}}});
     command->add_option("PLAN", call->plan.scene, "plan, a TOML file")
         ->type_name("FILE")
         ->default_str("the shipped plan");

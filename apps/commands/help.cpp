@@ -1,6 +1,6 @@
 #include "apps/commands/help.hpp"
 
-#include "apps/support/number.hpp"
+#include "apps/support/terminal.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,6 @@
 #include <cstdlib>
 #include <sstream>
 #include <string_view>
-#include <sys/ioctl.h>
-#include <unistd.h>
 #include <utility>
 
 namespace listric {
@@ -194,16 +192,7 @@ std::string help_of(const CLI::App& call, std::size_t width) {
 
 std::size_t help_width() {
     constexpr std::size_t least = 40, most = 120;
-    std::size_t width = 80;
-    winsize size{};
-    const char* columns = std::getenv("COLUMNS");
-    if (const auto asked = columns ? parse_number(columns) : std::nullopt; asked && *asked > 0.0)
-        width = static_cast<std::size_t>(std::min(*asked, 1e6));
-    else if ((ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ||
-              ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0) &&
-             size.ws_col > 0)
-        width = size.ws_col;
-    return std::clamp(width, least, most);
+    return std::clamp(terminal_columns(), least, most);
 }
 
 } // namespace listric

@@ -55,7 +55,7 @@ std::string usage_of(const CLI::App& call);
 /// @param width  columns that a line may have; examples are never broken
 std::string help_of(const CLI::App& call, std::size_t width);
 
-/// Columns of the terminal that standard output or error is, or as COLUMNS has it; else 80.
+/// Columns of the terminal, from 40 to 120: longer lines are hard to read.
 std::size_t help_width();
 
 } // namespace listric

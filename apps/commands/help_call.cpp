@@ -13,7 +13,7 @@ Command add_help(CLI::App& program) {
                                            "docs/commands.md",
                                            {{{"help", "all calls"},
                                              {"help run", "one call"},
-                                             {"run --help", "the text of help run, too"}}}});
+                                             {"run --help", "one call, by its option"}}}});
     command->add_option("CALL", *name, "one of the calls")
         ->type_name("CALL")
         ->default_str("the overview");

@@ -16,7 +16,7 @@ namespace {
 void add_options_of_tests(CLI::App& command, LaboratoryRequest& request) {
     add_numbers(command, "--confining,--normal", request.stresses,
                 "stresses on the sides or on the shear zone, MPa")
-        ->default_str("10,25,50,100 and biaxial 200; shear-box 10,50,100,200");
+        ->default_str("10,25,50,100, biaxial also 200; shear-box 10,50,100,200");
     command
         .add_option("--vice", request.vice,
                     "rock around the shear zone: a material, elastic or none")
@@ -60,24 +60,25 @@ Command add_laboratory(CLI::App& program) {
         ->required();
     add_words(*command, "--set", "KEY=VALUE", request->set,
               "change the material, such as bonds.shear_strength_pa=2e9; repeatable");
-    add_count(*command, "--discs", request->discs, "discs per sample; the paper's has 239");
+    add_count(*command, "--discs", request->discs, "discs per sample; the paper's sample has 239");
     add_count(*command, "--seed", request->seed, "seed of the first sample");
     add_count(*command, "--seeds", request->seeds, "number of samples");
     add_threads(*command, request->threads);
     add_output(*command, request->output, "out/TEST-MATERIAL");
     command
-        ->add_option("--strength-is", request->reading, "reading of bond strengths: stress, force")
+        ->add_option("--strength-is", request->reading, "meaning of bond strengths: stress, force")
         ->type_name("READING")
         ->default_str("the material's")
         ->check(CLI::IsMember({"stress", "force"}));
     command
         ->add_option("--floaters", request->floaters,
-                     "discs with fewer than three contacts: grown, left")
+                     "treatment of discs with fewer than three contacts: grown, left")
         ->type_name("WHAT")
         ->default_str(request->floaters)
         ->check(CLI::IsMember({"grown", "left"}));
     add_options_of_tests(*command, *request);
-    add_number(*command, "--speed", request->speed, "speed of the walls, over the usual one");
+    add_number(*command, "--speed", request->speed,
+               "speed of the walls, in multiples of the usual one");
     add_quiet(*command, request->quiet);
     return {command,
             [request] {

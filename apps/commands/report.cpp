@@ -26,14 +26,14 @@ Command add_report(CLI::App& program) {
         ->type_name("DIR")
         ->required()
         ->expected(1, 2);
-    command->add_option("-o,--output", call->request.file, "the page")
+    command->add_option("-o,--output", call->request.file, "file of the page")
         ->type_name("FILE")
         ->default_str("DIR/report.html");
     add_number(*command, "--most-mb", call->request.most_mb,
                "largest size of the page, MB; detail is left out to keep it")
         ->check(CLI::Range(0.1, 1000.0).description(""));
     command->add_flag("--every-line", call->request.every_line,
-                      "have horizons and the past of faults at all moments; takes longer");
+                      "compute horizons and the past of faults at all moments; takes longer");
     add_underlay(*command, call->underlay);
     return {command, [call] {
                 call->request.underlay = underlay_of(call->underlay);

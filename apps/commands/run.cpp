@@ -209,7 +209,7 @@ Command add_run(CLI::App& program) {
                    "alone; without N: the processes that were started together, even where the "
                    "environment does not show them")
         ->type_name("N")
-        ->default_str("what mpirun or srun started, else 1")
+        ->default_str("the processes that mpirun or srun started, else 1")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     command->add_flag("--plain", call->options.plain, "use the scalar cycle: same bits, slower");
     add_output(*command, call->output, "out/SCENE");

@@ -14,7 +14,7 @@ Command add_scenes(CLI::App& program) {
                                            "list the shipped scenes",
                                            "docs/gallery.md",
                                            {{{"scenes", "all scenes, a line each"},
-                                             {"explain lis2", "what one of them simulates"},
+                                             {"explain lis2", "processes and cost of one of them"},
                                              {"run lis2 --accuracy draft", "run one of them"}}}});
     return {command, [] {
                 const FlexurePlan plan = load_flexure_plan({.scene = "flexure"});

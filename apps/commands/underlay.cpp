@@ -27,7 +27,7 @@ void add_underlay(CLI::App& command, UnderlayOptions& options) {
 
 namespace {
 
-/// Of a section of the Earth: nobody means more, m.
+/// Largest coordinate of a section of the Earth: nobody means more, m.
 constexpr double furthest = 1e8;
 
 /// Throws UsageError.

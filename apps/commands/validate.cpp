@@ -19,7 +19,7 @@ Command add_validate(CLI::App& program) {
                   "docs/validation.md",
                   {{{"validate --accuracy draft --seeds 2", "two seeds at half the resolution"},
                     {"validate --only lis2 --jobs 2", "one experiment, two runs at a time"},
-                    {"validate --plan my-plan.toml", "runs and expectations of yours"}}}});
+                    {"validate --plan my-plan.toml", "your own runs and expectations"}}}});
     command
         ->add_option("--accuracy", request->accuracy,
                      fmt::format("resolution of the runs: {}", fmt::join(accuracy_names(), ", ")))
@@ -32,7 +32,7 @@ Command add_validate(CLI::App& program) {
     command->add_option("--runs", request->runs, "folder of the runs")
         ->type_name("DIR")
         ->default_str("out/validation-LEVEL");
-    command->add_option("-o,--output", request->output, "the document")
+    command->add_option("-o,--output", request->output, "file of the document")
         ->type_name("FILE")
         ->default_str("validation.md beside the runs");
     command->add_option("--only", request->only, "one experiment")

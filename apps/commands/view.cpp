@@ -94,7 +94,8 @@ std::string card_html(const Card& card, const fs::path& page) {
     std::string rows;
     for (const archive::Headline& one : archive::headline_of(card.summary))
         if (one.value)
-            rows += fmt::format("<tr><td>{}<td>{:.4g} {}", html(one.name), *one.value, one.unit);
+            rows += fmt::format("<tr><td title=\"{}\">{}<td>{}", html(one.key), html(one.name),
+                                html(archive::value_text(one)));
     const std::string name = html(card.run.lexically_normal().string());
     return fmt::format(
         "<article>{}<h2>{}</h2><p>{}, {}, seed {:.0f}; {:%Y-%m-%d %H:%M}</p><table>{}</table>"
@@ -179,7 +180,9 @@ Command add_view(CLI::App& program) {
                            {{{"view out/lis1", "the report of a run, made if it is missing"},
                              {"view", "a page of cards of the runs in out"},
                              {"report out/lis1", "write the report again"}}}});
-    command->add_option("DIR", *run, "folder of a run; without a display its page is printed only")
+    command
+        ->add_option("DIR", *run,
+                     "folder of a run; without a display the call prints only the page's path")
         ->type_name("DIR")
         ->default_str("cards of out");
     return {command, [run] {

@@ -12,7 +12,7 @@ namespace listric {
 /// Writes one moment as VTK PolyData into output/paraview: discs (points: radius, material,
 /// stratum, start depth, rotation, velocity, stress, coordination, bonds), contacts (lines: bonded,
 /// normal and shear force, compression positive) and base (lines). The series output/paraview.pvd
-/// holds those that are there of this moment and the ends of windows, with time in Ma;
+/// holds those that are there of this moment and the ends of windows, with time in Myr;
 /// docs/paraview.md tells how to look at it.
 /// @param names  of the run's moments
 /// @param extension_rate  m/a. Throws StorageError.

@@ -44,7 +44,7 @@ struct StretchedSlab {
     bool conjugate() const;
 };
 
-/// Of the pairs of bondable discs that touch in `end` and did not in `start`: the share that is
+/// Share of the pairs of bondable discs that touch in `end` and did not in `start`, which is
 /// bonded. Only healing can have bonded them. None without such pairs.
 std::optional<double> healed_share(const dem::State& start, const dem::State& end);
 

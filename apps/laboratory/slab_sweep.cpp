@@ -73,7 +73,7 @@ struct SweepPoint {
     }
     auto conjugate() const { return std::ranges::count_if(slabs, &StretchedSlab::conjugate); }
 
-    /// Of all faults; none without faults.
+    /// Mean dip of all faults; none without faults.
     std::optional<double> dip() const {
         std::vector<SlabFault> faults;
         for (const StretchedSlab& slab : slabs)

@@ -51,7 +51,7 @@ public:
     }
 
 private:
-    /// Of a line through a square, from edge to edge.
+    /// Step of a line through a square, from edge to edge.
     struct Step {
         std::uint32_t from, to;
         bool taken = false;

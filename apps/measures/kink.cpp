@@ -46,7 +46,7 @@ std::vector<Point> reverse_segments(std::span<const FaultSegment> segments, doub
     return centres;
 }
 
-/// Of the rock and sediment above the kink in one window, times areas.
+/// Sums over the rock and sediment above the kink in one window, times areas.
 struct AboveKink {
     double strain = 0.0, reverse = 0.0, on_faults = 0.0, sediment = 0.0, stretch = 0.0;
 };

@@ -144,7 +144,7 @@ constexpr Quantity throw_age{
 constexpr Quantity throw_age_count{"throw_age_faults", "1",
                                    "number of the traces of `throw_age_correlation`"};
 
-/// Of the two main faults' pre-rift throws. None unless both are there.
+/// Ratio of the two main faults' pre-rift throws. None unless both are there.
 std::optional<double> throw_ratio(const FaultReport& report) {
     if (!report.main_antithetic || !report.main_synthetic)
         return std::nullopt;
@@ -155,7 +155,7 @@ std::optional<double> throw_ratio(const FaultReport& report) {
     return *antithetic / *synthetic;
 }
 
-/// Of all faults in all windows so far.
+/// Correlations of all faults in all windows so far.
 NamedNumbers measure_throws_by_age(const RunSoFar& run) {
     std::vector<double> correlations;
     for (const Past& p : run.past)

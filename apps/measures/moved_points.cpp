@@ -62,7 +62,7 @@ double spacing_of(const MovedPoints& points) {
     const auto [bottom, top] = std::ranges::minmax(points.y);
     const double width = right - left, height = top - bottom;
     const auto count = static_cast<double>(points.x.size());
-    // Of points on a line the area says nothing.
+    // Points on a line have no area.
     const double guess =
         std::max(std::sqrt(width * height / count), std::max(width, height) / count);
     if (guess == 0.0)

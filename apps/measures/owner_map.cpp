@@ -125,7 +125,7 @@ OwnerMap::OwnerMap(const State& state, const Room& room, double fineness) : spac
         for (std::size_t row = 0; row < rows && place(column, row).y < ground; ++row)
             owner[row * columns + column] = outside;
     }
-    // Of half and whole mean radii the half leaves the area of the topmost stratum, by its solid
+    // A reach of half a mean radius keeps the area of the topmost stratum, by its solid
     // share, within 2 %; the whole adds 3 %.
     const double reach = 0.5 * state.mean_radius;
     give_to_discs(*this, state, reach);

@@ -58,7 +58,7 @@ struct Turns {
     std::vector<double> turn; ///< degrees, > 0 toward the detachment
 };
 
-/// Of the uppermost 4 km of pre-rift rock, in columns, the mean of three.
+/// Turns of the uppermost 4 km of pre-rift rock, in columns, the mean of three.
 Turns turns_of_top(const RunSoFar& run) {
     constexpr double column = 1e3, thickness = 4e3; // m
     constexpr std::size_t fewest = 20;              // discs

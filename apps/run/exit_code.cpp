@@ -59,7 +59,7 @@ Ending ending_of(const std::exception_ptr& exception) {
     } catch (const std::filesystem::filesystem_error& error) {
         return {ExitCode::storage_failed, error.what()};
     } catch (const std::system_error& error) {
-        // Of a thread that could not be started: it needs a stack.
+        // A thread that could not be started: it needs a stack.
         if (error.code() == std::errc::resource_unavailable_try_again ||
             error.code() == std::errc::not_enough_memory)
             return out_of_memory();

@@ -64,7 +64,7 @@ JoinRanks load_plugin(const Launch& launch) {
 } // namespace
 
 Launch read_launch() {
-    // Of Open MPI's mpirun, of those that speak PMI, and of srun.
+    // Names of Open MPI's mpirun, of launchers that speak PMI, and of srun.
     constexpr const char* names[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
                                         {"PMI_SIZE", "PMI_RANK"},
                                         {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};

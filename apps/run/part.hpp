@@ -10,7 +10,7 @@ namespace listric {
 /// Parts of a run's wall time, beside its events and the search for neighbours.
 enum class Part { genesis, base, cycle, measures, output, figures, report };
 
-/// Of a part in `time_by_part_s`.
+/// Name of a part in `time_by_part_s`.
 inline std::string name(Part part) {
     constexpr const char* names[] = {"genesis", "base",    "cycle", "measures",
                                      "output",  "figures", "report"};

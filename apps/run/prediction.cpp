@@ -129,7 +129,7 @@ double number_of_snapshots(const Scene& s, double cycles) {
     return 1.0 + std::min(std::ceil(s.extension.distance / s.output.interval), cycles);
 }
 
-/// Of each disc a snapshot has its columns and those of three contacts; the series has less.
+/// Snapshots have a disc's columns and those of three contacts; the series has less.
 /// Measured on a scene of 3,400 discs with all effects but an elastic base.
 double disk_of_snapshot(const Scene& s, double discs) {
     const double series = s.output.series == SeriesFormat::paraview ? 5e3 + 93.0 * discs : 0.0;
@@ -185,8 +185,8 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
                                    scene.cycle.time_step_safety);
     p.discs_at_start = estimated_discs(scene);
     p.discs_at_end = p.discs_at_start + new_discs(scene);
-    const double time =
-        scene.extension.distance / scene.extension.speed + 0.5 * scene.extension.ramp;
+    const double ramp = 0.5 * scene.extension.ramp; // s that it costs
+    const double time = scene.extension.distance / scene.extension.speed + ramp;
     p.cycles = std::floor(time / p.time_step);
     p.disc_steps = 0.5 * static_cast<double>(p.discs_at_start + p.discs_at_end) * p.cycles;
     const auto start = static_cast<double>(p.discs_at_start);
@@ -199,7 +199,8 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     double shared =
         cycle_price * p.disc_steps + price_of_genesis(h, start) + price_of_samples(work);
     const double figures = price_of_figures(scene, work.discs, parts.base_moves);
-    double serial = price_of_windows(scene, work) + price_of_effects(scene, work) + figures;
+    const double windows = price_of_windows(scene, work);
+    double serial = windows + price_of_effects(scene, work) + figures;
     if (start < shared_from)
         serial += list_price_alone * p.disc_steps;
     else
@@ -208,7 +209,10 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     p.seconds = shared / speed.team + serial / speed.one_thread;
     p.forecast = {.before = price_of_genesis(h, start) / speed.team,
                   .after = figures / speed.one_thread,
-                  .growth = static_cast<double>(p.discs_at_end) / start};
+                  .growth = static_cast<double>(p.discs_at_end) / start,
+                  .windows = windows / speed.one_thread,
+                  .window_share = scene.output.interval / scene.extension.speed / time,
+                  .ramp_share = ramp / time};
     p.forecast.extension = p.seconds - p.forecast.before - p.forecast.after;
     // Columns of a disc, its listed contacts, and the neighbour search's copies.
     const double contacts =
@@ -231,7 +235,8 @@ Forecast forecast_now(const Scene& scene, double target, int threads, int ranks)
     Scene to_target = scene;
     to_target.extension.distance = target;
     Forecast forecast = predict(to_target, speed).forecast;
-    for (double* const part : {&forecast.before, &forecast.extension, &forecast.after})
+    for (double* const part :
+         {&forecast.before, &forecast.extension, &forecast.after, &forecast.windows})
         *part *= speed.busy;
     return forecast;
 }

@@ -67,7 +67,16 @@ std::string main_faults(const FaultReport& report) {
                              report.faults.size(), least_main_dip);
 }
 
-/// Whether the run is good, with the numbers that say so.
+/// Whether the balance of areas is as it should be; none: it has no bounds in this run.
+std::optional<bool> balances(const Results& r) {
+    constexpr double least = 0.95, most = 1.03, from = 5e3; // docs/trust.md
+    const std::optional<double> balance = r.measures.area_balance;
+    if (!balance || r.base_moves || r.extension < from)
+        return std::nullopt;
+    return least <= *balance && *balance <= most;
+}
+
+/// Whether the run is good, with the numbers that show it.
 std::string quality(const Results& r) {
     constexpr double most_mass = 1e-12, most_volume = 1e-3; // docs/trust.md
     bool good = r.measures.mass_error_fraction < most_mass;
@@ -80,6 +89,13 @@ std::string quality(const Results& r) {
     if (r.volume_error_fraction) {
         good = good && *r.volume_error_fraction < most_volume;
         parts.push_back(fmt::format("volume error {:.2g} %", 100.0 * *r.volume_error_fraction));
+    }
+    if (const auto balanced = balances(r)) {
+        good = good && *balanced;
+        parts.emplace_back(*balanced ? "areas balance" : "areas do not balance");
+    } else if (r.measures.area_balance) {
+        parts.push_back(fmt::format("balance of areas not judged {}",
+                                    r.base_moves ? "on a moving base" : "before 5 km"));
     }
     return fmt::format("{}: {}", good ? "good" : "doubtful", fmt::join(parts, ", "));
 }

@@ -13,8 +13,10 @@ namespace listric {
 struct Results {
     const measures::Measures& measures;
     const measures::FaultReport& faults;
-    std::optional<double> basin_depth;           ///< deepest pre-rift top, smoothed over 1 km, m
-    std::optional<double> volume_error_fraction; ///< of weakened discs
+    std::optional<double> basin_depth = {}; ///< deepest pre-rift top, smoothed over 1 km, m
+    std::optional<double> volume_error_fraction = {}; ///< of weakened discs
+    double extension = 0.0;                           ///< m
+    bool base_moves = false; ///< its motion takes part in the balance of areas
 };
 
 /// Five lines at most: head block, basin, depocentres, main faults, and whether the run is good by

@@ -7,37 +7,42 @@ namespace listric {
 
 namespace {
 
-/// Shares of the run's cycles: seen before anything follows from it, seen once all does, and that
-/// over which what was seen is forgotten, long enough for several windows.
-constexpr double too_few = 0.005, enough = 0.06, memory = 0.25;
-constexpr double early = 0.05; ///< share before which the forecast bounds
+/// Share of the work that counts as seen before the first cycle, at the forecast's pace: so much
+/// must be seen until cycles weigh as much as the forecast.
+constexpr double belief = 0.015;
+constexpr double early = 0.05; ///< share of the cycles before which the forecast bounds
+
+constexpr double few_cycles = 1e-5; ///< by which the end of a window may be off its share
 
 } // namespace
 
-/// Work up to a share of the cycles, in the forecast's seconds.
+/// Work up to a share of the cycles, in the forecast's seconds. A window that ends there is to
+/// come: its work is seen by the next cycle.
 double TimeLeft::work_until(double share) const {
     const double growth = forecast_.growth - 1.0;
-    return forecast_.extension * (share + 0.5 * growth * share * share) / (1.0 + 0.5 * growth);
+    const double cycles = (share + 0.5 * growth * share * share) / (1.0 + 0.5 * growth);
+    const double ended = (share - few_cycles - forecast_.ramp_share) / forecast_.window_share;
+    const double all = (1.0 - forecast_.ramp_share) / forecast_.window_share;
+    const double windows = std::max(0.0, std::floor(ended)) / all;
+    return (forecast_.extension - forecast_.windows) * cycles + forecast_.windows * windows;
 }
 
 void TimeLeft::read(double done, double all, double clock) {
     const double share = all > 0.0 ? std::clamp(done / all, 0.0, 1.0) : 1.0;
     if (share_ < 0.0) {
         first_share_ = share;
-    } else {
-        const double kept = std::exp(-(share - share_) / memory);
-        work_ = work_ * kept + work_until(share) - work_until(share_);
-        seconds_ = seconds_ * kept + clock - read_at_;
+        first_at_ = clock;
     }
     share_ = share;
     read_at_ = clock;
 }
 
-/// How many times longer things take than the forecast says.
+/// How many times longer things take than the forecast says, since the first cycle. No older
+/// reading is forgotten: other programs come and go, and the last minute predicts no more.
 double TimeLeft::pace() const {
-    const double seen = share_ - first_share_;
-    const double weight = std::clamp((seen - too_few) / (enough - too_few), 0.0, 1.0);
-    return work_ > 0.0 ? 1.0 + weight * (seconds_ / work_ - 1.0) : 1.0;
+    const double believed = belief * forecast_.extension;
+    const double seen = believed + work_until(share_) - work_until(first_share_);
+    return seen > 0.0 ? (believed + read_at_ - first_at_) / seen : 1.0;
 }
 
 double TimeLeft::at(double clock) const {
@@ -45,7 +50,7 @@ double TimeLeft::at(double clock) const {
         return std::max(0.0, forecast_.before - clock) + forecast_.extension + forecast_.after;
     if (ended_ >= 0.0)
         return std::max(0.0, pace() * forecast_.after - (clock - ended_));
-    const double extension = work_until(1.0) - work_until(share_);
+    const double extension = forecast_.extension - work_until(share_);
     const double left = pace() * (extension + forecast_.after) - (clock - read_at_);
     const double most = share_ - first_share_ < early ? 2.0 * forecast_.all() : left;
     return std::clamp(left, 0.0, std::max(0.0, most));

@@ -105,7 +105,7 @@ struct Observation {
     const dem::State& state;
     std::span<const std::unique_ptr<dem::Event>> events;
 
-    /// Of the hanging wall's right end, m.
+    /// Place of the hanging wall's right end, m.
     double right_end() const { return scene.hanging_wall.length + state.clock.extension; }
 };
 

@@ -94,7 +94,7 @@ struct Extents {
     Vector2d size() const { return high - low; }
 };
 
-/// Of the ends of a path's pieces.
+/// Extents of the ends of a path's pieces.
 Extents extents_of(const SvgPath& path) {
     Extents e{path.start, path.start};
     for (const SvgPiece& piece : path.pieces) {

@@ -7,13 +7,13 @@
 
 namespace listric {
 
-/// Of one arc or line of the detachment.
+/// Parameters of one arc or line of the detachment.
 const std::vector<Parameter>& segment_parameters(dem::DetachmentSegment::Kind kind);
 
-/// Of one layer of rock below the hanging wall.
+/// Parameters of one layer of rock below the hanging wall.
 const std::vector<Parameter>& layer_parameters();
 
-/// Of a horizon or fault that was picked.
+/// Parameters of a horizon or fault that was picked.
 const std::vector<Parameter>& picked_line_parameters();
 
 /// Microproperties, [material], of the Material at a path of members; no path: of a Material.

@@ -125,7 +125,7 @@ struct Default {
     template <class T> Json operator()(const Place<std::vector<T>>&) const { return nullptr; }
 };
 
-/// Of a chain of no pieces nothing can slide: its table's check refuses it.
+/// Nothing can slide on a chain of no pieces: its table's check refuses it.
 bool is_required(const Parameter& parameter, const void* object) {
     const auto* chain = std::get_if<Place<std::vector<dem::DetachmentSegment>>>(&parameter.value);
     return must_be_given(parameter, object) || (chain && chain->get(object).empty());

@@ -10,7 +10,7 @@
 
 namespace listric {
 
-/// Of a scene's file, with those effects.
+/// Schema of a scene's file, with those effects.
 std::string scene_schema(EffectList effects);
 
 /// A table of a plan's file.
@@ -23,7 +23,7 @@ struct PlanTable {
 /// Schema of a plan's file, which begins as a scene does.
 std::string plan_schema(const char* title, std::span<const PlanTable> tables);
 
-/// Of a material's file.
+/// Schema of a material's file.
 std::string material_schema();
 
 } // namespace listric

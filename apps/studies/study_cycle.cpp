@@ -73,7 +73,7 @@ struct Wave {
         return std::cos(wave_number() * (static_cast<double>(j) + 0.5));
     }
     double rest(std::size_t j) const { return left + 2.0 * radius * static_cast<double>(j); }
-    /// Of the fastest oscillation of two neighbours, 1/s; the stability limit is 2 / greatest().
+    /// Fastest oscillation of two neighbours, 1/s; the stability limit is 2 / greatest().
     double greatest() const {
         return 2.0 * std::sqrt(0.5 * material.normal_stiffness / (density * pi * radius * radius));
     }

@@ -281,7 +281,7 @@ StudyResult study_coupling(const StudyRequest& asked) {
     StudyResult result;
     result.title = fmt::format("Coupling: {} at draft to 2 km against all modes at every cycle",
                                request.scene);
-    // Of the base: how far it is from where the last window's mean loads want it.
+    // Quantities of the base: how far it is from where the last window's mean loads want it.
     const std::vector<StudyQuantity> quantities{{effects::footwall_uplift},
                                                 {effects::base_deflection},
                                                 {effects::base_resolved_difference, 0.0, true},

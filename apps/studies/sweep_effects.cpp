@@ -54,7 +54,7 @@ struct Variance {
     int degrees_of_freedom;
 };
 
-/// Of a run about the mean of its point and seed; none without repeated points.
+/// Variance of a run about the mean of its point and seed; none without repeated points.
 std::optional<Variance> variance_of_repeats(const std::vector<std::size_t>& point,
                                             const std::vector<int>& seed, const VectorXd& y) {
     Columns means{{VectorXd::Ones(y.size())}};

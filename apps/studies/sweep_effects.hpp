@@ -22,8 +22,8 @@ struct SweepFactor {
 struct SweepEffect {
     std::string measure;
     std::string term; ///< a or a:b
-    /// Of a: change of the measure from the least value of a to the greatest, others in their
-    /// middle. Of a:b: half of what that effect of a changes from the least b to the greatest.
+    /// For a: change of the measure from the least value of a to the greatest, others in their
+    /// middle. For a:b: half of what that effect of a changes from the least b to the greatest.
     double effect = 0.0;
     /// None: no run was repeated with another seed.
     std::optional<double> standard_error = std::nullopt;

@@ -61,7 +61,7 @@ bool has_word(std::string_view list, std::string_view word) {
     return false;
 }
 
-/// Of the affinity mask; the C library's own count may be the machine's.
+/// Cores of the affinity mask; the C library's own count may be the machine's.
 int allowed_cores() {
 #if defined __linux__
     for (int most = 1024; most <= 1 << 20; most *= 4) { // until the kernel's mask fits

@@ -1,5 +1,6 @@
 #include "apps/support/log.hpp"
 
+#include "apps/support/terminal.hpp"
 #include "apps/support/text.hpp"
 
 #include <fmt/chrono.h>
@@ -11,7 +12,6 @@
 #include <ctime>
 #include <string>
 #include <string_view>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace listric {
@@ -25,17 +25,6 @@ constexpr std::string_view warning_mark = "warning: "; ///< with which a message
 bool rewrites_lines() {
     const char* kind = std::getenv("TERM");
     return isatty(STDERR_FILENO) != 0 && kind && *kind && std::string_view(kind) != "dumb";
-}
-
-/// Columns of the terminal as it is now: a window may have been resized.
-std::size_t terminal_width() {
-    winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-        return size.ws_col;
-    if (const char* columns = std::getenv("COLUMNS"))
-        if (const long width = std::strtol(columns, nullptr, 10); width > 0)
-            return static_cast<std::size_t>(width);
-    return 80;
 }
 
 } // namespace
@@ -98,7 +87,7 @@ void Log::progress(const std::function<std::string(std::size_t columns)>& line) 
     has_progressed_ = true;
     last_progress_ = SteadyClock::now();
     if (terminal_) { // the last column stays free: some wrap a line that ends in it
-        const std::size_t columns = terminal_width() - 1;
+        const std::size_t columns = terminal_columns() - 1;
         tell(fmt::format("{}{}", clear_line, cut_to(shown(line(columns)), columns)));
     } else {
         tell(shown(line(std::string::npos)) + "\n");

@@ -30,7 +30,7 @@ std::string shortened(std::string text, std::size_t least) {
     return text;
 }
 
-/// Of a window's end; lengths in km.
+/// Decimals of a window's end; lengths in km.
 int kilometre_decimals(double value, double interval) {
     for (int decimals = 1;; ++decimals) {
         const double unit = std::pow(10.0, -decimals);

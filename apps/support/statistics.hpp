@@ -15,7 +15,7 @@ struct Spread {
     double mean = 0.0, deviation = 0.0;
 };
 
-/// Of at least one value; the deviation of a single one is 0.
+/// Spread of at least one value; the deviation of a single one is 0.
 inline Spread spread(std::span<const double> values) {
     assert(!values.empty());
     const auto n = static_cast<double>(values.size());
@@ -26,7 +26,7 @@ inline Spread spread(std::span<const double> values) {
     return {mean, values.size() > 1 ? std::sqrt(square / (n - 1.0)) : 0.0};
 }
 
-/// Of at least one value; of an even number the larger of the two in the middle.
+/// Median of at least one value; of an even number the larger of the two in the middle.
 inline double median(std::vector<double> values) {
     assert(!values.empty());
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

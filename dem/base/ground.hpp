@@ -36,7 +36,7 @@ private:
     std::size_t column(double x) const;
     double clearance(Point p) const;
 
-    /// Of the base. Where one ends at the start of another, as the backstop does at the breakaway,
+    /// Surfaces of the base. Where one ends at the start of another, as at the breakaway,
     /// they are joined: then what lies beyond their corner is outside.
     std::vector<Surface> surfaces_;
     BasePlace place_;

@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    // Of centres whole numbers, which fit; of other places what may be far beyond.
+    // Whole numbers; those of centres fit, those of other places may be far beyond the grid.
     double column(double x) const { return std::floor((x - left_) / width_); }
     double row(double y) const { return std::floor((y - bottom_) / width_); }
     static std::int64_t within(double place, std::int64_t count) {

@@ -11,13 +11,13 @@ namespace listric::dem {
 
 namespace {
 
-/// Of a normal spring whose overlap was `before` at the last force and is `now`.
+/// Energy of a normal spring whose overlap was `before` at the last force and is `now`.
 double normal_energy(double before, double now, bool bonded, const ContactParameters& p) {
     const double pressed = bonded ? before : std::max(before, 0.0);
     return 0.5 * static_cast<double>(p.normal_stiffness) * pressed * now;
 }
 
-/// Of a shear spring that the next slip would bring from `force` elsewhere, N.
+/// Energy of a shear spring that the next slip would bring from `force` elsewhere, N.
 double shear_energy(double force, double slip_rate, const ContactParameters& p, double time_step) {
     if (force == 0.0)
         return 0.0;

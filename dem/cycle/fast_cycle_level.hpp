@@ -19,7 +19,7 @@ inline Double4 load_four(const void* from) {
 
 inline void store_four(double* to, Double4 numbers) { std::memcpy(to, &numbers, sizeof numbers); }
 
-/// Of single precision, with zeros for what has no mean.
+/// Mean velocity in single precision, with zeros where there is no mean.
 inline Double4 mean_velocity(const float* from) {
     Float4 mean = {};
     std::memcpy(&mean, from, 2 * sizeof(float));
@@ -144,7 +144,7 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
                         std::numeric_limits<std::int64_t>::min(), 0};
     constexpr bool averages =
         motion == DampedAgainst::mean_motion || motion == DampedAgainst::mean_motion_sampled;
-    // Of the sample in the mean; spin is damped as it is, its mean stays 0.
+    // Share of the sample in the mean; spin is damped as it is, its mean stays 0.
     const Double4 share = no_force + shared.mean_share;
     Mask4 fastest = {}; // as greater() has it
     const std::span discs = shared.discs;

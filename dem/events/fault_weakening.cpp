@@ -33,7 +33,7 @@ std::vector<bool> cemented(State& state) {
     return result;
 }
 
-/// Of rock, weak discs and sediment laid down at least `youngest` metres of extension ago.
+/// Moves of rock, weak discs and sediment laid down at least `youngest` metres of extension ago.
 /// @param loose  whether sediment is looked at that is not cemented, too
 Displacements displacements(State& state, double youngest, bool loose) {
     const DiscColumns d = disc_columns(state);

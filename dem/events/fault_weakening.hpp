@@ -29,7 +29,7 @@ struct FaultWeakeningParameters {
     int angles = 12;                  ///< fault angles tried per sampling point
     double youngest_sediment = 2.0e5; ///< sediment younger than this is left alone, a
     bool whole_domain = false;        ///< looks at young and loose sediment, too [paper]
-    /// Of weakened discs, never bonded: MAT18-W, but for a friction that Table 1 does not have.
+    /// Rock of weakened discs, never bonded: MAT18-W with a friction that Table 1 does not have.
     Material material{8.5e8, 3.19e8, 0.2, false};
     double update_interval = 2.5e3;  ///< time between property updates, a
     double mean_stress_ratio = 0.75; ///< mean stress in a fault over the weight above it

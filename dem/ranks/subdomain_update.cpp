@@ -258,7 +258,7 @@ void drop_base_contacts_of_ghosts(Subdomain& subdomain) {
         subdomain.state.base_contacts.reorder(kept);
 }
 
-/// Of all discs, m.
+/// Radius of the largest disc of all ranks, m.
 double largest_radius(const State& state, Ranks& ranks) {
     double largest = 0.0;
     for (const double radius : disc_columns(state).radius)

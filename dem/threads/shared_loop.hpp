@@ -40,7 +40,7 @@ private:
 /// Threads that share a loop of the calling thread.
 int team_size();
 
-/// Of these, the ones that could be started.
+/// Number of those that could be started.
 int threads_at_hand();
 
 /// Calls work(k) for k = 0 .. count - 1. Loops within it are not shared again. After a failure no

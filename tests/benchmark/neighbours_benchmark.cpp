@@ -1,4 +1,4 @@
-// What a neighbour search costs per disc, beside the cycle's 10 ns: of all discs, of one that ran
+// Cost of a neighbour search per disc, beside the cycle's 10 ns: of all discs, of one that ran
 // ahead, and packing the fast cycle's records after it.
 
 #include "dem/cycle/fast_cycle.hpp"

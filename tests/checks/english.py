@@ -12,7 +12,7 @@ import ast
 import re
 
 from links import CODE, read_documents
-from source_tree import CPP, PYTHON, is_cpp, read_tree, report
+from source_tree import CPP, LAYERS, PYTHON, is_cpp, read_tree, report
 
 NOT_READ = ("docs/record/",)
 # Texts of the program with fewer words are names, keys and pieces of sentences.
@@ -57,7 +57,7 @@ def prose(text):
 
 
 # Comments of C++ that begin so, at the start of a line or as a member's.
-COMMENT = re.compile(r"(?:^[ \t]*///? |///< )((?:What|The same|That of|Those of)\b[^\n?]{0,40}|the same$)", re.MULTILINE)
+COMMENT = re.compile(r"(?:^[ \t]*///? |///< )((?:Of|What|The same|That of|Those of)\b[^\n?]{0,40}|the same$)", re.MULTILINE)
 # A literal's text, or what is none: comments, characters, any other sign.
 TOKEN = re.compile(r"""//[^\n]*|'(?:\\[^']*|[^'\\\n])'|"((?:\\.|[^"\\\n])*)"|\S""")
 
@@ -114,14 +114,9 @@ def comment_violations(tree):
     return [f"{path}: {one}" for path, source in tree.items() if is_cpp(path) for one in comments(source)]
 
 
-def read_program():
-    """Sources, by path."""
-    return {path: text for path, text in read_tree(suffixes=CPP | PYTHON).items()}
-
-
 def all_violations():
-    tree = read_program()
-    return violations(read_documents(), program_texts(tree)) + comment_violations(tree)
+    commented = read_tree(layers=LAYERS + ("tests", "examples"), suffixes=CPP)
+    return violations(read_documents(), program_texts(read_tree(suffixes=CPP | PYTHON))) + comment_violations(commented)
 
 
 if __name__ == "__main__":

@@ -69,9 +69,10 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(self.program("says = 1  # the file says why", "apps/a.py"), [])
 
     def test_comments(self):
-        for source in ("/// What a state holds.", "int a; ///< the same", "  // The same of a wall.", "/// Those of a scene."):
+        for source in ("/// What a state holds.", "    // Of a wall, m.", "int a; ///< Of a wall", "int a; ///< the same", "  // The same of a wall.", "/// Those of a scene."):
             self.assertEqual(len(comment_violations({"dem/a.hpp": source})), 1, source)
-        for source in ("/// Energy of a state.", "// a list: what is\n// what it was", "int a; ///< the same of b", '"/// What"'):
+        for source in ("/// Energy of a state.", "// a list: what is\n// what it was", "int a; ///< the same of b", "int a; ///< of a wall, m",
+                       "// Office", '"/// What"'):
             self.assertEqual(comment_violations({"dem/a.hpp": source}), [], source)
 
 

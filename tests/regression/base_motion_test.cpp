@@ -93,7 +93,7 @@ TEST_F(BaseMotionRun, EndsInTheSameBitsAfterAResumeAndWithTwoThreads) {
     EXPECT_EQ(parts["state_hash"], whole["state_hash"]);
     EXPECT_EQ(run(s, "threads", {}, false, 2)["state_hash"], whole["state_hash"]);
     EXPECT_THAT(whole["effects"], testing::Contains("base_motion"));
-    // What was written reads back without the file.
+    // The scene that was written reads back without the file.
     fs::remove(folder / "motion.csv");
     SceneRequest request;
     request.scene = (folder / "whole/scene.toml").string();

@@ -59,7 +59,7 @@ double number(const std::string& text) {
     return value;
 }
 
-/// What a file says of a line: x and depth of its points, and one of its columns.
+/// A file's line: x and depth of its points, and one of its columns.
 struct ReadLine {
     std::vector<std::pair<double, double>> points = {};
     std::string value = {};
@@ -130,7 +130,7 @@ protected:
         return Program(folder, words).wait();
     }
 
-    /// Of the last snapshot.
+    /// Exported file of the last snapshot.
     fs::path file(const std::string& kind, const std::string& format) const {
         const std::string snapshot = list_snapshots(output).back().stem().string();
         return folder / "run/export" / fmt::format("{}-{}.{}", kind, snapshot, format);

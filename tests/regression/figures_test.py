@@ -172,6 +172,8 @@ class Figures(unittest.TestCase):
         fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
         environment = {**os.environ, "XDG_CACHE_HOME": str(self.folder / "cache"),
                        "LISTRIC_PYTHON": "/bin/false", **settings}
+        if "COLUMNS" not in settings:
+            environment.pop("COLUMNS", None)  # it comes before the terminal
         run = subprocess.Popen([PROGRAM, "run", "scene.toml", "--no-report", "--threads", "1", "--output",
                                 f"wide-{columns}-{settings['TERM']}"], cwd=self.folder, env=environment,
                                stdout=subprocess.DEVNULL, stderr=follower)

@@ -69,6 +69,8 @@ class FrontDoor(unittest.TestCase):
         self.assertIn('<a href="one/report.html">out/one</a>', page)
         self.assertIn("<h2>out/&lt;many>/two</h2>", page)  # it has no report
         self.assertRegex(page, r"lis1, standard, seed 2; \d{4}-\d\d-\d\d ")
+        self.assertRegex(page, r'<td title="extension_m">extension<td>[\d.]+ km\n?<')
+        self.assertRegex(page, r'<td title="basin_area_m2">basin area<td>-?[\d.]+ km²')
         self.assertNotRegex(page, r"(src|href)=\"?https?:")
 
     @staticmethod

@@ -88,7 +88,7 @@ TEST_F(OwnEffect, IsExplainedPricedAndInTheReference) {
                 AllOf(HasSubstr("interval_a"), HasSubstr("time between looks at speeds")));
 
     EXPECT_GT(predict(with()).seconds, predict(without()).seconds);
-    // What it does not say that genesis depends on, genesis does not depend on.
+    // Genesis does not depend on parameters that the effect does not name for it.
     EXPECT_EQ(genesis_cache_path(with(), make_parts(with())),
               genesis_cache_path(without(), make_parts(without())));
 }

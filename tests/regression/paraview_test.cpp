@@ -84,7 +84,7 @@ bool on_path(const std::string& program) {
     return std::system(("command -v " + program + " >/dev/null").c_str()) == 0;
 }
 
-/// What lends a picture a display, of a number that no other test takes at the same time. ParaView
+/// Command that lends a picture a display, of a number that no other test takes meanwhile. ParaView
 /// connects more than once: a server that resets itself in between refuses it now and then.
 std::string display() {
     return on_path("xvfb-run") ? fmt::format("xvfb-run -n {} -s '-screen 0 1280x1024x24 -noreset' ",
@@ -259,7 +259,7 @@ TEST_F(ParaviewTest, EveryMomentHoldsWhatTheSnapshotDoes) {
         EXPECT_FLOAT_EQ(moment["right_wall_x_m"].get<float>(),
                         static_cast<float>(scene.hanging_wall.length + state.clock.extension));
     }
-    // What the numbers are to be about has happened.
+    // The run has made strata and weak rock, which the numbers are about.
     EXPECT_GE(moments.back()["highest"]["stratum"], 2);
     EXPECT_EQ(moments.back()["highest"]["material"], weak);
     EXPECT_LT(moments.back()["bonded"], moments.back()["contacts"]);
@@ -308,7 +308,7 @@ TEST_F(ParaviewTest, DamageIsNoticed) {
     const fs::path series = run / "paraview.pvd", whole = folder / "whole";
     fs::copy(run, whole, fs::copy_options::recursive);
     const std::size_t discs = read_snapshot(list_snapshots(run).back()).state.discs.rows();
-    // What is to be said, and what is done for it.
+    // Message that is expected, and the damage that causes it.
     const std::vector<std::pair<std::string, std::function<void()>>> damages = {
         {"radius_x", [&] { replace(last("discs"), "radius_m", "radius_x"); }},
         {"stress of", [&] { replace(last("discs"), "\"XY\"", "\"XZ\""); }},

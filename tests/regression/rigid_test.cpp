@@ -32,7 +32,7 @@ figures_at_m = []
 [bonds]
 )";
 
-/// What a run of the program has mapped into its memory once `file` exists in its output.
+/// Files that a run of the program has mapped into memory once `file` exists in its output.
 std::string maps_of_run(const fs::path& folder, const std::string& which, const char* file) {
     const fs::path output = folder / "out";
     const pid_t child = fork();

@@ -101,7 +101,7 @@ std::vector<std::string> names_ending(const fs::path& folder, const std::string&
 
 json summary(const fs::path& output) { return json::parse(contents(output / "summary.json")); }
 
-/// What of the summary depends on the scene alone.
+/// Part of the summary that depends on the scene alone.
 json results(const fs::path& output) {
     json all = summary(output);
     for (const char* name : {"threads", "cycle_level", "wall_s", "predicted_wall_s",
@@ -154,7 +154,7 @@ bool same(const Table& a, const Table& b) {
            });
 }
 
-/// What a run in-process may be told.
+/// Options of a run in-process.
 struct How {
     std::optional<double> until = {};
     int threads = 1;
@@ -931,7 +931,7 @@ TEST_F(RunTest, ErosionToAFallingLineIsAccountedForAndResumes) {
     const TargetLine line({{0.0, -300.0}, {4000.0, -100.0}});
     for (std::size_t i = 0; i < d.x.size(); ++i)
         EXPECT_LT(line.above({d.x[i], d.y[i]}), d.radius[i] + state.mean_radius) << d.x[i];
-    // What the run wrote stands alone: the file may be gone when it is resumed.
+    // The written scene stands alone: the file may be gone when it is resumed.
     run(what, "parts", {.until = 130.0});
     fs::remove(folder / "falling.csv");
     const Scene again = load_scene({.scene = (folder / "parts/scene.toml").string()});

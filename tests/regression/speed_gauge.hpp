@@ -48,7 +48,7 @@ public:
         return false;
     }
 
-    /// Of all looks so far, m/s; 0 before the first.
+    /// Greatest speed of all looks so far, m/s; 0 before the first.
     double greatest() const {
         double greatest = 0.0;
         if (memory.has("greatest_speed"))

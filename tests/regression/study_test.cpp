@@ -109,7 +109,7 @@ TEST(Study, OfRunsMeasuresAgainstTheFinest) {
     std::ifstream in(request.output / "study.json");
     EXPECT_GT(nlohmann::json::parse(in).at("floors").at("area_balance"), 0.0);
 
-    // What is there is not made again.
+    // A run that is there is not made again.
     const fs::path run = request.output / "runs" / "mean_radius_m=115-seed=2" / "summary.json";
     const auto made = fs::last_write_time(run);
     run_study(request);

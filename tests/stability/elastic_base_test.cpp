@@ -96,7 +96,7 @@ TEST(FootwallUnstable, WandersOnWeakSpringsWithoutADashpot) {
 }
 
 TEST(FootwallUnstable, WithATenthOfTheMass) {
-    // What the least mass_factor of a scene, 0.6, is for.
+    // A tenth of a scene's least mass_factor, 0.6, shows its purpose.
     CouplingParameters p;
     p.mass_factor = 0.06;
     Coupled coupled = settled(floating(1.0, 1.0), p);

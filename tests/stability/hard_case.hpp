@@ -1,6 +1,6 @@
 #pragma once
 
-// What the hard cases have in common: how fast discs move, whether all are where they may be, and
+// Checks that all hard cases share: how fast discs move, whether all are where they may be, and
 // that a restart in the middle changes nothing.
 
 #include "apps/archive/snapshot.hpp"

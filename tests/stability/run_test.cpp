@@ -1,4 +1,4 @@
-// What a whole run does about trouble: a boundary that moves too fast is said and flagged, and a
+// Whole runs in trouble: a boundary that moves too fast is reported and flagged, and a
 // run that goes wrong stops, names what and where, and leaves a state from which it can go on.
 
 #include "apps/model/effects.hpp"

@@ -13,7 +13,7 @@ namespace listric {
 using namespace dem;
 namespace {
 
-/// What a team of a size does in a second, and the share of its time in which it waits.
+/// Work of a team of a size in a second, and the share of its time in which it waits.
 struct Pace {
     double speed, asleep;
 };

@@ -83,7 +83,7 @@ TEST(Compaction, ShrinksNoDiscAtOnce) {
     EXPECT_EQ(b.radius(0), 90.0);
     EXPECT_NEAR(b.rate(0), -Compaction::fastest * 90.0, 1e-12); // as fast as it may
     b.pass();
-    // What is left to shrink has not been forgotten: grains are kept.
+    // The shrinkage that is left has not been forgotten: grains are kept.
     EXPECT_NEAR(std::pow(b.radius(0), 2) * (1.0 - b.porosity(0)), 0.5 * 90.0 * 90.0, 1e-9);
     EXPECT_EQ(b.rate(2), 0.0);
 }

@@ -1,4 +1,4 @@
-// What control groups grant, of files made here as kernels write them.
+// Cores that control groups grant, from files made here as kernels write them.
 
 #include "apps/support/cores.hpp"
 

@@ -38,7 +38,7 @@ protected:
         std::ofstream(file, std::ios::binary) << text;
         return read_csv(file, columns);
     }
-    /// What is said of a file, without its folder; one line, not long.
+    /// Message about a file, without its folder; one line, not long.
     std::string refusal(const std::string& text, const CsvColumns& columns) const {
         try {
             rows(text, columns);

@@ -1,4 +1,4 @@
-// What exceptions mean for the call that they end: docs/exit-codes.md.
+// Exit codes of the exceptions that end a call: docs/exit-codes.md.
 
 #include "apps/run/exit_code.hpp"
 

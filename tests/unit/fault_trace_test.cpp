@@ -269,7 +269,7 @@ TEST(FaultThrow, FallsWithYoungerAge) {
         EXPECT_NEAR(throws.at(stratum), 500.0 - 100.0 * stratum, 0.5 * d) << stratum;
     }
     EXPECT_NEAR(throws.at(0), 500.0, 0.5 * d);
-    // The same fault seen as falling left would be reverse.
+    // This fault, seen as falling left, would be reverse.
     std::vector<Point> left = growth.fault;
     for (Point& p : left)
         p.x = 2.0 * middle.x - p.x;

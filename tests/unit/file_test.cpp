@@ -24,7 +24,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// What a call throws as a StorageError.
+/// Message of the StorageError that a call throws.
 template <class Call> std::string refusal(Call&& call) {
     try {
         call();

@@ -1,4 +1,4 @@
-// What of the elastic footwall needs no finite elements: curves, blocks and refusals.
+// Parts of the elastic footwall without finite elements: curves, blocks and refusals.
 
 #include "fem/blocks.hpp"
 #include "fem/byerlee.hpp"
@@ -160,7 +160,7 @@ TEST_P(Blocks, MeetAtTheElasticThickness) {
 
 INSTANTIATE_TEST_SUITE_P(Footwall, Blocks, testing::Range(0, 6));
 
-/// What check() says.
+/// Message of check().
 std::string refusal(const std::function<void(FootwallRequest&)>& spoil) {
     FootwallRequest request = small_footwall();
     spoil(request);

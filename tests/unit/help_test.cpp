@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// What a stranger could not read in a call's help, or misses there.
+/// Passages of a call's help that a stranger could not read, and those that are missing.
 std::vector<std::string> objections_to(const CLI::App& call) {
     static const std::regex raw(R"(\b(INT|UINT|FLOAT|TEXT|BOOLEAN|ENUM|REQUIRED|SUBCOMMAND)\b|[{}])"
                                 R"(|\(\d+x\)| in \[)");

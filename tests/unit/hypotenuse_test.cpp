@@ -40,7 +40,7 @@ template <typename Function> void for_each_pair(int count, Function f) {
 
 } // namespace
 
-// What all recorded hashes hang on. The number is that of std::hypot's results, of glibc 2.36 on
+// All recorded hashes depend on these bits. The number is that of std::hypot's, of glibc 2.36 on
 // x86, with and without fused multiply-add (GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA).
 TEST(Hypotenuse, HasRecordedBitsOnAllProcessors) {
     std::uint64_t hash = 0;

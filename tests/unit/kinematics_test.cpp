@@ -177,7 +177,7 @@ TEST(HeadBlock, TurnsUntilAllOfItIsWhereTheDetachmentDipsLeast) {
     EXPECT_FALSE(head_block_turns(ramp_flat_ramp(), 11.1e3));
     // A plane turns nothing, at any extension.
     EXPECT_TRUE(head_block_turns({line({0.0, 0.0}, {50e3, -50e3})}, 60e3));
-    // What is nearly flat, in pieces, ends with the last piece that turns by half a degree.
+    // A nearly flat chain of pieces ends with the last piece that turns by half a degree.
     Chain pieces{line({0.0, 0.0}, {5e3, -5e3}), line({5e3, -5e3}, {15e3, -6e3}),
                  line({15e3, -6e3}, {60e3, -10e3})};
     EXPECT_TRUE(head_block_turns(pieces, 17e3));

@@ -290,7 +290,7 @@ TEST(Measures, OfAreaAreNoneWhereRockWasEroded) {
         return m.area_balance.has_value();
     };
     EXPECT_TRUE(known());
-    // Of 2 x 15 km2 a hundredth may be gone: 1/2000 of a hanging wall of 40 x 15 km2.
+    // A hundredth of 2 x 15 km2 may be gone: 1/2000 of a hanging wall of 40 x 15 km2.
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     std::vector<std::int32_t> kept;
     for (std::size_t i = 0; i < d.y.size(); ++i)

@@ -38,7 +38,7 @@ $Elements
 $EndElements
 )";
 
-/// What is said of a mesh with a piece of its text replaced; empty: nothing is wrong with it.
+/// Message about a mesh with a piece of its text replaced; empty: nothing is wrong with it.
 std::string refusal(const std::string& from = "", const std::string& to = "") {
     std::string text = good;
     text.replace(from.empty() ? 0 : text.find(from), from.size(), to);

@@ -1,4 +1,4 @@
-// What moments are called in names of files: as ever in basins, told apart in small models.
+// Names of moments in names of files: kilometres in basins, more digits in small models.
 
 #include "apps/support/moment_names.hpp"
 

@@ -86,7 +86,7 @@ TEST_F(PicksFile, RowsOfOneNameAreALine) {
     EXPECT_EQ(lines[0].x, (std::vector<double>{0.0, 1000.0}));
     EXPECT_EQ(lines[0].depth, (std::vector<double>{100.0, 150.0}));
     EXPECT_FALSE(scene.observed->faults.at(0).age);
-    // What a run writes stands alone.
+    // The scene that a run writes stands alone.
     std::ofstream(folder / "written.toml") << to_toml(scene);
     fs::remove(folder / "picks.csv");
     SceneRequest request;

@@ -133,7 +133,7 @@ protected:
         }
         return "accepted";
     }
-    /// What is said of a file of this text; one line.
+    /// Message about a file of this text; one line.
     std::string complaint_of(const std::string& text) const {
         write("fault.csv", text);
         const std::string said = complaint("csv = \"fault.csv\"");
@@ -165,7 +165,7 @@ TEST_F(PickedFaultFile, ASceneOfIt) {
     ASSERT_EQ(scene.detachment->segments.size(), 2u);
     EXPECT_NEAR(scene.detachment->segments[0].radius, 15e3, 1.0);
     EXPECT_LT(scene.picked_fault->misfit, 0.1);
-    // What a run writes stands alone.
+    // The scene that a run writes stands alone.
     write("written.toml", to_toml(scene));
     fs::remove(folder / "fault.csv");
     SceneRequest request;

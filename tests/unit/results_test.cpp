@@ -1,4 +1,4 @@
-// What a run says at its end.
+// Lines of results at the end of a run.
 
 #include "apps/run/results.hpp"
 
@@ -41,14 +41,14 @@ TEST(Results, SayWhatTheRunHasComeTo) {
     faults.main_antithetic = 0;
     faults.main_synthetic = 1;
     EXPECT_THAT(
-        result_lines({m, faults, 7120.0, 3e-4}),
+        result_lines({m, faults, 7120.0, 3e-4, 10e3}),
         ElementsAre("tilt of the head block 38.1 degrees; cutoff at x = 9.3 km, 3.2 km deep",
                     "basin 147.6 km2, 7.1 km deep; area balance 0.98",
                     "2 depocentres: 4.1 km of sediment at x = 3.2 km, 2.3 km of sediment at x = "
                     "14.6 km",
                     "main faults: antithetic at x = 17.9 km, dip 61 degrees, throw 1.2 km; "
                     "synthetic at x = 12.0 km, dip 55 degrees",
-                    "good: quasi-static, mass error 2e-15, volume error 0.03 %"));
+                    "good: quasi-static, mass error 2e-15, volume error 0.03 %, areas balance"));
 }
 
 TEST(Results, AreFewerWhereLessIsInTheScene) {
@@ -70,6 +70,19 @@ TEST(Results, SayWhatIsDoubtful) {
     Measures leaky = good_measures();
     leaky.mass_error_fraction = 1e-9;
     EXPECT_THAT(result_lines({leaky, {}, {}, {}}).back(), StartsWith("doubtful: "));
+}
+
+TEST(Results, JudgeTheBalanceOfAreasWhereItHasBounds) {
+    Measures m = good_measures();
+    m.area_balance = 0.59;
+    const auto last = [&](double extension, bool base_moves) {
+        return result_lines({m, {}, {}, {}, extension, base_moves}).back();
+    };
+    EXPECT_THAT(last(5e3, false), MatchesRegex("doubtful: .*, areas do not balance"));
+    EXPECT_THAT(last(1e3, false),
+                MatchesRegex("good: .*, balance of areas not judged before 5 km"));
+    EXPECT_THAT(last(5e3, true),
+                MatchesRegex("good: .*, balance of areas not judged on a moving base"));
 }
 
 TEST(Results, LogHasTimesAndRepeatsItsWarnings) {

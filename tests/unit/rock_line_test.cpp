@@ -81,7 +81,7 @@ TEST_F(RockLine, ScenesOfTheDocumentsHaveTheShippedRock) {
 TEST_F(RockLine, NamesWhatIsInForce) {
     EXPECT_EQ(line("pure-shear"), "rock: mat18-b; faults: mat18-w (friction 0); base friction 0.3");
     EXPECT_EQ(line("lis1-0"), "rock: mat18-b; detachment friction 0.5");
-    // What the scene changes is no shipped rock any more, and what it makes of one may be another.
+    // A rock that the scene changes is no shipped rock any more; it may have become another one.
     EXPECT_EQ(line("lis1", {"fault_weakening.friction=0.3", "detachment.friction=0.1"}),
               "rock: mat18-b; faults: its own (friction 0.3); detachment friction 0.1");
     EXPECT_EQ(line("lis1", {"fault_weakening.friction=0"}),
@@ -104,7 +104,7 @@ TEST_F(RockLine, OlderVersionsTookTable1) {
     const std::string file = write("old.toml", support::small_halfgraben() + "[fault_weakening]\n");
     EXPECT_EQ(rock_line(load_scene({.scene = file, .former_rocks = true})),
               "rock: mat18-b; faults: mat18-w (friction 0); detachment friction 0.5");
-    // What a scene names holds.
+    // A rock that a scene names holds.
     const std::string named = file.substr(0, file.size() - 5) + "-named.toml";
     write("old-named.toml", contents(file) + "[materials]\nweakened = 'mat18-w-calibrated'\n");
     EXPECT_EQ(rock_line(load_scene({.scene = named, .former_rocks = true})),

@@ -167,7 +167,7 @@ TEST_F(SimulationEvents, AStoppedAndResumedSimulationIsTheSame) {
     Simulation first(moving_box(), {.gravity = 9.81});
     add_witnesses(first);
     first.begin(discs_at_rest());
-    // What is due at the moment of the stop has been applied.
+    // Events due at the moment of the stop have been applied.
     EXPECT_FALSE(
         first.extend_to(20.0, {}, [](const Simulation& s) { return s.extension() < 9.0; }));
     EXPECT_EQ(letters, "bab");

@@ -1,4 +1,4 @@
-// What a validation plan may say, and what the seeds make of an expectation.
+// Contents of a validation plan, and verdicts of seeds on an expectation.
 
 #include "apps/model/effects.hpp"
 #include "apps/scene/scene.hpp"
@@ -80,7 +80,7 @@ TEST_F(Plan, SaysWhatIsRunAndExpected) {
     EXPECT_EQ(one.expectations[0].target(), "2.00 ± 0.50");
     EXPECT_EQ(one.expectations[1].run, "b");
     EXPECT_EQ(one.expectations[2].minus, "b");
-    // Of the other's expectations those of its first run alone, now of this one's.
+    // The other's expectations of its first run alone, now of this one's.
     const ValidationExperiment& two = plan.experiments[1];
     ASSERT_EQ(two.expectations.size(), 1u);
     EXPECT_EQ(two.expectations[0].measure, "area_balance");

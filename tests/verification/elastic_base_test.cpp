@@ -84,7 +84,7 @@ TEST(ElasticBase, RigidIsTheLimit) {
 TEST(ElasticBase, RestsWithoutExtension) {
     Coupled coupled = settled(soft);
     coupled.go(20000);
-    // What is left of settling, 2e-5 of the load, and 1,000 times less than the load would bend.
+    // Settling leaves 2e-5 of the load, which bends 1,000 times less than the load would.
     EXPECT_LT(coupled.greatest_displacement(), 1e-3);
     EXPECT_GT(coupled.greatest_displacement(), 0.0);
 }

@@ -106,7 +106,7 @@ private:
             strain += 0.5 * K * square(overlap) + 0.5 * square(shear_after) / Ks;
         const double trial = shear_before - Ks * slipped;
         if (breaks) {
-            // What the springs lose of what they held.
+            // Energy that the springs lose.
             breaking += 0.5 * (square(trial) - square(shear_after)) / Ks +
                         (overlap > 0.0 ? 0.0 : 0.5 * K * square(overlap));
         } else if (trial != shear_after && (overlap > 0.0 || shear_before != 0.0)) {
@@ -222,7 +222,7 @@ TEST(EnergyAccount, AgreesWithTheOneKeptHere) {
     }
 }
 
-/// What leapfrog keeps, and the usual energy.
+/// Energy that leapfrog keeps, and the usual energy.
 struct LatticeEnergy {
     double kept, usual; ///< J
 };

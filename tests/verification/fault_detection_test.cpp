@@ -1,4 +1,4 @@
-// What AFD's measure circle makes of displacements that are known, on packings that genesis settled
+// AFD's measure circle finds known displacements, on packings that genesis settled
 // (disc sizes of draft, standard = the paper's, and fine).
 //
 // The displacement gradient from two cuts through a circle is exact for any homogeneous strain,

@@ -73,7 +73,7 @@ TEST(Compliance, IsTheFullSolution) {
                 "all unknowns %.1e\n",
                 n, footwall->mesh().unknowns, same_factors, other_factors, everywhere);
     EXPECT_LT(same_factors, 1e-12);
-    // What a solution from factors is worth: round-off of the stiffness, 1e-16 of the elements'
+    // Accuracy of a solution from factors: round-off of the stiffness, 1e-16 of the elements'
     // 1e11, against springs of 1e7 that alone resist a vertical motion.
     EXPECT_LT(other_factors, 1e-11);
     EXPECT_LT(everywhere, 1e-11);

@@ -50,7 +50,7 @@ template <class Field> fem::Load load_for(const fem::FootwallRequest& request, F
     return load;
 }
 
-/// The same on a footwall whose detachment ends free: the rock's pressure is cut off there.
+/// Load on a footwall whose detachment ends free: the rock's pressure is cut off there.
 template <class Field>
 fem::Load load_with_end(const fem::FootwallRequest& request, const fem::Footwall& footwall,
                         Field known) {

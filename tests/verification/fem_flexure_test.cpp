@@ -84,7 +84,7 @@ TEST(Flexure, LongWavesAreThoseOfThePlate) {
     };
     EXPECT_NEAR(plate_error(400e3), 0.004, 0.002);
     EXPECT_NEAR(plate_error(100e3), 0.06, 0.02);
-    // What remains is the squeezing of the layer's upper half, restoring * Te / 2 E.
+    // The rest is the squeezing of the layer's upper half, restoring * Te / 2 E.
     EXPECT_LT(plate_error(4000e3), 3e-3);
 }
 

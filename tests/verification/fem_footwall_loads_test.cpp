@@ -161,7 +161,7 @@ TEST_F(Erosion, EvenErosionReboundsByAirysAmount) {
     ASSERT_EQ(response_.x.back(), 0.0);
     const std::vector<double> uplift(response_.x.size(), 100.0);
     adapt_footwall(response_, erosion_, gravity, uplift, target_, cover_);
-    // What is eroded rebounds by its share c of its weight: E = 100 + c E.
+    // Eroded rock rebounds by the share c of its weight: E = 100 + c E.
     const double share = crust * gravity * column_uplift();
     // Within the 0.01 m at which rebound is no longer followed up, over 1 - share.
     for (std::size_t k = 0; k < eroded_.size(); ++k) {
@@ -258,7 +258,7 @@ TEST(BasinWater, WeighsOnWhatLiesBelow) {
     const double left = column * (200.0 + 400.0 + 600.0 + 800.0 + 1000.0 + 1200.0 + 1400.0 - 70.0);
     EXPECT_NEAR(water_weight(state), 1030.0 * gravity * (left + 9800.0 * 1000.0),
                 1e-9 * water_weight(state));
-    // What has come up is dry.
+    // Discs that have come up are dry.
     for (std::size_t i = 0; i < d.x.size(); ++i)
         d.y[i] += 2000.0;
     std::ranges::fill(nodes.uy, 3000.0);

@@ -57,7 +57,7 @@ TEST(Gmsh, GivesTheSameDisplacement) {
     EXPECT_NEAR(gmsh.y, own.y, 1e-3 * std::hypot(own.x, own.y));
 }
 
-/// What is said of the mesh with its text changed.
+/// Message about the mesh with its text changed.
 std::string refusal(const std::function<void(std::string&, fem::FootwallRequest&)>& spoil) {
     std::ostringstream text;
     text << std::ifstream(mesh_file).rdbuf();

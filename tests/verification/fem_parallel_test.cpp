@@ -14,7 +14,7 @@ namespace {
 
 std::vector<double> numbers_of(const std::string& call) {
     std::vector<double> numbers;
-    // What an MPI of this process has put into the environment would confuse another.
+    // Variables that an MPI of this process has set would confuse another.
     const std::string clean = "env -i PATH=\"$PATH\" HOME=\"$HOME\" "
                               "LISTRIC_FEM_PLUGIN=\"$LISTRIC_FEM_PLUGIN\" ";
     FILE* pipe = popen((clean + call).c_str(), "r");

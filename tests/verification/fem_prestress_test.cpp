@@ -18,7 +18,7 @@ using fem::Vector;
 
 constexpr double weight = 2700.0 * gravity; // N/m^3
 
-/// What a liquid up to y = 0 presses on the interface's nodes, from its trace as it is displaced:
+/// Load of a liquid up to y = 0 on the interface's nodes, from its trace as it is displaced:
 /// pressure times normal, N. The trace's order is linear or quadratic, so that three of Gauss's
 /// points are exact.
 std::vector<double> liquid_forces(const fem::Footwall& footwall, const std::vector<double>& u) {

@@ -78,7 +78,7 @@ struct Elasticity {
     double lateral_stress, unbalanced; ///< as shares of the stress and of the mean contact force
 };
 
-/// What is measured amid a specimen, three times as long as wide, that smooth platens compress
+/// Moduli measured amid a specimen, three times as long as wide, that smooth platens compress
 /// along the close-packed rows or across them and that has come to rest.
 Elasticity compressed(bool along, const Execution& execution) {
     constexpr double shortening = 1e-6;

@@ -145,7 +145,7 @@ TEST_F(RanksTest, ABaseAnswersToTheLoadsOfAllRanks) {
         }
 }
 
-/// What discs in a box come to on ranks; without ranks (0) in one process.
+/// Hash of discs that fall in a box on ranks; without ranks (0) in one process.
 std::uint64_t hash_of_fallen(const State& start, int count, const Execution& how) {
     const RigidBase base = support::box(200.0, 100.0, 0.3);
     const CyclePhysics physics{.damping = 0.1, .gravity = 9.81};

@@ -1,4 +1,4 @@
-// What carries the weight of sediment at rest. Summed by parts, the contacts in a layer carry the
+// Carriers of the weight of sediment at rest. Summed by parts, the contacts in a layer carry the
 // weight above it but for shear on the column's sides and what is left of the motion:
 //   ratio = 1 - (shear on the sides + unbalanced force) / weight above.
 

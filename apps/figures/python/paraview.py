@@ -140,7 +140,7 @@ def main():
         subject = show_footwall(footwall, view, not run)
     if run:
         subject = show_discs(run, view, sys.argv[2] if len(sys.argv) > 2 else "")
-        time = pv.AnnotateTimeFilter(registrationName="time", Input=run, Format="{time:.2f} Ma")
+        time = pv.AnnotateTimeFilter(registrationName="time", Input=run, Format="{time:.2f} Myr")
         pv.Show(time, view)
     left, right, bottom, top = subject.GetDataInformation().DataInformation.GetBounds()[:4]
     view.ViewSize = (1400, max(300, int(1400 * (top - bottom) / (right - left)) + 60))

@@ -16,7 +16,7 @@ def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI) -> Figure:
     total = TITLE + below(lines) + sum(heights) + ROW_ABOVE * len(names) + GAP * (len(names) - 1)
     figure = new_figure(WIDTH, total, dpi)
     write_around(figure, f"{frame.meta['scene'].upper()}, {extension_text(frame)} km of extension "
-                         f"({frame.meta['time_a'] / 1e6:.2f} Ma)", lines)
+                         f"({frame.meta['time_a'] / 1e6:.2f} Myr)", lines)
     y = total - TITLE
     for index, (name, height) in enumerate(zip(names, heights)):
         y -= ROW_ABOVE + height

@@ -1,4 +1,4 @@
-// What can be saved from the page.
+// Files that can be saved from the page.
 
 function save(name, content, type) {
   const link = document.createElement("a");

@@ -104,7 +104,7 @@ function tell() {
   const run = page.runs[0], moment = run.moments[page.t], {rate_m_per_a: rate} = run.head;
   $("slider").value = page.t;
   $("slider").setAttribute("aria-valuetext", `${(moment.extension_m / 1000).toFixed(2)} km`);
-  $("moment").textContent = `${(moment.extension_m / 1000).toFixed(2)} km, ${(moment.extension_m / rate / 1e6).toFixed(3)} Ma, ` +
+  $("moment").textContent = `${(moment.extension_m / 1000).toFixed(2)} km, ${(moment.extension_m / rate / 1e6).toFixed(3)} Myr, ` +
     `${lengths.format(moment.discs)} discs`;
   page.chart.moveTo(moment.extension_m);
   drawFaults();

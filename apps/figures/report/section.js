@@ -220,7 +220,10 @@ class Section {
       if (column > width) break;
       pen.moveTo(column, 0);
       pen.lineTo(column, 5 * ratio);
-      if (column > 30 * ratio) pen.fillText(`${number(x, across)} km`, column + 3 * ratio, 11 * ratio);
+      const text = `${number(x, across)} km`, room = pen.measureText(text).width + 3 * ratio;
+      const fits = column + room < width;  // else left of its mark, unless the label before is there
+      if (column > 30 * ratio && (fits || 1000 * view.scale * across > 2.2 * room))
+        pen.fillText(text, fits ? column + 3 * ratio : column - room, 11 * ratio);
     }
     for (let z = Math.ceil(view.top / 1000 / down) * down; ; z += down) {
       const [, row] = this.toPixel(view, 0, 1000 * z);

@@ -24,7 +24,7 @@ namespace {
 using P = ElasticBaseParameters;
 using B = BendingBase;
 
-/// Of the plate, with or without discs on it.
+/// Parameters of the plate, with or without discs on it.
 std::vector<Parameter> plate_parameters() {
     return {
         {"elastic_thickness_m", at<&P::bending, &B::elastic_thickness>, "m", between(100, 2e5), "",
@@ -56,7 +56,7 @@ std::vector<Parameter> plate_parameters() {
     };
 }
 
-/// Of the footwall under discs.
+/// Parameters of the footwall under discs.
 std::vector<Parameter> footwall_parameters() {
     return {
         {"left_m", at<&P::bending, &B::left>, "m", between(-1e7, -1), "",

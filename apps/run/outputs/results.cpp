@@ -20,7 +20,10 @@ namespace {
 std::vector<std::string> results_of(RunView& run) {
     const Profile profile = measure_profile(run.setting, run.state(), run.parts.base);
     const std::vector<double> depth = smoothed_depth(profile);
-    Results results{run.measured(), run.faults(), {}, {}};
+    Results results{.measures = run.measured(),
+                    .faults = run.faults(),
+                    .extension = run.extension(),
+                    .base_moves = run.parts.base_moves};
     if (!depth.empty())
         results.basin_depth = std::ranges::max(depth);
     for (const auto& [name, value] : measure_effects(run.now()).numbers)

@@ -150,7 +150,7 @@ private:
     static constexpr std::size_t most_at_once = 1u << 30; // bytes
     static constexpr int gathered = 1, scattered = 2, all_exchanged = 3, exchanged = 4;
 
-    /// Of any length: MPI 3 counts bytes by int.
+    /// Sends a message of any length: MPI 3 counts bytes by int.
     void send(const Bytes& message, int rank, int tag) const {
         const std::uint64_t size = message.size();
         require(MPI_Send(&size, 1, MPI_UINT64_T, rank, tag, all_), "MPI_Send");
