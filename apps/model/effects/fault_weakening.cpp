@@ -54,6 +54,11 @@ std::vector<Parameter> detection_parameters() {
         {"whole_domain", at<&P::whole_domain>, "", ranges::any, "",
          "whether young and loose sediment is scanned, too",
          "true is the paper's way; it finds the base of loose sediment as a fault."},
+        {"heal_after_a", at<&P::heal_after>, "a", between(0, 1e9), "",
+         "time at rest after which weakened rock is sound again; 0: never",
+         "Makes faults that no longer slip strong again, so that new ones can replace them. Rest is "
+         "a shear strain rate below 1e-15/s.",
+         between(0, 5e5)},
     };
 }
 
