@@ -50,8 +50,7 @@ Command add_validate(CLI::App& program) {
                   "run the published experiments and judge them",
                   "docs/validation.md",
                   {{{"validate --accuracy draft --seeds 2", "two seeds at half the resolution"},
-                    {"validate --only lis2 --jobs 2", "one experiment, two runs at a time"},
-                    {"validate --seeds 51-56 --output record.md", "adds these seeds to a record"},
+                    {"validate --only lis2 --seeds 51-56", "adds these seeds to the record"},
                     {"validate --plan my-plan.toml", "runs and expectations of yours"}}}});
     command
         ->add_option("--accuracy", request->accuracy,

@@ -116,6 +116,7 @@ public:
           findings_{plan,
                     request.plan.empty() ? "apps/studies/validation.toml" : request.plan.string(),
                     {},
+                    {},
                     store_,
                     request.accuracy,
                     seeds_of_document(request, plan),
@@ -167,16 +168,15 @@ private:
         return seeds;
     }
 
-    /// Experiments of the document: those that were asked for, and those that are recorded.
+    /// Experiments of the document: those that are recorded, in this call or before.
     void choose_experiments() {
         for (const ValidationExperiment& x : findings_.plan.experiments) {
             const ValidationRun& first = findings_.plan.run(x.runs.front());
-            const bool asked = request_.only.empty() ||
-                               std::ranges::find(request_.only, x.name) != request_.only.end();
-            if (asked || std::ranges::any_of(findings_.seeds_of(first), [&](int seed) {
-                    return findings_.is_recorded(first, seed);
-                }))
+            if (std::ranges::any_of(findings_.seeds_of(first),
+                                    [&](int seed) { return findings_.is_recorded(first, seed); }))
                 findings_.experiments.push_back(x);
+            else
+                findings_.missing.push_back(x.name);
         }
     }
 

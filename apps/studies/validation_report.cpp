@@ -78,14 +78,14 @@ std::array<int, 8> tally(const ValidationFindings& f, const ValidationExperiment
     return count;
 }
 
-int at(const std::array<int, 8>& count, VerdictName name) {
+int rows_with(const std::array<int, 8>& count, VerdictName name) {
     return count[static_cast<std::size_t>(name)];
 }
 
 /// "7 of 7": rows that hold in every seed; empty where there is none.
 std::string held(const ValidationFindings& f, const ValidationExperiment& x, Kind kind) {
     const std::array<int, 8> count = tally(f, x, kind);
-    const int met = at(count, VerdictName::met), all = met + at(count, VerdictName::missed);
+    const int met = rows_with(count, VerdictName::met), all = met + rows_with(count, VerdictName::missed);
     return all > 0 ? fmt::format("{} of {}", met, all) : "";
 }
 
@@ -122,8 +122,7 @@ std::string origins(const ValidationFindings& f) {
     return text + "\n\n";
 }
 
-/// "LIS1: 13 of 18 criteria of faulting are shown, 4 open, 1 not shown: two grabens (20 of 20
-/// seeds)."
+/// "LIS1: 13 of 18 criteria shown, 4 open, 1 not shown: two grabens (20 of 20 seeds)."
 std::string sentence(const ValidationFindings& f, const ValidationExperiment& x) {
     const std::array<int, 8> count = tally(f, x, Kind::faults);
     std::vector<std::string> missing;
@@ -131,19 +130,18 @@ std::string sentence(const ValidationFindings& f, const ValidationExperiment& x)
         if (e.kind == Kind::faults && e.is_judged() &&
             f.verdict(e).name == VerdictName::not_shown)
             missing.push_back(e.what);
-    const int all = at(count, VerdictName::shown) + at(count, VerdictName::open) +
-                    at(count, VerdictName::not_shown);
+    const int all = rows_with(count, VerdictName::shown) + rows_with(count, VerdictName::open) +
+                    rows_with(count, VerdictName::not_shown);
     if (all == 0)
         return fmt::format("{}: no run yet.", x.title);
-    std::string text = fmt::format("{}: {} of {} criteria of faulting are shown, {} open, {} not "
-                                   "shown",
+    std::string text = fmt::format("{}: {} of {} criteria shown, {} open, {} not shown",
                                    x.title.substr(0, x.title.find(':')),
-                                   at(count, VerdictName::shown), all,
-                                   at(count, VerdictName::open),
-                                   at(count, VerdictName::not_shown));
+                                   rows_with(count, VerdictName::shown), all,
+                                   rows_with(count, VerdictName::open),
+                                   rows_with(count, VerdictName::not_shown));
     if (!missing.empty())
         text += fmt::format(": {}", fmt::join(missing, "; "));
-    if (const int none = at(count, VerdictName::no_case); none > 0)
+    if (const int none = rows_with(count, VerdictName::no_case); none > 0)
         text += fmt::format("; {} without a case", none);
     return text + fmt::format(" ({} seeds).", seeds_so_far(f, x));
 }
@@ -158,20 +156,19 @@ std::string sentences(const ValidationFindings& f) {
             continue;
         all.push_back(sentence(f, x));
         const std::array<int, 8> count = tally(f, x, Kind::faults);
-        shown += at(count, VerdictName::shown);
-        open += at(count, VerdictName::open);
-        not_shown += at(count, VerdictName::not_shown);
+        shown += rows_with(count, VerdictName::shown);
+        open += rows_with(count, VerdictName::open);
+        not_shown += rows_with(count, VerdictName::not_shown);
         for (const Kind kind : {Kind::kinematics, Kind::conservation}) {
-            met += at(tally(f, x, kind), VerdictName::met);
-            missed += at(tally(f, x, kind), VerdictName::missed);
+            met += rows_with(tally(f, x, kind), VerdictName::met);
+            missed += rows_with(tally(f, x, kind), VerdictName::missed);
         }
     }
     if (all.empty())
         return "";
     all.insert(all.begin(),
-               fmt::format("Of {} criteria of faulting {} are shown, {} are open and {} are not "
-                           "shown.",
-                           shown + open + not_shown, shown, open, not_shown));
+               fmt::format("Criteria of faulting: {} of {} shown, {} open, {} not shown.", shown,
+                           shown + open + not_shown, open, not_shown));
     all.push_back(fmt::format("Kinematics and conservation hold in every seed in {} of {} rows; a "
                               "hanging wall that slides on these detachments has the geometry with "
                               "any material, so these rows test the machinery and no faults.",
@@ -224,9 +221,9 @@ std::string overview(const ValidationFindings& f) {
     for (const ValidationExperiment& x : f.experiments) {
         const std::array<int, 8> count = tally(f, x, Kind::faults);
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", x.title,
-                            seeds_so_far(f, x), at(count, VerdictName::shown),
-                            at(count, VerdictName::open), at(count, VerdictName::not_shown),
-                            at(count, VerdictName::no_case), held(f, x, Kind::kinematics),
+                            seeds_so_far(f, x), rows_with(count, VerdictName::shown),
+                            rows_with(count, VerdictName::open), rows_with(count, VerdictName::not_shown),
+                            rows_with(count, VerdictName::no_case), held(f, x, Kind::kinematics),
                             held(f, x, Kind::conservation));
     }
     return text + "\n";
@@ -327,7 +324,7 @@ std::string without_verdict(const ValidationFindings& f, const ValidationExperim
         text += fmt::format("| {}{}{} | dropped | {} |\n", row.what, row.asked.empty() ? "" : ": ",
                             row.asked, row.reason);
     return text.empty() ? ""
-                        : "Rows that have no verdict any more:\n\n| row | now | reason "
+                        : "Rows without verdict, and rows that were dropped:\n\n| row | now | reason "
                           "|\n|---|---|---|\n" +
                               text + '\n';
 }
@@ -390,6 +387,7 @@ nlohmann::ordered_json chart_row(const ValidationFindings& f, const Expectation&
     const Verdict v = f.verdict(e);
     const std::string subject_text = subject(f, e);
     return {{"what", subject_text.substr(0, subject_text.rfind(" (`"))},
+            {"expected", e.target()},
             {"cells", cells},
             {"verdict", name_of(v.name)},
             {"met", v.met},
@@ -447,6 +445,8 @@ std::string validation_document(const ValidationFindings& f) {
             comparisons(f);
     for (const ValidationExperiment& x : f.experiments)
         text += section(f, x);
+    if (!f.missing.empty())
+        text += fmt::format("Experiments that are not recorded: {}.\n\n", fmt::join(f.missing, ", "));
     text.pop_back();
     return text;
 }

@@ -13,7 +13,8 @@ namespace listric {
 struct ValidationFindings {
     const ValidationPlan& plan;
     std::string plan_name;                         ///< its file, for people
-    std::vector<ValidationExperiment> experiments; ///< that were asked for or are recorded
+    std::vector<ValidationExperiment> experiments; ///< that are recorded, by their first run
+    std::vector<std::string> missing;              ///< names of those that are not
     const MeasureStore& store;
     std::string accuracy;
     std::vector<int> seeds;       ///< that the document is about

@@ -24,7 +24,7 @@ struct OriginColumn {
     std::string_view name;
     std::string Origin::* text;
 };
-constexpr std::array<OriginColumn, 5> origins{{{"state_hash", &Origin::state_hash},
+constexpr std::array<OriginColumn, 5> origin_columns{{{"state_hash", &Origin::state_hash},
                                                {"scene_hash", &Origin::scene_hash},
                                                {"made_by", &Origin::made_by},
                                                {"measured_by", &Origin::measured_by},
@@ -67,8 +67,8 @@ MeasureStore read_store(const std::filesystem::path& file) {
                                place.at));
         MeasuredNumbers& m = store[place];
         for (std::size_t k = places; k < cells.size(); ++k)
-            if (const auto o = std::ranges::find(origins, names[k], &OriginColumn::name);
-                o != origins.end())
+            if (const auto o = std::ranges::find(origin_columns, names[k], &OriginColumn::name);
+                o != origin_columns.end())
                 m.from.*o->text = cells[k];
             else if (!cells[k].empty())
                 m.numbers[names[k]] = number(cells[k]);
@@ -89,12 +89,12 @@ void write_store(const std::filesystem::path& file, const MeasureStore& store) {
         for (const auto& [name, value] : m.numbers)
             names.insert(name);
     std::string text = "run,seed,at_m";
-    for (const OriginColumn& o : origins)
+    for (const OriginColumn& o : origin_columns)
         text += fmt::format(",{}", o.name);
     text += fmt::format(",{}\n", fmt::join(names, ","));
     for (const auto& [place, m] : store) {
         text += fmt::format("{},{},{}", place.run, place.seed, place.at);
-        for (const OriginColumn& o : origins)
+        for (const OriginColumn& o : origin_columns)
             text += fmt::format(",{}", m.from.*o.text);
         for (const std::string& name : names) {
             const auto number = m.numbers.find(name);

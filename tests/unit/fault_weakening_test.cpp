@@ -248,15 +248,18 @@ TEST(FaultWeakening, RockThatRestsIsSoundAgain) {
     b.apply(); // an interval at rest
     EXPECT_EQ(b.weak_discs(), weakened);
     EXPECT_EQ(std::ranges::max(b.state.discs.get<double>("rested_a")), p.interval);
-    b.slide(60.0 * degree, 0.1 * b.threshold); // no fault, and no rest
-    b.apply();
+    for (const double sense : {-1.0, 1.0}) { // there and back: no fault, and no rest
+        b.slide(60.0 * degree, sense * 0.1 * b.threshold);
+        b.apply();
+    }
+    EXPECT_EQ(std::ranges::max(b.state.discs.get<double>("rested_a")), 0.0);
     b.apply();
     EXPECT_EQ(b.weak_discs(), weakened);
     b.apply(); // the second interval at rest
     const WeakenedColumns w = weakened_columns(b.state);
     for (std::size_t i = 0; i < before.size(); ++i) {
         EXPECT_EQ(disc_columns(b.state).material[i], basement);
-        EXPECT_NEAR(radius[i], before[i], 1e-12 * r); // under the load of before
+        EXPECT_NEAR(radius[i], before[i], 1e-9 * r); // under the load of before
         EXPECT_EQ(w.rock_radius[i], 0.0);
         EXPECT_EQ(w.rock_area[i], 0.0);
     }

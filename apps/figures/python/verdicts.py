@@ -22,7 +22,7 @@ COLOURS = {"m": "#2a7f62", "x": "#e08a4f", "o": "#c4c0b6"}
 MEANINGS = {"m": "meets it", "x": "misses it", "o": "no case"}
 VERDICTS = {"shown": "#2a7f62", "open": FAINT, "not shown": "#b4561d"}
 ROW, HEAD, FOOT = 0.21, 0.62, 0.42   # heights, inches
-LABELS, SEED, WORDS = 5.2, 0.19, 1.75   # widths, inches
+LABELS, SEED, WORDS, MARGIN = 6.3, 0.19, 1.75, 0.12   # widths, inches
 
 
 def panel_height(experiment: dict) -> float:
@@ -52,7 +52,7 @@ def draw_panel(axes, experiment: dict, seeds: int) -> None:
     axes.set_xlim(-LABELS / SEED, seeds + WORDS / SEED)
     axes.set_ylim(len(rows), -HEAD / ROW)
     axes.axis("off")
-    left = -LABELS / SEED
+    left = (MARGIN - LABELS) / SEED
     axes.text(left, -1.75, heading(experiment), fontsize=11, weight="bold", va="center")
     axes.text(left, -0.65, machinery(experiment), fontsize=8.5, color=FAINT, va="center")
     for kind, colour in COLOURS.items():
@@ -63,7 +63,7 @@ def draw_panel(axes, experiment: dict, seeds: int) -> None:
                for seed, cell in enumerate(row["cells"]) if cell == "-"]
     axes.add_collection(PatchCollection(missing, facecolor="none", edgecolor="#e3e0d9", linewidth=0.5))
     for k, row in enumerate(rows):
-        axes.text(-0.5, k + 0.52, row["what"], ha="right", va="center", fontsize=8.2, color=INK)
+        axes.text(-0.5, k + 0.52, f"{row['what']}: {row['expected']}", ha="right", va="center", fontsize=8.2, color=INK)
         axes.text(seeds + 0.5, k + 0.52, verdict_of(row), ha="left", va="center", fontsize=8.2,
                   color=VERDICTS.get(row["verdict"], FAINT))
 
@@ -90,7 +90,7 @@ def draw(chart: dict):
     figure.legend([Patch(facecolor=colour) for colour in COLOURS.values()],
                   [f"a seed that {MEANINGS[k]}" if k != "o" else MEANINGS[k] for k in COLOURS],
                   loc="lower right", ncol=3, frameon=False, fontsize=8.2, handlelength=0.9, handleheight=0.9)
-    figure.text(0.012, 0.16 / height, f"seeds {seeds_in_words(seeds)}, from left to right", fontsize=8.2,
+    figure.text(MARGIN / width, 0.16 / height, f"seeds {seeds_in_words(seeds)}, from left to right", fontsize=8.2,
                 color=FAINT, va="center")
     return figure
 
