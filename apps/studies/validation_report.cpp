@@ -89,12 +89,20 @@ std::string held(const ValidationFindings& f, const ValidationExperiment& x, Kin
     return all > 0 ? fmt::format("{} of {}", met, all) : "";
 }
 
-/// Whether an experiment's faults are what the document is about: rows of its own, several seeds.
+/// Whether an experiment's faults are what the document is about: several seeds, and not beside an
+/// experiment that it is like.
 bool is_main(const ValidationFindings& f, const ValidationExperiment& x) {
-    return x.like.empty() && f.plan.run(x.runs.front()).seeds != 1 &&
+    return std::ranges::find(f.experiments, x.like, &ValidationExperiment::name) ==
+               f.experiments.end() &&
+           f.plan.run(x.runs.front()).seeds != 1 &&
            std::ranges::any_of(x.expectations, [](const Expectation& e) {
                return e.kind == Kind::faults && e.is_judged();
            });
+}
+
+/// Short name of an experiment: "LIS1" of "LIS1: listric detachment", or the one in the plan.
+std::string short_name(const ValidationExperiment& x) {
+    return x.like.empty() ? x.title.substr(0, x.title.find(':')) : x.name;
 }
 
 /// Origin of the record: who made the runs and who measured them, and a warning of mixtures.
@@ -133,10 +141,9 @@ std::string sentence(const ValidationFindings& f, const ValidationExperiment& x)
     const int all = rows_with(count, VerdictName::shown) + rows_with(count, VerdictName::open) +
                     rows_with(count, VerdictName::not_shown);
     if (all == 0)
-        return fmt::format("{}: no run yet.", x.title);
+        return fmt::format("{}: no criterion is measured.", short_name(x));
     std::string text = fmt::format("{}: {} of {} criteria shown, {} open, {} not shown",
-                                   x.title.substr(0, x.title.find(':')),
-                                   rows_with(count, VerdictName::shown), all,
+                                   short_name(x), rows_with(count, VerdictName::shown), all,
                                    rows_with(count, VerdictName::open),
                                    rows_with(count, VerdictName::not_shown));
     if (!missing.empty())
@@ -360,7 +367,7 @@ std::optional<std::optional<double>> value_of(const ValidationFindings& f, const
                                               const std::string& of, int seed) {
     const ValidationRun& run = f.plan.run(of);
     const double at = e.at.value_or(run.at.back());
-    if (!f.store.contains({of, seed, at}) ||
+    if (!f.store.contains({of, seed, at}) || (e.since && !f.store.contains({of, seed, *e.since})) ||
         (!e.minus.empty() && !f.store.contains({e.minus, seed, at})))
         return std::nullopt;
     const auto number = [&](const std::string& name, double where) {
@@ -460,7 +467,7 @@ std::string validation_chart(const ValidationFindings& f) {
         for (const Expectation& e : x.expectations)
             if (e.kind == Kind::faults && e.is_judged())
                 rows.push_back(chart_row(f, e));
-        experiments.push_back({{"title", x.title.substr(0, x.title.find(':'))},
+        experiments.push_back({{"title", short_name(x)},
                                {"seeds", seeds_so_far(f, x)},
                                {"kinematics", held(f, x, Kind::kinematics)},
                                {"conservation", held(f, x, Kind::conservation)},

@@ -46,8 +46,9 @@ std::string extension_text(double at);
 /// The document, Markdown.
 std::string validation_document(const ValidationFindings& findings);
 
-/// What its chart shows, as JSON: of every experiment with several seeds whose rows are its own, the
-/// rows of faults with a letter per seed (m met, x missed, o no case, - no run), and the verdicts.
+/// What its chart shows, as JSON: of every experiment with several seeds that is not beside one that
+/// it is like, the rows of faults with a letter per seed (m met, x missed, o no case, - no run), and
+/// the verdicts.
 std::string validation_chart(const ValidationFindings& findings);
 
 } // namespace listric

@@ -193,7 +193,7 @@ std::vector<std::int32_t> rested_discs(State& state, const Displacements& s, con
                     fit.add(dx - dux, dy - duy, dux, duy);
             });
             const auto gradient = fit.gradient(1e-6);
-            const bool rests = gradient && gradient->shear() < resting_rate * seconds;
+            const bool rests = gradient && gradient->shear() < p.resting_rate * seconds;
             rested[i] = rests ? rested[i] + p.interval : 0.0;
         }
     });

@@ -30,6 +30,7 @@ struct FaultWeakeningParameters {
     double youngest_sediment = 2.0e5; ///< sediment younger than this is left alone, a
     bool whole_domain = false;        ///< looks at young and loose sediment, too [paper]
     double heal_after = 0.0;          ///< rest after which weakened rock is sound again, a; 0: never
+    double resting_rate = 1.0e-15;    ///< shear strain rate of rest, 1/s: below it bonds heal [paper]
     /// Of weakened discs, never bonded: MAT18-W, but for a friction that Table 1 does not have.
     Material material{8.5e8, 3.19e8, 0.2, false};
     double update_interval = 2.5e3;  ///< time between property updates, a
@@ -39,10 +40,6 @@ struct FaultWeakeningParameters {
 
 /// Slip above which a plane is a fault, for discs of that mean diameter, m.
 double critical_slip(const FaultWeakeningParameters& p, double mean_diameter);
-
-/// Shear strain rate below which weakened rock rests, 1/s: the one below which bonds heal [paper,
-/// Table 1].
-inline constexpr double resting_rate = 1.0e-15;
 
 /// Shear strain rate above which a plane is a fault, 1/s.
 double critical_rate(const FaultWeakeningParameters& p, double mean_diameter);

@@ -317,7 +317,8 @@ TEST_F(RunTest, UntilThenResumeEqualsUninterrupted) {
 }
 
 TEST_F(RunTest, YearsOfRestAreKept) {
-    const std::vector<std::string> heals = {"fault_weakening.heal_after_a=12000"};
+    const std::vector<std::string> heals = {"fault_weakening.heal_after_a=12000",
+                                            "fault_weakening.resting_rate_per_s=3e-13"};
     const fs::path whole = run(scene(heals), "whole");
     const auto weak_discs = [](const fs::path& output) {
         const State state = read_snapshot(list_snapshots(output).back()).state;

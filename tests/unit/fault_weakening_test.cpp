@@ -259,7 +259,9 @@ TEST(FaultWeakening, RockThatRestsIsSoundAgain) {
     const WeakenedColumns w = weakened_columns(b.state);
     for (std::size_t i = 0; i < before.size(); ++i) {
         EXPECT_EQ(disc_columns(b.state).material[i], basement);
-        EXPECT_NEAR(radius[i], before[i], 1e-9 * r); // under the load of before
+        // Under the load of before, but for what of the enlarged neighbours lies above a centre: a
+        // tenth of a disc of some two hundred in the column.
+        EXPECT_NEAR(radius[i], before[i], 5e-4 * r);
         EXPECT_EQ(w.rock_radius[i], 0.0);
         EXPECT_EQ(w.rock_area[i], 0.0);
     }
