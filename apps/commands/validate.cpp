@@ -57,8 +57,7 @@ Command add_validate(CLI::App& program) {
                      fmt::format("resolution of the runs: {}", fmt::join(accuracy_names(), ", ")))
         ->type_name("LEVEL")
         ->default_str(request->accuracy);
-    command
-        ->add_option("--seeds", *seeds, "runs per experiment, or their seeds, such as 51-56,60")
+    command->add_option("--seeds", *seeds, "runs per experiment, or their seeds, such as 51-56,60")
         ->type_name("N or SEEDS")
         ->default_str("the plan's, or 5");
     add_count(*command, "--first-seed", *first_seed, "seed of the first of N runs", 0,
@@ -80,7 +79,7 @@ Command add_validate(CLI::App& program) {
     command->add_flag("--remeasure", request->remeasure, "measure all runs again");
     command->add_flag("--without-runs", request->without_runs, "use only the runs that exist");
     command->add_flag("--mixed", request->mixed,
-                      "add to a record of other measures or parameters; the document says so");
+                      "add to a record of other measures or parameters, and name the mixture");
     add_quiet(*command, request->quiet);
     return {command,
             [request, seeds, first_seed, command] {

@@ -112,15 +112,17 @@ public:
           runs_(request.runs.empty() ? fs::path("out/validation-" + request.accuracy)
                                      : request.runs),
           document_(document_of(request, runs_)), names_(chosen_runs(plan, request.only)),
-          seeds_(seeds_of_call(request, plan)),
-          findings_{plan,
-                    request.plan.empty() ? "apps/studies/validation.toml" : request.plan.string(),
-                    {},
-                    {},
-                    store_,
-                    request.accuracy,
-                    seeds_of_document(request, plan),
-                    document_.parent_path() / document_.stem()} {
+          seeds_(seeds_of_call(request, plan)), findings_{plan,
+                                                          request.plan.empty()
+                                                              ? "apps/studies/validation.toml"
+                                                              : request.plan.string(),
+                                                          {},
+                                                          {},
+                                                          store_,
+                                                          request.accuracy,
+                                                          seeds_of_document(request, plan),
+                                                          document_.parent_path() /
+                                                              document_.stem()} {
         fs::create_directories(findings_.beside);
         try {
             store_ = read_store(findings_.beside / "measures.csv");
@@ -217,8 +219,7 @@ private:
             const auto run =
                 std::ranges::find(findings_.plan.runs, place.run, &ValidationRun::name);
             if (run != findings_.plan.runs.end() && !m.from.scene_hash.empty() &&
-                m.from.scene_hash !=
-                    fmt::format("{:016x}", scene_hash(scene_of(*run, place.seed))))
+                m.from.scene_hash != fmt::format("{:016x}", scene_hash(scene_of(*run, place.seed))))
                 refuse(place, fmt::format("was run with other parameters (scene {}) than the "
                                           "plan has",
                                           m.from.scene_hash));

@@ -26,9 +26,9 @@ struct ValidationRequest {
 };
 
 /// Makes the runs that are not recorded, measures them from their snapshots and writes the document
-/// beside a folder of the same name with pictures and measures.csv, the record: what is in it stays,
-/// without its runs, and later calls add to it. Throws UsageError, SceneError, NumericalFailure,
-/// StorageError, Interrupted: runs and measures are kept, the same call goes on.
+/// beside a folder of the same name with pictures and measures.csv, the record: what is in it
+/// stays, without its runs, and later calls add to it. Throws UsageError, SceneError,
+/// NumericalFailure, StorageError, Interrupted: runs and measures are kept, the same call goes on.
 void run_validation(const ValidationRequest& request);
 
 } // namespace listric

@@ -35,9 +35,9 @@ struct Expectation {
     std::optional<double> expected;    ///< within the tolerance,
     double tolerance = 0.0;            ///<
     std::optional<double> least, most; ///< or between these; none of all: reported
-    std::string words;  ///< of the published text that say so
-    std::string source; ///< figure and moment of the words, or the formula
-    std::string reason; ///< why it is only reported
+    std::string words;                 ///< of the published text that say so
+    std::string source;                ///< figure and moment of the words, or the formula
+    std::string reason;                ///< why it is only reported
 
     bool is_judged() const { return expected || least || most; }
     bool meets(double value) const;
@@ -64,8 +64,8 @@ struct DroppedRow {
 
 struct ValidationExperiment {
     std::string name, title;
-    std::string about;       ///< before the table
-    std::string seen;        ///< people's reading of the pictures of the standard runs
+    std::string about;        ///< before the table
+    std::string seen;         ///< people's reading of the pictures of the standard runs
     std::vector<int> seen_of; ///< seeds that this reading is about
     std::vector<std::string> runs;
     std::string like;    ///< an experiment whose expectations it has, of its own runs
@@ -95,10 +95,10 @@ ValidationPlan load_validation_plan(const std::filesystem::path& file);
 struct Verdict {
     enum class Name { no_run, reported, no_case, shown, open, not_shown, met, missed };
     Name name = Name::no_run;
-    int met = 0, of = 0;    ///< seeds that have a value
-    int no_case = 0;        ///< seeds that have none
+    int met = 0, of = 0;             ///< seeds that have a value
+    int no_case = 0;                 ///< seeds that have none
     double lower = 0.0, upper = 1.0; ///< limits of the probability that a seed meets it
-    std::string text;       ///< "shown (18 of 20: 0.72 to 0.98)", "missed (4 of 5)", "reported"
+    std::string text; ///< "shown (18 of 20: 0.72 to 0.98)", "missed (4 of 5)", "reported"
 
     bool is_good() const { return name == Name::shown || name == Name::met; }
 };

@@ -85,7 +85,8 @@ int rows_with(const std::array<int, 8>& count, VerdictName name) {
 /// "7 of 7": rows that hold in every seed; empty where there is none.
 std::string held(const ValidationFindings& f, const ValidationExperiment& x, Kind kind) {
     const std::array<int, 8> count = tally(f, x, kind);
-    const int met = rows_with(count, VerdictName::met), all = met + rows_with(count, VerdictName::missed);
+    const int met = rows_with(count, VerdictName::met),
+              all = met + rows_with(count, VerdictName::missed);
     return all > 0 ? fmt::format("{} of {}", met, all) : "";
 }
 
@@ -121,10 +122,10 @@ std::string origins(const ValidationFindings& f) {
         }
     if (made.empty())
         return "";
-    std::string text = fmt::format("The runs were made by Listric {}, their measures taken by {} "
-                                   "(definitions {}).",
-                                   fmt::join(made, ", "), fmt::join(measured, ", "),
-                                   fmt::join(definitions, ", "));
+    std::string text =
+        fmt::format("The runs were made by Listric {}, their measures taken by {} "
+                    "(definitions {}).",
+                    fmt::join(made, ", "), fmt::join(measured, ", "), fmt::join(definitions, ", "));
     if (definitions.size() > 1)
         text += " **This record is mixed**: its measures have several definitions.";
     return text + "\n\n";
@@ -135,17 +136,16 @@ std::string sentence(const ValidationFindings& f, const ValidationExperiment& x)
     const std::array<int, 8> count = tally(f, x, Kind::faults);
     std::vector<std::string> missing;
     for (const Expectation& e : x.expectations)
-        if (e.kind == Kind::faults && e.is_judged() &&
-            f.verdict(e).name == VerdictName::not_shown)
+        if (e.kind == Kind::faults && e.is_judged() && f.verdict(e).name == VerdictName::not_shown)
             missing.push_back(e.what);
     const int all = rows_with(count, VerdictName::shown) + rows_with(count, VerdictName::open) +
                     rows_with(count, VerdictName::not_shown);
     if (all == 0)
         return fmt::format("{}: no criterion is measured.", short_name(x));
-    std::string text = fmt::format("{}: {} of {} criteria shown, {} open, {} not shown",
-                                   short_name(x), rows_with(count, VerdictName::shown), all,
-                                   rows_with(count, VerdictName::open),
-                                   rows_with(count, VerdictName::not_shown));
+    std::string text =
+        fmt::format("{}: {} of {} criteria shown, {} open, {} not shown", short_name(x),
+                    rows_with(count, VerdictName::shown), all, rows_with(count, VerdictName::open),
+                    rows_with(count, VerdictName::not_shown));
     if (!missing.empty())
         text += fmt::format(": {}", fmt::join(missing, "; "));
     if (const int none = rows_with(count, VerdictName::no_case); none > 0)
@@ -227,11 +227,11 @@ std::string overview(const ValidationFindings& f) {
                        "kinematics | conservation |\n|---|---|---|---|---|---|---|---|\n";
     for (const ValidationExperiment& x : f.experiments) {
         const std::array<int, 8> count = tally(f, x, Kind::faults);
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", x.title,
-                            seeds_so_far(f, x), rows_with(count, VerdictName::shown),
-                            rows_with(count, VerdictName::open), rows_with(count, VerdictName::not_shown),
-                            rows_with(count, VerdictName::no_case), held(f, x, Kind::kinematics),
-                            held(f, x, Kind::conservation));
+        text += fmt::format(
+            "| {} | {} | {} | {} | {} | {} | {} | {} |\n", x.title, seeds_so_far(f, x),
+            rows_with(count, VerdictName::shown), rows_with(count, VerdictName::open),
+            rows_with(count, VerdictName::not_shown), rows_with(count, VerdictName::no_case),
+            held(f, x, Kind::kinematics), held(f, x, Kind::conservation));
     }
     return text + "\n";
 }
@@ -330,10 +330,11 @@ std::string without_verdict(const ValidationFindings& f, const ValidationExperim
     for (const DroppedRow& row : x.dropped)
         text += fmt::format("| {}{}{} | dropped | {} |\n", row.what, row.asked.empty() ? "" : ": ",
                             row.asked, row.reason);
-    return text.empty() ? ""
-                        : "Rows without verdict, and rows that were dropped:\n\n| row | now | reason "
-                          "|\n|---|---|---|\n" +
-                              text + '\n';
+    return text.empty()
+               ? ""
+               : "Rows without verdict, and rows that were dropped:\n\n| row | now | reason "
+                 "|\n|---|---|---|\n" +
+                     text + '\n';
 }
 
 /// An experiment's section.
@@ -344,13 +345,12 @@ std::string section(const ValidationFindings& f, const ValidationExperiment& x) 
     text += table(f, x) + without_verdict(f, x);
     for (const ValidationPicture& picture : x.pictures)
         if (const fs::path file = f.beside / (picture.name + ".png"); fs::exists(file))
-            text += fmt::format("![{}]({}/{})\n\n*{}*\n\n", picture.name,
-                                f.beside.filename().string(), file.filename().string(),
-                                picture.caption);
+            text +=
+                fmt::format("![{}]({}/{})\n\n*{}*\n\n", picture.name, f.beside.filename().string(),
+                            file.filename().string(), picture.caption);
     if (!x.seen.empty() && f.accuracy == "standard" &&
-        std::ranges::all_of(x.seen_of, [&](int seed) {
-            return std::ranges::find(f.seeds, seed) != f.seeds.end();
-        }))
+        std::ranges::all_of(
+            x.seen_of, [&](int seed) { return std::ranges::find(f.seeds, seed) != f.seeds.end(); }))
         text += x.seen + "\n\n";
     std::vector<std::string> missing;
     for (const std::string& name : x.runs)
@@ -361,8 +361,8 @@ std::string section(const ValidationFindings& f, const ValidationExperiment& x) 
     return text;
 }
 
-/// The value of a seed; no outer one where it is not recorded, no inner one where the measure has no
-/// meaning.
+/// The value of a seed; no outer one where it is not recorded, no inner one where the measure has
+/// no meaning.
 std::optional<std::optional<double>> value_of(const ValidationFindings& f, const Expectation& e,
                                               const std::string& of, int seed) {
     const ValidationRun& run = f.plan.run(of);
@@ -411,8 +411,9 @@ std::vector<int> ValidationFindings::seeds_of(const ValidationRun& run) const {
 }
 
 bool ValidationFindings::is_recorded(const ValidationRun& run, int seed) const {
-    return std::ranges::all_of(
-        run.at, [&](double extension) { return store.contains({run.name, seed, extension}); });
+    return std::ranges::all_of(run.at, [&](double extension) {
+        return store.contains({run.name, seed, extension});
+    });
 }
 
 bool ValidationFindings::is_measured(const Expectation& e) const {
@@ -448,12 +449,13 @@ std::string validation_document(const ValidationFindings& f) {
     if (fs::exists(f.beside / "verdicts.png"))
         text += fmt::format("![criteria of faulting by experiment and seed]({}/verdicts.png)\n\n",
                             f.beside.filename().string());
-    text += sentences(f) + std::string(how_to_read) + introduction(f) + overview(f) +
-            comparisons(f);
+    text +=
+        sentences(f) + std::string(how_to_read) + introduction(f) + overview(f) + comparisons(f);
     for (const ValidationExperiment& x : f.experiments)
         text += section(f, x);
     if (!f.missing.empty())
-        text += fmt::format("Experiments that are not recorded: {}.\n\n", fmt::join(f.missing, ", "));
+        text +=
+            fmt::format("Experiments that are not recorded: {}.\n\n", fmt::join(f.missing, ", "));
     text.pop_back();
     return text;
 }

@@ -26,7 +26,8 @@ struct ValidationFindings {
     /// Whether a run is recorded at all of its moments.
     bool is_recorded(const ValidationRun& run, int seed) const;
 
-    /// Whether an expectation's measure is recorded of any run: where not, its absence means nothing.
+    /// Whether an expectation's measure is recorded of any run: where not, its absence means
+    /// nothing.
     bool is_measured(const Expectation& e) const;
 
     /// Verdict on an expectation: on its run, or on another in that one's place.
@@ -46,9 +47,9 @@ std::string extension_text(double at);
 /// The document, Markdown.
 std::string validation_document(const ValidationFindings& findings);
 
-/// What its chart shows, as JSON: of every experiment with several seeds that is not beside one that
-/// it is like, the rows of faults with a letter per seed (m met, x missed, o no case, - no run), and
-/// the verdicts.
+/// Content of its chart, as JSON: of every experiment with several seeds that is not beside one
+/// that it is like, the rows of faults with a letter per seed (m met, x missed, o no case, - no
+/// run), and the verdicts.
 std::string validation_chart(const ValidationFindings& findings);
 
 } // namespace listric

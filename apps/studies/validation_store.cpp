@@ -22,13 +22,13 @@ namespace {
 constexpr std::size_t places = 3;
 struct OriginColumn {
     std::string_view name;
-    std::string Origin::* text;
+    std::string Origin::*text;
 };
 constexpr std::array<OriginColumn, 5> origin_columns{{{"state_hash", &Origin::state_hash},
-                                               {"scene_hash", &Origin::scene_hash},
-                                               {"made_by", &Origin::made_by},
-                                               {"measured_by", &Origin::measured_by},
-                                               {"measures_hash", &Origin::measures_hash}}};
+                                                      {"scene_hash", &Origin::scene_hash},
+                                                      {"made_by", &Origin::made_by},
+                                                      {"measured_by", &Origin::measured_by},
+                                                      {"measures_hash", &Origin::measures_hash}}};
 
 } // namespace
 
@@ -63,8 +63,8 @@ MeasureStore read_store(const std::filesystem::path& file) {
             refuse("a line has another number of columns than the first");
         const MeasuredPlace place{cells[0], static_cast<int>(number(cells[1])), number(cells[2])};
         if (store.contains(place))
-            refuse(fmt::format("{}, seed {}, {:g} m is there twice", place.run, place.seed,
-                               place.at));
+            refuse(
+                fmt::format("{}, seed {}, {:g} m is there twice", place.run, place.seed, place.at));
         MeasuredNumbers& m = store[place];
         for (std::size_t k = places; k < cells.size(); ++k)
             if (const auto o = std::ranges::find(origin_columns, names[k], &OriginColumn::name);

@@ -275,8 +275,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
         bands.push_back(band_of(f, l.circle));
 
     if (p.heal_after > 0.0)
-        heal(state,
-             rested_discs(state, sample, cells, 0.5 * l.circle, p, schedule().seconds()),
+        heal(state, rested_discs(state, sample, cells, 0.5 * l.circle, p, schedule().seconds()),
              p.mean_stress_ratio, gravity_);
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);

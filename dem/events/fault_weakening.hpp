@@ -29,8 +29,8 @@ struct FaultWeakeningParameters {
     int angles = 12;                  ///< fault angles tried per sampling point
     double youngest_sediment = 2.0e5; ///< sediment younger than this is left alone, a
     bool whole_domain = false;        ///< looks at young and loose sediment, too [paper]
-    double heal_after = 0.0;          ///< rest after which weakened rock is sound again, a; 0: never
-    double resting_rate = 1.0e-15;    ///< shear strain rate of rest, 1/s: below it bonds heal [paper]
+    double heal_after = 0.0;       ///< rest after which weakened rock is sound again, a; 0: never
+    double resting_rate = 1.0e-15; ///< shear strain rate of rest, 1/s: below it bonds heal [paper]
     /// Of weakened discs, never bonded: MAT18-W, but for a friction that Table 1 does not have.
     Material material{8.5e8, 3.19e8, 0.2, false};
     double update_interval = 2.5e3;  ///< time between property updates, a

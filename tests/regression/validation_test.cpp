@@ -216,9 +216,9 @@ TEST_F(ValidationTest, NothingIsMixedOrReplacedWithoutAWord) {
     const std::string others = record();
     ASSERT_EQ(validate("--seeds 1"), 0) << said;
     EXPECT_EQ(validate("--seeds 2"), 2);
-    EXPECT_THAT(said, AllOf(HasSubstr("plain-1 was measured by other definitions"),
-                            HasSubstr("0123456789abcdef"), HasSubstr(definitions),
-                            HasSubstr("--mixed")));
+    EXPECT_THAT(said,
+                AllOf(HasSubstr("plain-1 was measured by other definitions"),
+                      HasSubstr("0123456789abcdef"), HasSubstr(definitions), HasSubstr("--mixed")));
     EXPECT_EQ(record(), others);
     ASSERT_EQ(validate("--seeds 2 --mixed"), 0) << said;
     EXPECT_THAT(document(), HasSubstr("**This record is mixed**"));

@@ -56,8 +56,7 @@ std::vector<Parameter> detection_parameters() {
          "true is the paper's way; it finds the base of loose sediment as a fault."},
         {"heal_after_a", at<&P::heal_after>, "a", between(0, 1e9), "",
          "time at rest after which weakened rock is sound again; 0: never",
-         "Makes faults that no longer slip strong again, so that new ones can replace them.",
-         between(0, 5e5)},
+         "Makes faults at rest strong again, so that new ones can replace them.", between(0, 5e5)},
         {"resting_rate_per_s", at<&P::resting_rate>, "1/s", ranges::strain_rate, "",
          "shear strain rate below which weakened rock rests",
          "Raising it heals weakened rock that still creeps: the bulk of it strains faster than "

@@ -119,7 +119,7 @@ const dem::SedimentStress* stress_in(const Observation& now) {
 }
 
 /// Mean over the layers; not a number without layers.
-template <double dem::LayerStress::* part>
+template <double dem::LayerStress::*part>
 std::optional<double> mean_of_layers(const Observation& now) {
     const auto* stress = stress_in(now);
     if (!stress)
