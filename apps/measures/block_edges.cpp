@@ -2,6 +2,7 @@
 
 #include "apps/measures/blocks.hpp"
 #include "apps/measures/rigid_motion.hpp"
+#include "apps/measures/split.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -77,40 +78,6 @@ private:
     double slope_ = 0.0, bow_ = 0.0, skew_ = 0.0, offset_ = 0.0;
 };
 
-/// A disc of a layer.
-struct Disc {
-    double x; ///< m
-    bool inside;
-};
-
-/// The x that leaves fewest discs of a layer on the wrong side; in the middle of those that do.
-/// None if that is beyond an end, or too many are wrong.
-std::optional<double> split(std::vector<Disc> row, Side side) {
-    constexpr std::size_t fewest = 8;
-    if (row.size() < fewest)
-        return std::nullopt;
-    const double out = side == Side::left ? 1.0 : -1.0; // from the block outward
-    std::ranges::sort(row, {}, [&](const Disc& d) { return out * d.x; });
-    std::ptrdiff_t wrong = std::ranges::count_if(row, &Disc::inside);
-    std::ptrdiff_t least = wrong;
-    std::vector<std::size_t> best{0}; // how many discs are inside of the edge
-    for (std::size_t k = 0; k < row.size(); ++k) {
-        wrong += row[k].inside ? -1 : 1;
-        if (wrong < least)
-            best.clear();
-        if (wrong <= least)
-            best.push_back(k + 1);
-        least = std::min(least, wrong);
-    }
-    if (best.front() == 0 || best.back() == row.size() ||
-        static_cast<double>(least) > most_wrong * static_cast<double>(row.size()))
-        return std::nullopt;
-    double x = 0.0;
-    for (const std::size_t k : best)
-        x += 0.5 * (row[k - 1].x + row[k].x) / static_cast<double>(best.size());
-    return x;
-}
-
 /// The basement's discs and where they were, m.
 struct Basement {
     std::vector<std::size_t> rows;
@@ -143,7 +110,7 @@ std::vector<Point> places_then(const RunSoFar& run, const Basement& rock, const 
 /// A block and the fault at its edge.
 struct Block {
     const char* attitude; ///< of the fault
-    Side side;
+    BlockSide side;
     std::vector<char> core; ///< by disc of the basement
     double lowest = 0.0;    ///< height to which the edge is the fault's, m
 };
@@ -168,7 +135,7 @@ std::optional<Edge> find_edge(const Block& block, const std::vector<Point>& befo
 
 /// Rotation since the start of the block's discs near its edge, degrees, counter-clockwise. None
 /// for fewer than 8 discs.
-std::optional<double> turn_behind(const Edge& edge, Side side, const Basement& rock) {
+std::optional<double> turn_behind(const Edge& edge, BlockSide side, const Basement& rock) {
     constexpr std::size_t fewest = 8;
     RigidMotion motion;
     for (std::size_t k = 0; k < rock.now.size(); ++k) {
@@ -177,7 +144,7 @@ std::optional<double> turn_behind(const Edge& edge, Side side, const Basement& r
             continue;
         const Point beside = *std::ranges::min_element(
             edge.points, {}, [&](Point q) { return std::abs(q.y - p.y); });
-        const double distance = side == Side::right ? p.x - beside.x : beside.x - p.x;
+        const double distance = side == BlockSide::right ? p.x - beside.x : beside.x - p.x;
         if (distance > 0.0 && distance < behind)
             motion.add(rock.start[k], p);
     }
@@ -294,7 +261,7 @@ std::optional<std::vector<char>> followers(std::span<const Point> before,
 
 double edge_layer(double diameter) { return std::max(least_layer, layer_diameters * diameter); }
 
-Polyline block_edge(std::span<const Point> points, std::span<const char> inside, Side side,
+Polyline block_edge(std::span<const Point> points, std::span<const char> inside, BlockSide side,
                     double layer, double lowest) {
     assert(points.size() == inside.size() && layer > 0.0);
     const auto count = static_cast<std::size_t>(std::max(0.0, std::round(-lowest / layer)));
@@ -303,6 +270,7 @@ Polyline block_edge(std::span<const Point> points, std::span<const char> inside,
         if (const double below = -points[k].y / layer; below >= 0.0)
             if (const auto n = static_cast<std::size_t>(below); n < count)
                 layers[n].push_back(k);
+    const double out = side == BlockSide::left ? 1.0 : -1.0;
     Polyline edge;
     // Within a layer an edge that dips gently goes far: the second time x is that beside the first
     // edge's parabola.
@@ -313,12 +281,13 @@ Polyline block_edge(std::span<const Point> points, std::span<const char> inside,
         const auto offset = [&](double y) { return beside ? beside->x_at(y) : 0.0; };
         edge.clear();
         for (std::size_t n = 0; n < count; ++n) {
-            std::vector<Disc> row;
+            // From the block outward.
+            std::vector<MarkedPlace> row;
             for (const std::size_t k : layers[n])
-                row.push_back({points[k].x - offset(points[k].y), inside[k] != 0});
+                row.push_back({out * (points[k].x - offset(points[k].y)), inside[k] != 0});
             const double middle = -(static_cast<double>(n) + 0.5) * layer;
-            if (const auto x = split(std::move(row), side))
-                edge.push_back({*x + offset(middle), middle});
+            if (const auto split = best_split(std::move(row)); split && split->wrong <= most_wrong)
+                edge.push_back({out * split->at + offset(middle), middle});
         }
     }
     return edge;
@@ -341,8 +310,8 @@ NamedNumbers measure_block_edges(const RunSoFar& run, std::optional<double> roll
     const Basement rock = basement_of(run);
     const std::vector<Point> before = places_then(run, rock, run.past.back().places);
     const double flat = run.detachment.back().end.y;
-    Block outer{"antithetic", Side::right, {}, (1.0 - around_bend) * flat};
-    Block head{"synthetic", Side::left, std::vector<char>(rock.rows.size(), 0), 0.5 * flat};
+    Block outer{"antithetic", BlockSide::right, {}, (1.0 - around_bend) * flat};
+    Block head{"synthetic", BlockSide::left, std::vector<char>(rock.rows.size(), 0), 0.5 * flat};
     for (const Point p : rock.start)
         outer.core.push_back(p.x > run.setting.length - core_width);
     if (rollover_tilt)

@@ -21,16 +21,16 @@ std::optional<std::vector<char>> followers(std::span<const dem::Point> before,
                                            std::span<const dem::Point> after,
                                            std::span<const char> core, double tolerance);
 
-/// Side of its edge on which a block lies.
-enum class Side { left, right };
+/// BlockSide of its edge on which a block lies.
+enum class BlockSide { left, right };
 
 /// The edge of a block, from top to bottom, y up: in every layer of the height `layer`, m, from
 /// y = 0 down to `lowest` the x that leaves fewest points on the wrong side. Layers without edge
 /// are left out.
 /// @param points  m
 /// @param inside  by point: it moved with the block
-Polyline block_edge(std::span<const dem::Point> points, std::span<const char> inside, Side side,
-                    double layer, double lowest);
+Polyline block_edge(std::span<const dem::Point> points, std::span<const char> inside,
+                    BlockSide side, double layer, double lowest);
 
 /// Height of the layers, m, for discs of a mean diameter, m.
 double edge_layer(double diameter);

@@ -17,11 +17,9 @@ using namespace dem;
 
 Past remember(const Setting& setting, const RigidBase& base, const State& now,
               std::span<const Past> past) {
-    Past moment{DiscPlaces(now), find_basins(measure_profile(setting, now, base)), {}};
+    Past moment{DiscPlaces(now), find_basins(measure_profile(setting, now, base))};
     if (past.empty())
         moment.rock_cells = rock_cells(now, base);
-    else
-        moment.throw_correlations = throw_age_correlations(setting, base, now, past.back().places);
     return moment;
 }
 

@@ -148,7 +148,7 @@ struct Halfgraben {
         }
         before.clock.extension = extension - window;
         now.clock.extension = extension;
-        past.push_back({DiscPlaces(before), {}, {}});
+        past.push_back({DiscPlaces(before), {}});
     }
 
     std::map<std::string, double> measure() const {
