@@ -97,8 +97,12 @@ constexpr FaultField fields[] = {
      [](P p) -> Json { return p.fault().foot.x; }, 15},
     {"foot_z_m", "m", "depth of the foot", [](P p) -> Json { return -p.fault().foot.y; }, 16},
     {field_throw, "m",
-     "throw by stratum, 0 the pre-rift top: height between two parallel lines through the stratum, "
-     "3 to 12 diameters to both sides of the fault; positive: the side above the fault lies deeper",
+     "throw by stratum, 0 the pre-rift top, of the strata younger than the fault and of the "
+     "surface "
+     "that it broke first: height between two parallel lines through the stratum's top, 3 to 15 "
+     "diameters to both sides of the fault; positive: the side above the fault lies deeper. A "
+     "stratum thinner "
+     "than three diameters has none",
      throws_of},
     {field_points, "m", "points of the line, one per diameter", points_of},
     {"pre_rift_throw_m", "m",
@@ -106,6 +110,8 @@ constexpr FaultField fields[] = {
      "sides of the trace. It has a value also where the two sides of the pre-rift top have parted "
      "by kilometres",
      pre_rift_throw_of, 17, "pre-rift throw"},
+    {"throw_error_m", "m", "error of each throw by stratum: a mean disc's diameter",
+     of<&Fault::throw_error>, 18, "", true, true},
     {"name", "", "`fault N`", [](P p) -> Json { return fmt::format("fault {}", p.index); }, 1, "",
      false},
     {"fault", "1", "index in `faults`", [](P p) -> Json { return static_cast<double>(p.index); }, 2,

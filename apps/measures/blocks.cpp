@@ -134,12 +134,15 @@ std::vector<std::size_t> lower_block(const State& state, const Chain& detachment
     });
 }
 
+std::vector<std::size_t> head_block(const State& state, const Chain& detachment, double thickness) {
+    return block_of(state, detachment, [&](Point start, const auto& foot) {
+        return -start.y <= 0.5 * thickness && (foot ? foot->distance : start.x) < head_block_width;
+    });
+}
+
 std::optional<double> head_block_tilt(const State& state, const Chain& detachment,
                                       double thickness) {
-    return rotation_of(state, block_of(state, detachment, [&](Point start, const auto& foot) {
-                           return -start.y <= 0.5 * thickness &&
-                                  (foot ? foot->distance : start.x) < head_block_width;
-                       }));
+    return rotation_of(state, head_block(state, detachment, thickness));
 }
 
 RampFlatRampRotations measure_ramp_flat_ramp(const State& state, const Chain& detachment,

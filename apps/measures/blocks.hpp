@@ -25,8 +25,12 @@ std::optional<RampFlatRamp> find_ramp_flat_ramp(const dem::Chain& detachment);
 std::vector<std::size_t> lower_block(const dem::State& state, const dem::Chain& detachment,
                                      const RampFlatRamp& parts);
 
-/// Rotation, degrees, positive toward the detachment, of the block that started next to the
-/// detachment in the upper half of the thickness, m. None for fewer than three discs.
+/// Rows of the discs that started next to the detachment in the upper half of the thickness, m.
+std::vector<std::size_t> head_block(const dem::State& state, const dem::Chain& detachment,
+                                    double thickness);
+
+/// Rotation of the head block, degrees, positive toward the detachment. None for fewer than three
+/// discs.
 std::optional<double> head_block_tilt(const dem::State& state, const dem::Chain& detachment,
                                       double thickness);
 

@@ -100,6 +100,14 @@ constexpr Measure<M> of_strain[] = {
 constexpr Measure<M> of_material[] = {
     {"basement_unbonded_fraction", "1", "share of touching pre-rift pairs without bond",
      taken<&M::basement_unbonded_fraction>},
+    {"broken_width_diameters", "diameters",
+     "mean distance of broken from sound basement, a quarter of the width of a strip: 2 to 3 where "
+     "faults form, 6 to 9 where rock is broken areally. Broken: of the touching pre-rift pairs "
+     "within 1.6 diameters of a disc 35 % or more have no bond",
+     taken<&M::broken, &BrokenRock::width>},
+    {"broken_areal_share", "1",
+     "share of the basement, by area, that is broken and more than 4 diameters from sound rock",
+     taken<&M::broken, &BrokenRock::areal_share>},
     {"old_sediment_bonded_fraction", "1",
      "bonded share of the touching pairs of sediment discs deeper than 1.5 km and older than "
      "200,000 a",

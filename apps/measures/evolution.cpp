@@ -1,10 +1,13 @@
 #include "apps/measures/evolution.hpp"
 
+#include "apps/measures/block_edges.hpp"
 #include "apps/measures/dilation.hpp"
 #include "apps/measures/grabens.hpp"
 #include "apps/measures/hinge.hpp"
 #include "apps/measures/lower_block.hpp"
 #include "apps/measures/main_faults.hpp"
+#include "apps/measures/persistence.hpp"
+#include "apps/measures/relief.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/measures/syncline.hpp"
 
@@ -14,11 +17,9 @@ using namespace dem;
 
 Past remember(const Setting& setting, const RigidBase& base, const State& now,
               std::span<const Past> past) {
-    Past moment{DiscPlaces(now), find_basins(measure_profile(setting, now, base)), {}};
+    Past moment{DiscPlaces(now), find_basins(measure_profile(setting, now, base))};
     if (past.empty())
         moment.rock_cells = rock_cells(now, base);
-    else
-        moment.throw_correlations = throw_age_correlations(setting, base, now, past.back().places);
     return moment;
 }
 
@@ -27,6 +28,9 @@ NamedNumbers measure_evolution(const Setting& setting, const RigidBase& base, co
                                std::span<const FaultSegment> segments, std::span<const Past> past) {
     const RunSoFar run(setting, base, now, past);
     NamedNumbers numbers = measure_main_faults(run, faults, measures.rollover_tilt);
+    append(numbers, measure_block_edges(run, measures.rollover_tilt));
+    append(numbers, measure_persistence(run));
+    append(numbers, measure_relief(run));
     append(numbers, measure_rock(setting, now));
     append(numbers, measure_grabens(run));
     append(numbers, measure_hinge(run));
@@ -41,9 +45,12 @@ NamedNumbers measure_evolution(const Setting& setting, const RigidBase& base, co
 
 std::vector<Quantity> evolution_quantities() {
     std::vector<Quantity> all = main_fault_quantities();
+    const std::vector<Quantity> edges = block_edge_quantities();
+    all.insert(all.end(), edges.begin(), edges.end());
     for (const std::span<const Quantity> some :
-         {rock_quantities(), graben_quantities(), hinge_quantities(), dilation_quantities(),
-          kink_quantities(), syncline_quantities(), lower_block_quantities()})
+         {persistence_quantities(), relief_quantities(), rock_quantities(), graben_quantities(),
+          hinge_quantities(), dilation_quantities(), kink_quantities(), syncline_quantities(),
+          lower_block_quantities()})
         all.insert(all.end(), some.begin(), some.end());
     return all;
 }

@@ -23,6 +23,10 @@ namespace {
 /// Distance of sediment from every trace, mean diameters, from which on it is off the faults.
 constexpr double off_fault = 5.0;
 
+/// Faults are looked for in units of a mean disc's diameter, or of this share of the hanging wall's
+/// thickness if that is more: a standard disc of 15 km.
+constexpr double coarsest_unit = 0.0124;
+
 /// Without std::hypot, which half of the time went into.
 bool are_within(Point a, Point b, double reach) { return dot(a - b, a - b) < reach * reach; }
 
@@ -39,10 +43,9 @@ struct FormerTrace {
     double turn = 0.0; ///< of the footwall as one block, rad, counter-clockwise, then to now
 };
 
-std::vector<Companions> footwall_of(const FaultTrace& trace, const State& state,
-                                    const Cells& cells) {
+std::vector<Companions> footwall_of(const FaultTrace& trace, const State& state, const Cells& cells,
+                                    double diameter) {
     const ConstDiscColumns d = disc_columns(state);
-    const double diameter = 2.0 * state.mean_radius;
     std::vector<Companions> footwall;
     for (std::size_t k = 0; k < trace.points.size(); ++k) {
         const Point p = trace.points[k];
@@ -177,12 +180,14 @@ Point foot_of(const FaultTrace& trace, const Chain& detachment, double diameter)
 class Windows {
 public:
     /// @param older  earlier states, oldest first; window k ends at older[k + 1]
-    Windows(std::span<const DiscPlaces> older, const Chain& detachment, double diameter,
+    /// @param unit   of lengths, m
+    Windows(std::span<const DiscPlaces> older, const Chain& detachment, double unit,
             double youngest_sediment)
         : older_(older), detachment_(detachment) {
         for (std::size_t k = 0; k + 1 < older.size(); ++k) {
             fields_.push_back(shear_field(older[k], older[k + 1], youngest_sediment));
-            cells_.emplace_back(fields_.back().x, fields_.back().y, 1.5 * diameter);
+            coarsen(fields_.back(), unit);
+            cells_.emplace_back(fields_.back().x, fields_.back().y, 1.5 * unit);
         }
         traces_.resize(fields_.size());
     }
@@ -212,7 +217,9 @@ private:
 };
 
 /// Properties of a trace in the last window and the present state.
-Fault describe(const FaultTrace& trace, const State& now, const Chain& detachment, double years) {
+/// @param unit  of lengths, m
+Fault describe(const FaultTrace& trace, const State& now, const Chain& detachment, double unit,
+               double years) {
     const double diameter = 2.0 * now.mean_radius, slip = median(trace.slip);
     Fault f;
     f.trace = trace;
@@ -223,8 +230,8 @@ Fault describe(const FaultTrace& trace, const State& now, const Chain& detachmen
     f.rate = std::abs(slip) / years * 1e3;
     f.width = median(trace.width) / diameter;
     f.curvature = curvature_of(trace.points);
-    f.foot = foot_of(trace, detachment, diameter);
-    f.throws = fault_throws(now, trace.points);
+    f.foot = foot_of(trace, detachment, unit);
+    f.throw_error = diameter;
     f.pre_rift_throw = pre_rift_throw(now, trace.points);
     f.born_at = f.traced_since = now.clock.extension;
     f.dip_at_birth = f.dip;
@@ -307,19 +314,28 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
         return report;
     const Chain detachment = standing_base(base, now).surfaces.front().chain;
     const double diameter = 2.0 * now.mean_radius;
-    const ShearField field = shear_field(older.back(), DiscPlaces(now), setting.youngest_sediment);
+    const double unit = std::max(diameter, coarsest_unit * setting.thickness);
+    ShearField field = shear_field(older.back(), DiscPlaces(now), setting.youngest_sediment);
+    coarsen(field, unit);
     const std::vector<FaultTrace> traces = trace_faults(field, detachment);
     if (!traces.empty()) {
-        Windows windows(older, detachment, diameter, setting.youngest_sediment);
+        Windows windows(older, detachment, unit, setting.youngest_sediment);
         const ConstDiscColumns d = disc_columns(now);
-        const Cells cells(d.x, d.y, 3.0 * diameter);
+        const Cells cells(d.x, d.y, 3.0 * unit);
         report.faults.resize(traces.size());
         for_each_shared(traces.size(), [&](std::size_t k) {
             report.faults[k] =
-                describe(traces[k], now, detachment, field.window / setting.extension_rate);
+                describe(traces[k], now, detachment, unit, field.window / setting.extension_rate);
         });
         for (Fault& fault : report.faults)
-            trace_back(fault, footwall_of(fault.trace, now, cells), windows, detachment, diameter);
+            trace_back(fault, footwall_of(fault.trace, now, cells, unit), windows, detachment,
+                       unit);
+        // Without earlier windows the birth is not known, and with it which strata are younger.
+        if (older.size() > 1 || older.front().extension <= 0.0)
+            for_each_shared(traces.size(), [&](std::size_t k) {
+                Fault& fault = report.faults[k];
+                fault.throws = fault_throws(now, fault.trace.points, fault.born_at);
+            });
     }
     summarise(report, detachment, diameter);
     if (setting.detection_circle)

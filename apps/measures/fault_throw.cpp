@@ -1,13 +1,18 @@
 #include "apps/measures/fault_throw.hpp"
 
 #include "apps/measures/rigid_motion.hpp"
+#include "apps/measures/split.hpp"
 #include "apps/support/statistics.hpp"
 #include "dem/contacts/cells.hpp"
 #include "dem/hypotenuse.hpp"
+#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,27 +23,19 @@ using namespace dem;
 namespace {
 
 // Mean diameters.
-constexpr double nearest_disc = 3.0, farthest_disc = 12.0; ///< beside the trace
-constexpr double extended = 15.0;                          ///< the trace, upward
+constexpr double nearest_column = 3.0, farthest_column = 15.0; ///< beside the trace
+constexpr double extended = 15.0;                              ///< the trace, upward
+constexpr double thinnest = 3.0;                               ///< a stratum that has a throw
 
-/// Discs of one stratum on one side of a fault: sums for a line through them.
-struct Side {
-    double count = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+constexpr double filled = 0.83; ///< share of the plane that discs fill
 
-    void add(double px, double py) {
-        count += 1.0;
-        x += px;
-        y += py;
-        xx += px * px;
-        xy += px * py;
-    }
-    double spread() const { return xx - x * x / count; }
-    double tilt_moment() const { return xy - x * y / count; }
-};
-
-/// Discs of a stratum beside a fault, m.
-struct Stratum {
-    std::vector<Point> left, right; ///< of the downward direction
+/// A disc beside a fault.
+struct BesideFault {
+    Point at;            ///< m
+    double radius = 0.0; ///< m
+    int stratum = 0;
+    bool on_left = false;     ///< of the downward direction
+    bool is_near_top = false; ///< of its stratum
 };
 
 /// The trace with its upper end drawn out straight.
@@ -52,60 +49,172 @@ Polyline extended_upward(const Polyline& trace, double length) {
     return line;
 }
 
-/// Discs beside a line by stratum; of the pre-rift rock its top.
-std::map<int, Stratum> strata_beside(const State& state, const Polyline& line, double diameter) {
+std::vector<BesideFault> discs_beside(const State& state, const Polyline& line, double diameter) {
     const ConstDiscColumns d = disc_columns(state);
-    std::map<int, Stratum> strata;
+    // Columns are upright and the line is not: a disc of a column may be this far from it.
+    const double reach = 2.0 * farthest_column * diameter;
+    std::vector<BesideFault> discs;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] == 0 && d.start_y[i] < -1.5 * diameter)
-            continue;
         const PolylinePlace place = place_on(line, {d.x[i], d.y[i]});
-        if (place.beyond || std::abs(place.distance) > farthest_disc * diameter)
-            continue;
-        Stratum& stratum = strata[d.stratum[i]];
-        (place.distance > 0.0 ? stratum.left : stratum.right).push_back({d.x[i], d.y[i]});
+        if (std::abs(place.distance) < reach)
+            discs.push_back({{d.x[i], d.y[i]},
+                             d.radius[i],
+                             d.stratum[i],
+                             place.distance > 0.0,
+                             d.stratum[i] > 0 || d.start_y[i] > -1.5 * diameter});
     }
+    return discs;
+}
+
+/// By stratum: extension at which it was laid down, m; the pre-rift top: before all.
+std::map<int, double> strata_of(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::map<int, double> strata{{0, -std::numeric_limits<double>::infinity()}};
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] > 0)
+            strata[d.stratum[i]] = d.start_extension[i];
     return strata;
 }
 
-double mean_height(const std::vector<Point>& discs) {
-    double sum = 0.0;
-    for (Point p : discs)
-        sum += p.y;
-    return sum / static_cast<double>(discs.size());
+/// Leaves out what is older than a fault but the surface that it broke, the youngest such stratum.
+void leave_out_older(std::map<int, double>& strata, double born_at) {
+    constexpr double tolerance = 1.0; // m: a window and a stratum may end in the same cycle
+    while (strata.size() > 1 && std::next(strata.begin())->second < born_at - tolerance)
+        strata.erase(strata.begin());
 }
 
-/// The discs around where the line crosses a stratum, in upright windows: slanted ones, as wide as
-/// the fault is near, would bend the lines. None if the line does not cross it.
-std::optional<std::pair<Side, Side>> sides_of(const Stratum& stratum, const Polyline& line,
-                                              double diameter) {
-    if (stratum.left.empty() || stratum.right.empty())
+/// Mean height of a stratum's discs on both sides, m. None if a side has none.
+std::optional<double> mean_height(std::span<const BesideFault> discs, int stratum) {
+    double height[2] = {}, count[2] = {};
+    for (const BesideFault& disc : discs)
+        if (disc.stratum == stratum && disc.is_near_top) {
+            height[disc.on_left] += disc.at.y;
+            count[disc.on_left] += 1.0;
+        }
+    if (count[0] == 0.0 || count[1] == 0.0)
         return std::nullopt;
-    const double y = 0.5 * (mean_height(stratum.left) + mean_height(stratum.right));
+    return 0.5 * (height[0] / count[0] + height[1] / count[1]);
+}
+
+/// x where a line that falls comes to a height, m; none if it does not.
+std::optional<double> crossing(const Polyline& line, double y) {
     const auto next = std::ranges::find_if(line, [&](Point p) { return p.y < y; });
     if (next == line.begin() || next == line.end())
         return std::nullopt;
     const Point a = *(next - 1), b = *next;
-    const double x = a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y);
-    const auto fill = [&](const std::vector<Point>& discs) {
-        Side side;
-        for (Point p : discs)
-            if (const double distance = std::abs(p.x - x);
-                distance > nearest_disc * diameter && distance < farthest_disc * diameter)
-                side.add(p.x - x, p.y - y);
-        return side;
-    };
-    return std::pair{fill(stratum.left), fill(stratum.right)};
+    return a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y);
 }
 
-/// Height of the left side's line over the right side's, m. None if a side has too few discs.
-std::optional<double> step_between(const Side& left, const Side& right) {
-    constexpr double fewest = 6.0; // discs on a side
-    if (left.count < fewest || right.count < fewest)
+/// Tops of a stratum and all below it on one side of a fault, in columns one diameter wide: sums
+/// for a line through them.
+struct Side {
+    double count = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    double area = 0.0; ///< of the stratum's discs, m^2
+
+    void add(Point top) {
+        count += 1.0;
+        x += top.x;
+        y += top.y;
+        xx += top.x * top.x;
+        xy += top.x * top.y;
+    }
+    double spread() const { return xx - x * x / count; }
+    double tilt_moment() const { return xy - x * y / count; }
+};
+
+/// The top in one column: between the discs below it and those above, or on the highest disc. None
+/// in a column without disc of the stratum.
+/// @param discs  of the column
+std::optional<double> top_of(std::span<const BesideFault> discs, int stratum) {
+    std::vector<MarkedPlace> places;
+    double highest = -std::numeric_limits<double>::infinity();
+    bool has_above = false, has_stratum = false;
+    for (const BesideFault& disc : discs) {
+        places.push_back({disc.at.y, disc.stratum <= stratum});
+        highest = std::max(highest, disc.at.y + disc.radius);
+        has_above = has_above || disc.stratum > stratum;
+        has_stratum = has_stratum || disc.stratum == stratum;
+    }
+    if (!has_stratum)
         return std::nullopt;
-    const double tilt =
-        (left.tilt_moment() + right.tilt_moment()) / (left.spread() + right.spread());
-    return (left.y - tilt * left.x) / left.count - (right.y - tilt * right.x) / right.count;
+    if (!has_above)
+        return highest;
+    const auto split = best_split(std::move(places));
+    return split ? std::optional(split->at) : std::nullopt;
+}
+
+/// @param x  where the line crosses the stratum, m
+Side side_of(std::span<const BesideFault> discs, bool left, double x, int stratum,
+             double diameter) {
+    const double outward = left ? 1.0 : -1.0; // the left of a direction downward is at larger x
+    constexpr auto columns = static_cast<std::size_t>(farthest_column - nearest_column);
+    std::vector<std::vector<BesideFault>> in_column(columns);
+    Side side;
+    for (const BesideFault& disc : discs) {
+        const double column = outward * (disc.at.x - x) / diameter - nearest_column;
+        if (disc.on_left != left || column < 0.0 || column >= static_cast<double>(columns))
+            continue;
+        in_column[static_cast<std::size_t>(column)].push_back(disc);
+        if (disc.stratum == stratum)
+            side.area += pi * disc.radius * disc.radius;
+    }
+    for (const auto& column : in_column)
+        if (const auto top = top_of(column, stratum)) {
+            double middle = 0.0;
+            for (const BesideFault& disc : column)
+                middle += disc.at.x / static_cast<double>(column.size());
+            side.add({middle - x, *top});
+        }
+    return side;
+}
+
+/// A stratum's top on both sides of a fault.
+struct Tops {
+    int stratum = 0;
+    Side left, right;
+
+    double spread() const { return left.spread() + right.spread(); }
+    double tilt_moment() const { return left.tilt_moment() + right.tilt_moment(); }
+    /// Where the fault is, of lines of a tilt, m.
+    double height_on_left(double tilt) const { return (left.y - tilt * left.x) / left.count; }
+    double height_on_right(double tilt) const { return (right.y - tilt * right.x) / right.count; }
+};
+
+/// Whether a stratum is thick enough, in the mean of both sides, to have a throw.
+bool is_resolved(const Side& left, const Side& right, double diameter) {
+    const double width = 2.0 * (farthest_column - nearest_column) * diameter;
+    return left.area + right.area >= thinnest * diameter * filled * width;
+}
+
+/// None if the fault does not cross the stratum, or a side has too few columns of it.
+std::optional<Tops> tops_beside(std::span<const BesideFault> discs, const Polyline& line,
+                                int stratum, double diameter) {
+    constexpr int rounds = 3;      // the fault is crossed half way between both heights
+    constexpr double fewest = 5.0; // columns on a side
+    auto y = mean_height(discs, stratum);
+    Tops tops{stratum, {}, {}};
+    for (int n = 0; n < rounds; ++n) {
+        const auto x = y ? crossing(line, *y) : std::nullopt;
+        if (!x)
+            return std::nullopt;
+        tops.left = side_of(discs, true, *x, stratum, diameter);
+        tops.right = side_of(discs, false, *x, stratum, diameter);
+        if (tops.left.count < fewest || tops.right.count < fewest)
+            return std::nullopt;
+        const double tilt = tops.tilt_moment() / tops.spread();
+        y = 0.5 * (tops.height_on_left(tilt) + tops.height_on_right(tilt));
+    }
+    return tops;
+}
+
+/// Tilt of the top k and the two next to it, which lie alike: one alone is known too badly.
+double tilt_around(std::span<const Tops> tops, std::size_t k) {
+    double moment = 0.0, spread = 0.0;
+    for (std::size_t m = k > 0 ? k - 1 : 0; m < std::min(k + 2, tops.size()); ++m) {
+        moment += tops[m].tilt_moment();
+        spread += tops[m].spread();
+    }
+    return moment / spread;
 }
 
 /// Height of the trace, and of the layer beside it at the start, m.
@@ -140,15 +249,26 @@ std::vector<Layer> layers_beside(const State& state, const Cells& cells, const P
 
 } // namespace
 
-std::map<int, double> fault_throws(const State& state, const Polyline& trace) {
+std::map<int, double> fault_throws(const State& state, const Polyline& trace, double born_at) {
     assert(trace.size() > 1);
     const double diameter = 2.0 * state.mean_radius;
     const Polyline line = extended_upward(trace, extended * diameter);
+    const std::vector<BesideFault> discs = discs_beside(state, line, diameter);
+    std::map<int, double> strata = strata_of(state);
+    leave_out_older(strata, born_at);
+    std::vector<Tops> all;
+    for (const auto& [stratum, laid_down_at] : strata)
+        if (auto tops = tops_beside(discs, line, stratum, diameter))
+            all.push_back(*tops);
     std::map<int, double> throws;
-    for (const auto& [number, stratum] : strata_beside(state, line, diameter))
-        if (const auto sides = sides_of(stratum, line, diameter))
-            if (const auto step = step_between(sides->first, sides->second))
-                throws[number] = falls_right(line) ? -*step : *step;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Tops& tops = all[k];
+        if (tops.stratum > 0 && !is_resolved(tops.left, tops.right, diameter))
+            continue;
+        const double tilt = tilt_around(all, k);
+        const double step = tops.height_on_right(tilt) - tops.height_on_left(tilt);
+        throws[tops.stratum] = falls_right(line) ? step : -step;
+    }
     return throws;
 }
 

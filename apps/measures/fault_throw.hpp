@@ -8,14 +8,18 @@
 
 namespace listric::measures {
 
-/// Throw of every stratum that the fault cuts, m by stratum number; 0 is the pre-rift top. Positive
-/// where the side above the fault lies deeper: normal.
+/// Throw of the strata younger than a fault, and of the surface that it broke first, m by stratum
+/// number; 0 is the pre-rift top. Positive where the side above the fault lies deeper: normal.
+/// Known to a mean disc's diameter. A stratum that is thinner than three of them beside the fault
+/// has no value.
 ///
-/// Height of a stratum's discs between 3 and 12 mean diameters to the left and right of where the
-/// trace crosses the stratum, as two parallel lines, one per side; their distance is the throw. The
-/// trace is extended upward by up to 15 diameters along its upper end, since young sediment slips
-/// too little to be traced.
-std::map<int, double> fault_throws(const dem::State& state, const Polyline& trace);
+/// The tops of a stratum and all below it, in columns one diameter wide between 3 and 15 diameters
+/// to the left and right of where the trace crosses the stratum, as two parallel lines, one per
+/// side, of the mean tilt of the stratum and the two next to it; their distance is the throw. A top
+/// lies between the discs below it and those above. The trace is extended upward by up to 15
+/// diameters along its upper end, since young sediment slips too little to be traced.
+/// @param born_at  extension at which the fault formed, m
+std::map<int, double> fault_throws(const dem::State& state, const Polyline& trace, double born_at);
 
 /// Throw of the pre-rift layers, m: median over the layers that the trace cuts on both sides. Where
 /// a layer meets the trace follows from the rigid motion since the start of the discs 3 to 9

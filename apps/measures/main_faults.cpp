@@ -1,6 +1,5 @@
 #include "apps/measures/main_faults.hpp"
 
-#include "apps/measures/fault_throw.hpp"
 #include "apps/measures/kinematics.hpp"
 #include "apps/support/statistics.hpp"
 
@@ -138,11 +137,11 @@ constexpr Quantity inner_step{
     "ones"};
 constexpr Quantity throw_age{
     "throw_age_correlation", "1",
-    "rank correlation (Spearman) of throw with stratum, -1 where each younger stratum has less: "
-    "median over all normal traces of 30 degrees or more in all windows so far that offset five "
-    "strata or more"};
+    "rank correlation (Spearman) of `faults.throw_m` with stratum, -1 where each younger stratum "
+    "has "
+    "less: median over the normal faults of 30 degrees or more that have five throws or more"};
 constexpr Quantity throw_age_count{"throw_age_faults", "1",
-                                   "number of the traces of `throw_age_correlation`"};
+                                   "number of the faults of `throw_age_correlation`"};
 
 /// Ratio of the two main faults' pre-rift throws. None unless both are there.
 std::optional<double> throw_ratio(const FaultReport& report) {
@@ -155,17 +154,12 @@ std::optional<double> throw_ratio(const FaultReport& report) {
     return *antithetic / *synthetic;
 }
 
-/// Correlations of all faults in all windows so far.
-NamedNumbers measure_throws_by_age(const RunSoFar& run) {
+NamedNumbers measure_throws_by_age(const std::vector<Fault>& faults) {
     std::vector<double> correlations;
-    for (const Past& p : run.past)
-        correlations.insert(correlations.end(), p.throw_correlations.begin(),
-                            p.throw_correlations.end());
-    if (!run.past.empty()) {
-        const auto last =
-            throw_age_correlations(run.setting, run.base, run.now, run.past.back().places);
-        correlations.insert(correlations.end(), last.begin(), last.end());
-    }
+    for (const Fault& f : faults)
+        if (f.normal && f.dip >= least_main_dip)
+            if (const auto r = throw_age_correlation(f.throws))
+                correlations.push_back(*r);
     NamedNumbers numbers;
     add(numbers, throw_age_count, static_cast<double>(correlations.size()));
     if (!correlations.empty())
@@ -189,7 +183,7 @@ NamedNumbers measure_main_faults(const RunSoFar& run, const FaultReport& report,
             append(numbers, measure_main_fault({run, report.faults[*main], rollover_tilt}));
     add(numbers, throw_over_throw, throw_ratio(report));
     add(numbers, inner_step, inner_fault_step(report.faults));
-    append(numbers, measure_throws_by_age(run));
+    append(numbers, measure_throws_by_age(report.faults));
     return numbers;
 }
 
@@ -271,20 +265,6 @@ std::optional<double> throw_age_correlation(const std::map<int, double>& throws)
         squares += difference * difference;
     }
     return 1.0 - 6.0 * squares / (n * (n * n - 1.0));
-}
-
-std::vector<double> throw_age_correlations(const Setting& setting, const RigidBase& base,
-                                           const State& now, const DiscPlaces& before) {
-    std::vector<double> correlations;
-    const ShearField field = shear_field(before, DiscPlaces(now), setting.youngest_sediment);
-    for (const FaultTrace& trace : trace_faults(field, base.surfaces.front().chain)) {
-        const bool normal = (median(trace.slip) > 0.0) == falls_right(trace.points);
-        if (!normal || dip_of(trace.points) < least_main_dip)
-            continue;
-        if (const auto r = throw_age_correlation(fault_throws(now, trace.points)))
-            correlations.push_back(*r);
-    }
-    return correlations;
 }
 
 } // namespace listric::measures

@@ -37,8 +37,4 @@ double inner_fault_step(const std::vector<Fault>& faults);
 /// from each stratum to the next younger. None for fewer than five strata.
 std::optional<double> throw_age_correlation(const std::map<int, double>& throws);
 
-/// Correlations of every normal fault steeper than 30 degrees that slid between two states.
-std::vector<double> throw_age_correlations(const Setting& setting, const dem::RigidBase& base,
-                                           const dem::State& now, const DiscPlaces& before);
-
 } // namespace listric::measures

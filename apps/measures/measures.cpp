@@ -143,8 +143,10 @@ Measures measure(const Setting& setting, const State& state, const RigidBase& ba
     }
     add_sediment(m, setting, state, profile);
     add_localisation(m, setting, state, events);
-    if (setting.has_bonds)
+    if (setting.has_bonds) {
         m.basement_unbonded_fraction = unbonded_share_of_basement(state);
+        m.broken = measure_broken_rock(state);
+    }
     add_conservation(m, state);
     add_quietness(m, setting, events);
     return m;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/measures/broken_rock.hpp"
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/depocentres.hpp"
 #include "apps/measures/setting.hpp"
@@ -24,6 +25,7 @@ struct Measures {
     std::optional<double> breakaway_rotation, toe_rotation, lower_block_rotation;
     std::optional<double> strain_top10, strain_top10_cumulative, strain_gini;
     std::optional<double> basement_unbonded_fraction;
+    std::optional<BrokenRock> broken; ///< of the basement
     std::optional<double> old_sediment_bonded_fraction;
     std::optional<std::vector<BondedLayer>> old_sediment_bonded_profile;
     double mass_error_fraction = 0.0;

@@ -18,22 +18,6 @@ namespace {
 constexpr double smoothing = 1e3; ///< width of the moving average, m
 constexpr double nothing_there = -std::numeric_limits<double>::infinity(); ///< height of no disc, m
 
-/// Moving average over `smoothing`, over less at the ends.
-/// @param column  distance of the values, m
-std::vector<double> smooth(std::span<const double> values, double column) {
-    const auto reach = static_cast<std::ptrdiff_t>(std::lround(0.5 * smoothing / column));
-    const auto n = static_cast<std::ptrdiff_t>(values.size());
-    std::vector<double> result(values.size());
-    for (std::ptrdiff_t k = 0; k < n; ++k) {
-        const std::ptrdiff_t low = std::max<std::ptrdiff_t>(k - reach, 0);
-        const std::ptrdiff_t high = std::min(k + reach, n - 1);
-        result[static_cast<std::size_t>(k)] =
-            std::accumulate(values.begin() + low, values.begin() + high + 1, 0.0) /
-            static_cast<double>(high - low + 1);
-    }
-    return result;
-}
-
 /// Upper envelopes of discs, m, by column; -infinity where there is none.
 struct Envelopes {
     std::vector<double> all, pre_rift;
@@ -74,8 +58,22 @@ Profile measure_profile(const Setting& setting, const State& state, const RigidB
         p.pre_rift_top[k] = std::max(p.pre_rift_top[k], height_at(detachment, p.x[k]));
         thickness[k] = std::max(0.0, top.all[k] - p.pre_rift_top[k]);
     }
-    p.sediment_thickness = smooth(thickness, width);
+    p.sediment_thickness = smoothed(thickness, width);
     return p;
+}
+
+std::vector<double> smoothed(std::span<const double> values, double column) {
+    const auto reach = static_cast<std::ptrdiff_t>(std::lround(0.5 * smoothing / column));
+    const auto n = static_cast<std::ptrdiff_t>(values.size());
+    std::vector<double> result(values.size());
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+        const std::ptrdiff_t low = std::max<std::ptrdiff_t>(k - reach, 0);
+        const std::ptrdiff_t high = std::min(k + reach, n - 1);
+        result[static_cast<std::size_t>(k)] =
+            std::accumulate(values.begin() + low, values.begin() + high + 1, 0.0) /
+            static_cast<double>(high - low + 1);
+    }
+    return result;
 }
 
 std::vector<double> smoothed_depth(const Profile& profile) {
@@ -83,7 +81,7 @@ std::vector<double> smoothed_depth(const Profile& profile) {
     for (double top : profile.pre_rift_top)
         depth.push_back(-top);
     const double column = profile.x.size() > 1 ? profile.x[1] - profile.x[0] : smoothing;
-    return smooth(depth, column);
+    return smoothed(depth, column);
 }
 
 double area_above(const Profile& profile, std::size_t columns, double width) {

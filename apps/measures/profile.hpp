@@ -5,6 +5,7 @@
 #include "dem/state.hpp"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace listric::measures {
@@ -18,6 +19,10 @@ struct Profile {
 
 Profile measure_profile(const Setting& setting, const dem::State& state,
                         const dem::RigidBase& base);
+
+/// Moving average over 1 km, over less at the ends.
+/// @param column  distance of the values, m
+std::vector<double> smoothed(std::span<const double> values, double column);
 
 /// Depth of the pre-rift top below the original surface, smoothed over 1 km, by column, m.
 std::vector<double> smoothed_depth(const Profile& profile);

@@ -15,9 +15,8 @@ namespace listric::measures {
 /// Data of an earlier moment that the measures of a moment need.
 struct Past {
     DiscPlaces places;
-    std::vector<Depocentre> basins;         ///< see find_basins
-    std::vector<double> throw_correlations; ///< of the faults of the window that ends here
-    std::vector<double> rock_cells = {};    ///< see dilation.hpp; of the first moment alone
+    std::vector<Depocentre> basins;      ///< see find_basins
+    std::vector<double> rock_cells = {}; ///< see dilation.hpp; of the first moment alone
 };
 
 /// A run up to one of its moments: what measures that need its past look at. It refers to what it

@@ -70,6 +70,13 @@ void fit_gradients(ShearField& field, std::span<const double> old_x,
     });
 }
 
+void coarsen(ShearField& field, double unit) {
+    if (unit <= field.diameter)
+        return;
+    field.discs_across *= unit / field.diameter;
+    field.diameter = unit;
+}
+
 ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age) {
     ShearField field;
     field.diameter = now.diameter;

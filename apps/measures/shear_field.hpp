@@ -48,7 +48,8 @@ struct ShearField {
     std::vector<double> x, y;           ///< where the discs are in the later state, m
     std::vector<std::int64_t> id;       ///< of the discs
     std::vector<double> xx, xy, yx, yy; ///< xy: change of u_x with y
-    double diameter = 0.0;              ///< mean of the basement, m
+    double diameter = 0.0;              ///< mean of the basement, or what coarsen() made of it, m
+    double discs_across = 1.0;          ///< mean diameters in that
     double window = 0.0;                ///< extension between the states, m
 
     /// Engineering shear strain of disc k, without sign.
@@ -59,6 +60,10 @@ struct ShearField {
 
 /// Fits the gradients of a field whose points are known, and where they were before, m.
 void fit_gradients(ShearField& field, std::span<const double> old_x, std::span<const double> old_y);
+
+/// Lets the field be looked at in units of at least `unit` m instead of a disc's diameter: among
+/// small discs a fault is a zone of tens of them, whose width is no matter of theirs.
+void coarsen(ShearField& field, double unit);
 
 /// Discs of both states that are `least_age` m of extension old in `now` or belong to the basement.
 ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age);

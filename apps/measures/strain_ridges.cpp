@@ -30,10 +30,11 @@ public:
         spread(field, amount, weight);
         blur(amount);
         blur(weight);
-        // About 0.27 discs per grid cell; half of that is at an edge.
+        // About 0.27 discs per grid cell, of a diameter; half of that is at an edge.
+        const double least_weight = 0.15 * field.discs_across * field.discs_across;
         values_.assign(amount.size(), 0.0);
         for (std::size_t k = 0; k < amount.size(); ++k)
-            if (weight[k] > 0.15)
+            if (weight[k] > least_weight)
                 values_[k] = amount[k] / weight[k];
     }
 

@@ -6,8 +6,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <iterator>
+#include <set>
 #include <sstream>
+#include <system_error>
 
 namespace listric {
 
@@ -19,6 +23,35 @@ toml::table study_plan(const std::string& name) {
 std::vector<std::string> words(const std::string& text) {
     std::istringstream in(text);
     return {std::istream_iterator<std::string>(in), {}};
+}
+
+std::optional<std::vector<int>> seed_list(std::string_view text) {
+    constexpr int largest_seed = 1'000'000'000;
+    constexpr std::size_t most_seeds = 1000;
+    std::set<int> seeds;
+    const auto number = [](std::string_view digits) -> std::optional<int> {
+        int value = -1;
+        const auto [end, error] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        const bool whole = error == std::errc{} && end == digits.data() + digits.size();
+        return whole && value >= 0 && value <= largest_seed ? std::optional(value) : std::nullopt;
+    };
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', from), text.size());
+        const std::string_view part = text.substr(from, comma - from);
+        const std::size_t dash = part.find('-');
+        const auto first = number(part.substr(0, dash));
+        const auto last = dash == part.npos ? first : number(part.substr(dash + 1));
+        if (!first || !last || *last < *first ||
+            static_cast<std::size_t>(*last - *first) >= most_seeds)
+            return std::nullopt;
+        for (int seed = *first; seed <= *last; ++seed)
+            seeds.insert(seed);
+        from = comma + 1;
+    }
+    if (seeds.size() > most_seeds)
+        return std::nullopt;
+    return std::vector<int>(seeds.begin(), seeds.end());
 }
 
 void need(const Entry& entry, const char* key, bool present) {

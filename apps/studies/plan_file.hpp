@@ -2,6 +2,7 @@
 
 #include "apps/scene/toml.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,10 @@ toml::table study_plan(const std::string& name);
 
 /// The words of a text, which blanks separate.
 std::vector<std::string> words(const std::string& text);
+
+/// Seeds of "51-56,60", each once and in their order; none: the text is no such list, or one of
+/// more than a thousand.
+std::optional<std::vector<int>> seed_list(std::string_view text);
 
 /// Refuses a table whose key is not `present`. Throws SceneError.
 void need(const Entry& entry, const char* key, bool present);

@@ -16,6 +16,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/python.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/version.hpp"
 
@@ -24,7 +25,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <utility>
 
 namespace listric {
 
@@ -35,14 +38,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Facts from the summary of a finished run; both empty if there is none.
-struct FinishedRun {
-    std::string hash;
-    std::string made_by; ///< version and commit of Listric
-};
-
-/// Throws UsageError if the folder has a run of another accuracy or seed.
-FinishedRun finished_run(const fs::path& folder, const std::string& accuracy, int seed) {
+/// Facts from the summary of a finished run, measured by this program; without state hash: there is
+/// none. Throws UsageError if the folder has a run of another accuracy or seed.
+Origin finished_run(const fs::path& folder, const std::string& accuracy, int seed) {
     const JsonObject json = object_in(folder / "summary.json");
     if (!is_true_at(json, "finished"))
         return {};
@@ -54,8 +52,9 @@ FinishedRun finished_run(const fs::path& folder, const std::string& accuracy, in
                                      folder.string(), has, has_seed, accuracy, seed));
     const JsonObject from = object_at(json, "provenance");
     const std::string commit = text_at(from, "commit");
-    return {text_at(json, "state_hash"),
-            text_at(from, "version") + (commit.empty() ? "" : "+" + commit)};
+    return {text_at(json, "state_hash"), text_at(from, "scene_hash"),
+            text_at(from, "version") + (commit.empty() ? "" : "+" + commit), std::string(version),
+            std::string(measures_hash)};
 }
 
 fs::path document_of(const ValidationRequest& request, const fs::path& runs) {
@@ -76,19 +75,33 @@ void check_accuracy(const std::string& accuracy) {
             fmt::format("--accuracy {}: there are {}", accuracy, fmt::join(levels, ", ")));
 }
 
-std::vector<ValidationExperiment> chosen(const ValidationPlan& plan,
-                                         const std::optional<std::string>& only) {
-    std::vector<ValidationExperiment> result;
+/// Names of the runs of the experiments that a call asks for. Throws UsageError.
+std::set<std::string> chosen_runs(const ValidationPlan& plan,
+                                  const std::vector<std::string>& only) {
+    std::set<std::string> runs;
     std::vector<std::string_view> names;
     for (const ValidationExperiment& x : plan.experiments) {
         names.push_back(x.name);
-        if (!only || *only == x.name)
-            result.push_back(x);
+        if (only.empty() || std::ranges::find(only, x.name) != only.end())
+            runs.insert(x.runs.begin(), x.runs.end());
     }
-    if (result.empty())
-        throw UsageError(
-            fmt::format("--only {}: there are {}", only.value_or(""), fmt::join(names, ", ")));
-    return result;
+    for (const std::string& name : only)
+        if (std::ranges::find(names, name) == names.end())
+            throw UsageError(fmt::format("--only {}: there are {}", name, fmt::join(names, ", ")));
+    return runs;
+}
+
+/// Seeds of this call: those asked for, those of the plan, or five.
+std::vector<int> seeds_of_call(const ValidationRequest& request, const ValidationPlan& plan) {
+    return !request.seeds.empty() ? request.seeds
+           : !plan.seeds.empty()  ? plan.seeds
+                                  : std::vector{1, 2, 3, 4, 5};
+}
+
+/// Seeds of the document: the plan's, to which a call may add some of; else those of the call.
+std::vector<int> seeds_of_document(const ValidationRequest& request, const ValidationPlan& plan) {
+    const std::vector<int> asked = seeds_of_call(request, plan);
+    return std::ranges::includes(plan.seeds, asked) ? plan.seeds : asked;
 }
 
 /// Drives runs, measures and pictures; what they say is validation_report's.
@@ -98,18 +111,18 @@ public:
         : request_(request),
           runs_(request.runs.empty() ? fs::path("out/validation-" + request.accuracy)
                                      : request.runs),
-          document_(document_of(request, runs_)), findings_{plan,
-                                                            request.plan.empty()
-                                                                ? "apps/studies/validation.toml"
-                                                                : request.plan.string(),
-                                                            chosen(plan, request.only),
-                                                            store_,
-                                                            {},
-                                                            request.accuracy,
-                                                            request.first_seed,
-                                                            request.seeds,
-                                                            document_.parent_path() /
-                                                                document_.stem()} {
+          document_(document_of(request, runs_)), names_(chosen_runs(plan, request.only)),
+          seeds_(seeds_of_call(request, plan)), findings_{plan,
+                                                          request.plan.empty()
+                                                              ? "apps/studies/validation.toml"
+                                                              : request.plan.string(),
+                                                          {},
+                                                          {},
+                                                          store_,
+                                                          request.accuracy,
+                                                          seeds_of_document(request, plan),
+                                                          document_.parent_path() /
+                                                              document_.stem()} {
         fs::create_directories(findings_.beside);
         try {
             store_ = read_store(findings_.beside / "measures.csv");
@@ -120,17 +133,18 @@ public:
     }
 
     void carry_out() {
-        std::set<std::string> names;
-        for (const ValidationExperiment& x : findings_.experiments)
-            names.insert(x.runs.begin(), x.runs.end());
+        check_record();
         if (!request_.without_runs)
-            make_missing(names);
-        for (const std::string& name : names)
+            make_missing();
+        for (const std::string& name : names_)
             measure_runs(findings_.plan.run(name));
         save_measures();
+        choose_experiments();
         for (const ValidationExperiment& x : findings_.experiments)
             for (const ValidationPicture& picture : x.pictures)
                 draw(picture);
+        write_text(findings_.beside / "verdicts.json", validation_chart(findings_));
+        draw_or_warn("verdicts.py", {fs::absolute(findings_.beside).string()});
         write_text(document_, validation_document(findings_));
         log_.say(document_.string());
     }
@@ -143,8 +157,73 @@ private:
     fs::path folder_of(const ValidationRun& run, int seed) const {
         return runs_ / run_name(run.name, seed);
     }
-    FinishedRun finished(const ValidationRun& run, int seed) const {
+    Origin finished(const ValidationRun& run, int seed) const {
         return finished_run(folder_of(run, seed), accuracy_of(run), seed);
+    }
+
+    /// Seeds of a run that this call is about.
+    std::vector<int> asked_of(const ValidationRun& run) const {
+        std::vector<int> seeds;
+        std::ranges::copy_if(findings_.seeds_of(run), std::back_inserter(seeds), [&](int seed) {
+            return std::ranges::find(seeds_, seed) != seeds_.end();
+        });
+        return seeds;
+    }
+
+    /// Experiments of the document: those that are recorded, in this call or before.
+    void choose_experiments() {
+        for (const ValidationExperiment& x : findings_.plan.experiments) {
+            const ValidationRun& first = findings_.plan.run(x.runs.front());
+            if (std::ranges::any_of(findings_.seeds_of(first),
+                                    [&](int seed) { return findings_.is_recorded(first, seed); }))
+                findings_.experiments.push_back(x);
+            else
+                findings_.missing.push_back(x.name);
+        }
+    }
+
+    /// Whether this call measures a run, if it finds or makes it.
+    bool is_to_be_measured(const ValidationRun& run, int seed) const {
+        const bool recorded = findings_.is_recorded(run, seed);
+        if (recorded && !request_.remeasure)
+            return false;
+        return (!recorded && !request_.without_runs) || !finished(run, seed).state_hash.empty();
+    }
+
+    /// Refuses to add to a record whose measures have other definitions than this program's, or
+    /// whose runs have other parameters than the plan's, before any run is made.
+    void check_record() const {
+        std::set<std::pair<std::string, int>> anew;
+        for (const std::string& name : names_) {
+            const ValidationRun& run = findings_.plan.run(name);
+            for (int seed : asked_of(run))
+                if (is_to_be_measured(run, seed))
+                    anew.emplace(name, seed);
+        }
+        if (anew.empty() || request_.mixed)
+            return;
+        const auto refuse = [&](const MeasuredPlace& place, const std::string& what) {
+            throw UsageError(fmt::format(
+                "{}: {} {}; another --output begins another record, --remeasure measures runs that "
+                "are still there again, --mixed adds all the same",
+                (findings_.beside / "measures.csv").string(), run_name(place.run, place.seed),
+                what));
+        };
+        for (const auto& [place, m] : store_) {
+            if (anew.contains({place.run, place.seed}))
+                continue;
+            if (m.from.measures_hash != measures_hash)
+                refuse(place, fmt::format("was measured by other definitions ({} by Listric {}) "
+                                          "than this program's ({})",
+                                          m.from.measures_hash, m.from.measured_by, measures_hash));
+            const auto run =
+                std::ranges::find(findings_.plan.runs, place.run, &ValidationRun::name);
+            if (run != findings_.plan.runs.end() && !m.from.scene_hash.empty() &&
+                m.from.scene_hash != fmt::format("{:016x}", scene_hash(scene_of(*run, place.seed))))
+                refuse(place, fmt::format("was run with other parameters (scene {}) than the "
+                                          "plan has",
+                                          m.from.scene_hash));
+        }
     }
 
     Scene scene_of(const ValidationRun& run, int seed) const {
@@ -175,20 +254,21 @@ private:
                                          file.string()));
     }
 
-    /// Makes the runs that are not there.
-    void make_missing(const std::set<std::string>& names) {
+    /// Makes the runs that are neither recorded nor there.
+    void make_missing() {
         std::size_t all = 0;
-        for (const std::string& name : names)
-            all += findings_.seeds_of(findings_.plan.run(name)).size();
+        for (const std::string& name : names_)
+            all += asked_of(findings_.plan.run(name)).size();
         if (all > static_cast<std::size_t>(most_runs))
-            throw UsageError(fmt::format("--seeds {}: the plan needs {} runs, allowed: at most {}",
-                                         request_.seeds, all, most_runs));
+            throw UsageError(fmt::format("--seeds: the plan needs {} runs with {} seeds, allowed: "
+                                         "at most {}",
+                                         all, seeds_.size(), most_runs));
         std::vector<BatchRun> runs;
-        for (const std::string& name : names) {
+        for (const std::string& name : names_) {
             const ValidationRun& run = findings_.plan.run(name);
-            for (int seed : findings_.seeds_of(run)) {
+            for (int seed : asked_of(run)) {
                 request_.stop.check();
-                if (!finished(run, seed).hash.empty())
+                if (!finished(run, seed).state_hash.empty() || findings_.is_recorded(run, seed))
                     continue;
                 RunOptions options;
                 options.output = folder_of(run, seed);
@@ -205,33 +285,36 @@ private:
             require_finished(runs[k], endings[k]);
     }
 
-    /// The runs that are there, by seed.
+    /// Measures the runs that are there and not recorded, or all again.
     void measure_runs(const ValidationRun& run) {
-        bool measured = false;
-        for (int seed : findings_.seeds_of(run)) {
-            const auto [found, made_by] = finished(run, seed);
-            const std::string& hash = found; // clang 14 captures no structured binding
-            if (hash.empty())
+        for (int seed : asked_of(run)) {
+            const Origin from = finished(run, seed);
+            if (from.state_hash.empty())
                 continue;
             check_scene_of(run, seed);
-            findings_.finished.insert(run_name(run.name, seed));
-            const bool anew = request_.remeasure && !renewed_.contains(run.name);
-            const bool known = !anew && std::ranges::all_of(run.at, [&](double at) {
-                const auto m = store_.find({run.name, seed, at});
-                return m != store_.end() && m->second.hash == hash;
-            });
-            if (known)
+            if (!request_.remeasure)
+                check_recorded(run, seed, from);
+            if (!is_to_be_measured(run, seed))
                 continue;
             request_.stop.check();
             log_.say(fmt::format("measuring {}", folder_of(run, seed).string()));
             for (auto& [at, numbers] : examine_run(folder_of(run, seed), run.at))
-                store_[{run.name, seed, at}] = {
-                    hash, made_by, std::string(version), {numbers.begin(), numbers.end()}};
+                store_[{run.name, seed, at}] = {from, {numbers.begin(), numbers.end()}};
             save_measures(); // keeps the measures, whatever comes next
-            measured = true;
-        }
-        if (measured)
             renewed_.insert(run.name);
+        }
+    }
+
+    /// Refuses measures of one run in the place of another's.
+    void check_recorded(const ValidationRun& run, int seed, const Origin& from) const {
+        for (double at : run.at)
+            if (const auto m = store_.find({run.name, seed, at});
+                m != store_.end() && m->second.from.state_hash != from.state_hash)
+                throw UsageError(fmt::format(
+                    "{}: is the run with state hash {}, and {} has measures of the one with {}; "
+                    "--remeasure takes the run that is there",
+                    folder_of(run, seed).string(), from.state_hash,
+                    (findings_.beside / "measures.csv").string(), m->second.from.state_hash));
     }
 
     /// A state on a picture.
@@ -242,8 +325,8 @@ private:
     };
 
     /// The states of a picture that are there; none if those of a row are missing, since half of a
-    /// comparison shows nothing.
-    std::vector<Frame> frames_of(const ValidationPicture& picture) const {
+    /// comparison shows nothing, or if a picture is there that shows more.
+    std::vector<Frame> frames_of(const ValidationPicture& picture, bool whole) const {
         std::vector<Frame> frames;
         for (const auto& row : picture.rows) {
             const ValidationRun& run = findings_.plan.run(row.run);
@@ -252,9 +335,9 @@ private:
                 seeds.resize(static_cast<std::size_t>(row.seeds));
             const std::size_t before = frames.size();
             for (int seed : seeds)
-                if (!finished(run, seed).hash.empty())
+                if (!finished(run, seed).state_hash.empty())
                     frames.push_back({row.run, seed, row.at});
-            if (frames.size() == before)
+            if (frames.size() == before || (whole && frames.size() < before + seeds.size()))
                 return {};
         }
         return frames;
@@ -263,7 +346,7 @@ private:
     /// Draws a picture that is not there or has a run that was measured in this call.
     void draw(const ValidationPicture& picture) {
         const fs::path file = findings_.beside / (picture.name + ".png");
-        const std::vector<Frame> frames = frames_of(picture);
+        const std::vector<Frame> frames = frames_of(picture, fs::exists(file));
         const bool renewed =
             !fs::exists(file) || std::ranges::any_of(picture.rows, [&](const auto& row) {
                 return renewed_.contains(row.run);
@@ -293,6 +376,8 @@ private:
 
     const ValidationRequest& request_;
     fs::path runs_, document_;
+    std::set<std::string> names_; ///< of the runs that this call is about
+    std::vector<int> seeds_;      ///< that this call is about
     MeasureStore store_;
     ValidationFindings findings_;
     std::set<std::string> renewed_; ///< runs that were measured in this call

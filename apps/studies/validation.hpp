@@ -3,30 +3,31 @@
 #include "apps/support/stop.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace listric {
 
 /// A call of `listric validate`.
 struct ValidationRequest {
     std::string accuracy = "standard";
-    int first_seed = 1;
-    int seeds = 5;
-    int jobs = 1;                    ///< runs at a time
-    int threads = 1;                 ///< of a run
-    std::filesystem::path runs;      ///< folder of the runs; empty: out/validation-ACCURACY
-    std::filesystem::path output;    ///< document; empty: validation.md beside the runs
-    std::filesystem::path plan;      ///< empty: apps/studies/validation.toml
-    std::optional<std::string> only; ///< one experiment
-    bool remeasure = false;          ///< even runs that are measured already
-    bool without_runs = false;       ///< takes the runs that are there
+    std::vector<int> seeds;        ///< that this call runs and measures; empty: those of the plan
+    int jobs = 1;                  ///< runs at a time
+    int threads = 1;               ///< of a run
+    std::filesystem::path runs;    ///< folder of the runs; empty: out/validation-ACCURACY
+    std::filesystem::path output;  ///< document; empty: validation.md beside the runs
+    std::filesystem::path plan;    ///< empty: apps/studies/validation.toml
+    std::vector<std::string> only; ///< experiments; empty: all
+    bool remeasure = false;        ///< even runs that are measured already
+    bool without_runs = false;     ///< takes the runs that are there
+    bool mixed = false;            ///< adds to a record of other definitions or parameters
     bool quiet = false;
     StopToken stop = {};
 };
 
-/// Makes the runs that are missing, measures them from their snapshots and writes the document
-/// beside a folder of the same name with pictures and measures.csv. Throws UsageError, SceneError,
+/// Makes the runs that are not recorded, measures them from their snapshots and writes the document
+/// beside a folder of the same name with pictures and measures.csv, the record: what is in it
+/// stays, without its runs, and later calls add to it. Throws UsageError, SceneError,
 /// NumericalFailure, StorageError, Interrupted: runs and measures are kept, the same call goes on.
 void run_validation(const ValidationRequest& request);
 

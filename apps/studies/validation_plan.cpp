@@ -5,6 +5,7 @@
 #include "apps/scene/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/spelling.hpp"
+#include "apps/support/statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -22,9 +23,9 @@ const Shelf validation_shelf{"validation plan", "it needs [[run]] and [[experime
                              "studies"};
 
 /// The names of an enumeration's values, in their order.
-const std::vector<std::string_view> kinds = {"kinematics", "faults", "conservation"};
-const std::vector<std::string_view> needs = {"each", "most", "mean"};
-const std::vector<std::string_view> absences = {"missed", "met"};
+const std::vector<std::string_view> kinds = {"faults", "kinematics", "conservation"};
+const std::vector<std::string_view> verdicts = {"no run yet", "reported",  "no case", "shown",
+                                                "open",       "not shown", "met",     "missed"};
 
 /// A run as the file says it.
 struct RunText {
@@ -58,8 +59,6 @@ const std::vector<Parameter>& expectation_parameters() {
     using E = Expectation;
     static const std::vector<Parameter> parameters{
         {"kind", one_of<&E::kind>(kinds), "", {}, "", ""},
-        {"needed", one_of<&E::needed>(needs), "", {}, "", "seeds that must meet it"},
-        {"absent", one_of<&E::absent>(absences), "", {}, "", "without a value"},
         {"measure", at<&E::measure>, "", {}, "", "name"},
         {"what", at<&E::what>, "", {}, "", "for people"},
         {"run", at<&E::run>, "", {}, "", "default: the first"},
@@ -72,7 +71,9 @@ const std::vector<Parameter>& expectation_parameters() {
         {"tolerance", at<&E::tolerance>, "", {.from = 0}, "", ""},
         {"least", at<&E::least>, "", {}, "", ""},
         {"most", at<&E::most>, "", {}, "", ""},
-        {"source", at<&E::source>, "", {}, "", "who expects it"}};
+        {"words", at<&E::words>, "", {}, "", "quoted: what says so"},
+        {"source", at<&E::source>, "", {}, "", "figure and moment, or formula"},
+        {"reason", at<&E::reason>, "", {}, "", "why it has no verdict"}};
     return parameters;
 }
 
@@ -83,6 +84,8 @@ Expectation read_expectation(const Entry& entry) {
     need(entry, "what", !e.what.empty());
     if (e.expected && (e.least || e.most))
         fail(entry, "has expected and least or most: one or the other");
+    if (e.is_judged() && !e.reason.empty())
+        fail(entry, "has bounds and a reason to have none: one or the other");
     return e;
 }
 
@@ -106,10 +109,32 @@ ValidationPicture read_picture(const Entry& entry) {
     return picture;
 }
 
+DroppedRow read_dropped(const Entry& entry) {
+    DroppedRow row;
+    read_table(entry,
+               {{"what", at<&DroppedRow::what>, "", {}, "", "row that was"},
+                {"asked", at<&DroppedRow::asked>, "", {}, "", "expected once"},
+                {"reason", at<&DroppedRow::reason>, "", {}, "", "why it is no more"}},
+               &row);
+    need(entry, "what", !row.what.empty());
+    need(entry, "reason", !row.reason.empty());
+    return row;
+}
+
+/// Seeds of a key that may be absent. Throws SceneError.
+std::vector<int> read_seeds(const Entry& entry, const char* key, const std::string& text) {
+    if (text.empty())
+        return {};
+    if (const auto seeds = seed_list(text))
+        return *seeds;
+    fail({*entry.node.as_table()->get(key), entry.path.empty() ? key : entry.path + "." + key},
+         fmt::format("{} is no list of seeds, such as 51-56,60", text));
+}
+
 /// An experiment as the file says it.
 struct ExperimentText {
     ValidationExperiment experiment;
-    std::string runs;
+    std::string runs, seen_of;
 };
 
 /// Expectations of an experiment for other runs in the places of its own. Without those that
@@ -142,13 +167,15 @@ read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& bef
         {"title", at<&T::experiment, &X::title>, "", {}, "", "heading"},
         {"about", at<&T::experiment, &X::about>, "", {}, "", "before the table"},
         {"seen", at<&T::experiment, &X::seen>, "", {}, "", "in the pictures"},
+        {"seen_of", at<&T::seen_of>, "", {}, "", "seeds of these pictures"},
         {"runs", at<&T::runs>, "", {}, "", "names of runs; the first is judged"},
         {"like", at<&T::experiment, &X::like>, "", {}, "", "has this one's expectations, too"},
         {"compare", at<&T::experiment, &X::compare>, "", {}, "", "run whose values stand beside"}};
     ExperimentText text;
-    read_table(entry, parameters, &text, {"expect", "picture"});
+    read_table(entry, parameters, &text, {"expect", "dropped", "picture"});
     ValidationExperiment& x = text.experiment;
     x.runs = words(text.runs);
+    x.seen_of = read_seeds(entry, "seen_of", text.seen_of);
     need(entry, "name", !x.name.empty());
     need(entry, "runs", !x.runs.empty());
     if (!x.like.empty()) {
@@ -164,6 +191,9 @@ read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& bef
         if (x.expectations.back().run.empty())
             x.expectations.back().run = x.runs.front();
     }
+    std::ranges::stable_sort(x.expectations, {}, &Expectation::kind);
+    for (const Entry& item : tables(entry, "dropped"))
+        x.dropped.push_back(read_dropped(item));
     for (const Entry& item : tables(entry, "picture"))
         x.pictures.push_back(read_picture(item));
     return x;
@@ -180,18 +210,21 @@ std::vector<std::string> effects_of(const ValidationPlan& plan) {
 }
 
 /// A plan's own keys.
-struct ExtensionText {
-    std::string extends;
+struct PlanText {
+    std::string extends, seeds;
 };
 
 /// @param extended  by another: then it cannot extend a third, or itself
 ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
     const toml::table document = validation_shelf.read(file);
     const Entry top{document, ""};
-    ExtensionText text;
-    read_table(top, {{"extends", at<&ExtensionText::extends>, "", {}, "", "a plan"}}, &text,
-               {"run", "experiment"});
+    PlanText text;
+    read_table(top,
+               {{"extends", at<&PlanText::extends>, "", {}, "", "a plan"},
+                {"seeds", at<&PlanText::seeds>, "", {}, "", "of the record"}},
+               &text, {"run", "experiment"});
     ValidationPlan plan;
+    plan.seeds = read_seeds(top, "seeds", text.seeds);
     std::vector<ValidationExperiment> known; // that others can be like
     if (const std::string& other = text.extends; !other.empty()) {
         if (extended)
@@ -274,37 +307,37 @@ std::string Expectation::target() const {
 
 std::string_view name_of(Expectation::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
+std::string_view name_of(Verdict::Name name) { return verdicts[static_cast<std::size_t>(name)]; }
+
 Verdict judge(const Expectation& e, std::span<const std::optional<double>> values) {
+    using enum Verdict::Name;
     Verdict v;
-    double sum = 0.0, count = 0.0;
     for (const auto& value : values) {
-        ++v.of;
-        v.met += value ? e.meets(*value) : e.absent == Expectation::Absent::met;
-        if (value) {
-            sum += *value;
-            count += 1.0;
-        }
+        v.of += value.has_value();
+        v.no_case += !value;
+        v.met += value && e.meets(*value);
     }
-    if (v.of == 0) {
-        v.text = "no run yet";
-        return v;
-    }
-    if (!e.is_judged()) {
-        v.text = "reported";
-        return v;
-    }
-    using enum Expectation::Needed;
-    const bool mean_met = count > 0.0 ? e.meets(sum / count) : e.absent == Expectation::Absent::met;
-    v.fulfilled = e.needed == mean ? mean_met : e.needed == most ? 2 * v.met > v.of : v.met == v.of;
-    const std::string share = fmt::format("{} of {}", v.met, v.of);
-    if (e.needed == mean)
-        v.text = fmt::format("{} by the mean ({} seeds)", mean_met ? "met" : "missed", share);
-    else if (v.met == v.of)
-        v.text = fmt::format("met ({})", share);
-    else if (v.met == 0)
-        v.text = fmt::format("missed (0 of {})", v.of);
+    const ProbabilityLimits limits = probability_limits(v.met, v.of);
+    v.lower = limits.lower;
+    v.upper = limits.upper;
+    const bool often = e.kind == Expectation::Kind::faults;
+    if (values.empty())
+        v.name = no_run;
+    else if (!e.is_judged())
+        v.name = reported;
+    else if (v.of == 0)
+        v.name = no_case;
+    else if (often)
+        v.name = v.lower > 0.5 ? shown : v.upper < 0.5 ? not_shown : open;
     else
-        v.text = fmt::format("{} in {} seeds", v.fulfilled ? "met" : "missed: met", share);
+        v.name = v.met == v.of ? met : missed;
+    v.text = name_of(v.name);
+    if (e.is_judged() && v.of > 0) {
+        v.text += fmt::format(" ({} of {}", v.met, v.of);
+        v.text += often ? fmt::format(": {:.2f} to {:.2f})", v.lower, v.upper) : ")";
+        if (v.no_case > 0)
+            v.text += fmt::format(", {} no case", v.no_case);
+    }
     return v;
 }
 

@@ -23,12 +23,10 @@ struct ValidationRun {
 
 /// Expectation of a measure, with its source.
 struct Expectation {
-    enum class Kind { kinematics, faults, conservation } kind = Kind::faults;
-    enum class Needed { each, most, mean } needed = Needed::each; ///< of the seeds
-    enum class Absent { missed, met } absent = Absent::missed;    ///< where there is no value
-    std::string measure;                                          ///< name in docs/measures.md
-    std::string what;                                             ///< for people
-    std::string run;                                              ///< empty: the experiment's first
+    enum class Kind { faults, kinematics, conservation } kind = Kind::faults;
+    std::string measure;               ///< name in docs/measures.md
+    std::string what;                  ///< for people
+    std::string run;                   ///< empty: the experiment's first
     std::string minus;                 ///< the run whose value is taken off, seed by seed
     std::optional<double> at;          ///< extension, m; default: the run's last
     std::optional<double> since;       ///< extension whose value is taken off, m
@@ -37,7 +35,9 @@ struct Expectation {
     std::optional<double> expected;    ///< within the tolerance,
     double tolerance = 0.0;            ///<
     std::optional<double> least, most; ///< or between these; none of all: reported
-    std::string source;
+    std::string words;                 ///< of the published text that say so
+    std::string source;                ///< figure and moment of the words, or the formula
+    std::string reason;                ///< why it is only reported
 
     bool is_judged() const { return expected || least || most; }
     bool meets(double value) const;
@@ -57,18 +57,26 @@ struct ValidationPicture {
     std::vector<Row> rows;
 };
 
+/// A row that was asked for once and is no more.
+struct DroppedRow {
+    std::string what, asked, reason;
+};
+
 struct ValidationExperiment {
     std::string name, title;
-    std::string about; ///< before the table
-    std::string seen;  ///< people's reading of the pictures of the standard runs
+    std::string about;        ///< before the table
+    std::string seen;         ///< people's reading of the pictures of the standard runs
+    std::vector<int> seen_of; ///< seeds that this reading is about
     std::vector<std::string> runs;
     std::string like;    ///< an experiment whose expectations it has, of its own runs
     std::string compare; ///< a run whose values stand beside the first's
-    std::vector<Expectation> expectations;
+    std::vector<Expectation> expectations; ///< faults, kinematics, conservation, in that order
+    std::vector<DroppedRow> dropped;
     std::vector<ValidationPicture> pictures;
 };
 
 struct ValidationPlan {
+    std::vector<int> seeds; ///< of the record; empty: it has no seeds of its own
     std::vector<ValidationRun> runs;
     std::vector<ValidationExperiment> experiments;
 
@@ -80,13 +88,25 @@ struct ValidationPlan {
 ValidationPlan load_validation_plan(const std::filesystem::path& file);
 
 /// Verdict of the seeds on an expectation.
+///
+/// A row of faults asks how often a packing does that: *shown* is more often than not, *not shown*
+/// less often than not, each at a confidence of 95 % (the limits of probability_limits() above or
+/// below one half), *open* neither. Kinematics and conservation have to hold in every seed.
 struct Verdict {
-    int met = 0, of = 0;
-    bool fulfilled = false; ///< as far as the expectation needs
-    std::string text;       ///< "met", "in 3 of 5 seeds", "missed", "reported", "no run yet"
+    enum class Name { no_run, reported, no_case, shown, open, not_shown, met, missed };
+    Name name = Name::no_run;
+    int met = 0, of = 0;             ///< seeds that have a value
+    int no_case = 0;                 ///< seeds that have none
+    double lower = 0.0, upper = 1.0; ///< limits of the probability that a seed meets it
+    std::string text; ///< "shown (18 of 20: 0.72 to 0.98)", "missed (4 of 5)", "reported"
+
+    bool is_good() const { return name == Name::shown || name == Name::met; }
 };
 
-/// @param values  one per seed; none: the measure has no meaning there
+/// "not shown"
+std::string_view name_of(Verdict::Name name);
+
+/// @param values  one per seed; none: the measure has no meaning there, so it is no case
 Verdict judge(const Expectation& expectation, std::span<const std::optional<double>> values);
 
 } // namespace listric

@@ -1,13 +1,14 @@
 #include "apps/studies/validation_report.hpp"
 
+#include "apps/support/json_text.hpp"
 #include "apps/support/statistics.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
-#include <numeric>
+#include <array>
+#include <set>
 #include <utility>
 
 namespace listric {
@@ -15,6 +16,8 @@ namespace listric {
 namespace {
 
 namespace fs = std::filesystem;
+using Kind = Expectation::Kind;
+using VerdictName = Verdict::Name;
 
 /// "38.20 ± 0.03 (38.17 to 38.24)"
 std::string summary(const Expectation& e, const std::vector<std::optional<double>>& all) {
@@ -35,77 +38,200 @@ std::string summary(const Expectation& e, const std::vector<std::optional<double
     return text;
 }
 
-/// Names of an experiment's runs: those that are there, and all.
-std::pair<std::set<std::string>, std::set<std::string>> runs_of(const ValidationFindings& f,
-                                                                const ValidationExperiment& x) {
-    std::set<std::string> present, all;
-    for (const std::string& name : x.runs)
-        for (int seed : f.seeds_of(f.plan.run(name)))
-            all.insert(run_name(name, seed));
-    std::ranges::set_intersection(all, f.finished, std::inserter(present, present.end()));
-    return {present, all};
-}
-
-/// "The runs were made by Listric 0.2.0+abc, their measures taken by 0.2.0+def.", of all runs.
-std::string makers(const ValidationFindings& f, const std::set<std::string>& runs) {
-    std::set<std::string> made, measured;
-    for (const auto& [place, m] : f.store)
-        if (runs.contains(run_name(place.run, place.seed))) {
-            made.insert(m.made_by.empty() ? "a version that is not recorded" : m.made_by);
-            measured.insert(m.measured_by.empty() ? "one that is not recorded" : m.measured_by);
-        }
-    return made.empty() ? ""
-                        : fmt::format("The runs were made by Listric {}, their measures taken by "
-                                      "{}.\n\n",
-                                      fmt::join(made, ", "), fmt::join(measured, ", "));
-}
-
-/// Introduction of the document, and how to read it.
-std::string introduction(const ValidationFindings& f) {
-    std::set<std::string> wanted, there; // experiments may share runs
-    for (const ValidationExperiment& x : f.experiments) {
-        auto [present, all] = runs_of(f, x);
-        there.merge(present);
-        wanted.merge(all);
+/// "51 to 56, 60"
+std::string seeds_text(const std::vector<int>& seeds) {
+    std::vector<std::string> parts;
+    for (std::size_t k = 0; k < seeds.size();) {
+        std::size_t end = k + 1;
+        while (end < seeds.size() && seeds[end] == seeds[end - 1] + 1)
+            ++end;
+        if (end == k + 1)
+            parts.push_back(fmt::format("{}", seeds[k]));
+        else
+            parts.push_back(fmt::format("{} to {}", seeds[k], seeds[end - 1]));
+        k = end;
     }
-    std::string text = fmt::format(
-        "# Validation\n\n"
-        "Made by `listric validate` from the files of {} of {} runs at accuracy {}, up to {} "
-        "seeds each{}; do not edit. What is expected, and by whom, is in "
-        "`{}`; `docs/measures.md` defines the measures; "
-        "[measures.csv]({}/measures.csv) has every number.\n\n",
-        there.size(), wanted.size(), f.accuracy, f.seeds,
-        f.first_seed == 1 ? "" : fmt::format(", from {} on", f.first_seed), f.plan_name,
-        f.beside.filename().string());
-    return text + makers(f, there) +
-           "A value is the mean over the seeds ± its standard deviation (smallest to "
-           "largest). *Met* is the number of seeds that fulfil the expectation; where it requires "
-           "most seeds or the mean, that decides. Rows of kind *kinematics* check the "
-           "machinery: a hanging wall that slides on that detachment has them with any "
-           "material, faults or none, so meeting them proves nothing about faults. Rows of kind "
-           "*faults* are the subject of the paper. Rows of kind *conservation* are "
-           "bookkeeping.\n\n";
+    return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// How many expectations of each kind are met, by experiment.
-std::string overview(const ValidationFindings& f) {
-    std::string text = "| experiment | runs | kinematics | faults | conservation |\n"
-                       "|---|---|---|---|---|\n";
-    for (const ValidationExperiment& x : f.experiments) {
-        const auto [present, all] = runs_of(f, x);
-        text += fmt::format("| {} | {} of {} |", x.title, present.size(), all.size());
-        for (auto kind : {Expectation::Kind::kinematics, Expectation::Kind::faults,
-                          Expectation::Kind::conservation}) {
-            int met = 0, judged = 0;
-            for (const Expectation& e : x.expectations)
-                if (const Verdict v = judge(e, f.values(e, e.run));
-                    e.kind == kind && v.of > 0 && e.is_judged()) {
-                    ++judged;
-                    met += v.fulfilled;
-                }
-            text += judged ? fmt::format(" {} of {} |", met, judged) : " |";
+/// Seeds of a run by whether they are recorded: those that are, and those that are not.
+std::pair<std::vector<int>, std::vector<int>> recorded_seeds(const ValidationFindings& f,
+                                                             const ValidationRun& run) {
+    std::pair<std::vector<int>, std::vector<int>> seeds;
+    for (int seed : f.seeds_of(run))
+        (f.is_recorded(run, seed) ? seeds.first : seeds.second).push_back(seed);
+    return seeds;
+}
+
+/// "6 of 20": seeds of an experiment's first run that are recorded.
+std::string seeds_so_far(const ValidationFindings& f, const ValidationExperiment& x) {
+    const auto [there, missing] = recorded_seeds(f, f.plan.run(x.runs.front()));
+    return fmt::format("{} of {}", there.size(), there.size() + missing.size());
+}
+
+/// Rows of an experiment's kind by verdict.
+std::array<int, 8> tally(const ValidationFindings& f, const ValidationExperiment& x, Kind kind) {
+    std::array<int, 8> count{};
+    for (const Expectation& e : x.expectations)
+        if (e.kind == kind && e.is_judged())
+            ++count[static_cast<std::size_t>(f.verdict(e).name)];
+    return count;
+}
+
+int rows_with(const std::array<int, 8>& count, VerdictName name) {
+    return count[static_cast<std::size_t>(name)];
+}
+
+/// "7 of 7": rows that hold in every seed; empty where there is none.
+std::string held(const ValidationFindings& f, const ValidationExperiment& x, Kind kind) {
+    const std::array<int, 8> count = tally(f, x, kind);
+    const int met = rows_with(count, VerdictName::met),
+              all = met + rows_with(count, VerdictName::missed);
+    return all > 0 ? fmt::format("{} of {}", met, all) : "";
+}
+
+/// Whether an experiment's faults are what the document is about: several seeds, and not beside an
+/// experiment that it is like.
+bool is_main(const ValidationFindings& f, const ValidationExperiment& x) {
+    return std::ranges::find(f.experiments, x.like, &ValidationExperiment::name) ==
+               f.experiments.end() &&
+           f.plan.run(x.runs.front()).seeds != 1 &&
+           std::ranges::any_of(x.expectations, [](const Expectation& e) {
+               return e.kind == Kind::faults && e.is_judged();
+           });
+}
+
+/// Short name of an experiment: "LIS1" of "LIS1: listric detachment", or the one in the plan.
+std::string short_name(const ValidationExperiment& x) {
+    return x.like.empty() ? x.title.substr(0, x.title.find(':')) : x.name;
+}
+
+/// Origin of the record: who made the runs and who measured them, and a warning of mixtures.
+std::string origins(const ValidationFindings& f) {
+    std::set<std::string> runs, made, measured, definitions;
+    const auto known = [](const std::string& text, const char* unknown) {
+        return text.empty() ? unknown : text;
+    };
+    for (const ValidationExperiment& x : f.experiments)
+        runs.insert(x.runs.begin(), x.runs.end());
+    for (const auto& [place, m] : f.store)
+        if (runs.contains(place.run) && std::ranges::find(f.seeds, place.seed) != f.seeds.end()) {
+            made.insert(known(m.from.made_by, "a version that is not recorded"));
+            measured.insert(known(m.from.measured_by, "one that is not recorded"));
+            definitions.insert(known(m.from.measures_hash, "not recorded"));
         }
-        text += '\n';
+    if (made.empty())
+        return "";
+    std::string text =
+        fmt::format("The runs were made by Listric {}, their measures taken by {} "
+                    "(definitions {}).",
+                    fmt::join(made, ", "), fmt::join(measured, ", "), fmt::join(definitions, ", "));
+    if (definitions.size() > 1)
+        text += " **This record is mixed**: its measures have several definitions.";
+    return text + "\n\n";
+}
+
+/// "LIS1: 13 of 18 criteria shown, 4 open, 1 not shown: two grabens (20 of 20 seeds)."
+std::string sentence(const ValidationFindings& f, const ValidationExperiment& x) {
+    const std::array<int, 8> count = tally(f, x, Kind::faults);
+    std::vector<std::string> missing;
+    for (const Expectation& e : x.expectations)
+        if (e.kind == Kind::faults && e.is_judged() && f.verdict(e).name == VerdictName::not_shown)
+            missing.push_back(e.what);
+    const int all = rows_with(count, VerdictName::shown) + rows_with(count, VerdictName::open) +
+                    rows_with(count, VerdictName::not_shown);
+    if (all == 0)
+        return fmt::format("{}: no criterion is measured.", short_name(x));
+    std::string text =
+        fmt::format("{}: {} of {} criteria shown, {} open, {} not shown", short_name(x),
+                    rows_with(count, VerdictName::shown), all, rows_with(count, VerdictName::open),
+                    rows_with(count, VerdictName::not_shown));
+    if (!missing.empty())
+        text += fmt::format(": {}", fmt::join(missing, "; "));
+    if (const int none = rows_with(count, VerdictName::no_case); none > 0)
+        text += fmt::format("; {} without a case", none);
+    return text + fmt::format(" ({} seeds).", seeds_so_far(f, x));
+}
+
+/// The findings in as many sentences as there are experiments, and two.
+std::string sentences(const ValidationFindings& f) {
+    std::vector<std::string> all;
+    int shown = 0, open = 0, not_shown = 0;
+    int met = 0, missed = 0;
+    for (const ValidationExperiment& x : f.experiments) {
+        if (!is_main(f, x))
+            continue;
+        all.push_back(sentence(f, x));
+        const std::array<int, 8> count = tally(f, x, Kind::faults);
+        shown += rows_with(count, VerdictName::shown);
+        open += rows_with(count, VerdictName::open);
+        not_shown += rows_with(count, VerdictName::not_shown);
+        for (const Kind kind : {Kind::kinematics, Kind::conservation}) {
+            met += rows_with(tally(f, x, kind), VerdictName::met);
+            missed += rows_with(tally(f, x, kind), VerdictName::missed);
+        }
+    }
+    if (all.empty())
+        return "";
+    all.insert(all.begin(),
+               fmt::format("Criteria of faulting: {} of {} shown, {} open, {} not shown.", shown,
+                           shown + open + not_shown, open, not_shown));
+    all.push_back(fmt::format("Kinematics and conservation hold in every seed in {} of {} rows; a "
+                              "hanging wall that slides on these detachments has the geometry with "
+                              "any material, so these rows test the machinery and no faults.",
+                              met, met + missed));
+    std::string text = "## In short\n\n";
+    for (std::size_t k = 0; k < all.size(); ++k)
+        text += fmt::format("{}. {}\n", k + 1, all[k]);
+    return text + "\n";
+}
+
+constexpr std::string_view how_to_read =
+    "## How it is judged\n\n"
+    "| word | what it means |\n|---|---|\n"
+    "| *faults* | the subject of the paper; each criterion quotes its words |\n"
+    "| *shown* | more packings do it than not: of the probability that a seed meets the criterion "
+    "the lower limit is above one half |\n"
+    "| *not shown* | the upper limit is below one half |\n"
+    "| *open* | the seeds decide neither |\n"
+    "| *no case* | the value cannot exist, such as the order of two grabens where there is one; "
+    "such a seed does not count |\n"
+    "| limits | each by itself at a confidence of 95 %, exact (Clopper and Pearson 1934): 5 of 5 "
+    "seeds, or 15 of 20, show; 0 of 5, or 5 of 20, do not |\n"
+    "| *kinematics*, *conservation* | the machinery; *met* where every seed has it |\n\n"
+    "A value is the mean over the seeds ± its standard deviation (smallest to largest).\n\n";
+
+/// Introduction of the document.
+std::string introduction(const ValidationFindings& f) {
+    std::set<std::string> names; // experiments may share runs
+    for (const ValidationExperiment& x : f.experiments)
+        names.insert(x.runs.begin(), x.runs.end());
+    std::size_t there = 0, wanted = 0;
+    for (const std::string& name : names) {
+        const auto [have, lack] = recorded_seeds(f, f.plan.run(name));
+        there += have.size();
+        wanted += have.size() + lack.size();
+    }
+    return fmt::format("Made by `listric validate` from the record of {} of {} runs at accuracy "
+                       "{}, seeds {}; do not edit. Criteria and their words are in `{}`; "
+                       "`docs/measures.md` defines the measures; "
+                       "[measures.csv]({}/measures.csv) has every number.\n\n",
+                       there, wanted, f.accuracy, seeds_text(f.seeds), f.plan_name,
+                       f.beside.filename().string()) +
+           origins(f);
+}
+
+/// Number of criteria by verdict and experiment.
+std::string overview(const ValidationFindings& f) {
+    std::string text = "| experiment | seeds | faults: shown | open | not shown | no case | "
+                       "kinematics | conservation |\n|---|---|---|---|---|---|---|---|\n";
+    for (const ValidationExperiment& x : f.experiments) {
+        const std::array<int, 8> count = tally(f, x, Kind::faults);
+        text += fmt::format(
+            "| {} | {} | {} | {} | {} | {} | {} | {} |\n", x.title, seeds_so_far(f, x),
+            rows_with(count, VerdictName::shown), rows_with(count, VerdictName::open),
+            rows_with(count, VerdictName::not_shown), rows_with(count, VerdictName::no_case),
+            held(f, x, Kind::kinematics), held(f, x, Kind::conservation));
     }
     return text + "\n";
 }
@@ -119,6 +245,14 @@ std::string subject(const ValidationFindings& f, const Expectation& e) {
     return fmt::format("{} (`{}`)", what, e.measure);
 }
 
+/// "“planar synthetic fault” (Fig. 7a)"
+std::string origin_of(const Expectation& e) {
+    if (e.words.empty())
+        return e.source;
+    return e.source.empty() ? fmt::format("“{}”", e.words)
+                            : fmt::format("“{}” ({})", e.words, e.source);
+}
+
 /// An experiment's row for what another expects; none: it has no such row.
 const Expectation* same_row(const ValidationExperiment& x, const Expectation& row) {
     const auto found = std::ranges::find_if(x.expectations, [&](const Expectation& e) {
@@ -127,14 +261,14 @@ const Expectation* same_row(const ValidationExperiment& x, const Expectation& ro
     return found == x.expectations.end() ? nullptr : &*found;
 }
 
-/// An experiment and those that are like it beside each other: in how many seeds each row is met.
+/// An experiment and those that are like it beside each other: verdicts, and numbers of seeds.
 std::string comparison(const ValidationFindings& f, const std::string& like) {
     std::vector<const ValidationExperiment*> columns;
     for (const ValidationExperiment& x : f.experiments)
         if (x.name == like || x.like == like)
             columns.push_back(&x);
-    std::string text = fmt::format("Rows of {} by experiment: met, or in how many seeds.\n\n"
-                                   "| kind | measure | expected |",
+    std::string text = fmt::format("Criteria of {} by experiment: verdict, and seeds that meet "
+                                   "them.\n\n| kind | measure | expected |",
                                    like);
     std::string rule = "|---|---|---|";
     for (const ValidationExperiment* x : columns) {
@@ -148,10 +282,10 @@ std::string comparison(const ValidationFindings& f, const std::string& like) {
         text += fmt::format("| {} | {} | {} |", name_of(row.kind), subject(f, row), row.target());
         for (const ValidationExperiment* x : columns) {
             const Expectation* const e = same_row(*x, row);
-            const Verdict v = e ? judge(*e, f.values(*e, e->run)) : Verdict{};
-            text += v.of == 0     ? " |"
-                    : v.fulfilled ? " met |"
-                                  : fmt::format(" {} of {} |", v.met, v.of);
+            const Verdict v = e ? f.verdict(*e) : Verdict{};
+            text += v.of > 0        ? fmt::format(" {} ({} of {}) |", name_of(v.name), v.met, v.of)
+                    : v.no_case > 0 ? " no case |"
+                                    : " |";
         }
         text += '\n';
     }
@@ -176,50 +310,133 @@ std::string table(const ValidationFindings& f, const ValidationExperiment& x) {
     text += beside ? fmt::format(" {} | verdict |\n|---|---|---|---|---|---|---|\n", x.compare)
                    : " verdict |\n|---|---|---|---|---|---|\n";
     for (const Expectation& e : x.expectations) {
-        const auto all = f.values(e, e.run);
-        const Verdict v = judge(e, all);
         text += fmt::format("| {} | {} | {} | {} | {} |", name_of(e.kind), subject(f, e),
-                            e.target(), e.source, summary(e, all));
+                            e.target(), origin_of(e), summary(e, f.values(e, e.run)));
         if (beside)
             text += fmt::format(" {} |", e.run == x.runs.front() && e.minus.empty()
                                              ? summary(e, f.values(e, x.compare))
                                              : "");
-        text += fmt::format(" {} |\n", v.text);
+        text += fmt::format(" {} |\n", f.verdict(e).text);
     }
+    return text + '\n';
+}
+
+/// Rows without verdict that have a reason, and rows that are no more.
+std::string without_verdict(const ValidationFindings& f, const ValidationExperiment& x) {
+    std::string text;
+    for (const Expectation& e : x.expectations)
+        if (!e.reason.empty() && x.like.empty())
+            text += fmt::format("| {} | reported | {} |\n", subject(f, e), e.reason);
+    for (const DroppedRow& row : x.dropped)
+        text += fmt::format("| {}{}{} | dropped | {} |\n", row.what, row.asked.empty() ? "" : ": ",
+                            row.asked, row.reason);
+    return text.empty()
+               ? ""
+               : "Rows without verdict, and rows that were dropped:\n\n| row | now | reason "
+                 "|\n|---|---|---|\n" +
+                     text + '\n';
+}
+
+/// An experiment's section.
+std::string section(const ValidationFindings& f, const ValidationExperiment& x) {
+    std::string text = fmt::format("## {}\n\n", x.title);
+    if (!x.about.empty())
+        text += x.about + "\n\n";
+    text += table(f, x) + without_verdict(f, x);
+    for (const ValidationPicture& picture : x.pictures)
+        if (const fs::path file = f.beside / (picture.name + ".png"); fs::exists(file))
+            text +=
+                fmt::format("![{}]({}/{})\n\n*{}*\n\n", picture.name, f.beside.filename().string(),
+                            file.filename().string(), picture.caption);
+    if (!x.seen.empty() && f.accuracy == "standard" &&
+        std::ranges::all_of(
+            x.seen_of, [&](int seed) { return std::ranges::find(f.seeds, seed) != f.seeds.end(); }))
+        text += x.seen + "\n\n";
+    std::vector<std::string> missing;
+    for (const std::string& name : x.runs)
+        if (const auto seeds = recorded_seeds(f, f.plan.run(name)).second; !seeds.empty())
+            missing.push_back(fmt::format("{} {}", name, seeds_text(seeds)));
+    if (!missing.empty())
+        text += fmt::format("Runs that are not recorded: {}.\n\n", fmt::join(missing, "; "));
     return text;
+}
+
+/// The value of a seed; no outer one where it is not recorded, no inner one where the measure has
+/// no meaning.
+std::optional<std::optional<double>> value_of(const ValidationFindings& f, const Expectation& e,
+                                              const std::string& of, int seed) {
+    const ValidationRun& run = f.plan.run(of);
+    const double at = e.at.value_or(run.at.back());
+    if (!f.store.contains({of, seed, at}) || (e.since && !f.store.contains({of, seed, *e.since})) ||
+        (!e.minus.empty() && !f.store.contains({e.minus, seed, at})))
+        return std::nullopt;
+    const auto number = [&](const std::string& name, double where) {
+        return number_at(f.store, {name, seed, where}, e.measure);
+    };
+    std::optional<double> value = number(of, at);
+    const auto take_off = [&](std::optional<double> other) {
+        value = value && other ? std::optional(*value - *other) : std::nullopt;
+    };
+    if (!e.minus.empty())
+        take_off(number(e.minus, at));
+    if (e.since)
+        take_off(number(of, *e.since));
+    return value ? std::optional(*value / e.unit) : std::nullopt;
+}
+
+/// A row of the chart.
+nlohmann::ordered_json chart_row(const ValidationFindings& f, const Expectation& e) {
+    std::string cells;
+    for (int seed : f.seeds_of(f.plan.run(e.run))) {
+        const auto value = value_of(f, e, e.run, seed);
+        cells += !value || !f.is_measured(e) ? '-' : !*value ? 'o' : e.meets(**value) ? 'm' : 'x';
+    }
+    const Verdict v = f.verdict(e);
+    const std::string subject_text = subject(f, e);
+    return {{"what", subject_text.substr(0, subject_text.rfind(" (`"))},
+            {"expected", e.target()},
+            {"cells", cells},
+            {"verdict", name_of(v.name)},
+            {"met", v.met},
+            {"of", v.of}};
 }
 
 } // namespace
 
 std::vector<int> ValidationFindings::seeds_of(const ValidationRun& run) const {
-    std::vector<int> all(
-        static_cast<std::size_t>(run.seeds > 0 ? std::min(run.seeds, seeds) : seeds));
-    std::iota(all.begin(), all.end(), first_seed);
+    std::vector<int> all = seeds;
+    if (run.seeds > 0 && std::ssize(all) > run.seeds)
+        all.resize(static_cast<std::size_t>(run.seeds));
     return all;
+}
+
+bool ValidationFindings::is_recorded(const ValidationRun& run, int seed) const {
+    return std::ranges::all_of(run.at, [&](double extension) {
+        return store.contains({run.name, seed, extension});
+    });
+}
+
+bool ValidationFindings::is_measured(const Expectation& e) const {
+    return std::ranges::any_of(
+        store, [&](const auto& entry) { return entry.second.numbers.contains(e.measure); });
+}
+
+Verdict ValidationFindings::verdict(const Expectation& e) const {
+    const auto all = values(e, e.run);
+    if (!all.empty() && !is_measured(e)) {
+        Verdict v;
+        v.text = "not measured";
+        return v;
+    }
+    return judge(e, all);
 }
 
 std::vector<std::optional<double>> ValidationFindings::values(const Expectation& e,
                                                               const std::string& of) const {
-    const ValidationRun& run = plan.run(of);
-    const double at = e.at.value_or(run.at.back());
     std::vector<std::optional<double>> all;
-    const auto number = [&](const std::string& name, int seed, double where) {
-        return number_at(store, {name, seed, where}, e.measure);
-    };
-    for (int seed : seeds_of(run)) {
-        if (!store.contains({of, seed, at}) ||
-            (!e.minus.empty() && !store.contains({e.minus, seed, at})))
-            continue;
-        std::optional<double> value = number(of, seed, at);
-        const auto take_off = [&](std::optional<double> other) {
-            value = value && other ? std::optional(*value - *other) : std::nullopt;
-        };
-        if (!e.minus.empty())
-            take_off(number(e.minus, seed, at));
-        if (e.since)
-            take_off(number(of, seed, *e.since));
-        all.push_back(value ? std::optional(*value / e.unit) : std::nullopt);
-    }
+    for (int seed : seeds_of(plan.run(of)))
+        if (const auto value = value_of(*this, e, of, seed))
+            all.push_back(*value);
     return all;
 }
 
@@ -228,27 +445,38 @@ std::string run_name(const std::string& run, int seed) { return fmt::format("{}-
 std::string extension_text(double at) { return fmt::format("{:g} km", at / 1e3); }
 
 std::string validation_document(const ValidationFindings& f) {
-    std::string text = introduction(f) + overview(f) + comparisons(f);
-    for (const ValidationExperiment& x : f.experiments) {
-        text += fmt::format("## {}\n\n", x.title);
-        if (!x.about.empty())
-            text += x.about + "\n\n";
-        text += table(f, x) + "\n";
-        for (const ValidationPicture& picture : x.pictures)
-            if (const fs::path file = f.beside / (picture.name + ".png"); fs::exists(file))
-                text += fmt::format("![{}]({}/{})\n\n*{}*\n\n", picture.name,
-                                    f.beside.filename().string(), file.filename().string(),
-                                    picture.caption);
-        if (!x.seen.empty() && f.accuracy == "standard")
-            text += x.seen + "\n\n";
-        const auto [present, all] = runs_of(f, x);
-        std::vector<std::string> missing;
-        std::ranges::set_difference(all, present, std::back_inserter(missing));
-        if (!missing.empty())
-            text += fmt::format("Runs that were not there: {}.\n\n", fmt::join(missing, ", "));
-    }
+    std::string text = "# Validation\n\n";
+    if (fs::exists(f.beside / "verdicts.png"))
+        text += fmt::format("![criteria of faulting by experiment and seed]({}/verdicts.png)\n\n",
+                            f.beside.filename().string());
+    text +=
+        sentences(f) + std::string(how_to_read) + introduction(f) + overview(f) + comparisons(f);
+    for (const ValidationExperiment& x : f.experiments)
+        text += section(f, x);
+    if (!f.missing.empty())
+        text +=
+            fmt::format("Experiments that are not recorded: {}.\n\n", fmt::join(f.missing, ", "));
     text.pop_back();
     return text;
+}
+
+std::string validation_chart(const ValidationFindings& f) {
+    nlohmann::ordered_json experiments = nlohmann::ordered_json::array();
+    for (const ValidationExperiment& x : f.experiments) {
+        if (!is_main(f, x))
+            continue;
+        nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+        for (const Expectation& e : x.expectations)
+            if (e.kind == Kind::faults && e.is_judged())
+                rows.push_back(chart_row(f, e));
+        experiments.push_back({{"title", short_name(x)},
+                               {"seeds", seeds_so_far(f, x)},
+                               {"kinematics", held(f, x, Kind::kinematics)},
+                               {"conservation", held(f, x, Kind::conservation)},
+                               {"rows", rows}});
+    }
+    return to_text(nlohmann::ordered_json{{"seeds", f.seeds}, {"experiments", experiments}}, 1) +
+           '\n';
 }
 
 } // namespace listric

@@ -4,7 +4,6 @@
 #include "apps/studies/validation_store.hpp"
 
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -14,16 +13,25 @@ namespace listric {
 struct ValidationFindings {
     const ValidationPlan& plan;
     std::string plan_name;                         ///< its file, for people
-    std::vector<ValidationExperiment> experiments; ///< those that were asked for
+    std::vector<ValidationExperiment> experiments; ///< that are recorded, by their first run
+    std::vector<std::string> missing;              ///< names of those that are not
     const MeasureStore& store;
-    std::set<std::string> finished; ///< names of the runs that are there, by run_name()
     std::string accuracy;
-    int first_seed = 1;
-    int seeds = 1;                ///< of a run at most
+    std::vector<int> seeds;       ///< that the document is about
     std::filesystem::path beside; ///< folder of the pictures, named as the document
 
-    /// Seeds of a run, finished or not.
+    /// Seeds of a run, recorded or not: as many of the document's as the run is made with.
     std::vector<int> seeds_of(const ValidationRun& run) const;
+
+    /// Whether a run is recorded at all of its moments.
+    bool is_recorded(const ValidationRun& run, int seed) const;
+
+    /// Whether an expectation's measure is recorded of any run: where not, its absence means
+    /// nothing.
+    bool is_measured(const Expectation& e) const;
+
+    /// Verdict on an expectation: on its run, or on another in that one's place.
+    Verdict verdict(const Expectation& e) const;
 
     /// The value of each seed that has run; an empty one where the measure has no meaning.
     /// @param of  name of the run
@@ -38,5 +46,10 @@ std::string extension_text(double at);
 
 /// The document, Markdown.
 std::string validation_document(const ValidationFindings& findings);
+
+/// Content of its chart, as JSON: of every experiment with several seeds that is not beside one
+/// that it is like, the rows of faults with a letter per seed (m met, x missed, o no case, - no
+/// run), and the verdicts.
+std::string validation_chart(const ValidationFindings& findings);
 
 } // namespace listric

@@ -8,10 +8,29 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
+#include <string_view>
 #include <vector>
 
 namespace listric {
+
+namespace {
+
+/// Columns before the measures: those of the place, then those of the origin.
+constexpr std::size_t places = 3;
+struct OriginColumn {
+    std::string_view name;
+    std::string Origin::*text;
+};
+constexpr std::array<OriginColumn, 5> origin_columns{{{"state_hash", &Origin::state_hash},
+                                                      {"scene_hash", &Origin::scene_hash},
+                                                      {"made_by", &Origin::made_by},
+                                                      {"measured_by", &Origin::measured_by},
+                                                      {"measures_hash", &Origin::measures_hash}}};
+
+} // namespace
 
 std::optional<double> number_at(const MeasureStore& store, const MeasuredPlace& place,
                                 const std::string& measure) {
@@ -40,16 +59,17 @@ MeasureStore read_store(const std::filesystem::path& file) {
             names = cells;
             return true;
         }
-        if (cells.size() != names.size() || cells.size() < 4)
+        if (cells.size() != names.size() || cells.size() < places)
             refuse("a line has another number of columns than the first");
-        MeasuredNumbers& m =
-            store[{cells[0], static_cast<int>(number(cells[1])), number(cells[2])}];
-        m.hash = cells[3];
-        for (std::size_t k = 4; k < cells.size(); ++k)
-            if (names[k] == "made_by")
-                m.made_by = cells[k];
-            else if (names[k] == "measured_by")
-                m.measured_by = cells[k];
+        const MeasuredPlace place{cells[0], static_cast<int>(number(cells[1])), number(cells[2])};
+        if (store.contains(place))
+            refuse(
+                fmt::format("{}, seed {}, {:g} m is there twice", place.run, place.seed, place.at));
+        MeasuredNumbers& m = store[place];
+        for (std::size_t k = places; k < cells.size(); ++k)
+            if (const auto o = std::ranges::find(origin_columns, names[k], &OriginColumn::name);
+                o != origin_columns.end())
+                m.from.*o->text = cells[k];
             else if (!cells[k].empty())
                 m.numbers[names[k]] = number(cells[k]);
         return true;
@@ -68,11 +88,14 @@ void write_store(const std::filesystem::path& file, const MeasureStore& store) {
     for (const auto& [place, m] : store)
         for (const auto& [name, value] : m.numbers)
             names.insert(name);
-    std::string text =
-        fmt::format("run,seed,at_m,state_hash,made_by,measured_by,{}\n", fmt::join(names, ","));
+    std::string text = "run,seed,at_m";
+    for (const OriginColumn& o : origin_columns)
+        text += fmt::format(",{}", o.name);
+    text += fmt::format(",{}\n", fmt::join(names, ","));
     for (const auto& [place, m] : store) {
-        text += fmt::format("{},{},{},{},{},{}", place.run, place.seed, place.at, m.hash, m.made_by,
-                            m.measured_by);
+        text += fmt::format("{},{},{}", place.run, place.seed, place.at);
+        for (const OriginColumn& o : origin_columns)
+            text += fmt::format(",{}", m.from.*o.text);
         for (const std::string& name : names) {
             const auto number = m.numbers.find(name);
             text += number == m.numbers.end() ? "," : fmt::format(",{:.6g}", number->second);

@@ -16,10 +16,19 @@ struct MeasuredPlace {
     auto operator<=>(const MeasuredPlace&) const = default;
 };
 
-/// Measures of one moment, the hash of the run that they come from, and which Listric made the run
-/// and which measured it: version and commit.
+/// Origin of measures. An empty text is one that a record of former days does not have.
+struct Origin {
+    std::string state_hash;    ///< of the run
+    std::string scene_hash;    ///< of its parameters
+    std::string made_by;       ///< Listric that made the run: version and commit
+    std::string measured_by;   ///< Listric that measured it
+    std::string measures_hash; ///< of the definitions of measures (apps/support/version.hpp)
+    bool operator==(const Origin&) const = default;
+};
+
+/// Measures of one moment.
 struct MeasuredNumbers {
-    std::string hash, made_by, measured_by;
+    Origin from;
     std::map<std::string, double> numbers;
 };
 

@@ -34,6 +34,16 @@ inline double median(std::vector<double> values) {
     return *middle;
 }
 
+/// Limits of a probability, each by itself at a confidence of 95 %.
+struct ProbabilityLimits {
+    double lower = 0.0, upper = 1.0;
+};
+
+/// Limits of the probability that a try succeeds, of which `met` of `of` did: exact (Clopper and
+/// Pearson, Biometrika 26, 1934). Below the lower one as many successes or more have a probability
+/// under 5 %, above the upper one as many or fewer. No try: 0 and 1.
+ProbabilityLimits probability_limits(int met, int of);
+
 /// Slope of the least-squares line y(x), of at least two different x.
 inline double least_squares_slope(std::span<const double> x, std::span<const double> y) {
     assert(x.size() == y.size() && x.size() > 1);

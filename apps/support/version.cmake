@@ -11,15 +11,21 @@ if(EXISTS ${source}/.git)
   endif()
 endif()
 
-file(GLOB_RECURSE files RELATIVE ${source} ${source}/dem/*.cpp ${source}/dem/*.hpp)
-list(SORT files)
-set(hashes "")
-foreach(file IN LISTS files)
-  file(SHA256 ${source}/${file} hash)
-  string(APPEND hashes "${file} ${hash}\n")
-endforeach()
-string(SHA256 hash "${hashes}")
-string(SUBSTRING ${hash} 0 16 hash)
+# hash_of(RESULT FOLDER): of the names and contents of the C++ files of a folder.
+function(hash_of result folder)
+  file(GLOB_RECURSE files RELATIVE ${source} ${source}/${folder}/*.cpp ${source}/${folder}/*.hpp)
+  list(SORT files)
+  set(hashes "")
+  foreach(file IN LISTS files)
+    file(SHA256 ${source}/${file} hash)
+    string(APPEND hashes "${file} ${hash}\n")
+  endforeach()
+  string(SHA256 hash "${hashes}")
+  string(SUBSTRING ${hash} 0 16 hash)
+  set(${result} ${hash} PARENT_SCOPE)
+endfunction()
+hash_of(hash dem)
+hash_of(measures_hash apps/measures)
 
 file(CONFIGURE OUTPUT ${output} @ONLY CONTENT [[
 #include "apps/support/version.hpp"
@@ -28,6 +34,7 @@ namespace listric {
 
 const std::string_view version = R"(@version@@commit@)";
 const std::string_view source_hash = "@hash@";
+const std::string_view measures_hash = "@measures_hash@";
 const std::string_view compiler = R"(@compiler@)";
 const std::string_view build_flags = R"(@build_flags@)";
 #if defined __AVX512F__

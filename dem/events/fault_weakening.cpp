@@ -5,6 +5,7 @@
 #include "dem/contacts/power_cell.hpp"
 #include "dem/events/measure_circle.hpp"
 #include "dem/events/weakened_discs.hpp"
+#include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
@@ -171,6 +172,55 @@ std::vector<std::int32_t> sound_discs(const Displacements& s, const DiscColumns&
     return sound;
 }
 
+/// Weak discs of the sample that have rested for long enough by now, and counts the years of rest.
+/// Strain is that of the discs within half a measure circle since the last scan.
+std::vector<std::int32_t> rested_discs(State& state, const Displacements& s, const Cells& cells,
+                                       double reach, const FaultWeakeningParameters& p,
+                                       double seconds) {
+    const auto material = disc_columns(state).material;
+    const auto rested = state.discs.get<double>("rested_a");
+    in_pieces(s.row.size(), 64, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k) {
+            const auto i = static_cast<std::size_t>(s.row[k]);
+            if (material[i] != weak)
+                continue;
+            GradientFit fit;
+            cells.for_each_near(s.x[k], s.y[k], [&](std::int32_t member) {
+                const auto m = static_cast<std::size_t>(member);
+                const double dx = s.x[m] - s.x[k], dy = s.y[m] - s.y[k];
+                const double dux = s.ux[m] - s.ux[k], duy = s.uy[m] - s.uy[k];
+                if (hypotenuse(dx, dy) <= reach)
+                    fit.add(dx - dux, dy - duy, dux, duy);
+            });
+            const auto gradient = fit.gradient(1e-6);
+            const bool rests = gradient && gradient->shear() < p.resting_rate * seconds;
+            rested[i] = rests ? rested[i] + p.interval : 0.0;
+        }
+    });
+    std::vector<std::int32_t> rows;
+    for (const std::int32_t row : s.row)
+        if (const auto i = static_cast<std::size_t>(row);
+            material[i] == weak && rested[i] >= p.heal_after)
+            rows.push_back(row);
+    return rows;
+}
+
+/// Makes weak discs rock, or sediment, again: what weakening did, undone under the present load.
+void heal(State& state, const std::vector<std::int32_t>& rows, double stress_ratio,
+          double gravity) {
+    const DiscColumns d = disc_columns(state);
+    const WeakenedColumns w = weakened_columns(state);
+    const auto rested = state.discs.get<double>("rested_a");
+    const std::vector<double> weight = overburden(state, rows, gravity);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto i = static_cast<std::size_t>(rows[k]);
+        d.material[i] = d.stratum[i] > 0 ? sediment : basement;
+        d.radius[i] /= enlargement(stress_ratio * weight[k], state.materials[weak]);
+        w.rock_radius[i] = w.rock_area[i] = rested[i] = 0.0;
+        w.correction[i] = 1.0;
+    }
+}
+
 /// Distance of the halves' centroids, m.
 double halves_apart(const FaultWeakeningParameters& p, double mean_diameter) {
     return half_distance * p.circle_diameters * mean_diameter;
@@ -200,6 +250,8 @@ FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, doubl
 
 void FaultWeakening::begin(State& state) {
     add_weakened_columns(state);
+    if (parameters_.heal_after > 0.0)
+        state.discs.add<double>("rested_a", "a", 0.0);
     if (state.discs.has("porosity"))
         state.discs.add_like<double>("scanned_porosity", "1", "porosity");
 }
@@ -214,14 +266,17 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     const double youngest = std::max(p.whole_domain ? 0.0 : p.youngest_sediment, 0.99 * p.interval);
     const Displacements sample =
         displacements(state, youngest * schedule().extension_rate, p.whole_domain);
+    const Cells cells(sample.x, sample.y, 0.5 * l.circle);
     const std::vector<FaultSegment> found =
-        scan(sample, Cells(sample.x, sample.y, 0.5 * l.circle), l.circle, 0.5 * diameter,
-             critical_slip(p, diameter), p.angles);
+        scan(sample, cells, l.circle, 0.5 * diameter, critical_slip(p, diameter), p.angles);
     const std::vector<FaultSegment> faults = thin_out(found, p.spacing_diameters * diameter);
     std::vector<Band> bands = gaps(faults, found, l, pi / p.angles);
     for (const FaultSegment& f : faults)
         bands.push_back(band_of(f, l.circle));
 
+    if (p.heal_after > 0.0)
+        heal(state, rested_discs(state, sample, cells, 0.5 * l.circle, p, schedule().seconds()),
+             p.mean_stress_ratio, gravity_);
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
     std::vector<std::int32_t> converted =

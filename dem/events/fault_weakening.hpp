@@ -29,6 +29,8 @@ struct FaultWeakeningParameters {
     int angles = 12;                  ///< fault angles tried per sampling point
     double youngest_sediment = 2.0e5; ///< sediment younger than this is left alone, a
     bool whole_domain = false;        ///< looks at young and loose sediment, too [paper]
+    double heal_after = 0.0;       ///< rest after which weakened rock is sound again, a; 0: never
+    double resting_rate = 1.0e-15; ///< shear strain rate of rest, 1/s: below it bonds heal [paper]
     /// Rock of weakened discs, never bonded: MAT18-W with a friction that Table 1 does not have.
     Material material{8.5e8, 3.19e8, 0.2, false};
     double update_interval = 2.5e3;  ///< time between property updates, a
@@ -48,6 +50,10 @@ double critical_rate(const FaultWeakeningParameters& p, double mean_diameter);
 /// weak are known faults, hence the widest gap, `sound_share` times the circle, that neighbouring
 /// bands would leave for good. Loose sediment is not looked at unless asked for: it deforms
 /// everywhere [paper, Fig. 5], and its base would be taken for a fault.
+///
+/// With `heal_after` the years that a weakened disc has rested are a column, rested_a; once they
+/// are enough the disc has the stiffness of its rock again, and the radius that carries its load
+/// with it. Its bonds come by bond healing.
 ///
 /// Its memory lists the fault segments found: centre x_m, y_m, dip direction angle_rad, slip_m of
 /// the interval (> 0: the upper side of the plane moved along its direction), found_at_m.

@@ -316,6 +316,20 @@ TEST_F(RunTest, UntilThenResumeEqualsUninterrupted) {
     }
 }
 
+TEST_F(RunTest, YearsOfRestAreKept) {
+    const std::vector<std::string> heals = {"fault_weakening.heal_after_a=12000",
+                                            "fault_weakening.resting_rate_per_s=3e-13"};
+    const fs::path whole = run(scene(heals), "whole");
+    const auto weak_discs = [](const fs::path& output) {
+        const State state = read_snapshot(list_snapshots(output).back()).state;
+        return std::ranges::count(disc_columns(state).material, weak);
+    };
+    EXPECT_LT(weak_discs(whole), weak_discs(run(scene(), "for ever")));
+    const fs::path parts = run(scene(heals), "parts", {.until = 133.7});
+    run(scene(heals), parts.filename(), {.resume = true});
+    expect_same_run(parts, whole);
+}
+
 TEST_F(RunTest, ManySmallPartsEqualUninterrupted) {
     const fs::path whole = run(scene(), "whole", {.until = 150.0});
     fs::path parts;

@@ -10,6 +10,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <sstream>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,9 +60,10 @@ runs = "tiny plain"
 expect = [
     {kind = "kinematics", measure = "extension_m", what = "reached", digits = 0, expected = 200, tolerance = 1, source = "scene"},
     {kind = "kinematics", measure = "extension_m", what = "gone since", since_m = 100, digits = 0, expected = 150, tolerance = 1, source = "nobody"},
-    {measure = "weak_fraction", what = "weakened without weakening", run = "plain", least = 0.5, source = "nobody"},
+    {measure = "weak_fraction", what = "weakened without weakening", run = "plain", least = 0.5, words = "never", source = "nobody"},
     {kind = "conservation", measure = "mass_error_fraction", what = "mass", digits = 3, most = 1e-12, source = "round-off"},
 ]
+dropped = [{what = "reached once", reason = "nobody asks"}]
 picture = [{name = "all", caption = "All.", rows = [{run = "tiny", at_m = 200}]}]
 [[experiment]]
 name = "second"
@@ -97,6 +100,21 @@ protected:
         said = contents(folder / "said");
         return code;
     }
+    std::string record() { return contents(folder / "doc/report/measures.csv"); }
+    /// Writes measures.csv with those lines alone.
+    void keep_lines(const std::function<bool(const std::string&)>& kept) {
+        std::istringstream lines(record());
+        std::ofstream out(folder / "doc/report/measures.csv");
+        for (std::string line; std::getline(lines, line);)
+            if (kept(line))
+                out << line << '\n';
+    }
+    void replace_in_record(const std::string& from, const std::string& to) {
+        std::string text = record();
+        ASSERT_NE(text.find(from), text.npos) << from;
+        text.replace(text.find(from), from.size(), to);
+        std::ofstream(folder / "doc/report/measures.csv") << text;
+    }
     std::string document() { return contents(folder / "doc/report.md"); }
     std::string said;
 };
@@ -108,13 +126,16 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
     // Two seeds that reached 200 m, and cannot have gone 150 m since 100.
     EXPECT_THAT(document(), HasSubstr("| 200 ± 1 | scene | 200 ± 0 (200 to 200) | met (2 of 2) |"));
     EXPECT_THAT(document(), HasSubstr("| 150 ± 1 | nobody | 100 ± 0 (100 to 100) | missed (0 of "));
-    EXPECT_THAT(document(), HasSubstr("| at least 0.50 | nobody | no value | missed (0 of 1) |"));
-    EXPECT_THAT(document(), HasSubstr("| First | 3 of 3 | 1 of 2 | 0 of 1 | 1 of 1 |"));
+    EXPECT_THAT(document(), HasSubstr("| at least 0.50 | “never” (nobody) | no value | no case |"));
+    EXPECT_THAT(document(), HasSubstr("| First | 2 of 2 | 0 | 0 | 0 | 1 | 1 of 2 | 1 of 1 |"));
     // Beside each other by what both expect; the control is nothing that the second has.
     EXPECT_THAT(document(), AllOf(HasSubstr("| expected | first | alike |"),
-                                  HasSubstr("| 200 ± 1 | met | met |"),
-                                  HasSubstr("| 150 ± 1 | 0 of 2 | 0 of 1 |"),
-                                  HasSubstr("| at least 0.50 | 0 of 1 | |")));
+                                  HasSubstr("| 200 ± 1 | met (2 of 2) | met (1 of 1) |"),
+                                  HasSubstr("| 150 ± 1 | missed (0 of 2) | |"),
+                                  HasSubstr("| at least 0.50 | no case | |")));
+    EXPECT_THAT(document(), HasSubstr("| reached once | dropped | nobody asks |"));
+    EXPECT_THAT(document(), HasSubstr("![criteria of faulting by experiment and seed]"));
+    EXPECT_TRUE(fs::exists(folder / "doc/report/verdicts.png"));
     const std::string maker(listric::version);
     EXPECT_THAT(document(), HasSubstr("The runs were made by Listric " + maker +
                                       ", their measures taken by " + maker + "."));
@@ -142,8 +163,9 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
     // A run that was stopped goes on, to the same end.
     const std::string end = hash("tiny-2");
     fs::remove(folder / "runs/tiny-2/summary.json");
+    keep_lines([](const std::string& line) { return !line.starts_with("tiny,2,"); });
     ASSERT_EQ(validate("--seeds 2 --without-runs"), 0) << said;
-    EXPECT_THAT(document(), AllOf(HasSubstr("2 of 3 runs"), HasSubstr("not there: tiny-2")));
+    EXPECT_THAT(document(), AllOf(HasSubstr("2 of 3 runs"), HasSubstr("not recorded: tiny 2.")));
     ASSERT_EQ(validate("--seeds 2"), 0) << said;
     EXPECT_THAT(said, HasSubstr("resuming"));
     EXPECT_EQ(hash("tiny-2"), end);
@@ -160,9 +182,75 @@ TEST_F(ValidationTest, OneExperimentAlone) {
     EXPECT_FALSE(fs::exists(folder / "runs/tiny-1"));
 }
 
+TEST_F(ValidationTest, ALaterSessionAddsSeeds) {
+    std::ofstream(folder / "plan.toml") << "seeds = \"1-3\"\n" + plan;
+    ASSERT_EQ(validate("--seeds 1-2 --only first"), 0) << said;
+    EXPECT_THAT(document(), AllOf(HasSubstr("3 of 4 runs"), HasSubstr("| First | 2 of 3 |"),
+                                  HasSubstr("not recorded: tiny 3.")));
+    const std::string before = record();
+
+    // Another machine has the record and no runs.
+    fs::remove_all(folder / "runs");
+    ASSERT_EQ(validate("--seeds 3 --first-seed 1 --without-runs"), 0) << said;
+    EXPECT_EQ(record(), before);
+    ASSERT_EQ(validate("--seeds 3-3"), 0) << said;
+    EXPECT_FALSE(fs::exists(folder / "runs/tiny-1"));
+    EXPECT_THAT(document(), AllOf(HasSubstr("4 of 4 runs"), HasSubstr("| First | 3 of 3 |")));
+    std::istringstream lines(before);
+    const std::string definitions(listric::measures_hash);
+    for (std::string line; std::getline(lines, line);)
+        if (const auto origin = line.find(definitions); origin != line.npos) {
+            EXPECT_THAT(record(), HasSubstr(line.substr(0, origin + definitions.size())));
+        }
+    EXPECT_THAT(record(), HasSubstr("tiny,3,200,"));
+}
+
+TEST_F(ValidationTest, NothingIsMixedOrReplacedWithoutAWord) {
+    ASSERT_EQ(validate("--seeds 2"), 0) << said;
+    const std::string definitions(listric::measures_hash);
+    const auto all = record();
+
+    // Measures of other definitions may be read; nothing is added to them.
+    keep_lines([](const std::string& line) { return !line.starts_with("tiny,2,"); });
+    replace_in_record("," + definitions, ",0123456789abcdef");
+    const std::string others = record();
+    ASSERT_EQ(validate("--seeds 1"), 0) << said;
+    EXPECT_EQ(validate("--seeds 2"), 2);
+    EXPECT_THAT(said,
+                AllOf(HasSubstr("plain-1 was measured by other definitions"),
+                      HasSubstr("0123456789abcdef"), HasSubstr(definitions), HasSubstr("--mixed")));
+    EXPECT_EQ(record(), others);
+    ASSERT_EQ(validate("--seeds 2 --mixed"), 0) << said;
+    EXPECT_THAT(document(), HasSubstr("**This record is mixed**"));
+    ASSERT_EQ(validate("--seeds 2 --remeasure"), 0) << said;
+    EXPECT_EQ(record(), all);
+    EXPECT_THAT(document(), Not(HasSubstr("mixed")));
+
+    // A run is not taken for another that has its name.
+    const std::string hash =
+        nlohmann::json::parse(contents(folder / "runs/tiny-2/summary.json"))["state_hash"];
+    replace_in_record("tiny,2,100," + hash, "tiny,2,100,0123456789abcdef");
+    EXPECT_EQ(validate("--seeds 2"), 2);
+    EXPECT_THAT(said, AllOf(HasSubstr("tiny-2"), HasSubstr(hash), HasSubstr("--remeasure")));
+
+    // Runs of other parameters are no part of the record, even where they are gone.
+    fs::remove_all(folder / "runs");
+    std::string faster = scene;
+    faster.replace(faster.find("speed_m_per_s = 4.0"), 19, "speed_m_per_s = 5.0");
+    std::ofstream(folder / "scenes/tiny.toml") << faster;
+    EXPECT_EQ(validate("--seeds 3"), 2);
+    EXPECT_THAT(said, HasSubstr("plain-1 was run with other parameters"));
+    EXPECT_FALSE(fs::exists(folder / "runs/tiny-3"));
+}
+
 TEST_F(ValidationTest, BadCalls) {
     EXPECT_EQ(validate("--only third"), 2);
     EXPECT_THAT(said, HasSubstr("first, second"));
+    for (const char* bad : {"--seeds 0", "--seeds 1001", "--seeds 5-3", "--seeds some"}) {
+        EXPECT_EQ(validate(bad), 2) << bad;
+        EXPECT_THAT(said, HasSubstr("such as 51-56,60"));
+    }
+    EXPECT_EQ(validate("--seeds 5-6 --first-seed 5"), 2);
     EXPECT_EQ(validate("--accuracy rough"), 2);
     EXPECT_THAT(said, HasSubstr("draft, standard"));
     std::ofstream(folder / "plan.toml") << "[[run]]\nname = 3\n";

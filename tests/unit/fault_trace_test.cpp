@@ -232,8 +232,8 @@ TEST(Curvature, ParabolaAndSign) {
     EXPECT_NEAR(curvature_of(points), -1e-4, 1e-12);
 }
 
-/// Strata 1 (oldest) to 5, each 3 diameters thick, over basement; offset along a fault that falls
-/// right by 60 degrees, by 500 m less 100 m per stratum.
+/// Strata 1 (oldest) to 4, each 4 diameters thick, and the rest of a fifth, over basement; offset
+/// along a fault that falls right by 60 degrees, by 500 m less 100 m per stratum, up to its top.
 struct Growth {
     State state;
     std::vector<Point> fault;
@@ -244,13 +244,14 @@ struct Growth {
         const DiscColumns c = disc_columns(state);
         const double base = 100.0 * r;
         for (std::size_t i = 0; i < c.x.size(); ++i) {
-            const auto number = static_cast<std::int32_t>((c.y[i] - base) / (3.0 * d) + 1.0);
+            const auto number = static_cast<std::int32_t>((c.y[i] - base) / (4.0 * d) + 1.0);
             c.stratum[i] = c.y[i] < base ? 0 : number;
             c.start_y[i] = c.y[i] - base;
             const double x = middle.x + (base - c.y[i]) / std::tan(60.0 * degree);
             // The whole section is tilted by 0.1; throw is measured across the fault all the same.
+            const double layers = std::max(0.0, (c.y[i] - base) / (4.0 * d));
             if (c.x[i] > x)
-                c.y[i] -= 500.0 - 100.0 * c.stratum[i];
+                c.y[i] -= std::max(0.0, 500.0 - 100.0 * layers);
             c.y[i] += 0.1 * c.x[i];
         }
         for (int k = 0; k < 20; ++k)
@@ -261,9 +262,9 @@ struct Growth {
 
 TEST(FaultThrow, FallsWithYoungerAge) {
     const Growth growth;
-    const std::map<int, double> throws = fault_throws(growth.state, growth.fault);
-    // Two parallel lines through some twenty discs each of a layer three diameters thick: its
-    // standard deviation of 0.9 diameters gives 0.2 per side, and the common tilt adds as much.
+    const std::map<int, double> throws = fault_throws(growth.state, growth.fault, 0.0);
+    // Tops in 12 columns a side scatter by some 0.35 diameters; their lines differ by 0.15, and the
+    // tilt of three tops brings 0.25 to where the fault is.
     for (int stratum = 1; stratum <= 4; ++stratum) {
         ASSERT_TRUE(throws.contains(stratum)) << stratum;
         EXPECT_NEAR(throws.at(stratum), 500.0 - 100.0 * stratum, 0.5 * d) << stratum;
@@ -273,8 +274,38 @@ TEST(FaultThrow, FallsWithYoungerAge) {
     std::vector<Point> left = growth.fault;
     for (Point& p : left)
         p.x = 2.0 * middle.x - p.x;
-    for (const auto& [stratum, value] : fault_throws(growth.state, left))
+    for (const auto& [stratum, value] : fault_throws(growth.state, left, 0.0))
         EXPECT_LT(value, 200.0) << stratum;
+}
+
+TEST(FaultThrow, OnlyOfStrataYoungerThanTheFaultAndOfItsFirstSurface) {
+    Growth growth;
+    const DiscColumns c = disc_columns(growth.state);
+    for (std::size_t i = 0; i < c.x.size(); ++i)
+        c.start_extension[i] = 500.0 * c.stratum[i];
+    const auto strata = [&](double born_at) {
+        std::vector<int> numbers;
+        for (const auto& [stratum, value] : fault_throws(growth.state, growth.fault, born_at))
+            if (stratum <= 4)
+                numbers.push_back(stratum);
+        return numbers;
+    };
+    EXPECT_EQ(strata(500.0), (std::vector<int>{0, 1, 2, 3, 4}));
+    EXPECT_EQ(strata(1500.0), (std::vector<int>{2, 3, 4}));
+    EXPECT_EQ(strata(1500.5), (std::vector<int>{2, 3, 4})); // the window ends in the same cycle
+    EXPECT_TRUE(strata(1e4).empty());                       // the fifth was the surface
+}
+
+TEST(FaultThrow, NoneOfStrataThinnerThanThreeDiscs) {
+    Growth growth;
+    const DiscColumns c = disc_columns(growth.state);
+    for (std::size_t i = 0; i < c.x.size(); ++i)
+        if (c.stratum[i] > 0) // the older half of each keeps its number, the younger gets its own
+            c.stratum[i] =
+                2 * c.stratum[i] - (c.start_y[i] < 4.0 * d * c.stratum[i] - 2.0 * d ? 1 : 0);
+    const auto throws = fault_throws(growth.state, growth.fault, 0.0);
+    EXPECT_EQ(throws.size(), 1u);
+    EXPECT_TRUE(throws.contains(0));
 }
 
 /// A fault whose right side is the footwall (it falls left) and slides every window, while the

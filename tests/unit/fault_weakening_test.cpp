@@ -235,6 +235,50 @@ TEST(FaultWeakening, WeakBandsAreNotWidened) {
     EXPECT_GE(b.event.memory.rows(), 12u); // the fault's activity is recorded all the same
 }
 
+TEST(FaultWeakening, RockThatRestsIsSoundAgain) {
+    FaultWeakeningParameters p;
+    p.heal_after = 2.0 * p.interval;
+    Block b(p);
+    const auto radius = disc_columns(b.state).radius;
+    const std::vector<double> before(radius.begin(), radius.end());
+    b.slide(60.0 * degree, 1.3 * b.threshold);
+    b.apply();
+    const std::ptrdiff_t weakened = b.weak_discs();
+    ASSERT_GT(weakened, 20);
+    b.apply(); // an interval at rest
+    EXPECT_EQ(b.weak_discs(), weakened);
+    EXPECT_EQ(std::ranges::max(b.state.discs.get<double>("rested_a")), p.interval);
+    for (const double sense : {-1.0, 1.0}) { // there and back: no fault, and no rest
+        b.slide(60.0 * degree, sense * 0.1 * b.threshold);
+        b.apply();
+    }
+    EXPECT_EQ(std::ranges::max(b.state.discs.get<double>("rested_a")), 0.0);
+    b.apply();
+    EXPECT_EQ(b.weak_discs(), weakened);
+    b.apply(); // the second interval at rest
+    const WeakenedColumns w = weakened_columns(b.state);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_EQ(disc_columns(b.state).material[i], basement);
+        // Under the load of before, but for what of the enlarged neighbours lies above a centre: a
+        // tenth of a disc of some two hundred in the column.
+        EXPECT_NEAR(radius[i], before[i], 5e-4 * r);
+        EXPECT_EQ(w.rock_radius[i], 0.0);
+        EXPECT_EQ(w.rock_area[i], 0.0);
+    }
+    EXPECT_EQ(std::ranges::max(b.state.discs.get<double>("rested_a")), 0.0);
+}
+
+TEST(FaultWeakening, NothingHealsUnlessAskedFor) {
+    Block b;
+    EXPECT_FALSE(b.state.discs.has("rested_a"));
+    b.slide(60.0 * degree, 1.3 * b.threshold);
+    b.apply();
+    const std::ptrdiff_t weakened = b.weak_discs();
+    for (int interval = 0; interval < 20; ++interval)
+        b.apply();
+    EXPECT_EQ(b.weak_discs(), weakened);
+}
+
 TEST(FaultWeakening, YoungSedimentIsLeftAlone) {
     Block b;
     b.state.clock.extension = 5000.0; // sediment younger than 2 km of extension is young

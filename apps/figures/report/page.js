@@ -116,8 +116,9 @@ async function drawFaults() {
   drawFaultTable($("faults"), faults, chosen, index => pick({kind: "fault", run, index}));
   const fault = faults[chosen] || faults[0];
   $("throws_title").textContent = fault ? `Throw by stratum, fault ${Math.max(chosen, 0)}` : "Throw by stratum";
-  drawPlain($("throws"), fault ? throwsOf(fault) : [], ["stratum", "throw (m)"],
-    {xlabel: "stratum, the oldest first (0: pre-rift top)", ylabel: "throw (m)"});
+  drawPlain($("throws"), fault ? throwsOf(fault).map(([stratum, metres]) => [stratum, [metres, fault.throw_error_m]]) : [],
+    ["stratum", "throw (m)"],
+    {xlabel: "stratum, the oldest first (0: pre-rift top)", ylabel: "throw (m)", errorBars: true, sigma: 1});
   await drawUplift(run);
   await describe();
 }
@@ -153,7 +154,8 @@ async function describe() {
       (fault.born_at_m === null ? "; its birth is known at the figures' moments and at the end"
         : `; born at ${lengths.format(fault.born_at_m)} m of extension`) +
       (fault.pre_rift_throw_m === null ? "" : `; pre-rift throw ${lengths.format(fault.pre_rift_throw_m)} m`) +
-      throwsOf(fault).map(([stratum, metres], n) => `${n ? ", " : "; throw by stratum: "}${stratum}: ${lengths.format(metres)} m`).join("")
+      throwsOf(fault).map(([stratum, metres], n) => `${n ? ", " : "; throw by stratum: "}${stratum}: ${lengths.format(metres)} m`).join("") +
+      (throwsOf(fault).length ? ` (± ${lengths.format(fault.throw_error_m)} m)` : "")
       : `${which}fault ${picked.index}: not active at this moment`;
   } else {
     $("picked").textContent = picked.text;

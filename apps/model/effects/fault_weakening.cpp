@@ -54,6 +54,14 @@ std::vector<Parameter> detection_parameters() {
         {"whole_domain", at<&P::whole_domain>, "", ranges::any, "",
          "whether young and loose sediment is scanned, too",
          "true is the paper's way; it finds the base of loose sediment as a fault."},
+        {"heal_after_a", at<&P::heal_after>, "a", between(0, 1e9), "",
+         "time at rest after which weakened rock is sound again; 0: never",
+         "Makes faults at rest strong again, so that new ones can replace them.", between(0, 5e5)},
+        {"resting_rate_per_s", at<&P::resting_rate>, "1/s", ranges::strain_rate, "",
+         "shear strain rate below which weakened rock rests",
+         "Raising it heals weakened rock that still creeps: the bulk of it strains faster than "
+         "1e-14/s.",
+         between(1e-15, 1e-14)},
     };
 }
 

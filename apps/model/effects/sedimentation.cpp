@@ -118,14 +118,15 @@ const dem::SedimentStress* stress_in(const Observation& now) {
     return dem::find<const dem::SedimentStress>(now.events);
 }
 
-/// Not a number without layers.
-std::optional<double> stress_ratio(const Observation& now) {
+/// Mean over the layers; not a number without layers.
+template <double dem::LayerStress::*part>
+std::optional<double> mean_of_layers(const Observation& now) {
     const auto* stress = stress_in(now);
     if (!stress)
         return std::nullopt;
     double sum = 0.0, layers = 0.0;
     for (const dem::LayerStress& layer : stress->profile()) {
-        sum += layer.ratio;
+        sum += layer.*part;
         layers += 1.0;
     }
     return sum / layers;
@@ -170,7 +171,13 @@ std::vector<Measure<Observation>> measures() {
              "vertical contact stress in the sediment over the weight above, time mean of the last "
              "window: mean over the layers of `sediment_stress_profile`. 1: sediment carries its "
              "weight",
-             stress_ratio, OverTime::last, "0.96 to 1.12 in lis1 at standard"}};
+             mean_of_layers<&dem::LayerStress::ratio>, OverTime::last,
+             "0.96 to 1.12 in lis1 at standard"},
+            {"sediment_damping_share", "1",
+             "vertical force of local damping on the sediment over its weight, time mean of the "
+             "last window: mean over the layers of `sediment_stress_profile`. Above 0: damping "
+             "holds it up",
+             mean_of_layers<&dem::LayerStress::damping_share>, OverTime::last}};
 }
 
 std::vector<MeasuredObjects> objects() {

@@ -1,0 +1,35 @@
+#include "apps/support/statistics.hpp"
+
+namespace listric {
+
+namespace {
+
+/// Probability of at least `met` successes in `of` tries, of a probability p within 0 and 1.
+double at_least(int met, int of, double p) {
+    double sum = 0.0;
+    for (int k = met; k <= of; ++k)
+        sum += std::exp(std::lgamma(of + 1.0) - std::lgamma(k + 1.0) - std::lgamma(of - k + 1.0) +
+                        k * std::log(p) + (of - k) * std::log1p(-p));
+    return sum;
+}
+
+/// The probability of a success at which at least `met` of `of` succeed in 5 % of all cases.
+double lower_limit(int met, int of) {
+    if (met == 0)
+        return 0.0;
+    double low = 0.0, high = 1.0;
+    for (int step = 0; step < 50; ++step) {
+        const double middle = 0.5 * (low + high);
+        (at_least(met, of, middle) < 0.05 ? low : high) = middle;
+    }
+    return low;
+}
+
+} // namespace
+
+ProbabilityLimits probability_limits(int met, int of) {
+    assert(met >= 0 && met <= of);
+    return {lower_limit(met, of), 1.0 - lower_limit(of - met, of)};
+}
+
+} // namespace listric

@@ -1,0 +1,73 @@
+// Throw against height (T-z) of growth faults made in a real packing, whose throw falls from 500 m
+// in the basement to nothing five strata up.
+//
+// Tops of strata in 12 columns a side scatter by some 0.35 diameters about a plane: their two lines
+// differ by 0.15, and the tilt of three tops brings another 0.2 to where the fault is. A diameter
+// is some four times that.
+
+#include "apps/measures/fault_throw.hpp"
+#include "tests/verification/settled_packing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+namespace listric {
+
+using namespace dem;
+using namespace measures;
+namespace {
+
+using namespace support;
+
+constexpr double radius = 93.1, d = 2.0 * radius, degree = pi / 180.0;
+constexpr double base = -30.0 * d, tilt = 0.1, slip = 500.0;
+constexpr int strata = 5; ///< that the fault offsets
+
+const State& sample() {
+    static const State made = settled(packing_request(110.0 * d, 40.0 * d, radius));
+    return made;
+}
+
+/// A fault that falls right, or left as its mirror image, through strata that tilt.
+struct GrowthFault {
+    State state = sample();
+    Polyline trace;
+
+    GrowthFault(double dip, double thickness, double x, bool falls_right) {
+        const DiscColumns c = disc_columns(state);
+        const double side = falls_right ? 1.0 : -1.0, run = 1.0 / std::tan(dip * degree);
+        for (std::size_t i = 0; i < c.x.size(); ++i) {
+            const double height = c.y[i] - base, layers = std::max(0.0, height / thickness);
+            c.stratum[i] = height < 0.0 ? 0 : static_cast<std::int32_t>(layers) + 1;
+            c.start_y[i] = height;
+            if (side * (c.x[i] - x) > -height * run)
+                c.y[i] -= slip * std::max(0.0, 1.0 - layers / strata);
+            c.y[i] += tilt * c.x[i];
+        }
+        for (int k = -10; k < 10; ++k)
+            trace.push_back({x + side * 0.8 * d * k * std::cos(dip * degree),
+                             base + tilt * x - 0.8 * d * k * std::sin(dip * degree)});
+    }
+};
+
+TEST(GrowthFaults, ThrowByStratumIsExactToADiameter) {
+    for (const double thickness : {3.2 * d, 4.0 * d, 6.0 * d})
+        for (const double dip : {45.0, 60.0, 75.0})
+            for (const double x : {50.0 * d, 63.0 * d})
+                for (const bool falls_right : {true, false}) {
+                    SCOPED_TRACE(testing::Message()
+                                 << thickness / d << " " << dip << " " << x / d << falls_right);
+                    const GrowthFault made(dip, thickness, x, falls_right);
+                    const std::map<int, double> throws = fault_throws(made.state, made.trace, 0.0);
+                    EXPECT_GE(throws.size(), 3u);
+                    for (const auto& [stratum, value] : throws)
+                        EXPECT_NEAR(value, slip * std::max(0.0, 1.0 - stratum / 5.0), d) << stratum;
+                }
+}
+
+} // namespace
+} // namespace listric
