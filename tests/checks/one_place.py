@@ -37,6 +37,7 @@ EFFECTS = (
     Effect("fault_weakening", "FaultWeakeningParameters"),
     Effect("bond_healing", "BondHealingParameters"),
     Effect("sedimentation", "SedimentationParameters"),
+    Effect("pore_fluid", "PoreFluidParameters"),
     Effect("compaction", "CompactionParameters"),
     Effect("energy", "EnergyParameters", trade=True),
     Effect("elastic_base", "ElasticBaseParameters"),
