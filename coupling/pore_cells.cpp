@@ -74,10 +74,13 @@ PoreCells pore_cells(const State& state, const RigidBase& base) {
         faceted_cells(state, base, cells.rows, std::vector<double>(cells.count(), none));
     cells.faceted = faceted_cells(state, base, cells.rows,
                                   lids(state, cells, cells.faceted, radius));
-    for (std::size_t k = 0; k < cells.count(); ++k)
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const double r = radius[static_cast<std::size_t>(cells.rows[k])];
+        cells.ground_distances.push_back(std::max(cells.depths[k], 0.5 * r));
         for (const PowerFacet& facet : cells.faceted.of(k))
             if (facet.neighbour == facet_on_lid)
                 cells.surface_lengths[k] += facet.length;
+    }
     return cells;
 }
 
@@ -92,7 +95,7 @@ FlowNetwork flow_network(const State& state, const PoreCells& cells,
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const auto i = static_cast<std::size_t>(cells.rows[k]);
         network.drains[k] = permeability[k] * cells.surface_lengths[k] /
-                            (viscosity * std::max(cells.depths[k], 0.5 * radius[i]));
+                            (viscosity * cells.ground_distances[k]);
         for (const PowerFacet& facet : cells.faceted.of(k)) {
             if (facet.neighbour < 0)
                 continue;
@@ -147,15 +150,16 @@ std::vector<Point> pressure_gradients(const PoreCells& cells,
     for (std::size_t k = 0; k < cells.count(); ++k) {
         Point sum;
         for (const PowerFacet& facet : cells.faceted.of(k)) {
-            double beyond = excess_pressure[k];
-            if (facet.neighbour == facet_on_lid)
-                beyond = 0.0;
-            else if (facet.neighbour >= 0) {
+            double beyond = excess_pressure[k], distance = facet.distance;
+            if (facet.neighbour == facet_on_lid) {
+                beyond = 0.0; // at the ground, which is not where the cell ends
+                distance = cells.ground_distances[k];
+            } else if (facet.neighbour >= 0) {
                 const std::int32_t other = cells.cell_of[static_cast<std::size_t>(facet.neighbour)];
                 if (other >= 0)
                     beyond = excess_pressure[static_cast<std::size_t>(other)];
             }
-            const double weight = (beyond - excess_pressure[k]) * facet.length / facet.distance;
+            const double weight = (beyond - excess_pressure[k]) * facet.length / distance;
             sum.x += weight * facet.arm.x;
             sum.y += weight * facet.arm.y;
         }

@@ -21,6 +21,9 @@ struct PoreCells {
     dem::FacetedCells faceted;           ///< by cell
     std::vector<double> surface_lengths; ///< by cell: of its edge at the ground, m; 0: covered
     std::vector<double> depths;          ///< by cell: of the centre below the ground, m
+    /// By cell: of the centre from where pressure is that of water at rest, m: the depth, at least
+    /// half a radius, for the ground is smoother than its discs.
+    std::vector<double> ground_distances;
 
     std::size_t count() const { return rows.size(); }
 };
@@ -45,11 +48,12 @@ std::size_t enclosed_cells(const FlowNetwork& network);
 
 /// Gradient of excess pressure in every cell, Pa/m: by Green and Gauss, with 0 at the ground and no
 /// flow into rock, base and walls.
-std::vector<dem::Point> pressure_gradients(const PoreCells& cells, std::span<const double> excess_pressure);
+std::vector<dem::Point> pressure_gradients(const PoreCells& cells,
+                                           std::span<const double> excess_pressure);
 
 /// Forces of excess pressure on all discs, N: on wet ones minus the gradient times the mud's own
-/// volume, m^2, which a cell that has opened does not exceed its weight by; on dry ones the pressure
-/// on their facets.
+/// volume, m^2, since a cell that has opened would be lifted by more than it weighs; on dry ones the
+/// pressure on their facets.
 std::vector<dem::Point> pore_forces(const dem::State& state, const PoreCells& cells,
                                     std::span<const double> volume,
                                     std::span<const double> excess_pressure);

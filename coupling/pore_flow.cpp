@@ -11,7 +11,11 @@ namespace listric::coupling {
 
 namespace {
 
-constexpr int steps_before_halving = 12, most_steps = 40, most_halvings = 10;
+constexpr int steps_before_halving = 16, most_steps = 40, most_halvings = 10;
+/// Steps after which more is missing that are taken all the same: on the way to the set of cells at
+/// their bounds one is needed where much water flows, but by more of them kinks of the law of pores
+/// are jumped over to and fro.
+constexpr int growths_allowed = 1;
 constexpr double close_enough = 1.0;    ///< Pa
 constexpr double water_missing = 1e-12; ///< over all water
 
@@ -49,7 +53,6 @@ public:
     bool solve(double seconds, std::span<const double> water, std::vector<double>& u, int most);
 
     int steps = 0;                        ///< of all calls
-    std::vector<double> missing() const { return now_.missing; } ///< at the end of the last call
     std::size_t worst_cell() const;
     const std::vector<At>& at() const { return now_.at; }
 
@@ -57,6 +60,9 @@ private:
     Balance balance(double seconds, std::span<const double> water,
                     std::span<const double> u) const;
     bool find_change(double seconds, std::span<const double> u);
+    std::vector<double> moved(std::span<const double> u, double share) const;
+    void shorten(double seconds, std::span<const double> water, std::span<const double> u,
+                 std::vector<double>& next, Balance& there) const;
 
     const FlowNetwork& network_;
     const Storage& storage_;
@@ -69,7 +75,8 @@ private:
 
 Balance Step::balance(double seconds, std::span<const double> water,
                       std::span<const double> u) const {
-    constexpr double unit = std::numeric_limits<double>::epsilon();
+    // Of a solution, some times that of a sum.
+    constexpr double unit = 16.0 * std::numeric_limits<double>::epsilon();
     Balance b;
     b.missing.resize(u.size());
     b.diagonal.resize(u.size());
@@ -130,38 +137,46 @@ bool Step::solve(double seconds, std::span<const double> water, std::vector<doub
     for (const double w : water)
         all += w;
     now_ = balance(seconds, water, u);
+    int growths = 0; // of what is missing
     for (int k = 0; k < most; ++k) {
         ++steps;
         if (!find_change(seconds, u))
             return false;
-        std::vector<double> best;
-        Balance best_balance;
-        double share = 1.0, taken = 1.0;
-        for (int halving = 0; halving <= most_halvings; ++halving, share *= 0.5) {
-            std::vector<double> tried(u.size());
-            for (std::size_t i = 0; i < u.size(); ++i)
-                tried[i] = u[i] + share * change_[i];
-            Balance there = balance(seconds, water, tried);
-            if (best.empty() || there.merit < best_balance.merit) {
-                best = std::move(tried);
-                best_balance = std::move(there);
-                taken = share;
-            }
-            if (best_balance.merit < (1.0 - 1e-4 * taken) * now_.merit ||
-                best_balance.merit <= best_balance.round_off)
-                break;
-        }
+        std::vector<double> next = moved(u, 1.0);
+        Balance there = balance(seconds, water, next);
+        if (there.merit > now_.merit + there.round_off && ++growths > growths_allowed)
+            shorten(seconds, water, u, next, there);
         double greatest = 0.0;
         for (std::size_t i = 0; i < u.size(); ++i)
-            greatest = std::max(greatest, std::abs(best[i] - u[i]));
-        const bool same = best_balance.at == now_.at;
-        u = std::move(best);
-        now_ = std::move(best_balance);
-        if (greatest <= close_enough && same && taken == 1.0 &&
-            now_.merit <= water_missing * all + now_.round_off)
+            greatest = std::max(greatest, std::abs(next[i] - u[i]));
+        u = std::move(next);
+        now_ = std::move(there);
+        if (greatest <= close_enough && now_.merit <= water_missing * all + now_.round_off)
             return true;
     }
     return false;
+}
+
+std::vector<double> Step::moved(std::span<const double> u, double share) const {
+    std::vector<double> there(u.begin(), u.end());
+    for (std::size_t i = 0; i < u.size(); ++i)
+        there[i] += share * change_[i];
+    return there;
+}
+
+/// Takes the longest half, quarter ... of the change after which less is missing, or the best.
+void Step::shorten(double seconds, std::span<const double> water, std::span<const double> u,
+                   std::vector<double>& next, Balance& there) const {
+    double share = 1.0;
+    for (int halving = 0; halving < most_halvings && there.merit >= now_.merit; ++halving) {
+        share *= 0.5;
+        std::vector<double> tried = moved(u, share);
+        Balance balance_tried = balance(seconds, water, tried);
+        if (balance_tried.merit < there.merit) {
+            next = std::move(tried);
+            there = std::move(balance_tried);
+        }
+    }
 }
 
 std::size_t Step::worst_cell() const {
