@@ -72,8 +72,8 @@ PoreCells pore_cells(const State& state, const RigidBase& base) {
     const std::vector<double> radius = rock_radii(state);
     cells.faceted =
         faceted_cells(state, base, cells.rows, std::vector<double>(cells.count(), none));
-    cells.faceted = faceted_cells(state, base, cells.rows,
-                                  lids(state, cells, cells.faceted, radius));
+    cells.faceted =
+        faceted_cells(state, base, cells.rows, lids(state, cells, cells.faceted, radius));
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const double r = radius[static_cast<std::size_t>(cells.rows[k])];
         cells.ground_distances.push_back(std::max(cells.depths[k], 0.5 * r));
@@ -94,8 +94,8 @@ FlowNetwork flow_network(const State& state, const PoreCells& cells,
     network.drains.assign(cells.count(), 0.0);
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const auto i = static_cast<std::size_t>(cells.rows[k]);
-        network.drains[k] = permeability[k] * cells.surface_lengths[k] /
-                            (viscosity * cells.ground_distances[k]);
+        network.drains[k] =
+            permeability[k] * cells.surface_lengths[k] / (viscosity * cells.ground_distances[k]);
         for (const PowerFacet& facet : cells.faceted.of(k)) {
             if (facet.neighbour < 0)
                 continue;
@@ -110,8 +110,8 @@ FlowNetwork flow_network(const State& state, const PoreCells& cells,
             const double factor = weakened == 2   ? faults.along
                                   : weakened == 1 ? faults.across
                                                   : 1.0;
-            const double both = 2.0 * permeability[k] * permeability[m] /
-                                (permeability[k] + permeability[m]);
+            const double both =
+                2.0 * permeability[k] * permeability[m] / (permeability[k] + permeability[m]);
             if (length > 0.0)
                 network.links.push_back({static_cast<std::int32_t>(k), other,
                                          factor * both * length / (facet.distance * viscosity)});

@@ -11,8 +11,8 @@
 
 namespace listric::coupling {
 
-// Wet discs, which are those of sediment, as cells of a fluid's flow: power cells, on whose facets a
-// difference of two pressures gives flow and force exactly where pressure is linear. Rock is dry.
+// Wet discs, which are those of sediment, as cells of a fluid's flow: power cells, on whose facets
+// a difference of two pressures gives flow and force exactly where pressure is linear. Rock is dry.
 
 /// Cells of the wet discs.
 struct PoreCells {
@@ -52,8 +52,8 @@ std::vector<dem::Point> pressure_gradients(const PoreCells& cells,
                                            std::span<const double> excess_pressure);
 
 /// Forces of excess pressure on all discs, N: on wet ones minus the gradient times the mud's own
-/// volume, m^2, since a cell that has opened would be lifted by more than it weighs; on dry ones the
-/// pressure on their facets.
+/// volume, m^2, since a cell that has opened would be lifted by more than it weighs; on dry ones
+/// the pressure on their facets.
 std::vector<dem::Point> pore_forces(const dem::State& state, const PoreCells& cells,
                                     std::span<const double> volume,
                                     std::span<const double> excess_pressure);

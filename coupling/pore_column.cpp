@@ -37,8 +37,7 @@ FlowNetwork network_of(const MudColumn& column, const Layers& layers) {
     double height_below = 0.0, k_below = 0.0;
     for (std::size_t k = 0; k < layers.count(); ++k) {
         const double height = thickness(column.law, layers, k);
-        const double k_here =
-            permeability(column.mud, porosity_at(column.law, layers.burial[k]));
+        const double k_here = permeability(column.mud, porosity_at(column.law, layers.burial[k]));
         if (k > 0)
             network.links.push_back({static_cast<std::int32_t>(k - 1), static_cast<std::int32_t>(k),
                                      2.0 * k_below * k_here / (k_below + k_here) /
@@ -95,7 +94,8 @@ void drain(const MudColumn& column, double step, Layers& layers, SunkColumn& sun
 
 MudLayer SunkColumn::at(double depth) const {
     // Layers go up, so depths descend.
-    const auto after = std::ranges::find_if(layers, [&](const MudLayer& l) { return l.depth < depth; });
+    const auto after =
+        std::ranges::find_if(layers, [&](const MudLayer& l) { return l.depth < depth; });
     if (after == layers.begin())
         return layers.empty() ? MudLayer{} : layers.front();
     if (after == layers.end())
@@ -143,8 +143,7 @@ double gibson_number(const MudColumn& column, double rate, double time) {
     constexpr double porosity = 0.2;
     const double solid = 1.0 - porosity;
     // Change of volume by stress, 1/Pa: de/dsigma / (1 + e).
-    const double softness =
-        column.law.decay * porosity / (column.law.grain_weight * solid * solid);
+    const double softness = column.law.decay * porosity / (column.law.grain_weight * solid * solid);
     const double consolidation =
         permeability(column.mud, porosity) / (column.viscosity * softness); // m^2/s
     return rate * rate * time / consolidation;

@@ -29,8 +29,8 @@ struct MudLayer {
 
 /// A column after it has sunk.
 struct SunkColumn {
-    std::vector<MudLayer> layers; ///< from the floor up
-    double grains = 0.0;          ///< height of all grains, m
+    std::vector<MudLayer> layers;                               ///< from the floor up
+    double grains = 0.0;                                        ///< height of all grains, m
     double came = 0.0, surface = 0.0, vented = 0.0, left = 0.0; ///< water, m
     int most_steps = 0;                                         ///< of Newton's method
     bool converged = true;

@@ -52,13 +52,12 @@ public:
     /// Solves for the pressures after some seconds. False if it does not converge in `most` steps.
     bool solve(double seconds, std::span<const double> water, std::vector<double>& u, int most);
 
-    int steps = 0;                        ///< of all calls
+    int steps = 0; ///< of all calls
     std::size_t worst_cell() const;
     const std::vector<At>& at() const { return now_.at; }
 
 private:
-    Balance balance(double seconds, std::span<const double> water,
-                    std::span<const double> u) const;
+    Balance balance(double seconds, std::span<const double> water, std::span<const double> u) const;
     bool find_change(double seconds, std::span<const double> u);
     std::vector<double> moved(std::span<const double> u, double share) const;
     void shorten(double seconds, std::span<const double> water, std::span<const double> u,
@@ -187,7 +186,8 @@ std::size_t Step::worst_cell() const {
 
 /// Books what has flown in some seconds at these pressures.
 void book(const FlowNetwork& network, const Storage& storage, const std::vector<At>& at,
-          double seconds, std::span<const double> u, std::span<double> water, FlowOutcome& outcome) {
+          double seconds, std::span<const double> u, std::span<double> water,
+          FlowOutcome& outcome) {
     for (const auto& [first, second, conductance] : network.links) {
         const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
         const double flows = seconds * conductance * (u[i] - u[j]);

@@ -45,17 +45,18 @@ struct PressureBounds {
 struct FlowOutcome {
     double surface = 0.0; ///< through drains
     double vented = 0.0;
-    int steps = 0;                           ///< of Newton's method
-    std::optional<std::size_t> stuck = {};   ///< cell where it did not converge, if so
+    int steps = 0;                         ///< of Newton's method
+    std::optional<std::size_t> stuck = {}; ///< cell where it did not converge, if so
 };
 
-/// Excess pressures after a time, and the water that is left, from those before. Water is what flows
-/// have left, not what the pressure stands for, so that none is lost by a solution that ends early.
+/// Excess pressures after a time, and the water that is left, from those before. Water is what
+/// flows have left, not what the pressure stands for, so that none is lost by a solution that ends
+/// early.
 ///
 /// Semi-smooth Newton's method with a line search, once steps do no good, on what is missing in the
 /// water, where cells at their bounds count by what they are beyond them. It ends when no pressure
-/// changes by more than 1 Pa and what is missing is at most 1e-12 of all water, or round-off. After 16
-/// steps the time is halved.
+/// changes by more than 1 Pa and what is missing is at most 1e-12 of all water, or round-off. After
+/// 16 steps the time is halved.
 FlowOutcome flow(const FlowNetwork& network, const Storage& storage, const PressureBounds& bounds,
                  double seconds, std::span<double> water, std::span<double> excess_pressure);
 

@@ -122,8 +122,8 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
         solid.push_back(d.mass[i] / sediment_.grain_density);
         conductivity.push_back(permeability(fluid_.permeability, porosity[k]));
         bounds.highest.push_back(fluid_.fracture_ratio * law_.grain_weight * above[i]);
-        bounds.lowest.push_back(
-            -fluid_weight_ * std::max(0.0, fluid_.level.value_or(0.0) - d.y[i]));
+        bounds.lowest.push_back(-fluid_weight_ *
+                                std::max(0.0, fluid_.level.value_or(0.0) - d.y[i]));
     }
     const Storage storage = [&](std::size_t k, double u) {
         const VoidRatio e = void_ratio(law_, grains[k], burial[k], u);
@@ -135,8 +135,7 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
         flow_network(state, cells, conductivity, fluid_.viscosity, fluid_.faults);
     std::vector<double> u = gathered(state, "excess_pressure", cells);
     std::vector<double> water = gathered(state, "pore_water", cells);
-    const FlowOutcome outcome =
-        flow(network, storage, bounds, schedule().seconds(), water, u);
+    const FlowOutcome outcome = flow(network, storage, bounds, schedule().seconds(), water, u);
     if (outcome.stuck)
         refuse(state, cells, *outcome.stuck, u[*outcome.stuck], bounds.highest[*outcome.stuck]);
     std::vector<double> ratio;
@@ -156,9 +155,9 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
     double& newton = memory.get<double>(Sums::newton)[0];
     newton = std::max(newton, static_cast<double>(outcome.steps));
     memory.get<double>(Sums::enclosed)[0] =
-        cells.count() == 0 ? 0.0
-                           : static_cast<double>(enclosed_cells(network)) /
-                                 static_cast<double>(cells.count());
+        cells.count() == 0
+            ? 0.0
+            : static_cast<double>(enclosed_cells(network)) / static_cast<double>(cells.count());
     push(state, cells);
     return false;
 }

@@ -11,8 +11,8 @@
 namespace listric::coupling {
 
 /// Water in the pores of sediment: flow through geological time, with the compaction that goes with
-/// it, and forces on the discs. Excess pressure u is pressure over that of water at rest, whose part
-/// is buoyancy: discs weigh what their grains weigh in water.
+/// it, and forces on the discs. Excess pressure u is pressure over that of water at rest, whose
+/// part is buoyancy: discs weigh what their grains weigh in water.
 struct PoreFluidParameters {
     double interval = 2.5e3; ///< time between solutions, a
     Permeability permeability = {};
@@ -30,7 +30,7 @@ struct PoreFluidParameters {
 /// Share of weight that is left in water.
 double buoyant_share(double fluid_density, double grain_density);
 
-/// What the fluid is told of sediment.
+/// Facts of sediment that the fluid needs.
 struct WetSediment {
     double surface_porosity = 0.5;
     double porosity_decay = 4e-4;  ///< with depth, 1/m
@@ -47,9 +47,9 @@ PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, 
 /// cycles follow. A change of the discs' volumes is not handed back: packing noise would become
 /// pressure, and sediment is so soft against water that the iteration would not be stable.
 ///
-/// Columns of discs: excess_pressure, Pa; pore_water, m^2 (-1: not counted yet); burial, m, greatest
-/// equivalent depth; wanted_porosity, which compaction follows; overpressure_ratio, u over the
-/// weight of grains in water; push_x, push_y. Its memory has one row: see Sums.
+/// Columns of discs: excess_pressure, Pa; pore_water, m^2 (-1: not counted yet); burial, m,
+/// greatest equivalent depth; wanted_porosity, which compaction follows; overpressure_ratio, u over
+/// the weight of grains in water; push_x, push_y. Its memory has one row: see Sums.
 class PoreFluid : public dem::Event {
 public:
     /// @param gravity  of planet, not of discs in water, m/s^2
@@ -60,9 +60,9 @@ public:
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
     /// Names of what is remembered: water, m^2, that came with sediment, left through the ground,
-    /// was vented and eroded, and that is left; the greatest number of Newton's steps so far; and of
-    /// the last solution shares of wet discs whose lift was cut, of those that no flow reaches, and
-    /// the mud's own volumes over those of its cells.
+    /// was vented and eroded, and that is left; the greatest number of Newton's steps so far; and
+    /// of the last solution shares of wet discs whose lift was cut, of those that no flow reaches,
+    /// and the mud's own volumes over those of its cells.
     struct Sums {
         static constexpr const char *came = "came", *surface = "surface", *vented = "vented",
                                     *eroded = "eroded", *left = "left", *newton = "newton_steps",

@@ -48,11 +48,10 @@ double equivalent_depth(const PoreLaw& law, double grains) {
     if (grains <= 0.0)
         return 0.0;
     // Newton from above: the function is convex, so that no step leads below the root.
-    double depth = std::min(grains / (1.0 - law.surface_porosity),
-                            grains + law.surface_porosity / law.decay);
+    double depth =
+        std::min(grains / (1.0 - law.surface_porosity), grains + law.surface_porosity / law.decay);
     for (int step = 0; step < 30; ++step) {
-        const double change =
-            (grains_at(law, depth) - grains) / (1.0 - porosity_at(law, depth));
+        const double change = (grains_at(law, depth) - grains) / (1.0 - porosity_at(law, depth));
         depth -= change;
         if (std::abs(change) <= 1e-12 * depth)
             break;

@@ -25,12 +25,12 @@ double permeability(const Permeability& mud, double porosity);
 /// How sediment compacts: phi = phi_0 exp(-c z) at depth z of a column whose water is at rest
 /// [Baldwin & Butler 1985]. With the weight of grains in water it is a law of effective stress.
 struct PoreLaw {
-    double surface_porosity = 0.5;     ///< phi_0
-    double decay = 4e-4;               ///< c, 1/m
-    double grain_weight = 15402.0;     ///< of grains less that of water as large, N/m^3
-    double compressibility = 4.4e-10;  ///< of water, 1/Pa
-    double rebound = 0.1;              ///< slope of e over stress where that falls, over the slope
-                                       ///< where it rises
+    double surface_porosity = 0.5;    ///< phi_0
+    double decay = 4e-4;              ///< c, 1/m
+    double grain_weight = 15402.0;    ///< of grains less that of water as large, N/m^3
+    double compressibility = 4.4e-10; ///< of water, 1/Pa
+    double rebound = 0.1;             ///< slope of e over stress where that falls, over the slope
+                                      ///< where it rises
 };
 
 /// Porosity at a depth of a column whose water is at rest.

@@ -17,7 +17,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 } // namespace
 
 struct SparseSolver::Parts {
-    Matrix matrix; ///< lower triangle
+    Matrix matrix;                                   ///< lower triangle
     std::vector<std::size_t> diagonal, off_diagonal; ///< where in it the values are
     Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factors;
 };

@@ -50,12 +50,11 @@ const Work gibson{"Gibson (1958)", R"(@article{gibson_1958,
 
 const Work audet_fowler{"Audet and Fowler (1992)", R"(@article{audet_fowler_1992,
   author  = {Audet, D. M. and Fowler, A. C.},
-  title   = {A mathematical model for compaction in sedimentary basins},
   journal = {Geophysical Journal International},
   volume  = {110},
   pages   = {577},
   year    = {1992},
-  note    = {Title and last page not verified},
+  note    = {Limits of consolidation under sediment that comes; title and last page not verified},
 })"};
 
 const Work wangen{"Wangen (2010)", R"(@book{wangen_2010,

@@ -21,8 +21,7 @@ GrainColumns::GrainColumns(const State& state) {
         const auto i = static_cast<std::size_t>(row);
         return std::tuple(column[i], -d.y[i], row);
     };
-    sort_shared(std::span(order_),
-                [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+    sort_shared(std::span(order_), [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
     const auto column_at = [&](std::size_t k) {
         return column[static_cast<std::size_t>(order_[k])];
     };

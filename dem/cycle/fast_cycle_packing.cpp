@@ -183,9 +183,8 @@ void FastCycle::pack_contacts(const State& state) {
         bonded_ |= strip.bonded;
         frictional_ |= strip.frictional;
         strip.first_slot = (slot + 7) / 8 * 8;
-        strip.first_push_slot = strip.first_slot + strip.ring +
-                                8 * strip.boundary.blocks.size() + strip.end_base_row -
-                                strip.first_base_row;
+        strip.first_push_slot = strip.first_slot + strip.ring + 8 * strip.boundary.blocks.size() +
+                                strip.end_base_row - strip.first_base_row;
         slot = strip.first_push_slot + pushes.count(strip.first_disc, strip.end_disc);
     }
     slots_.resize(slot);
@@ -321,8 +320,8 @@ void FastCycle::pack_base_contacts(const State& state, Strip& strip) {
 }
 
 /// Gathering lists. Per group of discs: how many slots beyond the usual ones come in (of the push,
-/// which nothing writes again, from the base and as second disc) and go out (as first disc), then the slots, interleaved by disc; short lists
-/// are filled up with the zero slot.
+/// which nothing writes again, from the base and as second disc) and go out (as first disc), then
+/// the slots, interleaved by disc; short lists are filled up with the zero slot.
 void FastCycle::pack_gathers(const State& state, Strip& strip) {
     const ConstContactColumns c = contact_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);

@@ -82,21 +82,21 @@ void EnergyAccount::book_event(const std::string& name, const State& state, cons
 
 EnergyBalance EnergyAccount::balance(const State& state, const RigidBase& base) const {
     const StoredEnergy now = stored_energy(state, base, gravity_);
-    EnergyBalance b{value("boundary_work"),
-                    value("gravity_work") + value("potential") - now.potential,
-                    memory.has("base_work") ? std::optional(value("base_work")) : std::nullopt,
-                    memory.has("push_work") ? std::optional(value("push_work") +
-                                                            value("push_potential") -
-                                                            now.push_potential)
-                                            : std::nullopt,
-                    now,
-                    now.motion_and_strain() - value("initial"),
-                    value("friction"),
-                    value("damping"),
-                    value("bond_breaking"),
-                    value("stepping"),
-                    0.0,
-                    {}};
+    EnergyBalance b{
+        value("boundary_work"),
+        value("gravity_work") + value("potential") - now.potential,
+        memory.has("base_work") ? std::optional(value("base_work")) : std::nullopt,
+        memory.has("push_work")
+            ? std::optional(value("push_work") + value("push_potential") - now.push_potential)
+            : std::nullopt,
+        now,
+        now.motion_and_strain() - value("initial"),
+        value("friction"),
+        value("damping"),
+        value("bond_breaking"),
+        value("stepping"),
+        0.0,
+        {}};
     for (const Column& column : memory.columns())
         if (column.name.starts_with(prefix)) {
             b.by_event.emplace_back(column.name.substr(prefix.size()), value(column.name));

@@ -1,6 +1,6 @@
 // Flow of pore water between the cells of discs against exact solutions, and what holds of it
-// whatever the pressures. Errors of the first kind are those of irregular cells some 1/16 or 1/32 of
-// the height wide; the others are round-off.
+// whatever the pressures. Errors of the first kind are those of irregular cells some 1/16 or 1/32
+// of the height wide; the others are round-off.
 
 #include "coupling/pore_cells.hpp"
 #include "coupling/pore_law.hpp"
@@ -94,7 +94,8 @@ double terzaghi(double z_over_h, double time_factor) {
     return u;
 }
 
-/// Root of the mean square error of pressure at times T = 0.05, 0.2 and 0.5, over that at the start.
+/// Root of the mean square error of pressure at times T = 0.05, 0.2 and 0.5, over that at the
+/// start.
 std::vector<double> terzaghi_errors(int rows, int steps, std::uint64_t seed) {
     const Mud mud(rows, seed);
     const std::size_t n = mud.cells.count();
@@ -217,18 +218,19 @@ TEST(PoreFlow, GibsonDiscByDisc) {
 }
 
 TEST(PoreFlow, WangensCase) {
-    // 1,000 m in 1 Ma [Wangen 2010, p. 403]: k 1.18e-18 m^2, E 64.62 MPa, nu 0.3, water of 1e-3 Pa s.
+    // 1,000 m in 1 Ma [Wangen 2010, p. 403]: k 1.18e-18 m^2, E 64.62 MPa, nu 0.3, water of 1e-3 Pa
+    // s.
     constexpr double height = 1000.0, seconds = 1e6 * 31557600.0, e = 64.62e6, nu = 0.3;
     const double stiffness = e * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)); // of an oedometer
-    const double consolidation = 1.18e-18 / 1e-3 * stiffness;                   // m^2/s
+    const double consolidation = 1.18e-18 / 1e-3 * stiffness;                  // m^2/s
     const double time_factor = height * height / (consolidation * seconds);
     EXPECT_NEAR(gibson_of_discs(Mud(16), time_factor), gibson(time_factor),
                 0.01 * gibson(time_factor));
 }
 
 TEST(PoreFlow, TwoLayersInSeries) {
-    // Columns of a square lattice, the lower half a hundred times less permeable, held at a pressure
-    // below and drained above. What the water keeps of the flow is 1e-18 of it.
+    // Columns of a square lattice, the lower half a hundred times less permeable, held at a
+    // pressure below and drained above. What the water keeps of the flow is 1e-18 of it.
     constexpr std::size_t columns = 6, rows = 10;
     constexpr double held = 1e6, radius = 50.0, seconds = 1e20;
     std::vector<Disc> discs;
@@ -270,9 +272,7 @@ TEST(PoreFlow, ExtremesNeverGrow) {
     for (std::size_t i = 0; i < n; ++i)
         water[i] = storage(i, u[i]).water;
     const FlowNetwork network = mud.network(k);
-    const auto square = [&] {
-        return std::inner_product(u.begin(), u.end(), u.begin(), 0.0);
-    };
+    const auto square = [&] { return std::inner_product(u.begin(), u.end(), u.begin(), 0.0); };
     const double before = square();
     auto [low, high] = std::ranges::minmax(u);
     for (int step = 0; step < 20; ++step) {

@@ -45,14 +45,17 @@ std::vector<Case> hard_cases() {
     return {
         {"at once"},
         {"weak zone",
-         [](PoreFluidParameters& p) { p.faults = {1e6, 1e-6}; },
+         [](PoreFluidParameters& p) {
+             p.faults = {1e6, 1e-6};
+         },
          [](State& state) {
              const DiscColumns d = disc_columns(state);
              for (std::size_t i = 0; i < d.x.size(); ++i)
                  if (std::abs(d.x[i] - 1500.0 - 0.3 * (d.y[i] + 2500.0)) < 200.0)
                      d.material[i] = weak;
          }},
-        {"half dry", {},
+        {"half dry",
+         {},
          [](State& state) {
              Random random(7);
              for (std::int32_t& stratum : disc_columns(state).stratum)
@@ -60,7 +63,9 @@ std::vector<Case> hard_cases() {
          }},
         {"no rebound", [](PoreFluidParameters& p) { p.rebound = 0.0; }},
         {"fractures late", [](PoreFluidParameters& p) { p.fracture_ratio = 0.99; }},
-        {"eroded", {}, {},
+        {"eroded",
+         {},
+         {},
          [](State& state) {
              std::vector<std::int32_t> kept;
              for (std::size_t i = 0; i < state.discs.rows(); ++i)
@@ -102,7 +107,6 @@ TEST(PoreFluidHard, ConvergesAndKeepsItsWater) {
             for (const double ratio : state.discs.get<double>("overpressure_ratio"))
                 greatest = std::max(greatest, ratio);
             EXPECT_LE(greatest, p.fracture_ratio * (1.0 + 1e-12)) << c.name << ", " << permeability;
-            std::printf("%s %g: %g steps, lambda %.3f, error %.1e vent %.3f enclosed %.3f\n", c.name.c_str(), permeability, water(Sums::newton), greatest, (water(Sums::came)-water(Sums::surface)-water(Sums::vented)-water(Sums::eroded)-water(Sums::left))/water(Sums::came), water(Sums::vented)/water(Sums::came), water(Sums::enclosed));
         }
 }
 

@@ -22,7 +22,8 @@ using coupling::Permeability;
 std::vector<Parameter> parameters() {
     return {
         {"interval_a", at<&P::interval>, "a", ranges::years, "",
-         "time between solutions for the pressure; a multiple of that of compaction",
+         "time between solutions for the pressure; a multiple of the time between updates of "
+         "porosity",
          "Raising it above the default makes pressures less accurate: 0.3 % at 2,500 a.",
          between(500, 2500)},
         {"permeability_m2",
@@ -64,7 +65,8 @@ std::vector<Parameter> parameters() {
          "permeability between a weakened and a sound disc over that of sound sediment",
          "Lowering it makes faults in sediment seals."},
         {"level_m", at<&P::level>, "m", ranges::height, "",
-         "height of the water above the original surface; default: that of sedimentation",
+         "height of the water above the original surface; default: the level that the basin is "
+         "filled to",
          "Moves the pressure of water at rest, no excess pressure and no weight."},
         {"hydrostatic", at<&P::hydrostatic>, "", ranges::any, "",
          "water at rest: buoyancy and nothing else",
@@ -113,17 +115,15 @@ void check(const Scene& scene, const Refuse& refuse) {
     const double grains = parts.sediment->grain_density, rock = scene.hanging_wall.rock_density;
     if (p.density >= grains)
         refuse("pore_fluid.fluid_density_kg_per_m3",
-               fmt::format("is {}, allowed: below sedimentation.grain_density_kg_per_m3 = {}, or "
-                           "sediment floats",
+               fmt::format("is {}, allowed: below {}, the density of grains; else sediment floats",
                            text(p.density), text(grains)));
     if (rock != grains)
         refuse("pore_fluid",
                fmt::format("weighs rock and grains by one buoyancy, which needs equal densities; "
-                           "hanging_wall.rock_density_kg_per_m3 is {}, "
-                           "sedimentation.grain_density_kg_per_m3 {}",
+                           "hanging_wall.rock_density_kg_per_m3 is {}, grains have {}",
                            text(rock), text(grains)));
     if (!(*parts.sediment->porosity_decay > 0.0) || !(parts.sediment->surface_porosity > 0.0))
-        refuse("pore_fluid", "needs sediment that compacts: a coefficient of compaction and a "
+        refuse("pore_fluid", "needs sediment that compacts: a decay of porosity with depth and a "
                              "surface porosity above 0");
     const double times = p.interval / parts.sediment->porosity_interval;
     if (std::abs(times - std::round(times)) > 1e-9 || times < 0.5)
@@ -132,25 +132,26 @@ void check(const Scene& scene, const Refuse& refuse) {
                            "porosity, {} a, which follows it",
                            text(p.interval), text(parts.sediment->porosity_interval)));
     if (parts.base_moves)
-        refuse("pore_fluid",
-               "beside a base that bends is not in the program yet: the base would lose the weight "
-               "that water carries, 40 % of its load; make the base rigid, or leave out [pore_fluid]");
+        refuse(
+            "pore_fluid",
+            "beside a base that bends is not in the program yet: the base would lose the weight "
+            "that water carries, 40 % of its load; make the base rigid, or leave out [pore_fluid]");
 }
 
-/// What a column of this mud at the depocentre would have.
+/// Pressure and porosity of a column of this mud at the depocentre.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
     const ModelParts parts = make_parts(scene);
     if (p.hydrostatic)
-        return fmt::format("pore fluid\n  water at rest: discs weigh {:.3f} of their weight in air\n",
-                           parts.physics.gravity / parts.gravity);
+        return fmt::format(
+            "pore fluid\n  water at rest: discs weigh {:.3f} of their weight in air\n",
+            parts.physics.gravity / parts.gravity);
     const coupling::MudColumn column = mud_column(p, wet_sediment(parts), parts.gravity);
     // A floor below a steep detachment sinks by nine tenths of the extension.
-    const double depth =
-        std::min(0.9 * scene.extension.distance, scene.hanging_wall.thickness);
-    const double seconds = dem::Schedule{scene.extension.distance / scene.extension.rate,
-                                         scene.extension.rate}
-                               .seconds();
+    const double depth = std::min(0.9 * scene.extension.distance, scene.hanging_wall.thickness);
+    const double seconds =
+        dem::Schedule{scene.extension.distance / scene.extension.rate, scene.extension.rate}
+            .seconds();
     constexpr std::size_t steps = 100;
     const coupling::SunkColumn sunk =
         coupling::sink(column, coupling::steady_floor(depth, steps), seconds / steps);
@@ -162,10 +163,9 @@ std::string explain(const Scene& scene, EffectList) {
         "  overpressure ratio of a column of this mud: {:.2f} at 1 km, {:.2f} at {:.1f} km; "
         "porosity {:.3f} there, {:.3f} where water is at rest\n",
         parts.physics.gravity / parts.gravity, p.interval, depth / 1e3, gibson,
-        gibson < 0.01 ? "water is at rest throughout; hydrostatic = true has it at no cost"
-        : gibson > 1e3
-            ? "hardly any water leaves but through fractures"
-            : "water leaves while mud is buried",
+        gibson < 0.01  ? "water is at rest throughout; hydrostatic = true has it at no cost"
+        : gibson > 1e3 ? "hardly any water leaves but through fractures"
+                       : "water leaves while mud is buried",
         sunk.at(1000.0).overpressure_ratio, sunk.at(0.5 * depth).overpressure_ratio,
         0.5 * depth / 1e3, sunk.at(0.5 * depth).porosity,
         coupling::porosity_at(column.law, 0.5 * depth));
@@ -174,8 +174,8 @@ std::string explain(const Scene& scene, EffectList) {
 } // namespace
 
 Works pore_fluid_works() {
-    return {&works::gibson, &works::audet_fowler, &works::wangen, &works::yang_aplin,
-            &works::baldwin_butler, &works::catalano};
+    return {&works::gibson,     &works::audet_fowler,   &works::wangen,
+            &works::yang_aplin, &works::baldwin_butler, &works::catalano};
 }
 
 const Effect& pore_fluid() {

@@ -17,14 +17,12 @@ using coupling::PoreFluid;
 using Sums = PoreFluid::Sums;
 using V = std::optional<double>;
 
-const PoreFluid* fluid_in(const Observation& now) {
-    return dem::find<const PoreFluid>(now.events);
-}
+const PoreFluid* fluid_in(const Observation& now) { return dem::find<const PoreFluid>(now.events); }
 
-/// What the fluid is in a disc of sediment.
+/// State of the fluid in a disc of sediment.
 struct WetDisc {
-    double x = 0.0, depth = 0.0; ///< m
-    double volume = 0.0;         ///< of its mud, m^2
+    double x = 0.0, depth = 0.0;                ///< m
+    double volume = 0.0;                        ///< of its mud, m^2
     double excess_pressure = 0.0, weight = 0.0; ///< weight of grains in water, Pa
     double porosity = 0.0, normal_porosity = 0.0;
 
@@ -92,10 +90,10 @@ double depocentre(const std::vector<WetDisc>& wet) {
 
 /// Means of the discs of a well, by depth.
 struct WellPoint {
-    double depth = 0.0;        ///< m
-    double pressure = 0.0;     ///< of water, Pa
-    double excess = 0.0;       ///< over that of water at rest, Pa
-    double effective = 0.0;    ///< vertical stress of the grains, Pa
+    double depth = 0.0;     ///< m
+    double pressure = 0.0;  ///< of water, Pa
+    double excess = 0.0;    ///< over that of water at rest, Pa
+    double effective = 0.0; ///< vertical stress of the grains, Pa
     double ratio = 0.0, porosity = 0.0, normal_porosity = 0.0;
     double permeability = 0.0; ///< m^2
     double mud_weight = 0.0;   ///< density of a mud that balances the pressure, kg/m3
@@ -250,7 +248,8 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
          "excess pore pressure over the weight of grains in water: ratio of their sums over the "
          "sediment. 0: water at rest, 1: water carries all",
          of_discs<mean_ratio>},
-        {"overpressure_ratio_max", "1", "the same ratio where it is greatest",
+        {"overpressure_ratio_max", "1",
+         "excess pore pressure over the weight of grains in water, where that ratio is greatest",
          of_discs<greatest_ratio>},
         {"lambda_floor", "1",
          "pore pressure over the weight of grains and water, on the floor of the depocentre",
@@ -273,12 +272,13 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
         {"water_eroded_m2", "m2", "pore water that went with eroded sediment",
          remembered<Sums::eroded>},
         {"water_left_m2", "m2", "pore water in the sediment", remembered<Sums::left>},
-        {"water_error", "1", "water that came less where it went, over it. Round-off",
-         water_error, largest},
+        {"water_error", "1", "water that came less where it went, over it. Round-off", water_error,
+         largest},
         {"lift_capped_share", "1",
          "share of sediment discs whose lift was cut to 0.99 of their weight",
          remembered<Sums::capped>, mean},
-        {"enclosed_share", "1", "share of sediment discs that no way of the water joins to the ground",
+        {"enclosed_share", "1",
+         "share of sediment discs that no way of the water joins to the ground",
          remembered<Sums::enclosed>},
         {"fill", "1", "the mud's own volume over that of the cells of its discs",
          remembered<Sums::fill>},
@@ -291,12 +291,13 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
 }
 
 std::vector<MeasuredObjects> pore_fluid_objects() {
-    MeasuredObjects list{"pressure_profile",
-                         "",
-                         "pore pressure and porosity at the depocentre, down from the ground: means "
-                         "over 1 km to either side",
-                         {},
-                         profile};
+    MeasuredObjects list{
+        "pressure_profile",
+        "",
+        "pore pressure and porosity at the depocentre, down from the ground: means "
+        "over 1 km to either side",
+        {},
+        profile};
     for (const auto& measure : of_point)
         list.parts.push_back(measure.quantity());
     return {list};
@@ -310,9 +311,8 @@ std::vector<FigureLayer> pore_fluid_layers() {
             {"undercompaction", LayerKind::discs, "undercompaction, 0 to 0.3", "#4a148c",
              [](const Observation& now) {
                  constexpr double full = 0.3; // porosity over the normal one
-                 return inks(now, [](const WetDisc& d) {
-                     return (d.porosity - d.normal_porosity) / full;
-                 });
+                 return inks(
+                     now, [](const WetDisc& d) { return (d.porosity - d.normal_porosity) / full; });
              }}};
 }
 

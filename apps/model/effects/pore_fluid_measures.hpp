@@ -6,11 +6,11 @@
 
 namespace listric::effects {
 
-/// Columns, numbers and lists of what the pore fluid does.
+/// Measures of the pore fluid.
 std::vector<Measure<Observation>> pore_fluid_measures();
 std::vector<MeasuredObjects> pore_fluid_objects();
 
-/// What figures show of it.
+/// Layers of figures.
 std::vector<FigureLayer> pore_fluid_layers();
 
 } // namespace listric::effects
