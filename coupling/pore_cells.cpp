@@ -19,22 +19,40 @@ bool is_near(double distance, double reach) {
     return distance <= most * reach;
 }
 
-/// Cells that end at the ground, by the radii of their discs: those open upward close below it.
-std::vector<double> lids(const State& state, const PoreCells& cells,
-                         const FacetedCells& without_lids, std::span<const double> radius) {
+/// Whether a cell is at the ground: open upward close below it.
+bool is_at_ground(const State& state, const PoreCells& cells, std::size_t k) {
     constexpr double near_ground = 3.0; // mean radii
-    constexpr double none = std::numeric_limits<double>::infinity();
-    std::vector<double> lid(cells.count(), none);
-    for (std::size_t k = 0; k < lid.size(); ++k) {
-        if (cells.depths[k] > near_ground * state.mean_radius)
-            continue;
-        const auto is_open_upward = [](const PowerFacet& f) {
-            return f.neighbour == facet_open && f.arm.y > 0.0;
-        };
-        if (std::ranges::any_of(without_lids.of(k), is_open_upward))
-            lid[k] = radius[static_cast<std::size_t>(cells.rows[k])];
+    return cells.depths[k] <= near_ground * state.mean_radius &&
+           std::ranges::any_of(cells.faceted.of(k), [](const PowerFacet& f) {
+               return f.neighbour == facet_open && f.arm.y > 0.0;
+           });
+}
+
+/// Cuts the cells at the ground again, so that they end a radius above their discs' centres.
+void end_at_ground(const State& state, const RigidBase& base, std::span<const double> radius,
+                   PoreCells& cells) {
+    std::vector<std::size_t> at_ground;
+    std::vector<std::int32_t> rows;
+    std::vector<double> lids;
+    for (std::size_t k = 0; k < cells.count(); ++k)
+        if (is_at_ground(state, cells, k)) {
+            at_ground.push_back(k);
+            rows.push_back(cells.rows[k]);
+            lids.push_back(radius[static_cast<std::size_t>(cells.rows[k])]);
+        }
+    const FacetedCells cut = faceted_cells(state, base, rows, lids);
+    FacetedCells all{cells.faceted.cells, {}, {0}};
+    all.facets.reserve(cells.faceted.facets.size());
+    std::size_t next = 0; // of those at the ground
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const bool is_cut = next < at_ground.size() && at_ground[next] == k;
+        const auto facets = is_cut ? cut.of(next) : cells.faceted.of(k);
+        if (is_cut)
+            all.cells[k] = cut.cells[next++];
+        all.facets.insert(all.facets.end(), facets.begin(), facets.end());
+        all.begin.push_back(all.facets.size());
     }
-    return lid;
+    cells.faceted = std::move(all);
 }
 
 /// Length of the facet between two cells: of the part that both have, which differs where the
@@ -72,8 +90,7 @@ PoreCells pore_cells(const State& state, const RigidBase& base) {
     const std::vector<double> radius = rock_radii(state);
     cells.faceted =
         faceted_cells(state, base, cells.rows, std::vector<double>(cells.count(), none));
-    cells.faceted =
-        faceted_cells(state, base, cells.rows, lids(state, cells, cells.faceted, radius));
+    end_at_ground(state, base, radius, cells);
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const double r = radius[static_cast<std::size_t>(cells.rows[k])];
         cells.ground_distances.push_back(std::max(cells.depths[k], 0.5 * r));

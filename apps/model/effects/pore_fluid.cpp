@@ -131,7 +131,7 @@ void check(const Scene& scene, const Refuse& refuse) {
                fmt::format("is {}, allowed: a multiple of the interval of the sediment's loss of "
                            "porosity, {} a, which follows it",
                            text(p.interval), text(parts.sediment->porosity_interval)));
-    if (parts.base_moves)
+    if (bending_base(scene))
         refuse(
             "pore_fluid",
             "beside a base that bends is not in the program yet: the base would lose the weight "
