@@ -64,6 +64,7 @@ EXPLAINED = {
     "fault_weakening.largest_change": "theory/faults.md#property-update",
     "bond_healing": "theory/faults.md#healing-icm",
     "sedimentation": "theory/sediment.md#deposition-and-erosion",
+    "pore_fluid": "theory/pore-fluid.md#flow",
     "compaction": "theory/sediment.md#compaction",
     "energy": "theory/cycle.md#energy",
     "elastic_base": "theory/elastic-base.md#elastic-body",

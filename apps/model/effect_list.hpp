@@ -12,6 +12,7 @@
     EFFECT(fault_weakening) \
     EFFECT(bond_healing) \
     EFFECT(sedimentation) \
+    EFFECT(pore_fluid) \
     EFFECT(compaction) \
     EFFECT(energy) \
     EFFECT(elastic_base) \

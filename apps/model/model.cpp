@@ -110,6 +110,9 @@ Scene genesis_of(const Scene& scene) {
     start.output = {};
     start.extension.distance = scene.extension.distance; // decides how far the base reaches
     std::erase_if(start.effects, [](const EffectPart& part) { return !part.effect->in_genesis; });
+    for (EffectPart& part : start.effects)
+        if (part.effect->as_in_genesis)
+            part.effect->as_in_genesis(part.parameters);
     return start;
 }
 

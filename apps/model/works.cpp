@@ -40,4 +40,43 @@ const Work turcotte_schubert{"Turcotte and Schubert, chapter 3", R"(@misc{turcot
   note   = {Chapter 3, flexure of thin elastic plates; title, edition and year not verified},
 })"};
 
+const Work gibson{"Gibson (1958)", R"(@article{gibson_1958,
+  author  = {Gibson, R. E.},
+  title   = {The progress of consolidation in a clay layer increasing in thickness with time},
+  journal = {G\'eotechnique},
+  year    = {1958},
+  note    = {Volume and pages not verified},
+})"};
+
+const Work audet_fowler{"Audet and Fowler (1992)", R"(@article{audet_fowler_1992,
+  author  = {Audet, D. M. and Fowler, A. C.},
+  journal = {Geophysical Journal International},
+  volume  = {110},
+  pages   = {577},
+  year    = {1992},
+  note    = {Limits of consolidation under sediment that comes; title and last page not verified},
+})"};
+
+const Work wangen{"Wangen (2010)", R"(@book{wangen_2010,
+  author = {Wangen, Magnus},
+  title  = {Physical Principles of Sedimentary Basin Analysis},
+  year   = {2010},
+  note   = {Publisher not verified},
+})"};
+
+const Work yang_aplin{"Yang and Aplin (2010)", R"(@article{yang_aplin_2010,
+  author  = {Yang, Yunlai and Aplin, Andrew C.},
+  title   = {A permeability-porosity relationship for mudstones},
+  journal = {Marine and Petroleum Geology},
+  volume  = {27},
+  pages   = {1692--1697},
+  year    = {2010},
+})"};
+
+const Work catalano{"Catalano et al. (2013)", R"(@misc{catalano_2013,
+  author = {Catalano, E. and Chareyre, B. and Barth\'elemy, E.},
+  year   = {2013},
+  note   = {Discs with pore water as a finite-volume flow; title and journal not verified},
+})"};
+
 } // namespace listric::works

@@ -86,6 +86,7 @@ struct SedimentFacts {
 struct ModelParts {
     dem::RigidBase base;
     dem::CyclePhysics physics;
+    double gravity = 0.0; ///< of the planet, m/s^2; discs in water weigh less: see physics
     std::vector<dem::Material> materials; ///< by MaterialIndex
     std::optional<dem::BondStrength> bonds;
     std::optional<SedimentFacts> sediment;
@@ -164,6 +165,8 @@ struct Effect {
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too
     bool in_genesis = false;                  ///< the hanging wall before extension depends on it
+    /// Sets to defaults what of its parameters the hanging wall does not depend on; null: on all.
+    void (*as_in_genesis)(std::any& parameters) = nullptr;
 
     void (*scale)(Scene& scene, const AccuracyLevel& level) = nullptr; ///< defaults by accuracy
     void (*check)(const Scene& scene, const Refuse& refuse) = nullptr;

@@ -93,7 +93,7 @@ StudyRun run_of(const IsostasyPlan& plan, const Fill& fill, double thickness) {
 fem::Plate plate_of(const Scene& scene, double thickness) {
     const BendingBase& base = *bending_base(scene);
     return {base.young_modulus, base.poisson_ratio, thickness,
-            (base.mantle_density - base.infill_density) * make_parts(scene).physics.gravity};
+            (base.mantle_density - base.infill_density) * make_parts(scene).gravity};
 }
 
 /// A finished run: its summary and its last window beside the plate under the same loads.

@@ -2,6 +2,7 @@
 
 #include "dem/base/contact.hpp"
 #include "dem/hypotenuse.hpp"
+#include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
 
 #include <algorithm>
@@ -34,6 +35,7 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
     const ConstBaseContactColumns b = base_contact_columns(state);
     const Clock& clock = state.clock;
     const double dt = clock.time_step;
+    const Pushes pushes(state);
     StoredEnergy energy;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
@@ -41,6 +43,8 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         energy.kinetic +=
             0.5 * inertia * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i] + 0.5 * surface * surface);
         energy.potential += d.mass[i] * gravity * (d.y[i] - 0.5 * dt * d.vy[i]);
+        energy.push_potential -= pushes[i].x * (d.x[i] - 0.5 * dt * d.vx[i]) +
+                                 pushes[i].y * (d.y[i] - 0.5 * dt * d.vy[i]);
     }
 
     const RadiusRates radii(state);

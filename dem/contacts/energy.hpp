@@ -9,7 +9,7 @@
 namespace listric::dem {
 
 // Where the work goes, J per metre of thickness:
-//   boundary, base and gravity work + work of events and radii
+//   boundary, base and gravity work + work of pushes, events and radii
 //     = change of kinetic and strain energy + losses by friction, damping, breaking bonds and
 //     steps.
 //
@@ -56,6 +56,7 @@ struct StoredEnergy {
     double kinetic = 0.0;                           ///< J/m
     double normal_strain = 0.0, shear_strain = 0.0; ///< of contacts, J/m
     double potential = 0.0;                         ///< of the discs' weight, against y = 0, J/m
+    double push_potential = 0.0;                    ///< of their pushes, against the origin, J/m
 
     double motion_and_strain() const { return kinetic + normal_strain + shear_strain; }
 };

@@ -4,6 +4,7 @@
 #include "dem/hypotenuse.hpp"
 #include "dem/law.hpp"
 #include "dem/order_free.hpp"
+#include "dem/pushes.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
@@ -107,6 +108,7 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
     const ConstDiscColumns d = disc_columns(state);
     const ContactForces contacts = contact_forces(state, base);
     const std::vector<Point> force = net_forces(contacts, d.x.size());
+    const Pushes pushes(state);
     ForceBalance balance;
     balance.reaction.resize(base.surfaces.size());
     std::vector<std::array<OrderFreeSum, 2>> reaction(base.surfaces.size());
@@ -124,8 +126,9 @@ ForceBalance force_balance(const State& state, const RigidBase& base, double gra
     for (const Sums& piece : by_piece(d.x.size(), 2048, [&](std::size_t i, std::size_t end) {
              Sums sums;
              for (; i < end; ++i) {
-                 const double weight = d.mass[i] * gravity;
-                 const double unbalanced = hypotenuse(force[i].x, force[i].y - weight);
+                 const double weight = d.mass[i] * gravity - pushes[i].y;
+                 const double unbalanced =
+                     hypotenuse(force[i].x + pushes[i].x, force[i].y - weight);
                  sums.weight += weight;
                  sums.unbalanced += unbalanced;
                  sums.max_unbalanced = greater(sums.max_unbalanced, unbalanced);

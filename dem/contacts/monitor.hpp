@@ -48,7 +48,7 @@ struct ForceBalance {
     double max_unbalanced = 0.0;  ///< N
     double mean_contact = 0.0;    ///< mean force of touching pairs, N
     std::vector<Point> reaction;  ///< force of each surface on the discs, N
-    double weight = 0.0;          ///< of all discs, N
+    double weight = 0.0;          ///< of all discs less the lift of their pushes, N
     std::int64_t touching = 0;    ///< pairs of discs
 
     double mean_ratio() const { return mean_contact > 0.0 ? mean_unbalanced / mean_contact : 0.0; }

@@ -2,7 +2,13 @@
 
 #include "dem/base/place.hpp"
 #include "dem/contacts/cells.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
 
 namespace listric::dem {
 
@@ -10,27 +16,75 @@ namespace {
 
 struct Corner {
     Point p;
-    bool open; ///< the edge that leaves this corner is part of the starting square
+    std::int32_t beyond; ///< the edge that leaves this corner, as PowerFacet::neighbour
 };
 
-/// Keeps the part of the polygon with n . p <= offset.
-void clip(std::vector<Corner>& polygon, std::vector<Corner>& scratch, Point n, double offset) {
-    scratch.clear();
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Corner& a = polygon[k];
-        const Corner& b = polygon[(k + 1) % polygon.size()];
-        const double outside_a = n.x * a.p.x + n.y * a.p.y - offset;
-        const double outside_b = n.x * b.p.x + n.y * b.p.y - offset;
-        if (outside_a <= 0.0)
-            scratch.push_back(a);
-        if ((outside_a <= 0.0) == (outside_b <= 0.0))
-            continue;
-        const double share = outside_a / (outside_a - outside_b);
-        const Point cut{a.p.x + share * (b.p.x - a.p.x), a.p.y + share * (b.p.y - a.p.y)};
-        scratch.push_back({cut, outside_a <= 0.0 ? false : a.open});
+/// A cell about a disc's centre while it is cut.
+class Polygon {
+public:
+    /// Begins with the square that reaches `half` to each side.
+    void begin(double half) {
+        corners_ = {{{-half, -half}, facet_open},
+                    {{half, -half}, facet_open},
+                    {{half, half}, facet_open},
+                    {{-half, half}, facet_open}};
     }
-    polygon.swap(scratch);
-}
+
+    /// Keeps what has n . p <= offset.
+    void clip(Point n, double offset, std::int32_t beyond) {
+        scratch_.clear();
+        for (std::size_t k = 0; k < corners_.size(); ++k) {
+            const Corner& a = corners_[k];
+            const Corner& b = corners_[(k + 1) % corners_.size()];
+            const double outside_a = n.x * a.p.x + n.y * a.p.y - offset;
+            const double outside_b = n.x * b.p.x + n.y * b.p.y - offset;
+            if (outside_a <= 0.0)
+                scratch_.push_back(a);
+            if ((outside_a <= 0.0) == (outside_b <= 0.0))
+                continue;
+            const double share = outside_a / (outside_a - outside_b);
+            const Point cut{a.p.x + share * (b.p.x - a.p.x), a.p.y + share * (b.p.y - a.p.y)};
+            scratch_.push_back({cut, outside_a <= 0.0 ? beyond : a.beyond});
+        }
+        corners_.swap(scratch_);
+    }
+
+    /// Cuts off what is beyond surfaces of the base within `half` of the centre.
+    void clip(const RigidBase& base, const BasePlace& place, Point centre, double half) {
+        for (const Surface& s : base.surfaces)
+            if (const auto foot = nearest(s, place, centre); foot && foot->distance < half)
+                clip({-foot->normal.x, -foot->normal.y}, foot->distance, facet_on_base);
+    }
+
+    PowerCell cell() const {
+        double twice = 0.0;
+        bool closed = true;
+        for_each_edge([&](const Corner& a, const Corner& b) {
+            twice += a.p.x * b.p.y - a.p.y * b.p.x;
+            closed = closed && a.beyond != facet_open;
+        });
+        return {0.5 * twice, closed && corners_.size() > 2};
+    }
+
+    /// Square of the greatest distance of a corner from the centre, m^2.
+    double reach() const {
+        double greatest = 0.0;
+        for (const Corner& c : corners_)
+            greatest = std::max(greatest, c.p.x * c.p.x + c.p.y * c.p.y);
+        return greatest;
+    }
+
+    /// Calls visit(a, b) for the corners of every edge.
+    template <class Visit> void for_each_edge(Visit&& visit) const {
+        for (std::size_t c = 0; c < corners_.size(); ++c)
+            visit(corners_[c], corners_[(c + 1) % corners_.size()]);
+    }
+
+private:
+    std::vector<Corner> corners_, scratch_;
+};
+
+double reach_of(const State& state) { return 5.0 * state.mean_radius; }
 
 } // namespace
 
@@ -50,44 +104,109 @@ std::vector<PowerCell> power_cells(const State& state, const RigidBase& base,
                                    std::span<const std::int32_t> rows) {
     const ConstDiscColumns d = disc_columns(state);
     const std::vector<double> radius = rock_radii(state);
-    const double reach = 5.0 * state.mean_radius;
+    const double reach = reach_of(state);
     const Cells cells(d.x, d.y, reach);
     std::vector<PowerCell> result(rows.size());
     const BasePlace place = base_place(state);
     in_pieces(rows.size(), 64, [&](std::size_t k, std::size_t end) {
-        std::vector<Corner> polygon, scratch;
+        Polygon polygon;
         for (; k < end; ++k) {
             const auto i = static_cast<std::size_t>(rows[k]);
             const double half = 0.5 * reach;
-            polygon = {{{-half, -half}, true},
-                       {{half, -half}, true},
-                       {{half, half}, true},
-                       {{-half, half}, true}};
-            for (const Surface& s : base.surfaces)
-                if (const auto foot = nearest(s, place, {d.x[i], d.y[i]});
-                    foot && foot->distance < half)
-                    clip(polygon, scratch, {-foot->normal.x, -foot->normal.y}, foot->distance);
+            polygon.begin(half);
+            polygon.clip(base, place, {d.x[i], d.y[i]}, half);
             cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
                 const auto j = static_cast<std::size_t>(row);
                 const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
                 const double square = dx * dx + dy * dy;
                 if (j == i || square > reach * reach || square == 0.0)
                     return;
-                clip(polygon, scratch, {dx, dy},
-                     0.5 * (square + radius[i] * radius[i] - radius[j] * radius[j]));
+                polygon.clip({dx, dy},
+                             0.5 * (square + radius[i] * radius[i] - radius[j] * radius[j]), row);
             });
-            double twice = 0.0;
-            bool closed = true;
-            for (std::size_t c = 0; c < polygon.size(); ++c) {
-                const Corner& a = polygon[c];
-                const Corner& b = polygon[(c + 1) % polygon.size()];
-                twice += a.p.x * b.p.y - a.p.y * b.p.x;
-                closed = closed && !a.open;
-            }
-            result[k] = {0.5 * twice, closed && polygon.size() > 2};
+            result[k] = polygon.cell();
         }
     });
     return result;
+}
+
+namespace {
+
+/// Adds the facets of a polygon about disc i.
+void add_facets(const Polygon& polygon, const ConstDiscColumns& d, std::size_t i,
+                std::vector<PowerFacet>& facets) {
+    polygon.for_each_edge([&](const Corner& a, const Corner& b) {
+        const double x = b.p.x - a.p.x, y = b.p.y - a.p.y, length = hypotenuse(x, y);
+        if (length == 0.0)
+            return;
+        const Point arm{0.5 * (a.p.x + b.p.x), 0.5 * (a.p.y + b.p.y)};
+        const auto j = static_cast<std::size_t>(a.beyond);
+        const double distance = a.beyond >= 0 ? hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i])
+                                              : (arm.x * y - arm.y * x) / length;
+        facets.push_back({a.beyond, length, distance, arm});
+    });
+}
+
+} // namespace
+
+FacetedCells faceted_cells(const State& state, const RigidBase& base,
+                           std::span<const std::int32_t> rows, std::span<const double> lids) {
+    assert(lids.size() == rows.size());
+    const ConstDiscColumns d = disc_columns(state);
+    const std::vector<double> radius = rock_radii(state);
+    const double largest = radius.empty() ? 0.0 : std::ranges::max(radius);
+    const double reach = reach_of(state), half = 0.5 * reach;
+    const Cells cells(d.x, d.y, reach);
+    const BasePlace place = base_place(state);
+    struct Piece {
+        std::vector<PowerCell> cells;
+        std::vector<PowerFacet> facets;
+        std::vector<std::size_t> counts;
+    };
+    const auto cut = [&](std::size_t k, std::size_t end) {
+        Piece piece;
+        Polygon polygon;
+        std::vector<std::pair<double, std::int32_t>> near; // square of the distance; row
+        for (; k < end; ++k) {
+            const auto i = static_cast<std::size_t>(rows[k]);
+            near.clear();
+            cells.for_each_near(d.x[i], d.y[i], [&](std::int32_t row) {
+                const auto j = static_cast<std::size_t>(row);
+                const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
+                const double square = dx * dx + dy * dy;
+                if (j != i && square <= reach * reach && square > 0.0)
+                    near.emplace_back(square, row);
+            });
+            std::ranges::sort(near);
+            polygon.begin(half);
+            polygon.clip(base, place, {d.x[i], d.y[i]}, half);
+            if (std::isfinite(lids[k]))
+                polygon.clip({0.0, 1.0}, lids[k], facet_on_lid);
+            double corners = polygon.reach();
+            for (const auto& [square, row] : near) {
+                const auto j = static_cast<std::size_t>(row);
+                const double own = radius[i] * radius[i];
+                // The nearest that a disc so far can cut is beyond all corners.
+                const double nearest_cut = 0.5 * (square + own - largest * largest);
+                if (nearest_cut > 0.0 && nearest_cut * nearest_cut > corners * square)
+                    break;
+                polygon.clip({d.x[j] - d.x[i], d.y[j] - d.y[i]},
+                             0.5 * (square + own - radius[j] * radius[j]), row);
+                corners = polygon.reach();
+            }
+            const std::size_t before = piece.facets.size();
+            add_facets(polygon, d, i, piece.facets);
+            piece.cells.push_back(polygon.cell());
+            piece.counts.push_back(piece.facets.size() - before);
+        }
+        return piece;
+    };
+    const std::vector<Piece> pieces = by_piece(rows.size(), 64, cut);
+    FacetedCells all{joined(pieces, &Piece::cells), joined(pieces, &Piece::facets), {0}};
+    for (const Piece& piece : pieces)
+        for (const std::size_t count : piece.counts)
+            all.begin.push_back(all.begin.back() + count);
+    return all;
 }
 
 } // namespace listric::dem

@@ -4,6 +4,7 @@
 #include "dem/cycle/fast_cycle.hpp"
 #include "dem/cycle/surroundings.hpp"
 #include "dem/law.hpp"
+#include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
 #include "dem/threads/shared_loop.hpp"
 
@@ -176,13 +177,15 @@ void FastCycle::pack_contacts(const State& state) {
         pack_blocks(state, strip);
     });
     bonded_ = frictional_ = false;
+    const Pushes pushes(state);
     std::size_t slot = 1; // slot 0 stays zero
     for (Strip& strip : strips_) {
         bonded_ |= strip.bonded;
         frictional_ |= strip.frictional;
         strip.first_slot = (slot + 7) / 8 * 8;
-        slot = strip.first_slot + strip.ring + 8 * strip.boundary.blocks.size() +
-               strip.end_base_row - strip.first_base_row;
+        strip.first_push_slot = strip.first_slot + strip.ring + 8 * strip.boundary.blocks.size() +
+                                strip.end_base_row - strip.first_base_row;
+        slot = strip.first_push_slot + pushes.count(strip.first_disc, strip.end_disc);
     }
     slots_.resize(slot);
     slots_[0] = {};
@@ -283,7 +286,7 @@ std::size_t FastCycle::ring_of(const Strip& strip) {
     return std::bit_ceil(8 * furthest);
 }
 
-/// Packs the base contacts of the strip's discs; their slots follow those of its blocks.
+/// Packs the base contacts of the strip's discs, and their pushes: those slots follow the blocks'.
 void FastCycle::pack_base_contacts(const State& state, Strip& strip) {
     const ConstDiscColumns d = disc_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);
@@ -309,18 +312,29 @@ void FastCycle::pack_base_contacts(const State& state, Strip& strip) {
             strip.base_rows.push_back(row);
         }
     }
+    slot = strip.first_push_slot;
+    if (const Pushes pushes(state); pushes.any())
+        for (std::size_t i = strip.first_disc; i < strip.end_disc; ++i)
+            if (pushes.on(i))
+                slots_[slot++] = Slot{pushes[i].x, pushes[i].y, 0.0, 0.0};
 }
 
-/// Gathering lists. Per group of discs: how many slots beyond the usual ones come in (from the base
-/// and as second disc) and go out (as first disc), then the slots, interleaved by disc; short lists
-/// are filled up with the zero slot.
+/// Gathering lists. Per group of discs: how many slots beyond the usual ones come in (of the push,
+/// which nothing writes again, from the base and as second disc) and go out (as first disc), then
+/// the slots, interleaved by disc; short lists are filled up with the zero slot.
 void FastCycle::pack_gathers(const State& state, Strip& strip) {
     const ConstContactColumns c = contact_columns(state);
     const ConstBaseContactColumns b = base_contact_columns(state);
     const std::size_t groups = (strip.disc_count() + group_discs - 1) / group_discs;
+    const Pushes pushes(state);
     // Incoming slots by disc, in the order of the rows: earlier strips reach into this one by their
     // boundaries. Outgoing contacts are consecutive rows.
     const auto for_each_incoming = [&](auto&& visit) {
+        auto push_slot = static_cast<std::uint32_t>(strip.first_push_slot);
+        if (pushes.any())
+            for (std::size_t i = strip.first_disc; i < strip.end_disc; ++i)
+                if (pushes.on(i))
+                    visit(static_cast<std::int32_t>(i), push_slot++);
         for (std::size_t row = strip.first_base_row; row < strip.end_base_row; ++row)
             visit(b.disc[row], base_slot_of_[row]);
         const auto visit_contact = [&](std::size_t row) {

@@ -75,6 +75,7 @@ struct Strip {
     std::size_t first_row = 0, end_row = 0;           ///< of its contacts in the table
     std::size_t first_base_row = 0, end_base_row = 0; ///< of its base contacts
     std::size_t first_slot = 0, ring = 0; ///< slots of inner blocks; boundary's and base's follow
+    std::size_t first_push_slot = 0;      ///< and those of pushed discs
     bool bonded = false, frictional = false; ///< whether any contact is
     bool sends = false;                      ///< whether a disc of it is a ghost of another rank
     bool has_ghosts = false;                 ///< whether a disc of it is another rank's

@@ -8,6 +8,7 @@
 #include "dem/damping.hpp"
 #include "dem/law.hpp"
 #include "dem/order_free.hpp"
+#include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
 
 #include <algorithm>
@@ -19,12 +20,17 @@ namespace listric::dem {
 
 namespace {
 
-/// Forces of the base on the discs, which also starts their sum.
+/// Forces of the base on the discs, which also starts their sum with the pushes.
 template <class Account>
 void base_forces(State& state, const RigidBase& base, std::span<Force> force, Account& account) {
     const DiscColumns d = disc_columns(state);
     const BaseContactColumns c = base_contact_columns(state);
     std::ranges::fill(force, Force{0.0, 0.0, 0.0});
+    if (const Pushes pushes(state); pushes.any())
+        for (std::size_t i = 0; i < force.size(); ++i) {
+            force[i].x += pushes[i].x;
+            force[i].y += pushes[i].y;
+        }
     const BaseInstant now{state.clock.extension, base.motion.speed_at(state.clock.time())};
     const BaseNodeColumns nodes = base_node_columns(state);
     const bool deforms = !nodes.x.empty();

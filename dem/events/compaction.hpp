@@ -21,7 +21,7 @@ struct CompactionParameters {
 /// then: from the top down, its depth times the share of the discs above that compaction leaves.
 ///
 /// Columns of discs: `porosity`, what it will be at the next application; radius_rate,
-/// inertial_radius.
+/// inertial_radius. Where there is a column `wanted_porosity`, discs shrink toward it instead.
 class Compaction : public Event {
 public:
     /// No disc shrinks faster than by this share of its radius, 1/s: overlaps of fresh sediment,

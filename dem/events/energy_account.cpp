@@ -1,5 +1,7 @@
 #include "dem/events/energy_account.hpp"
 
+#include "dem/pushes.hpp"
+
 namespace listric::dem {
 
 namespace {
@@ -25,6 +27,15 @@ void EnergyAccount::open(const State& state, const RigidBase& base) {
     const StoredEnergy now = stored_energy(state, base, gravity_);
     value("initial") = value("stored") = now.motion_and_strain();
     value("potential") = now.potential;
+    if (Pushes(state).any())
+        for (const char* name : {"push_work", "push_potential"})
+            memory.add<double>(name, "J/m", 0.0);
+    keep_push_potential(now);
+}
+
+void EnergyAccount::keep_push_potential(const StoredEnergy& now) {
+    if (memory.has("push_potential"))
+        value("push_potential") = now.push_potential;
 }
 
 EnergyFlows EnergyAccount::flows() const {
@@ -54,6 +65,9 @@ void EnergyAccount::book_cycles(const State& state, const RigidBase& base) {
     value("gravity_work") += value("potential") - now.potential;
     value("potential") = now.potential;
     value("stored") = now.motion_and_strain();
+    if (memory.has("push_work"))
+        value("push_work") += value("push_potential") - now.push_potential;
+    keep_push_potential(now);
 }
 
 void EnergyAccount::book_event(const std::string& name, const State& state, const RigidBase& base) {
@@ -63,21 +77,26 @@ void EnergyAccount::book_event(const std::string& name, const State& state, cons
     value(prefix + name) += now.motion_and_strain() - value("stored");
     value("potential") = now.potential;
     value("stored") = now.motion_and_strain();
+    keep_push_potential(now);
 }
 
 EnergyBalance EnergyAccount::balance(const State& state, const RigidBase& base) const {
     const StoredEnergy now = stored_energy(state, base, gravity_);
-    EnergyBalance b{value("boundary_work"),
-                    value("gravity_work") + value("potential") - now.potential,
-                    memory.has("base_work") ? std::optional(value("base_work")) : std::nullopt,
-                    now,
-                    now.motion_and_strain() - value("initial"),
-                    value("friction"),
-                    value("damping"),
-                    value("bond_breaking"),
-                    value("stepping"),
-                    0.0,
-                    {}};
+    EnergyBalance b{
+        value("boundary_work"),
+        value("gravity_work") + value("potential") - now.potential,
+        memory.has("base_work") ? std::optional(value("base_work")) : std::nullopt,
+        memory.has("push_work")
+            ? std::optional(value("push_work") + value("push_potential") - now.push_potential)
+            : std::nullopt,
+        now,
+        now.motion_and_strain() - value("initial"),
+        value("friction"),
+        value("damping"),
+        value("bond_breaking"),
+        value("stepping"),
+        0.0,
+        {}};
     for (const Column& column : memory.columns())
         if (column.name.starts_with(prefix)) {
             b.by_event.emplace_back(column.name.substr(prefix.size()), value(column.name));

@@ -18,6 +18,7 @@ struct EnergyParameters {};
 struct EnergyBalance {
     double boundary_work, gravity_work;
     std::optional<double> base_work; ///< of a base that deforms
+    std::optional<double> push_work; ///< of pushes
     StoredEnergy stored;             ///< now
     double stored_change;            ///< of kinetic and strain energy
     double friction, damping, bond_breaking, stepping;
@@ -26,7 +27,7 @@ struct EnergyBalance {
 
     double residual() const {
         return stored_change + friction + damping + bond_breaking + stepping - boundary_work -
-               base_work.value_or(0.0) - gravity_work - events;
+               base_work.value_or(0.0) - push_work.value_or(0.0) - gravity_work - events;
     }
 };
 
@@ -36,8 +37,8 @@ struct EnergyBalance {
 /// the cycles, too.
 ///
 /// Its memory has one row: initial, stored, potential, boundary_work, gravity_work, friction,
-/// damping, bond_breaking, stepping, base_work of a base that deforms and, for each event,
-/// event_NAME.
+/// damping, bond_breaking, stepping, base_work of a base that deforms, push_work and push_potential
+/// of discs that are pushed and, for each event, event_NAME.
 class EnergyAccount final : public Observer {
 public:
     /// @param events  names of those that change the state
@@ -63,6 +64,8 @@ public:
 private:
     double value(std::string_view name) const { return memory.get<double>(name)[0]; }
     double& value(std::string_view name) { return memory.get<double>(name)[0]; }
+
+    void keep_push_potential(const StoredEnergy& now);
 
     double gravity_;
 };

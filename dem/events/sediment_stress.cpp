@@ -2,6 +2,7 @@
 
 #include "dem/contacts/monitor.hpp"
 #include "dem/damping.hpp"
+#include "dem/pushes.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -88,6 +89,7 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
     const auto mean_vy = relative ? state.discs.get<float>("mean_vy") : std::span<const float>();
     const double surface = mean_surface(d, discs, 2.0 * state.mean_radius);
 
+    const Pushes pushes(state);
     std::vector<LayerLoad> loads(layers);
     for (std::size_t k = 0; k < loads.size(); ++k) {
         LayerLoad& load = loads[k];
@@ -97,7 +99,8 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
         };
         double cover = 0.0; // m^2
         for (const auto& [i, part] : discs) {
-            const double w = part * below(d.y[i]), weight = d.mass[i] * physics.gravity;
+            const double w = part * below(d.y[i]);
+            const double weight = d.mass[i] * physics.gravity - pushes[i].y;
             load.weight += w * weight;
             load.damping +=
                 w * vertical_damping(net[i].y - weight,

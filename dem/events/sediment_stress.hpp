@@ -31,7 +31,7 @@ inline constexpr int layers = 7;
 
 /// Vertical forces on the discs above a layer, N per metre of thickness, positive upward.
 struct LayerLoad {
-    double weight = 0.0; ///< of discs, positive downward
+    double weight = 0.0; ///< of discs less the lift of their pushes, positive downward
     double contacts = 0.0, damping = 0.0;
     bool is_sediment = false; ///< sediment discs cover more than half of the layer
 };

@@ -49,6 +49,9 @@ std::vector<double> overburden(const State& state, std::span<const std::int32_t>
     sort_shared(std::span(by_x), [&](std::size_t a, std::size_t b) {
         return d.x[a] != d.x[b] ? d.x[a] < d.x[b] : a < b;
     });
+    const bool wet = state.discs.has("excess_pressure");
+    const auto pressure =
+        wet ? state.discs.get<double>("excess_pressure") : std::span<const double>{};
     const double left = d.x[by_x.front()] - state.mean_radius;
     const double right = d.x[by_x.back()] + state.mean_radius;
     // Width of the column on one side, if it ends at that distance.
@@ -68,6 +71,8 @@ std::vector<double> overburden(const State& state, std::span<const std::int32_t>
                 mass += above * d.mass[*at] * (1.0 - std::abs(d.x[*at] - d.x[i]) / fade);
             }
             weight[k] = gravity * mass / (half_width(d.x[i] - left) + half_width(right - d.x[i]));
+            if (wet)
+                weight[k] -= pressure[i];
         }
     });
     return weight;

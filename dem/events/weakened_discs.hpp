@@ -30,7 +30,8 @@ double enlargement(double mean_stress, const Material& weak_material);
 
 /// Vertical stress at the centre of each disc of the rows from the weight of all that lies above
 /// it, rock and sediment, Pa: masses in a column that fades out over five mean radii to both sides,
-/// per width of it that is between the leftmost and the rightmost disc.
+/// per width of it that is between the leftmost and the rightmost disc; less the disc's own
+/// `excess_pressure`, where there is that column.
 std::vector<double> overburden(const State& state, std::span<const std::int32_t> rows,
                                double gravity);
 

@@ -15,13 +15,14 @@ namespace listric::dem {
 
 namespace {
 
-/// Whether cycles need a column of discs: of the core columns, or one that damping or compaction
-/// adds. What discs and effects remember stays with the whole.
+/// Whether cycles need a column of discs: of the core columns, or one that damping, compaction or
+/// pushes add. What discs and effects remember stays with the whole.
 bool is_for_cycles(const std::string& name) {
     constexpr const char* names[] = {
         "x",          "y",       "vx",      "vy",          "rotation",
         "spin",       "radius",  "mass",    "material",    "searched_x",
-        "searched_y", "mean_vx", "mean_vy", "radius_rate", "inertial_radius"};
+        "searched_y", "mean_vx", "mean_vy", "radius_rate", "inertial_radius",
+        "push_x",     "push_y"};
     return std::ranges::find(names, name) != std::end(names);
 }
 

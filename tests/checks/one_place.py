@@ -37,6 +37,7 @@ EFFECTS = (
     Effect("fault_weakening", "FaultWeakeningParameters"),
     Effect("bond_healing", "BondHealingParameters"),
     Effect("sedimentation", "SedimentationParameters"),
+    Effect("pore_fluid", "PoreFluidParameters"),
     Effect("compaction", "CompactionParameters"),
     Effect("energy", "EnergyParameters", trade=True),
     Effect("elastic_base", "ElasticBaseParameters"),
@@ -55,6 +56,7 @@ class Exempt(NamedTuple):
 
 EXCEPTIONS = (
     Exempt("apps/model/effects/compaction.cpp", ".needs", "what shrinks has to be deposited"),
+    Exempt("apps/model/effects/pore_fluid.cpp", ".needs", "pores that water keeps open are those of such sediment"),
     Exempt("apps/laboratory/pure_shear.cpp", "weakening_rate", "option --weakening-rates varies it"),
     Exempt("apps/laboratory/pure_shear.cpp", "healing_rate", "option --healing-rates varies it"),
 )

@@ -7,6 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
 namespace listric {
 
 using namespace dem;
@@ -85,6 +89,68 @@ TEST(PowerCell, WeakenedDiscsCountWithTheirRock) {
                 1e-12 * expected);
     EXPECT_EQ(rock_radii(state)[60], 90.0);
     EXPECT_EQ(rock_radii(state)[59], 90.0);
+}
+
+TEST(PowerCell, FacetsBoundTheSameCells) {
+    std::vector<Disc> discs = cloud(10, 14, 90.0, 4);
+    for (Disc& disc : discs) {
+        disc.x += 90.0;
+        disc.y += 90.0;
+    }
+    const State state = make_state(discs);
+    const RigidBase base = box(21.0 * 90.0, 1e4);
+    const std::vector<std::int32_t> rows = all_rows(state);
+    const std::vector<double> none(rows.size(), std::numeric_limits<double>::infinity());
+    const std::vector<PowerCell> cells = power_cells(state, base, rows);
+    const FacetedCells faceted = faceted_cells(state, base, rows, none);
+    const ConstDiscColumns d = disc_columns(state);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        EXPECT_NEAR(faceted.cells[k].area, cells[k].area, 1e-12 * cells[k].area);
+        EXPECT_EQ(faceted.cells[k].closed, cells[k].closed);
+        double twice = 0.0; // the area once more, in triangles about the disc's centre
+        for (const PowerFacet& f : faceted.of(k)) {
+            const bool is_disc = f.neighbour >= 0;
+            const auto j = static_cast<std::size_t>(is_disc ? f.neighbour : 0);
+            if (is_disc) {
+                const Point n{(d.x[j] - d.x[k]) / f.distance, (d.y[j] - d.y[k]) / f.distance};
+                twice += f.length * (f.arm.x * n.x + f.arm.y * n.y);
+            } else {
+                twice += f.length * f.distance;
+            }
+        }
+        EXPECT_NEAR(0.5 * twice, cells[k].area, 1e-12 * cells[k].area);
+    }
+}
+
+TEST(PowerCell, TwoCellsHaveOneFacet) {
+    const State state = make_state(cloud(10, 10, 90.0, 6));
+    const std::vector<std::int32_t> rows = all_rows(state);
+    const FacetedCells cells = faceted_cells(
+        state, {}, rows, std::vector<double>(rows.size(), std::numeric_limits<double>::infinity()));
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        for (const PowerFacet& f : cells.of(k)) {
+            // Open cells end where their squares do, which differ.
+            if (f.neighbour < 0 || !cells.cells[k].closed ||
+                !cells.cells[static_cast<std::size_t>(f.neighbour)].closed)
+                continue;
+            const auto back = cells.of(static_cast<std::size_t>(f.neighbour));
+            const auto other = std::ranges::find(back, rows[k], &PowerFacet::neighbour);
+            ASSERT_NE(other, back.end());
+            EXPECT_NEAR(other->length, f.length, 1e-10 * 90.0);
+        }
+}
+
+TEST(PowerCell, ALidEndsIt) {
+    const State state = make_state({{0.0, 0.0, 90.0}});
+    const std::vector<std::int32_t> rows{0};
+    const FacetedCells cells = faceted_cells(state, {}, rows, std::vector<double>{90.0});
+    const double half = 2.5 * 90.0;
+    EXPECT_NEAR(cells.cells[0].area, 2.0 * half * (half + 90.0), 1e-9);
+    const auto facets = cells.of(0);
+    const auto lid = std::ranges::find(facets, facet_on_lid, &PowerFacet::neighbour);
+    ASSERT_NE(lid, facets.end());
+    EXPECT_EQ(lid->length, 2.0 * half);
+    EXPECT_EQ(lid->distance, 90.0);
 }
 
 } // namespace

@@ -18,7 +18,7 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
     // Where the base's own springs fill what sinks, water has no room.
     const auto& base = *bending_base(scene);
     return coupling::basin_water_load(
-        *scene.find<P>(), parts.physics.gravity,
+        *scene.find<P>(), parts.gravity,
         coupling::water_column_width(scene.hanging_wall.mean_radius), scene.extension.rate, pores,
         base.infill_density > 0.0 ? std::nullopt : std::optional(base.left));
 }

@@ -72,7 +72,7 @@ public:
     ElasticBaseDriver(const Scene& scene, const ModelParts& parts,
                       std::vector<std::unique_ptr<Event>>& events)
         : request_(make_footwall_request(scene, parts)),
-          rock_weight_(elastic_base(scene)->bending.crust_density * parts.physics.gravity),
+          rock_weight_(elastic_base(scene)->bending.crust_density * parts.gravity),
           footwall_(refusing([&] { return fem::make_footwall(request_); })),
           base_(refusing([&] { return make_elastic_base(scene, parts, *footwall_); })),
           loads_(refusing([&] {

@@ -11,7 +11,7 @@ using namespace coupling;
 
 fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts& parts) {
     const auto& base = *elastic_base(scene);
-    const double gravity = parts.physics.gravity;
+    const double gravity = parts.gravity;
     fem::FootwallRequest request;
     for (const Segment& s : parts.base.surfaces.front().chain)
         request.detachment.push_back({{s.start.x, s.start.y},

@@ -26,7 +26,7 @@ const Effect& gravity() {
         .in_genesis = true,
         .contribute =
             [](const Scene& scene, ModelParts& parts) {
-                parts.physics.gravity = scene.find<P>()->acceleration;
+                parts.gravity = parts.physics.gravity = scene.find<P>()->acceleration;
             },
     };
     return effect;

@@ -1,0 +1,207 @@
+#include "coupling/pore_fluid.hpp"
+
+#include "apps/model/effects/pore_fluid_measures.hpp"
+#include "apps/model/model.hpp"
+#include "apps/support/spelling.hpp"
+#include "coupling/pore_column.hpp"
+
+#include "apps/model/effect_list.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace listric::effects {
+
+namespace {
+
+using P = coupling::PoreFluidParameters;
+using coupling::FaultFactors;
+using coupling::Permeability;
+
+std::vector<Parameter> parameters() {
+    return {
+        {"interval_a", at<&P::interval>, "a", ranges::years, "",
+         "time between solutions for the pressure; a multiple of the time between updates of "
+         "porosity",
+         "Raising it above the default makes pressures less accurate: 0.3 % at 2,500 a.",
+         between(500, 2500)},
+        {"permeability_m2",
+         at<&P::permeability, &Permeability::at_fifth>,
+         "m2",
+         {.from = 1e-22, .to = 1e-12, .reason = "1e-18 is mud, 1e-15 silt; 1 darcy is 1e-12"},
+         "",
+         "permeability of sediment at a porosity of 0.2; of law mudstone not used",
+         "Lowering it keeps water in the pores: pressure rises, sediment stays porous and light.",
+         between(1e-20, 1e-15)},
+        {"permeability_law",
+         one_of<&P::permeability, &Permeability::law>({"kozeny_carman", "constant", "mudstone"}),
+         "", ranges::any, "",
+         "how permeability falls with porosity: kozeny_carman, constant, or mudstone [Yang and "
+         "Aplin 2010], which follows from the clay fraction",
+         "\"constant\" lets fresh mud drain too slowly: pressure is greatest near the ground."},
+        {"clay_fraction", at<&P::permeability, &Permeability::clay_fraction>, "",
+         between(0.12, 0.97), "", "clay of law mudstone: mass below 2 micrometres, over all",
+         "Raising it lowers permeability by some orders of magnitude."},
+        {"fluid_density_kg_per_m3", at<&P::density>, "kg/m3", ranges::density, "",
+         "density of the water", "Raising it lets grains weigh less."},
+        {"viscosity_pa_s", at<&P::viscosity>, "Pa s", between(1e-5, 1.0), "",
+         "viscosity of the water", "Raising it acts as a permeability that is lower by as much."},
+        {"compressibility_per_pa", at<&P::compressibility>, "1/Pa", between(1e-12, 1e-6), "",
+         "compressibility of the water",
+         "Changes little: pores give way a hundred times as much as water."},
+        {"rebound", at<&P::rebound>, "", between(0, 1), "",
+         "share of the porosity lost to stress that comes back with its release, in the water's "
+         "balance alone",
+         "Lowering it lets pressure fall more where sediment is unloaded."},
+        {"fracture_ratio", at<&P::fracture_ratio>, "", between(0.5, 1), "",
+         "excess pressure over the weight of grains in water at which fractures open and vent",
+         "Lowering it vents more: in extension, 0.7 to 0.8 may be nearer to horizontal stress.",
+         between(0.7, 0.9)},
+        {"fault_along", at<&P::faults, &FaultFactors::along>, "", between(1e-6, 1e6), "",
+         "permeability between weakened discs over that of sound sediment",
+         "Raising it makes faults in sediment conduits."},
+        {"fault_across", at<&P::faults, &FaultFactors::across>, "", between(1e-6, 1e6), "",
+         "permeability between a weakened and a sound disc over that of sound sediment",
+         "Lowering it makes faults in sediment seals."},
+        {"level_m", at<&P::level>, "m", ranges::height, "",
+         "height of the water above the original surface; default: the level that the basin is "
+         "filled to",
+         "Moves the pressure of water at rest, no excess pressure and no weight."},
+        {"hydrostatic", at<&P::hydrostatic>, "", ranges::any, "",
+         "water at rest: buoyancy and nothing else",
+         "true is the limit of high permeability, at no cost."},
+        {"pushes", at<&P::pushes>, "", ranges::any, "",
+         "whether excess pressure exerts forces on discs",
+         "false keeps pores open by the same pressures, but lets contacts carry all weight: a "
+         "control."},
+    };
+}
+
+coupling::WetSediment wet_sediment(const ModelParts& parts) {
+    return {parts.sediment->surface_porosity, *parts.sediment->porosity_decay,
+            parts.sediment->grain_density};
+}
+
+coupling::MudColumn mud_column(const P& p, const coupling::WetSediment& sediment, double gravity) {
+    return {coupling::pore_law(p, sediment, gravity), p.permeability, p.viscosity,
+            p.fracture_ratio};
+}
+
+void contribute(const Scene& scene, ModelParts& parts) {
+    parts.physics.gravity *=
+        coupling::buoyant_share(scene.find<P>()->density, parts.sediment->grain_density);
+}
+
+void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
+    P p = *scene.find<P>();
+    if (p.hydrostatic)
+        return;
+    p.level = p.level.value_or(parts.sediment->level);
+    dem::add(events, std::make_unique<coupling::PoreFluid>(p, wet_sediment(parts), parts.gravity,
+                                                           scene.extension.rate));
+}
+
+/// Water weighs on every scene's start, its permeability on none.
+void as_in_genesis(std::any& parameters) {
+    P start;
+    start.density = std::any_cast<const P&>(parameters).density;
+    parameters = start;
+}
+
+void check(const Scene& scene, const Refuse& refuse) {
+    const P& p = *scene.find<P>();
+    const ModelParts parts = make_parts(scene);
+    const double grains = parts.sediment->grain_density, rock = scene.hanging_wall.rock_density;
+    if (p.density >= grains)
+        refuse("pore_fluid.fluid_density_kg_per_m3",
+               fmt::format("is {}, allowed: below {}, the density of grains; else sediment floats",
+                           text(p.density), text(grains)));
+    if (rock != grains)
+        refuse("pore_fluid",
+               fmt::format("weighs rock and grains by one buoyancy, which needs equal densities; "
+                           "hanging_wall.rock_density_kg_per_m3 is {}, grains have {}",
+                           text(rock), text(grains)));
+    if (!(*parts.sediment->porosity_decay > 0.0) || !(parts.sediment->surface_porosity > 0.0))
+        refuse("pore_fluid", "needs sediment that compacts: a decay of porosity with depth and a "
+                             "surface porosity above 0");
+    const double times = p.interval / parts.sediment->porosity_interval;
+    if (std::abs(times - std::round(times)) > 1e-9 || times < 0.5)
+        refuse("pore_fluid.interval_a",
+               fmt::format("is {}, allowed: a multiple of the interval of the sediment's loss of "
+                           "porosity, {} a, which follows it",
+                           text(p.interval), text(parts.sediment->porosity_interval)));
+    if (bending_base(scene))
+        refuse(
+            "pore_fluid",
+            "beside a base that bends is not in the program yet: the base would lose the weight "
+            "that water carries, 40 % of its load; make the base rigid, or leave out [pore_fluid]");
+}
+
+/// Pressure and porosity of a column of this mud at the depocentre.
+std::string explain(const Scene& scene, EffectList) {
+    const P& p = *scene.find<P>();
+    const ModelParts parts = make_parts(scene);
+    if (p.hydrostatic)
+        return fmt::format(
+            "pore fluid\n  water at rest: discs weigh {:.3f} of their weight in air\n",
+            parts.physics.gravity / parts.gravity);
+    const coupling::MudColumn column = mud_column(p, wet_sediment(parts), parts.gravity);
+    // A floor below a steep detachment sinks by nine tenths of the extension.
+    const double depth = std::min(0.9 * scene.extension.distance, scene.hanging_wall.thickness);
+    const double seconds =
+        dem::Schedule{scene.extension.distance / scene.extension.rate, scene.extension.rate}
+            .seconds();
+    constexpr std::size_t steps = 100;
+    const coupling::SunkColumn sunk =
+        coupling::sink(column, coupling::steady_floor(depth, steps), seconds / steps);
+    const double gibson = coupling::gibson_number(column, depth / seconds, seconds);
+    return fmt::format(
+        "pore fluid\n"
+        "  discs weigh {:.3f} of their weight in air; pressure every {:g} a\n"
+        "  a floor that sinks by {:.1f} km has Gibson's number {:.2g}: {}\n"
+        "  overpressure ratio of a column of this mud: {:.2f} at 1 km, {:.2f} at {:.1f} km; "
+        "porosity {:.3f} there, {:.3f} where water is at rest\n",
+        parts.physics.gravity / parts.gravity, p.interval, depth / 1e3, gibson,
+        gibson < 0.01  ? "water is at rest throughout; hydrostatic = true has it at no cost"
+        : gibson > 1e3 ? "hardly any water leaves but through fractures"
+                       : "water leaves while mud is buried",
+        sunk.at(1000.0).overpressure_ratio, sunk.at(0.5 * depth).overpressure_ratio,
+        0.5 * depth / 1e3, sunk.at(0.5 * depth).porosity,
+        coupling::porosity_at(column.law, 0.5 * depth));
+}
+
+} // namespace
+
+Works pore_fluid_works() {
+    return {&works::gibson,     &works::audet_fowler,   &works::wangen,
+            &works::yang_aplin, &works::baldwin_butler, &works::catalano};
+}
+
+const Effect& pore_fluid() {
+    static const Effect effect{
+        .name = "pore_fluid",
+        .doc = "water in the pores of sediment: buoyancy, overpressure and undercompaction",
+        .defaults = make_defaults<P>,
+        .address = address_of<P>,
+        .parameters = parameters(),
+        .needs = {"gravity", "sedimentation", "compaction"},
+        .in_genesis = true,
+        .as_in_genesis = as_in_genesis,
+        .check = check,
+        .contribute = contribute,
+        .add_events = add_events,
+        .explain = explain,
+        .price =
+            [](const Scene& scene, const Workload& work) {
+                const P& p = *scene.find<P>();
+                return p.hydrostatic ? 0.0 : work.years / p.interval * 450.0 * work.discs;
+            },
+        .measures = pore_fluid_measures(),
+        .objects = pore_fluid_objects(),
+        .layers = pore_fluid_layers(),
+    };
+    return effect;
+}
+
+} // namespace listric::effects

@@ -1,0 +1,319 @@
+#include "apps/model/effects/pore_fluid_measures.hpp"
+
+#include "apps/model/model.hpp"
+#include "coupling/pore_fluid.hpp"
+#include "dem/base/ground_level.hpp"
+#include "dem/contacts/grain_columns.hpp"
+#include "dem/events/energy_account.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric::effects {
+
+namespace {
+
+using coupling::PoreFluid;
+using Sums = PoreFluid::Sums;
+using V = std::optional<double>;
+
+const PoreFluid* fluid_in(const Observation& now) { return dem::find<const PoreFluid>(now.events); }
+
+/// State of the fluid in a disc of sediment.
+struct WetDisc {
+    double x = 0.0, depth = 0.0;                ///< m
+    double volume = 0.0;                        ///< of its mud, m^2
+    double excess_pressure = 0.0, weight = 0.0; ///< weight of grains in water, Pa
+    double porosity = 0.0, normal_porosity = 0.0;
+
+    double ratio() const { return weight > 0.0 ? excess_pressure / weight : 0.0; }
+};
+
+std::vector<WetDisc> wet_discs(const Observation& now) {
+    std::vector<WetDisc> wet;
+    const PoreFluid* const fluid = fluid_in(now);
+    if (!fluid)
+        return wet;
+    const dem::State& state = now.state;
+    const dem::ConstDiscColumns d = dem::disc_columns(state);
+    const auto porosity = state.discs.get<double>("porosity");
+    const auto pressure = state.discs.get<double>("excess_pressure");
+    const std::vector<double> grains = dem::grains_above(state, porosity);
+    const dem::GroundLevel ground(state);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        if (d.stratum[i] == 0)
+            continue;
+        WetDisc& disc = wet.emplace_back();
+        disc.x = d.x[i];
+        disc.depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
+        disc.volume = d.mass[i] / fluid->sediment().grain_density / (1.0 - porosity[i]);
+        disc.excess_pressure = pressure[i];
+        disc.weight = grains[i] * fluid->law().grain_weight;
+        disc.porosity = porosity[i];
+        disc.normal_porosity = coupling::porosity_at(fluid->law(), disc.depth);
+    }
+    return wet;
+}
+
+/// Mean of a number of wet discs, by their mud; none without any.
+template <class Number> V mean(const std::vector<WetDisc>& wet, Number&& number) {
+    double sum = 0.0, volume = 0.0;
+    for (const WetDisc& disc : wet) {
+        sum += disc.volume * number(disc);
+        volume += disc.volume;
+    }
+    return volume > 0.0 ? V(sum / volume) : V(std::nan(""));
+}
+
+/// Ratio of sums: a mean of ratios would be one of the shallowest discs.
+double overpressure(const std::vector<WetDisc>& wet) {
+    double pressure = 0.0, weight = 0.0;
+    for (const WetDisc& disc : wet) {
+        pressure += disc.volume * disc.excess_pressure;
+        weight += disc.volume * disc.weight;
+    }
+    return weight > 0.0 ? pressure / weight : std::nan("");
+}
+
+constexpr double half_well = 1000.0; ///< m to either side of a well
+
+/// Where sediment is thickest: the middle of the deepest kilometre, m.
+double depocentre(const std::vector<WetDisc>& wet) {
+    double deepest = -1.0, x = 0.0;
+    for (const WetDisc& disc : wet)
+        if (disc.depth > deepest) {
+            deepest = disc.depth;
+            x = disc.x;
+        }
+    return x;
+}
+
+/// Means of the discs of a well, by depth.
+struct WellPoint {
+    double depth = 0.0;     ///< m
+    double pressure = 0.0;  ///< of water, Pa
+    double excess = 0.0;    ///< over that of water at rest, Pa
+    double effective = 0.0; ///< vertical stress of the grains, Pa
+    double ratio = 0.0, porosity = 0.0, normal_porosity = 0.0;
+    double permeability = 0.0; ///< m^2
+    double mud_weight = 0.0;   ///< density of a mud that balances the pressure, kg/m3
+    double total = 0.0;        ///< vertical stress of grains and water, Pa
+};
+
+std::vector<WellPoint> well(const Observation& now, double x) {
+    const PoreFluid* const fluid = fluid_in(now);
+    std::vector<WellPoint> points;
+    if (!fluid)
+        return points;
+    const double step = std::max(250.0, 4.0 * now.state.mean_radius);
+    std::vector<std::vector<WetDisc>> bins;
+    for (const WetDisc& disc : wet_discs(now)) {
+        if (std::abs(disc.x - x) > half_well)
+            continue;
+        const auto bin = static_cast<std::size_t>(disc.depth / step);
+        if (bin >= bins.size())
+            bins.resize(bin + 1);
+        bins[bin].push_back(disc);
+    }
+    for (const std::vector<WetDisc>& bin : bins) {
+        if (bin.empty())
+            continue;
+        WellPoint& p = points.emplace_back();
+        p.depth = *mean(bin, [](const WetDisc& d) { return d.depth; });
+        p.excess = *mean(bin, [](const WetDisc& d) { return d.excess_pressure; });
+        const double weight = *mean(bin, [](const WetDisc& d) { return d.weight; });
+        const double at_rest = fluid->fluid_weight() * p.depth;
+        p.pressure = at_rest + p.excess;
+        p.total = at_rest + weight;
+        p.effective = weight - p.excess;
+        p.ratio = p.excess / weight;
+        p.porosity = *mean(bin, [](const WetDisc& d) { return d.porosity; });
+        p.normal_porosity = *mean(bin, [](const WetDisc& d) { return d.normal_porosity; });
+        p.permeability = coupling::permeability(fluid->parameters().permeability, p.porosity);
+        p.mud_weight = p.pressure / (now.parts.gravity * p.depth);
+    }
+    return points;
+}
+
+constexpr Measure<WellPoint> of_point[] = {
+    {"depth_m", "m", "mean depth below the ground", taken<&WellPoint::depth>},
+    {"pressure_pa", "Pa", "pressure of the pore water", taken<&WellPoint::pressure>},
+    {"excess_pressure_pa", "Pa", "pressure over that of water at rest", taken<&WellPoint::excess>},
+    {"overpressure_ratio", "1", "excess pressure over the weight of grains in water",
+     taken<&WellPoint::ratio>},
+    {"effective_stress_pa", "Pa", "vertical stress that the grains carry",
+     taken<&WellPoint::effective>},
+    {"total_stress_pa", "Pa", "weight of grains and water above", taken<&WellPoint::total>},
+    {"porosity", "1", "porosity", taken<&WellPoint::porosity>},
+    {"normal_porosity", "1", "porosity that the depth has where water is at rest",
+     taken<&WellPoint::normal_porosity>},
+    {"permeability_m2", "m2", "permeability", taken<&WellPoint::permeability>},
+    {"mud_weight_kg_per_m3", "kg/m3", "density of a drilling mud whose weight is the pressure",
+     taken<&WellPoint::mud_weight>},
+};
+
+std::optional<std::vector<NamedNumbers>> profile(const Observation& now) {
+    if (!fluid_in(now))
+        return std::nullopt;
+    std::vector<NamedNumbers> rows;
+    for (const WellPoint& point : well(now, depocentre(wet_discs(now)))) {
+        NamedNumbers& numbers = rows.emplace_back();
+        for (const auto& measure : of_point)
+            if (const auto value = measure.value(point))
+                numbers.emplace_back(measure.name, *value);
+    }
+    return rows;
+}
+
+/// Pressure over total stress in the lowest part of the depocentre's well.
+V lambda_floor(const Observation& now) {
+    if (!fluid_in(now))
+        return std::nullopt;
+    const auto points = well(now, depocentre(wet_discs(now)));
+    return points.empty() ? std::nan("") : points.back().pressure / points.back().total;
+}
+
+/// Depth in the depocentre's well from which on the ratio is at least one half.
+V top_of_overpressure(const Observation& now) {
+    if (!fluid_in(now))
+        return std::nullopt;
+    for (const WellPoint& point : well(now, depocentre(wet_discs(now))))
+        if (point.ratio >= 0.5)
+            return point.depth;
+    return std::nan("");
+}
+
+template <const char* const& name> V remembered(const Observation& now) {
+    const PoreFluid* const fluid = fluid_in(now);
+    return fluid ? V(fluid->remembered(name)) : std::nullopt;
+}
+
+V water_error(const Observation& now) {
+    const PoreFluid* const fluid = fluid_in(now);
+    if (!fluid)
+        return std::nullopt;
+    const double came = fluid->remembered(Sums::came);
+    const double known = fluid->remembered(Sums::surface) + fluid->remembered(Sums::vented) +
+                         fluid->remembered(Sums::eroded) + fluid->remembered(Sums::left);
+    return came > 0.0 ? (came - known) / came : 0.0;
+}
+
+V push_work(const Observation& now) {
+    const auto* account = dem::find<const dem::EnergyAccount>(now.events);
+    if (!account || !fluid_in(now))
+        return std::nullopt;
+    return account->balance(now.state, now.parts.base).push_work;
+}
+
+/// A number of the wet discs.
+template <auto take> V of_discs(const Observation& now) {
+    return fluid_in(now) ? take(wet_discs(now)) : std::nullopt;
+}
+
+V greatest_ratio(const std::vector<WetDisc>& wet) {
+    double greatest = 0.0;
+    for (const WetDisc& disc : wet)
+        greatest = std::max(greatest, disc.ratio());
+    return greatest;
+}
+
+V mean_ratio(const std::vector<WetDisc>& wet) { return overpressure(wet); }
+
+V undercompaction(const std::vector<WetDisc>& wet) {
+    return mean(wet, [](const WetDisc& d) { return d.porosity - d.normal_porosity; });
+}
+
+V overpressured(const std::vector<WetDisc>& wet) {
+    return mean(wet, [](const WetDisc& d) { return d.ratio() >= 0.5 ? 1.0 : 0.0; });
+}
+
+/// Ink of every disc of the hanging wall, none on rock.
+template <class Number> std::vector<double> inks(const Observation& now, Number&& number) {
+    std::vector<double> rows(now.state.discs.rows(), 0.0);
+    const auto stratum = dem::disc_columns(now.state).stratum;
+    std::size_t k = 0;
+    const std::vector<WetDisc> wet = wet_discs(now);
+    for (std::size_t i = 0; i < rows.size() && !wet.empty(); ++i)
+        if (stratum[i] > 0)
+            rows[i] = std::clamp(number(wet[k++]), 0.0, 1.0);
+    return rows;
+}
+
+} // namespace
+
+std::vector<Measure<Observation>> pore_fluid_measures() {
+    using enum OverTime;
+    return {
+        {"overpressure_ratio_mean", "1",
+         "excess pore pressure over the weight of grains in water: ratio of their sums over the "
+         "sediment. 0: water at rest, 1: water carries all",
+         of_discs<mean_ratio>},
+        {"overpressure_ratio_max", "1",
+         "excess pore pressure over the weight of grains in water, where that ratio is greatest",
+         of_discs<greatest_ratio>},
+        {"lambda_floor", "1",
+         "pore pressure over the weight of grains and water, on the floor of the depocentre",
+         lambda_floor},
+        {"top_of_overpressure_m", "m",
+         "depth from which on excess pressure is at least half of the grains' weight in water, at "
+         "the depocentre",
+         top_of_overpressure},
+        {"undercompaction", "1",
+         "mean porosity of sediment less what its depth has where water is at rest",
+         of_discs<undercompaction>},
+        {"overpressured_share", "1",
+         "share of sediment whose excess pressure is at least half of the grains' weight in water",
+         of_discs<overpressured>},
+        {"water_came_m2", "m2", "pore water that came with sediment", remembered<Sums::came>},
+        {"water_surface_m2", "m2", "pore water that left through the ground",
+         remembered<Sums::surface>},
+        {"water_vented_m2", "m2", "pore water that left where its pressure opens fractures",
+         remembered<Sums::vented>},
+        {"water_eroded_m2", "m2", "pore water that went with eroded sediment",
+         remembered<Sums::eroded>},
+        {"water_left_m2", "m2", "pore water in the sediment", remembered<Sums::left>},
+        {"water_error", "1", "water that came less where it went, over it. Round-off", water_error,
+         largest},
+        {"lift_capped_share", "1",
+         "share of sediment discs whose lift was cut to 0.99 of their weight",
+         remembered<Sums::capped>, mean},
+        {"enclosed_share", "1",
+         "share of sediment discs that no way of the water joins to the ground",
+         remembered<Sums::enclosed>},
+        {"fill", "1", "the mud's own volume over that of the cells of its discs",
+         remembered<Sums::fill>},
+        {"newton_worst", "1", "greatest number of Newton's steps of a solution so far",
+         remembered<Sums::newton>},
+        {"pore_fluid_work_j_per_m", "J/m",
+         "work of excess pore pressure on the discs, over the cycles, where energy is accounted",
+         push_work},
+    };
+}
+
+std::vector<MeasuredObjects> pore_fluid_objects() {
+    MeasuredObjects list{
+        "pressure_profile",
+        "",
+        "pore pressure and porosity at the depocentre, down from the ground: means "
+        "over 1 km to either side",
+        {},
+        profile};
+    for (const auto& measure : of_point)
+        list.parts.push_back(measure.quantity());
+    return {list};
+}
+
+std::vector<FigureLayer> pore_fluid_layers() {
+    return {{"overpressure", LayerKind::discs, "overpressure ratio, 0 to 1", "#b71c1c",
+             [](const Observation& now) {
+                 return inks(now, [](const WetDisc& d) { return d.ratio(); });
+             }},
+            {"undercompaction", LayerKind::discs, "undercompaction, 0 to 0.3", "#4a148c",
+             [](const Observation& now) {
+                 constexpr double full = 0.3; // porosity over the normal one
+                 return inks(
+                     now, [](const WetDisc& d) { return (d.porosity - d.normal_porosity) / full; });
+             }}};
+}
+
+} // namespace listric::effects

@@ -1,0 +1,214 @@
+#include "coupling/pore_cells.hpp"
+
+#include "dem/base/ground_level.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <numeric>
+
+namespace listric::coupling {
+
+using namespace dem;
+
+namespace {
+
+/// Whether water flows between two discs: not across a gap.
+bool is_near(double distance, double reach) {
+    constexpr double most = 1.6; // sums of two radii
+    return distance <= most * reach;
+}
+
+/// Whether a cell is at the ground: open upward close below it.
+bool is_at_ground(const State& state, const PoreCells& cells, std::size_t k) {
+    constexpr double near_ground = 3.0; // mean radii
+    return cells.depths[k] <= near_ground * state.mean_radius &&
+           std::ranges::any_of(cells.faceted.of(k), [](const PowerFacet& f) {
+               return f.neighbour == facet_open && f.arm.y > 0.0;
+           });
+}
+
+/// Cuts the cells at the ground again, so that they end a radius above their discs' centres.
+void end_at_ground(const State& state, const RigidBase& base, std::span<const double> radius,
+                   PoreCells& cells) {
+    std::vector<std::size_t> at_ground;
+    std::vector<std::int32_t> rows;
+    std::vector<double> lids;
+    for (std::size_t k = 0; k < cells.count(); ++k)
+        if (is_at_ground(state, cells, k)) {
+            at_ground.push_back(k);
+            rows.push_back(cells.rows[k]);
+            lids.push_back(radius[static_cast<std::size_t>(cells.rows[k])]);
+        }
+    const FacetedCells cut = faceted_cells(state, base, rows, lids);
+    FacetedCells all{cells.faceted.cells, {}, {0}};
+    all.facets.reserve(cells.faceted.facets.size());
+    std::size_t next = 0; // of those at the ground
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const bool is_cut = next < at_ground.size() && at_ground[next] == k;
+        const auto facets = is_cut ? cut.of(next) : cells.faceted.of(k);
+        if (is_cut)
+            all.cells[k] = cut.cells[next++];
+        all.facets.insert(all.facets.end(), facets.begin(), facets.end());
+        all.begin.push_back(all.facets.size());
+    }
+    cells.faceted = std::move(all);
+}
+
+/// Length of the facet between two cells: of the part that both have, which differs where the
+/// ground ends one.
+double common_length(const PoreCells& cells, std::size_t first, const PowerFacet& facet,
+                     std::size_t second) {
+    for (const PowerFacet& back : cells.faceted.of(second))
+        if (back.neighbour == cells.rows[first])
+            return std::min(facet.length, back.length);
+    return 0.0;
+}
+
+} // namespace
+
+PoreCells pore_cells(const State& state, const RigidBase& base) {
+    const ConstDiscColumns d = disc_columns(state);
+    PoreCells cells;
+    cells.cell_of.assign(d.x.size(), -1);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] > 0) {
+            cells.cell_of[i] = static_cast<std::int32_t>(cells.rows.size());
+            cells.rows.push_back(static_cast<std::int32_t>(i));
+        }
+    cells.surface_lengths.assign(cells.count(), 0.0);
+    if (cells.rows.empty()) {
+        cells.faceted.begin = {0};
+        return cells;
+    }
+    const GroundLevel ground(state);
+    for (const std::int32_t row : cells.rows) {
+        const auto i = static_cast<std::size_t>(row);
+        cells.depths.push_back(ground.depth({d.x[i], d.y[i]}));
+    }
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const std::vector<double> radius = rock_radii(state);
+    cells.faceted =
+        faceted_cells(state, base, cells.rows, std::vector<double>(cells.count(), none));
+    end_at_ground(state, base, radius, cells);
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const double r = radius[static_cast<std::size_t>(cells.rows[k])];
+        cells.ground_distances.push_back(std::max(cells.depths[k], 0.5 * r));
+        for (const PowerFacet& facet : cells.faceted.of(k))
+            if (facet.neighbour == facet_on_lid)
+                cells.surface_lengths[k] += facet.length;
+    }
+    return cells;
+}
+
+FlowNetwork flow_network(const State& state, const PoreCells& cells,
+                         std::span<const double> permeability, double viscosity,
+                         const FaultFactors& faults) {
+    assert(permeability.size() == cells.count());
+    const ConstDiscColumns d = disc_columns(state);
+    const std::vector<double> radius = rock_radii(state);
+    FlowNetwork network;
+    network.drains.assign(cells.count(), 0.0);
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const auto i = static_cast<std::size_t>(cells.rows[k]);
+        network.drains[k] =
+            permeability[k] * cells.surface_lengths[k] / (viscosity * cells.ground_distances[k]);
+        for (const PowerFacet& facet : cells.faceted.of(k)) {
+            if (facet.neighbour < 0)
+                continue;
+            const auto j = static_cast<std::size_t>(facet.neighbour);
+            const std::int32_t other = cells.cell_of[j];
+            if (other <= static_cast<std::int32_t>(k) ||
+                !is_near(facet.distance, radius[i] + radius[j]))
+                continue;
+            const auto m = static_cast<std::size_t>(other);
+            const double length = common_length(cells, k, facet, m);
+            const int weakened = (d.material[i] == weak) + (d.material[j] == weak);
+            const double factor = weakened == 2   ? faults.along
+                                  : weakened == 1 ? faults.across
+                                                  : 1.0;
+            const double both =
+                2.0 * permeability[k] * permeability[m] / (permeability[k] + permeability[m]);
+            if (length > 0.0)
+                network.links.push_back({static_cast<std::int32_t>(k), other,
+                                         factor * both * length / (facet.distance * viscosity)});
+        }
+    }
+    return network;
+}
+
+std::size_t enclosed_cells(const FlowNetwork& network) {
+    std::vector<std::int32_t> parent(network.cells());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::int32_t cell) {
+        while (parent[static_cast<std::size_t>(cell)] != cell)
+            cell = parent[static_cast<std::size_t>(cell)] =
+                parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(cell)])];
+        return cell;
+    };
+    for (const FlowLink& link : network.links)
+        parent[static_cast<std::size_t>(root(link.first))] = root(link.second);
+    std::vector<bool> drained(network.cells(), false);
+    const auto root_of = [&](std::size_t k) {
+        return static_cast<std::size_t>(root(static_cast<std::int32_t>(k)));
+    };
+    for (std::size_t k = 0; k < network.cells(); ++k)
+        if (network.drains[k] > 0.0)
+            drained[root_of(k)] = true;
+    std::size_t enclosed = 0;
+    for (std::size_t k = 0; k < network.cells(); ++k)
+        enclosed += !drained[root_of(k)];
+    return enclosed;
+}
+
+std::vector<Point> pressure_gradients(const PoreCells& cells,
+                                      std::span<const double> excess_pressure) {
+    std::vector<Point> gradients(cells.count());
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        Point sum;
+        for (const PowerFacet& facet : cells.faceted.of(k)) {
+            double beyond = excess_pressure[k], distance = facet.distance;
+            if (facet.neighbour == facet_on_lid) {
+                beyond = 0.0; // at the ground, which is not where the cell ends
+                distance = cells.ground_distances[k];
+            } else if (facet.neighbour >= 0) {
+                const std::int32_t other = cells.cell_of[static_cast<std::size_t>(facet.neighbour)];
+                if (other >= 0)
+                    beyond = excess_pressure[static_cast<std::size_t>(other)];
+            }
+            const double weight = (beyond - excess_pressure[k]) * facet.length / distance;
+            sum.x += weight * facet.arm.x;
+            sum.y += weight * facet.arm.y;
+        }
+        const double area = cells.faceted.cells[k].area;
+        if (area > 0.0)
+            gradients[k] = {sum.x / area, sum.y / area};
+    }
+    return gradients;
+}
+
+std::vector<Point> pore_forces(const State& state, const PoreCells& cells,
+                               std::span<const double> volume,
+                               std::span<const double> excess_pressure) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<Point> force(d.x.size());
+    const std::vector<Point> gradients = pressure_gradients(cells, excess_pressure);
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        const auto i = static_cast<std::size_t>(cells.rows[k]);
+        force[i].x -= volume[k] * gradients[k].x;
+        force[i].y -= volume[k] * gradients[k].y;
+        for (const PowerFacet& facet : cells.faceted.of(k)) {
+            if (facet.neighbour < 0)
+                continue;
+            const auto j = static_cast<std::size_t>(facet.neighbour);
+            if (cells.cell_of[j] >= 0)
+                continue;
+            const double pressure_times_share = excess_pressure[k] * facet.length / facet.distance;
+            force[j].x += pressure_times_share * (d.x[j] - d.x[i]);
+            force[j].y += pressure_times_share * (d.y[j] - d.y[i]);
+        }
+    }
+    return force;
+}
+
+} // namespace listric::coupling

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "coupling/pore_flow.hpp"
+#include "dem/base.hpp"
+#include "dem/contacts/power_cell.hpp"
+#include "dem/state.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace listric::coupling {
+
+// Wet discs, which are those of sediment, as cells of a fluid's flow: power cells, on whose facets
+// a difference of two pressures gives flow and force exactly where pressure is linear. Rock is dry.
+
+/// Cells of the wet discs.
+struct PoreCells {
+    std::vector<std::int32_t> rows;      ///< of the discs, by cell
+    std::vector<std::int32_t> cell_of;   ///< by row; -1: dry
+    dem::FacetedCells faceted;           ///< by cell
+    std::vector<double> surface_lengths; ///< by cell: of its edge at the ground, m; 0: covered
+    std::vector<double> depths;          ///< by cell: of the centre below the ground, m
+    /// By cell: of the centre from where pressure is that of water at rest, m: the depth, at least
+    /// half a radius, for the ground is smoother than its discs.
+    std::vector<double> ground_distances;
+
+    std::size_t count() const { return rows.size(); }
+};
+
+/// Cells of sediment. Those at the ground end a radius above the disc's centre.
+PoreCells pore_cells(const dem::State& state, const dem::RigidBase& base);
+
+/// Factors of permeability between two weakened discs, and between a weakened and a sound one.
+struct FaultFactors {
+    double along = 1.0, across = 1.0;
+};
+
+/// Links between cells that share a facet, and drains through the ground.
+/// @param permeability  by cell, m^2
+/// @param viscosity     of the fluid, Pa s
+FlowNetwork flow_network(const dem::State& state, const PoreCells& cells,
+                         std::span<const double> permeability, double viscosity,
+                         const FaultFactors& faults = {});
+
+/// Number of wet cells that no chain of links joins to a drain.
+std::size_t enclosed_cells(const FlowNetwork& network);
+
+/// Gradient of excess pressure in every cell, Pa/m: by Green and Gauss, with 0 at the ground and no
+/// flow into rock, base and walls.
+std::vector<dem::Point> pressure_gradients(const PoreCells& cells,
+                                           std::span<const double> excess_pressure);
+
+/// Forces of excess pressure on all discs, N: on wet ones minus the gradient times the mud's own
+/// volume, m^2, since a cell that has opened would be lifted by more than it weighs; on dry ones
+/// the pressure on their facets.
+std::vector<dem::Point> pore_forces(const dem::State& state, const PoreCells& cells,
+                                    std::span<const double> volume,
+                                    std::span<const double> excess_pressure);
+
+} // namespace listric::coupling

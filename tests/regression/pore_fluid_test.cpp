@@ -1,0 +1,147 @@
+// Water in the pores from the scene to the discs: what it leaves as it is, what it keeps, and what
+// it refuses.
+
+#include "tests/scene_runs.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace listric {
+
+using namespace dem;
+namespace {
+
+using namespace support;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class PoreFluidRun : public SceneRuns {
+protected:
+    /// Every effect but an elastic base, with strata that are thin.
+    static Scene with(std::vector<std::string> set) {
+        for (const char* also :
+             {"sedimentation.target=[[0.0,0.0]]", "sedimentation.interval_a=2500"})
+            set.insert(set.begin(), also);
+        return load_scene({.scene = test_scene("every-effect.toml"), .set = set});
+    }
+
+    static std::string refusal(const std::vector<std::string>& set,
+                               const std::vector<std::string>& without = {}) {
+        try {
+            load_scene({.scene = test_scene("every-effect.toml"), .set = set, .without = without});
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "accepted";
+    }
+
+    nlohmann::json run_with(const std::string& name, const std::vector<std::string>& set,
+                            int threads = 1, bool plain = false) const {
+        RunOptions o = options(name);
+        o.threads = threads;
+        o.plain = plain;
+        o.force = true;
+        return run(with(set), o);
+    }
+
+    State last_state(const std::string& name) const {
+        return read_snapshot(list_snapshots(folder / name).back()).state;
+    }
+};
+
+TEST_F(PoreFluidRun, WaterAtRestIsLessGravity) {
+    const auto water = run_with("water", {"pore_fluid.hydrostatic=true"});
+    const auto less = run_with(
+        "less", {fmt::format("gravity.acceleration_m_per_s2={}", 9.81 * (1.0 - 1030.0 / 2600.0))});
+    EXPECT_EQ(water["state_hash"], less["state_hash"]);
+    EXPECT_FALSE(last_state("water").discs.has("excess_pressure"));
+    EXPECT_FALSE(water.contains("overpressure_ratio_mean"));
+}
+
+TEST_F(PoreFluidRun, HasTheSameBitsHoweverItIsRun) {
+    const std::vector<std::string> mud{"pore_fluid.permeability_m2=1e-19"};
+    const auto once = run_with("once", mud);
+    EXPECT_EQ(run_with("plain", mud, 1, true)["state_hash"], once["state_hash"]);
+    EXPECT_EQ(run_with("threads", mud, 2)["state_hash"], once["state_hash"]);
+    RunOptions o = options("parts");
+    o.until = 112.5; // between two solutions
+    run_scene(with(mud), o);
+    o.until = {};
+    o.resume = true;
+    EXPECT_EQ(run(with(mud), o)["state_hash"], once["state_hash"]);
+    EXPECT_LE(std::abs(once["water_error"].get<double>()), 1e-12);
+    EXPECT_LE(once["newton_worst"].get<double>(), 8.0);
+    EXPECT_GT(once["overpressure_ratio_mean"].get<double>(), 0.01);
+    EXPECT_GT(once["water_eroded_m2"].get<double>(), -1e-6);
+    EXPECT_THAT(contents(folder / "once/history.csv"), HasSubstr("overpressure_ratio_mean"));
+}
+
+TEST_F(PoreFluidRun, WaterIsConservedOverErosion) {
+    const auto summary = run_with(
+        "eroded", {"pore_fluid.permeability_m2=1e-19",
+                   "sedimentation.target=[{time_a = 0.0, points = [[0.0, 0.0]]}, "
+                   "{time_a = 12000.0, points = [[0.0, 0.0]]}, "
+                   "{time_a = 20000.0, points = [[0.0, -250.0]]}]"});
+    EXPECT_LE(std::abs(summary["water_error"].get<double>()), 1e-12);
+    EXPECT_GT(summary["water_eroded_m2"].get<double>(), 0.0);
+}
+
+TEST_F(PoreFluidRun, EnergyClosesWithTheWorkOfPressure) {
+    const auto summary = run_with("energy", {"pore_fluid.permeability_m2=1e-19", "energy={}"});
+    EXPECT_NE(summary["pore_fluid_work_j_per_m"].get<double>(), 0.0);
+    // As without the fluid: 1.1e-5 (recorded with every-effect).
+    EXPECT_LT(std::abs(summary["energy_residual"].get<double>()), 2e-5);
+}
+
+TEST_F(PoreFluidRun, WithoutPushesItOnlyKeepsPores) {
+    const auto summary =
+        run_with("control", {"pore_fluid.permeability_m2=1e-19", "pore_fluid.pushes=false"});
+    EXPECT_GT(summary["overpressure_ratio_mean"].get<double>(), 0.01);
+    EXPECT_FALSE(last_state("control").discs.has("push_x"));
+}
+
+TEST_F(PoreFluidRun, Limits) {
+    const auto sand = run_with("sand", {"pore_fluid.permeability_m2=1e-13"});
+    EXPECT_LT(sand["overpressure_ratio_mean"].get<double>(), 1e-3);
+    const auto tight = run_with("tight", {"pore_fluid.permeability_m2=1e-22"});
+    const double came = tight["water_came_m2"].get<double>();
+    EXPECT_LT(tight["water_surface_m2"].get<double>(), 1e-2 * came);
+    EXPECT_LE(tight["overpressure_ratio_max"].get<double>(), 0.95); // 0.9 of the last solution's G
+    EXPECT_GE(sand["deposited_fraction"].get<double>(), tight["deposited_fraction"].get<double>());
+}
+
+TEST_F(PoreFluidRun, GenesisDependsOnTheDensityOnly) {
+    const auto text = [](const std::vector<std::string>& set) {
+        return to_toml(genesis_of(with(set)));
+    };
+    EXPECT_EQ(text({"pore_fluid.permeability_m2=1e-19", "pore_fluid.interval_a=5000"}),
+              text({"pore_fluid={}"}));
+    EXPECT_NE(text({"pore_fluid.fluid_density_kg_per_m3=1100"}), text({"pore_fluid={}"}));
+}
+
+TEST_F(PoreFluidRun, RefusesWhatItCannotBe) {
+    const std::vector<std::string> on{"pore_fluid={}"};
+    for (const char* table : {"sedimentation", "gravity", "compaction"})
+        EXPECT_THAT(refusal(on, {table}), AllOf(HasSubstr("pore_fluid"), HasSubstr(table)));
+    EXPECT_THAT(
+        refusal({"pore_fluid.interval_a=3000"}),
+        AllOf(HasSubstr("pore_fluid.interval_a"), HasSubstr("multiple"), HasSubstr("2500")));
+    EXPECT_THAT(refusal({"pore_fluid.permeability_m2=1e-9"}),
+                AllOf(HasSubstr("pore_fluid.permeability_m2"), HasSubstr("1e-18 is mud"),
+                      HasSubstr("darcy")));
+    EXPECT_THAT(refusal({"pore_fluid={}", "hanging_wall.rock_density_kg_per_m3=2700"}),
+                AllOf(HasSubstr("equal densities"), HasSubstr("2700"), HasSubstr("2600")));
+    EXPECT_THAT(refusal({"pore_fluid.fluid_density_kg_per_m3=2700"}),
+                AllOf(HasSubstr("fluid_density"), HasSubstr("floats")));
+    EXPECT_THAT(refusal({"pore_fluid.fracture_ratio=1.1"}),
+                AllOf(HasSubstr("fracture_ratio"), HasSubstr("at least 0.5, at most 1")));
+    EXPECT_THAT(refusal({"pore_fluid={}", "compaction.coefficient_per_km=0"}),
+                HasSubstr("compacts"));
+}
+
+} // namespace
+} // namespace listric
