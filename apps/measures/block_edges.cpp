@@ -78,6 +78,23 @@ private:
     double slope_ = 0.0, bow_ = 0.0, skew_ = 0.0, offset_ = 0.0;
 };
 
+/// The longest part of an edge without a step between layers that is flatter than one in five: a
+/// layer above the block's top, or with a hole in it, has its edge elsewhere.
+Polyline without_steps(const Polyline& edge) {
+    constexpr double flattest = 5.0; // dx over dy
+    std::size_t best = 0, longest = 0;
+    for (std::size_t begin = 0, k = 0; k < edge.size(); ++k) {
+        if (k > 0 && std::abs(edge[k].x - edge[k - 1].x) > flattest * (edge[k - 1].y - edge[k].y))
+            begin = k;
+        if (k + 1 - begin > longest) {
+            longest = k + 1 - begin;
+            best = begin;
+        }
+    }
+    const auto first = edge.begin() + static_cast<std::ptrdiff_t>(best);
+    return {first, first + static_cast<std::ptrdiff_t>(longest)};
+}
+
 /// The basement's discs and where they were, m.
 struct Basement {
     std::vector<std::size_t> rows;
@@ -289,6 +306,7 @@ Polyline block_edge(std::span<const Point> points, std::span<const char> inside,
             if (const auto split = best_split(std::move(row)); split && split->wrong <= most_wrong)
                 edge.push_back({out * split->at + offset(middle), middle});
         }
+        edge = without_steps(edge);
     }
     return edge;
 }
