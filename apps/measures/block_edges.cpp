@@ -9,8 +9,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <string>
+#include <utility>
 
 namespace listric::measures {
 
@@ -172,11 +172,15 @@ std::optional<double> turn_behind(const Edge& edge, BlockSide side, const Baseme
 }
 
 constexpr Measure<Polyline> of_edge[] = {
-    {"_dip_deg", "deg", "dip of the best straight line through the edge",
+    {"_dip_deg", "deg",
+     "dip of the best straight line through a block's edge: antithetic that of the outer block, "
+     "above "
+     "the lowest seventh of the flat's depth; synthetic that of the head block, above half of it, "
+     "where zones branch",
      [](const Polyline& edge) { return std::optional(dip_of(edge)); }},
     {"_bow", "1",
-     "greatest distance of the best parabola through the edge from its chord, over the chord, "
-     "positive convex upward",
+     "greatest distance of the best parabola through a block's edge, in the depths of the edge's "
+     "dip, from its chord, over the chord, positive convex upward",
      [](const Polyline& edge) {
          return std::optional(curvature_of(edge) * norm(edge.back() - edge.front()) / 8.0);
      }},
@@ -189,10 +193,10 @@ struct KindOfEdge {
 };
 constexpr KindOfEdge kinds[] = {
     {"_edge",
-     ": of the block since the start (discs within 3 % of the extension, at most 120 m, of its "
+     "; the block since the start (discs within 3 % of the extension, at most 120 m, of its "
      "core's rigid motion)"},
     {"_active_edge",
-     ": of the block in the last window alone (discs within 3 % of the window's extension of its "
+     "; the block in the last window alone (discs within 3 % of the window's extension of its "
      "core's rigid motion), where the fault is active"}};
 
 constexpr Quantity foot{
