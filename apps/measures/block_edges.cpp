@@ -9,8 +9,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <string>
+#include <utility>
 
 namespace listric::measures {
 
@@ -77,6 +77,23 @@ private:
     Point along_, across_, middle_;
     double slope_ = 0.0, bow_ = 0.0, skew_ = 0.0, offset_ = 0.0;
 };
+
+/// The longest part of an edge without a step between layers that is flatter than one in five: a
+/// layer above the block's top, or with a hole in it, has its edge elsewhere.
+Polyline without_steps(const Polyline& edge) {
+    constexpr double flattest = 5.0; // dx over dy
+    std::size_t best = 0, longest = 0;
+    for (std::size_t begin = 0, k = 0; k < edge.size(); ++k) {
+        if (k > 0 && std::abs(edge[k].x - edge[k - 1].x) > flattest * (edge[k - 1].y - edge[k].y))
+            begin = k;
+        if (k + 1 - begin > longest) {
+            longest = k + 1 - begin;
+            best = begin;
+        }
+    }
+    const auto first = edge.begin() + static_cast<std::ptrdiff_t>(best);
+    return {first, first + static_cast<std::ptrdiff_t>(longest)};
+}
 
 /// The basement's discs and where they were, m.
 struct Basement {
@@ -155,11 +172,15 @@ std::optional<double> turn_behind(const Edge& edge, BlockSide side, const Baseme
 }
 
 constexpr Measure<Polyline> of_edge[] = {
-    {"_dip_deg", "deg", "dip of the best straight line through the edge",
+    {"_dip_deg", "deg",
+     "dip of the best straight line through a block's edge: antithetic that of the outer block, "
+     "above "
+     "the lowest seventh of the flat's depth; synthetic that of the head block, above half of it, "
+     "where zones branch",
      [](const Polyline& edge) { return std::optional(dip_of(edge)); }},
     {"_bow", "1",
-     "greatest distance of the best parabola through the edge from its chord, over the chord, "
-     "positive convex upward",
+     "greatest distance of the best parabola through a block's edge, in the depths of the edge's "
+     "dip, from its chord, over the chord, positive convex upward",
      [](const Polyline& edge) {
          return std::optional(curvature_of(edge) * norm(edge.back() - edge.front()) / 8.0);
      }},
@@ -172,10 +193,10 @@ struct KindOfEdge {
 };
 constexpr KindOfEdge kinds[] = {
     {"_edge",
-     ": of the block since the start (discs within 3 % of the extension, at most 120 m, of its "
+     "; the block since the start (discs within 3 % of the extension, at most 120 m, of its "
      "core's rigid motion)"},
     {"_active_edge",
-     ": of the block in the last window alone (discs within 3 % of the window's extension of its "
+     "; the block in the last window alone (discs within 3 % of the window's extension of its "
      "core's rigid motion), where the fault is active"}};
 
 constexpr Quantity foot{
@@ -289,6 +310,7 @@ Polyline block_edge(std::span<const Point> points, std::span<const char> inside,
             if (const auto split = best_split(std::move(row)); split && split->wrong <= most_wrong)
                 edge.push_back({out * split->at + offset(middle), middle});
         }
+        edge = without_steps(edge);
     }
     return edge;
 }

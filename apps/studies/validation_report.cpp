@@ -150,6 +150,8 @@ std::string sentence(const ValidationFindings& f, const ValidationExperiment& x)
         text += fmt::format(": {}", fmt::join(missing, "; "));
     if (const int none = rows_with(count, VerdictName::no_case); none > 0)
         text += fmt::format("; {} without a case", none);
+    if (const int none = rows_with(count, VerdictName::no_run); none > 0)
+        text += fmt::format("; {} not measured", none);
     return text + fmt::format(" ({} seeds).", seeds_so_far(f, x));
 }
 

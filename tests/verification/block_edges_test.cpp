@@ -3,7 +3,8 @@
 // A layer holds at least eight discs and is two diameters high, so its edge is known to half a
 // diameter or better; over 20 layers and more that makes 1 degree of dip, 0.01 of bow and, at the
 // lower end, where a parabola is known worst (three times the error of its mean), half a diameter.
-// Tolerances are twice that: 2 degrees, 0.02 and a diameter.
+// Tolerances are twice that: 2 degrees, 0.02 and a diameter. The head block's edge is followed over
+// half the depth only, ten layers at draft, and keeps them.
 
 #include "apps/measures/block_edges.hpp"
 #include "apps/measures/evolution.hpp"
@@ -112,8 +113,7 @@ struct Halfgraben {
                           {arc({0.0, 0.0}, {0.0, -1.0}, depth, pi / 2.0),
                            line({sole, -depth}, {length + 60e3, -depth})},
                           0.0}};
-        const Curve other{sole + (edge.falls_right ? extension : 0.0), 60.0, 0.0,
-                          !edge.falls_right};
+        const Curve other{edge.foot, 60.0, 0.0, !edge.falls_right};
         const Curve& head = edge.falls_right ? edge : other;
         const Curve& outer = edge.falls_right ? other : edge;
         tilt = extension / depth / degree;
@@ -176,6 +176,22 @@ TEST_P(BlockEdges, DipBowAndFootOfTheOuterBlock) {
             }
             EXPECT_NEAR(found["antithetic_edge_foot_m"], 0.0, diameter);
             EXPECT_NEAR(found["antithetic_edge_turn_deg"], 0.0, 0.2);
+        }
+}
+
+TEST_P(BlockEdges, DipAndBowOfTheHeadBlockAboveHalfDepth) {
+    const double diameter = 2.0 * draft / GetParam();
+    for (const double dip : {45.0, 60.0, 80.0})
+        for (const double bow : {-0.1, 0.0, 0.15}) {
+            SCOPED_TRACE(testing::Message() << dip << " " << bow);
+            const Curve edge{27e3, dip, bow, true}; // beside the core, even at 45 degrees
+            auto found = Halfgraben(edge, GetParam()).measure();
+            const Polyline exact = edge.above(-0.5 * depth, edge_layer(diameter));
+            for (const std::string kind : {"synthetic_edge", "synthetic_active_edge"}) {
+                EXPECT_NEAR(found[kind + "_dip_deg"], dip_of(exact), 2.0) << kind;
+                EXPECT_NEAR(found[kind + "_bow"], bow_of(exact), 0.02) << kind;
+            }
+            EXPECT_NEAR(found["synthetic_edge_turn_over_head_block"], 1.0, 0.02);
         }
 }
 
