@@ -35,7 +35,7 @@ struct SunkColumn {
     int most_steps = 0;                                         ///< of Newton's method
     bool converged = true;
 
-    /// Of the layers about a depth, linear between their middles.
+    /// Values of the layers about a depth, linear between their middles.
     MudLayer at(double depth) const;
 };
 

@@ -74,7 +74,7 @@ private:
 
 Balance Step::balance(double seconds, std::span<const double> water,
                       std::span<const double> u) const {
-    // Of a solution, some times that of a sum.
+    // Round-off of a solution is some times that of a sum.
     constexpr double unit = 16.0 * std::numeric_limits<double>::epsilon();
     Balance b;
     b.missing.resize(u.size());

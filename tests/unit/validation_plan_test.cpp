@@ -174,7 +174,7 @@ TEST_F(Plan, TheOneThatIsShippedCanBeRead) {
             if (e.at) {
                 EXPECT_THAT(plan.run(e.run).at, testing::Contains(*e.at)) << e.what;
             }
-    // What is asked of faults is in the paper's words; the record has twenty seeds.
+    // Criteria of faults quote the paper; the record has twenty seeds.
     for (const ValidationExperiment& x : plan.experiments)
         for (const Expectation& e : x.expectations)
             if (e.kind == Expectation::Kind::faults) {

@@ -160,7 +160,7 @@ TEST(PoreFlow, GibsonsIntegral) {
     EXPECT_NEAR(gibson(16.0), 0.7295, 0.0025 * 0.7295);
 }
 
-/// The same of a packing that is laid down disc by disc in a time of 1, four steps a diameter.
+/// Base pressure of a packing that is laid down disc by disc in a time of 1, four steps a diameter.
 double gibson_of_discs(const Mud& mud, double time_factor) {
     constexpr double diameter = 100.0, grain_weight = 15402.0, full = 1e9; // water a unit of area
     const double floor = mud.floor(), top = floor + mud.height;
