@@ -137,8 +137,9 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
     EXPECT_THAT(document(), HasSubstr("![criteria of faulting by experiment and seed]"));
     EXPECT_TRUE(fs::exists(folder / "doc/report/verdicts.png"));
     const std::string maker(listric::version);
-    EXPECT_THAT(document(), HasSubstr("The runs were made by Listric " + maker +
-                                      ", their measures taken by " + maker + "."));
+    EXPECT_THAT(document(),
+                HasSubstr("The runs were made by Listric " + maker + ", their measures taken by " +
+                          maker + " (definitions " + std::string(listric::measures_hash) + ")."));
     EXPECT_TRUE(fs::exists(folder / "doc/report/all.png"));
     const auto hash = [&](const char* run) {
         return nlohmann::json::parse(contents(folder / "runs" / run / "summary.json"))["state_hash"]
