@@ -28,7 +28,8 @@ void save_window(const RunView& run) {
 std::optional<Output> outputs::paraview(const RunView& run) {
     if (run.scene.output.series != SeriesFormat::paraview)
         return std::nullopt;
-    return Output{.begin = save_step, .resume = save_window, .window = save_window, .save = save_step};
+    return Output{
+        .begin = save_step, .resume = save_window, .window = save_window, .save = save_step};
 }
 
 } // namespace listric
