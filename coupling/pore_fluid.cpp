@@ -142,7 +142,10 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
     for (std::size_t k = 0; k < cells.count(); ++k) {
         burial[k] = std::max(burial[k], burial_under(law_, grains[k], u[k]));
         porosity[k] = porosity_at(law_, burial[k]);
-        ratio.push_back(grains[k] > 0.0 ? u[k] / (law_.grain_weight * grains[k]) : 0.0);
+        // At the ground both are next to nothing.
+        const double least =
+            d.radius[static_cast<std::size_t>(cells.rows[k])] * (1.0 - porosity[k]);
+        ratio.push_back(u[k] / (law_.grain_weight * std::max(grains[k], least)));
     }
     scatter(u, cells, state, "excess_pressure");
     scatter(water, cells, state, "pore_water");

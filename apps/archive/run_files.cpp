@@ -43,6 +43,7 @@ constexpr TopFile top_files[] = {
 constexpr std::string_view section_pictures[] = {"strata",   "bonds",    "behaviour",
                                                  "strain",   "sediment", "kinematics",
                                                  "overview", "underlay", "experiment"};
+constexpr std::string_view layer_picture = "layer-"; ///< and the name of an effect's layer
 constexpr std::string_view base_pictures[] = {"base", "footwall", "flexure"};
 constexpr std::string_view picture_endings[] = {".png", ".pdf", ".svg"};
 constexpr std::string_view film_endings[] = {".mp4", ".gif"};
@@ -90,6 +91,7 @@ bool is_section_picture(std::string_view name) {
                                    [&](std::string_view ending) { return is_of(kind, ending); });
     };
     return std::ranges::any_of(section_pictures, has_kind) ||
+           (name.starts_with(layer_picture) && has_kind(name.substr(0, name.rfind('-')))) ||
            std::ranges::any_of(film_endings,
                                [&](std::string_view ending) { return is_of("animation", ending); });
 }
@@ -219,6 +221,13 @@ std::vector<fs::path> files_of_moment(const fs::path& output, const std::string&
     for (const std::string_view kind : section_pictures)
         files.push_back(output / "figures" / fmt::format("{}-{}km.png", kind, kilometres));
     std::erase_if(files, [](const fs::path& file) { return !is_file(file); });
+    const std::string ending = fmt::format("-{}km.png", kilometres);
+    collect(
+        output / "figures",
+        [&](std::string_view name) {
+            return name.starts_with(layer_picture) && name.ends_with(ending);
+        },
+        files);
     return files;
 }
 

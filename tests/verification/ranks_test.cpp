@@ -51,8 +51,13 @@ public:
 
 class RanksTest : public support::SceneRuns {
 protected:
-    const Scene scene = load_scene({.scene = support::test_scene("every-effect.toml")});
-    const ModelParts parts = make_parts(scene);
+    RanksTest() : RanksTest(std::vector<std::string>{}) {}
+    explicit RanksTest(const std::vector<std::string>& set)
+        : scene(load_scene({.scene = support::test_scene("every-effect.toml"), .set = set})),
+          parts(make_parts(scene)) {}
+
+    const Scene scene;
+    const ModelParts parts;
 
     /// The simulation of the scene, with its events, at an extension of 100 m.
     /// @param nodes  of the base; none: it is rigid
@@ -103,6 +108,20 @@ protected:
 
     std::int64_t cycles = 0;
 };
+
+/// With mud whose pore pressure pushes on the discs.
+class MudOnRanks : public RanksTest {
+protected:
+    MudOnRanks()
+        : RanksTest({"sedimentation.target=[[0.0,0.0]]", "sedimentation.interval_a=2500",
+                     "pore_fluid.permeability_m2=1e-19"}) {}
+};
+
+TEST_F(MudOnRanks, EndsInTheBitsOfOneProcess) {
+    const std::uint64_t whole = hash_at_end({});
+    for (const int count : {2, 3})
+        EXPECT_EQ(hash_on_ranks(count, ranks_by_rows, {}), whole) << count;
+}
 
 TEST_F(RanksTest, EndInTheBitsOfOneProcess) {
     const std::uint64_t whole = hash_at_end({});

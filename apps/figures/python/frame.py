@@ -46,6 +46,12 @@ class Layer:
     label: str
     ink: str
     rows: np.ndarray      # lengths in km; of discs the share of ink
+    name: str = ""
+
+    @property
+    def is_graded(self) -> bool:
+        """Whether ink on discs has shades, and so wants a picture of its own."""
+        return self.kind == "discs" and bool(((self.rows > 0.0) & (self.rows < 1.0)).any())
 
 
 @dataclass
@@ -183,7 +189,8 @@ def load_layers(folder: str, meta: dict, count: int) -> tuple[Layer, ...]:
             raise InputError(f"{folder}: {words['name']}.npy has {len(rows)} values, "
                              f"discs_x.npy {count}")
         layers.append(Layer(words["kind"], printable(words["label"]), words["ink"],
-                            np.clip(rows, 0.0, 1.0) if words["kind"] == "discs" else km(rows)))
+                            np.clip(rows, 0.0, 1.0) if words["kind"] == "discs" else km(rows),
+                            words["name"].removeprefix("layer_")))
     return tuple(layers)
 
 

@@ -18,7 +18,7 @@ from vocabulary import (INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, layer_colours,
 import numpy as np
 from matplotlib import image as plt_image
 from matplotlib.collections import LineCollection
-from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize, to_rgb
+from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap, Normalize, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter
@@ -145,7 +145,7 @@ def bonds_panel(ax, cax, frame: Frame) -> None:
     rgb = np.ones((len(frame.x), 3))
     rgb[sediment] = to_rgb(SEDIMENT_PALE)
     alpha = sediment.astype(float)
-    inked = [layer for layer in frame.layers if layer.kind == "discs"]
+    inked = [layer for layer in frame.layers if layer.kind == "discs" and not layer.is_graded]
     for layer in inked:
         share = layer.rows[:, np.newaxis]
         rgb = (1.0 - share) * rgb + share * np.array(to_rgb(layer.ink))
@@ -322,6 +322,23 @@ def areas_text(meta: dict) -> list[str]:
             split += f" (normals: {meta['predicted_halfgraben_area_share']:.2f})"
         text.append(split)
     return text
+
+
+def layer_panel(name: str):
+    """Panel of an effect's layer whose ink has shades."""
+    def panel(ax, cax, frame: Frame) -> None:
+        layer = next(layer for layer in frame.layers if layer.name == name)
+        section_axes(ax, frame)
+        colours = LinearSegmentedColormap.from_list(name, [SEDIMENT_PALE, layer.ink])
+        rgb = colours(layer.rows)[:, :3]
+        rgb[frame.stratum == 0] = to_rgb(UNDEFINED)
+        inked = layer.rows > 0.0
+        rgb[inked] = colours(layer.rows[inked])[:, :3]
+        draw_discs(ax, frame, rgb)
+        bar(cax, colours, Normalize(0.0, 1.0), "Share of full ink")
+        describe(ax, frame, layer.label.capitalize(),
+                 [(swatch(UNDEFINED), "pre-rift"), *draw_faults(ax, frame.faults)])
+    return panel
 
 
 PANELS = {"strata": strata_panel, "bonds": bonds_panel, "behaviour": behaviour_panel,

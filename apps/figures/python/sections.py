@@ -4,8 +4,11 @@ from collections.abc import Sequence
 from frame import Frame
 from page import (DPI, GAP, LEFT, PROFILE_HEIGHT, ROW_ABOVE, TITLE, WIDTH, add_axes, below,
                   extension_text, footer, name_distance, panel_size, set_ticks, write_around)
-from panels import PANELS
+from panels import PANELS, layer_panel
 from plot import Figure, Order, new_figure, save
+
+
+LAYER_PICTURE = "layer-"   # and the layer's name
 
 
 def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI) -> Figure:
@@ -22,7 +25,8 @@ def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI) -> Figure:
         y -= ROW_ABOVE + height
         ax = add_axes(figure, LEFT, y, width, height)
         cax = add_axes(figure, LEFT + width + 0.16, y, 0.17, height)
-        PANELS[name](ax, cax, frame)
+        panel = PANELS.get(name) or layer_panel(name.removeprefix(LAYER_PICTURE))
+        panel(ax, cax, frame)
         set_ticks(ax)
         name_distance(ax, lowest=index + 1 == len(names))
         y -= GAP
@@ -34,6 +38,7 @@ def figures_of(frame: Frame) -> dict[str, list[str]]:
     overview = [name for name in PANELS if name not in ("kinematics", "underlay")]
     known = (overview + (["kinematics"] if frame.predicted_shear is not None else [])
              + (["underlay"] if frame.horizons is not None else []))
+    known += [LAYER_PICTURE + layer.name for layer in frame.layers if layer.is_graded]
     return {**{name: [name] for name in known}, "overview": overview}
 
 
