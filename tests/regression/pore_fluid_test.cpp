@@ -81,11 +81,11 @@ TEST_F(PoreFluidRun, HasTheSameBitsHoweverItIsRun) {
 }
 
 TEST_F(PoreFluidRun, WaterIsConservedOverErosion) {
-    const auto summary = run_with(
-        "eroded", {"pore_fluid.permeability_m2=1e-19",
-                   "sedimentation.target=[{time_a = 0.0, points = [[0.0, 0.0]]}, "
-                   "{time_a = 12000.0, points = [[0.0, 0.0]]}, "
-                   "{time_a = 20000.0, points = [[0.0, -250.0]]}]"});
+    const auto summary =
+        run_with("eroded", {"pore_fluid.permeability_m2=1e-19",
+                            "sedimentation.target=[{time_a = 0.0, points = [[0.0, 0.0]]}, "
+                            "{time_a = 12000.0, points = [[0.0, 0.0]]}, "
+                            "{time_a = 20000.0, points = [[0.0, -250.0]]}]"});
     EXPECT_LE(std::abs(summary["water_error"].get<double>()), 1e-12);
     EXPECT_GT(summary["water_eroded_m2"].get<double>(), 0.0);
 }
