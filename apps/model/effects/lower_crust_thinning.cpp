@@ -13,8 +13,7 @@ using P = coupling::LowerCrustThinningParameters;
 
 coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts) {
     const auto& base = *bending_base(scene);
-    const double contrast =
-        (base.mantle_density - base.crust_density) * parts.gravity; // Pa/m
+    const double contrast = (base.mantle_density - base.crust_density) * parts.gravity; // Pa/m
     return coupling::lower_crust_thinning_load(*scene.find<P>(), contrast, scene.extension.distance,
                                                scene.extension.rate);
 }
