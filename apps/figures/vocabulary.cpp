@@ -65,11 +65,14 @@ std::string data_name(const FigureLayer& layer) { return "layer_" + std::string(
 nlohmann::json declared_layers(const Scene& scene) {
     constexpr const char* kinds[] = {"band", "line", "discs"};
     nlohmann::json list = nlohmann::json::array();
-    for (const FigureLayer& layer : figure_layers(scene))
+    for (const FigureLayer& layer : figure_layers(scene)) {
         list.push_back({{"name", data_name(layer)},
                         {"kind", kinds[static_cast<int>(layer.kind)]},
                         {"label", layer.label},
                         {"ink", layer.ink}});
+        if (layer.full != 1.0)
+            list.back()["full"] = layer.full;
+    }
     return list;
 }
 

@@ -79,6 +79,7 @@ struct SedimentFacts {
     double disc_density = 0.0;            ///< as deposited, kg/m3
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
     double porosity_interval = 0.0;       ///< from change to change of porosity, a
+    double deposition_interval = 0.0;     ///< from stratum to stratum, a
 };
 
 /// Parts that effects put into a model besides events: each adds its share in the order of the
@@ -133,6 +134,7 @@ struct FigureLayer {
     std::string_view label;                              ///< in legends
     std::string_view ink;                                ///< "#rrggbb"
     std::vector<double> (*rows)(const Observation& now); ///< one after the other
+    double full = 1.0; ///< number that full ink on discs stands for, where ink has shades
 };
 
 /// Factors of the prices in a prediction.
@@ -170,6 +172,8 @@ struct Effect {
 
     void (*scale)(Scene& scene, const AccuracyLevel& level) = nullptr; ///< defaults by accuracy
     void (*check)(const Scene& scene, const Refuse& refuse) = nullptr;
+    /// Oddity of a scene that is allowed all the same; empty: none.
+    std::string (*warning)(const Scene& scene) = nullptr;
     /// Why several processes cannot make it; none: they can.
     std::optional<Objection> (*on_ranks)(const Scene& scene) = nullptr;
 

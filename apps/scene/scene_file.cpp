@@ -348,6 +348,10 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
         read_files(scene, table, document, path.parent_path());
     drop_effects(scene, request.without, all);
     check_scene(scene, document, effects);
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->warning)
+            if (const std::string warning = part.effect->warning(scene); !warning.empty())
+                scene.warnings.push_back(warning);
     check_rocks(scene, rocks, document);
     take_observed(scene, table_named("observed"), document, path.parent_path(), shift);
     scene.files.push_back(path);

@@ -114,6 +114,18 @@ TEST_F(PoreFluidRun, Limits) {
     EXPECT_GE(sand["deposited_fraction"].get<double>(), tight["deposited_fraction"].get<double>());
 }
 
+TEST_F(PoreFluidRun, WarnsOfStrataThatAreShocks) {
+    const auto warnings = [](const std::vector<std::string>& set) {
+        return load_scene({.scene = test_scene("every-effect.toml"), .set = set}).warnings;
+    };
+    EXPECT_THAT(warnings({"pore_fluid={}", "sedimentation.interval_a=50000"}),
+                Contains(AllOf(HasSubstr("50000 a"), HasSubstr("shocks"))));
+    EXPECT_TRUE(warnings({"pore_fluid={}"}).empty());
+    EXPECT_TRUE(
+        warnings({"pore_fluid.hydrostatic=true", "sedimentation.interval_a=50000"}).empty());
+    EXPECT_TRUE(warnings({"sedimentation.interval_a=50000"}).empty());
+}
+
 TEST_F(PoreFluidRun, GenesisDependsOnTheDensityOnly) {
     const auto text = [](const std::vector<std::string>& set) {
         return to_toml(genesis_of(with(set)));

@@ -47,6 +47,7 @@ class Layer:
     ink: str
     rows: np.ndarray      # lengths in km; of discs the share of ink
     name: str = ""
+    full: float = 1.0     # number that full ink stands for
 
     @property
     def is_graded(self) -> bool:
@@ -190,7 +191,7 @@ def load_layers(folder: str, meta: dict, count: int) -> tuple[Layer, ...]:
                              f"discs_x.npy {count}")
         layers.append(Layer(words["kind"], printable(words["label"]), words["ink"],
                             np.clip(rows, 0.0, 1.0) if words["kind"] == "discs" else km(rows),
-                            words["name"].removeprefix("layer_")))
+                            words["name"].removeprefix("layer_"), words.get("full", 1.0)))
     return tuple(layers)
 
 

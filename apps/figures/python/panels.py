@@ -335,7 +335,7 @@ def layer_panel(name: str):
         inked = layer.rows > 0.0
         rgb[inked] = colours(layer.rows[inked])[:, :3]
         draw_discs(ax, frame, rgb)
-        bar(cax, colours, Normalize(0.0, 1.0), "Share of full ink")
+        bar(cax, colours, Normalize(0.0, layer.full), layer.label.capitalize())
         describe(ax, frame, layer.label.capitalize(),
                  [(swatch(UNDEFINED), "pre-rift"), *draw_faults(ax, frame.faults)])
     return panel

@@ -138,6 +138,17 @@ void check(const Scene& scene, const Refuse& refuse) {
             "that water carries, 40 % of its load; make the base rigid, or leave out [pore_fluid]");
 }
 
+/// Thick strata are shocks.
+std::string warning(const Scene& scene) {
+    constexpr double most = 2e4; // a
+    const double interval = make_parts(scene).sediment->deposition_interval;
+    if (scene.find<P>()->hydrostatic || interval <= most)
+        return "";
+    return fmt::format("pore_fluid: strata every {:g} a load the water by shocks; every {:g} a or "
+                       "less is smooth",
+                       interval, most);
+}
+
 /// Pressure and porosity of a column of this mud at the depocentre.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
@@ -189,6 +200,7 @@ const Effect& pore_fluid() {
         .in_genesis = true,
         .as_in_genesis = as_in_genesis,
         .check = check,
+        .warning = warning,
         .contribute = contribute,
         .add_events = add_events,
         .explain = explain,

@@ -21,6 +21,7 @@ const PoreFluid* fluid_in(const Observation& now) { return dem::find<const PoreF
 
 /// State of the fluid in a disc of sediment.
 struct WetDisc {
+    std::size_t row = 0;
     double x = 0.0, depth = 0.0;                ///< m
     double volume = 0.0;                        ///< of its mud, m^2
     double excess_pressure = 0.0, weight = 0.0; ///< weight of grains in water, Pa
@@ -38,17 +39,22 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
     const dem::ConstDiscColumns d = dem::disc_columns(state);
     const auto porosity = state.discs.get<double>("porosity");
     const auto pressure = state.discs.get<double>("excess_pressure");
+    const auto ratio = state.discs.get<double>("overpressure_ratio");
+    const auto water = state.discs.get<double>("pore_water");
     const std::vector<double> grains = dem::grains_above(state, porosity);
     const dem::GroundLevel ground(state);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] == 0)
+        if (water[i] < 0.0) // rock, and sediment that came after the last solution
             continue;
         WetDisc& disc = wet.emplace_back();
+        disc.row = i;
         disc.x = d.x[i];
         disc.depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
         disc.volume = d.mass[i] / fluid->sediment().grain_density / (1.0 - porosity[i]);
         disc.excess_pressure = pressure[i];
-        disc.weight = grains[i] * fluid->law().grain_weight;
+        // A stratum that came after the last solution does not count.
+        disc.weight =
+            ratio[i] != 0.0 ? pressure[i] / ratio[i] : grains[i] * fluid->law().grain_weight;
         disc.porosity = porosity[i];
         disc.normal_porosity = coupling::porosity_at(fluid->law(), disc.depth);
     }
@@ -230,12 +236,8 @@ V overpressured(const std::vector<WetDisc>& wet) {
 /// Ink of every disc of the hanging wall, none on rock.
 template <class Number> std::vector<double> inks(const Observation& now, Number&& number) {
     std::vector<double> rows(now.state.discs.rows(), 0.0);
-    const auto stratum = dem::disc_columns(now.state).stratum;
-    std::size_t k = 0;
-    const std::vector<WetDisc> wet = wet_discs(now);
-    for (std::size_t i = 0; i < rows.size() && !wet.empty(); ++i)
-        if (stratum[i] > 0)
-            rows[i] = std::clamp(number(wet[k++]), 0.0, 1.0);
+    for (const WetDisc& disc : wet_discs(now))
+        rows[disc.row] = std::clamp(number(disc), 0.0, 1.0);
     return rows;
 }
 
@@ -304,16 +306,17 @@ std::vector<MeasuredObjects> pore_fluid_objects() {
 }
 
 std::vector<FigureLayer> pore_fluid_layers() {
-    return {{"overpressure", LayerKind::discs, "overpressure ratio, 0 to 1", "#b71c1c",
+    static constexpr double most = 0.3; // of undercompaction
+    return {{"overpressure", LayerKind::discs, "overpressure ratio", "#b71c1c",
              [](const Observation& now) {
                  return inks(now, [](const WetDisc& d) { return d.ratio(); });
              }},
-            {"undercompaction", LayerKind::discs, "undercompaction, 0 to 0.3", "#4a148c",
+            {"undercompaction", LayerKind::discs, "undercompaction", "#4a148c",
              [](const Observation& now) {
-                 constexpr double full = 0.3; // porosity over the normal one
                  return inks(
-                     now, [](const WetDisc& d) { return (d.porosity - d.normal_porosity) / full; });
-             }}};
+                     now, [](const WetDisc& d) { return (d.porosity - d.normal_porosity) / most; });
+             },
+             most}};
 }
 
 } // namespace listric::effects

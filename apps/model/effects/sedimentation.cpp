@@ -235,7 +235,9 @@ const Effect& sedimentation() {
                                   p.surface_porosity,
                                   p.grain_density,
                                   disc_density(p),
-                                  {}};
+                                  {},
+                                  0.0,
+                                  p.interval};
             },
         .add_events = add_events,
         .price = price,
