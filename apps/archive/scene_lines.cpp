@@ -1,5 +1,9 @@
 #include "apps/archive/scene_lines.hpp"
 
+#include "apps/model/effects.hpp"
+#include "apps/scene/scene_file.hpp"
+#include "apps/scene/tables.hpp"
+
 #include <sstream>
 
 namespace listric::archive {
@@ -23,6 +27,29 @@ std::string_view without_comment(std::string_view line) {
         }
     }
     return line.substr(0, line.find_last_not_of(' ') + 1);
+}
+
+/// Defaults of all parameters of all tables, as scene_values() has them.
+const std::map<std::string, std::string>& default_values() {
+    static const auto values = [] {
+        Scene scene;
+        for (const SceneTable& table : scene_tables(program_effects()))
+            table.add(table, scene);
+        return scene_values(to_toml(scene));
+    }();
+    return values;
+}
+
+/// Value of a parameter; its default where the table is there without it, as in scenes that an
+/// earlier program wrote: a new parameter's default is what was done before there was one.
+std::string value_in(const std::map<std::string, std::string>& values,
+                     const std::string& parameter) {
+    if (const auto found = values.find(parameter); found != values.end())
+        return found->second;
+    if (values.contains("[" + parameter.substr(0, parameter.find('.')) + "]"))
+        if (const auto found = default_values().find(parameter); found != default_values().end())
+            return found->second;
+    return "nothing";
 }
 
 } // namespace
@@ -65,17 +92,12 @@ std::optional<SceneDifference> scene_difference(const std::map<std::string, std:
                !(parameter == "name" || parameter == "description" ||
                  parameter.starts_with("output."));
     };
-    const auto value_in = [](const std::map<std::string, std::string>& values,
-                             const std::string& parameter) {
-        const auto found = values.find(parameter);
-        return found == values.end() ? std::string("nothing") : found->second;
-    };
     for (const auto& [parameter, value] : one)
         if (is_compared(parameter) && value_in(other, parameter) != value)
             return SceneDifference{parameter, value, value_in(other, parameter)};
     for (const auto& [parameter, value] : other)
-        if (is_compared(parameter) && !one.contains(parameter))
-            return SceneDifference{parameter, "nothing", value};
+        if (is_compared(parameter) && value_in(one, parameter) != value)
+            return SceneDifference{parameter, value_in(one, parameter), value};
     return std::nullopt;
 }
 
