@@ -99,5 +99,14 @@ TEST(SceneDifference, NamesTableParameterAndValues) {
     EXPECT_FALSE(scene_difference(a, d, SceneScope::results));
 }
 
+TEST(SceneDifference, AParameterThatAnEarlierProgramDidNotHaveHasItsDefault) {
+    const auto earlier = scene_values("[sedimentation]\n");
+    EXPECT_FALSE(scene_difference(earlier, scene_values("[sedimentation]\nlevel_m = 0.0\n")));
+    const auto found = scene_difference(earlier, scene_values("[sedimentation]\nlevel_m = 1.0\n"));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->one, "0.0");
+    EXPECT_TRUE(scene_difference(scene_values(""), scene_values("[sedimentation]\n")));
+}
+
 } // namespace
 } // namespace listric::archive
