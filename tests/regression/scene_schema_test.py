@@ -29,10 +29,11 @@ BEYOND_A_SCHEMA = {
     "the number of discs": r"too (large|small) \([^)]*\), gives \d+ discs",
     "the size of the run": r"makes a run that (takes|writes)|fills the basin",
     "tables beside each other": r"beside \[|must be 0 beside it|needs csv, or uplift or shift|"
-                                r"give one of them",
+                                r"give one of them|beside a base that bends",
     "numbers of several keys": r"for the base to float upright|beyond the right wall|"
                                r"which a base under discs is condensed with|"
-                               r"elastic_base: (?!needs)",
+                               r"elastic_base: (?!needs)|pore_fluid: (weighs|needs sediment)|"
+                               r"the density of grains|a multiple of the interval",
     "order": r"is not sorted",
     "other files": r"no such file|has no \[bonds\]",
     "nan and inf": r"\((nan|-?inf)\)",
