@@ -23,7 +23,8 @@ double TimeLeft::work_until(double share) const {
     const double cycles = (share + 0.5 * growth * share * share) / (1.0 + 0.5 * growth);
     const double ended = (share - few_cycles - forecast_.ramp_share) / forecast_.window_share;
     const double all = (1.0 - forecast_.ramp_share) / forecast_.window_share;
-    const double windows = std::max(0.0, std::floor(ended)) / all;
+    // A run of no cycles has neither share: all is not a number then.
+    const double windows = all > 0.0 ? std::clamp(std::floor(ended) / all, 0.0, 1.0) : 0.0;
     return (forecast_.extension - forecast_.windows) * cycles + forecast_.windows * windows;
 }
 

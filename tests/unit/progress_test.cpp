@@ -138,6 +138,17 @@ TEST(Progress, TimeLeftFollowsTheMachine) {
     EXPECT_LE(replay(steady(30.0, 1.0)).early, 2.0);
 }
 
+TEST(Progress, ARunOfNoCyclesHasAShareToo) {
+    constexpr double none = 0.0;
+    TimeLeft left(
+        {.before = 3.0, .after = 1.0, .window_share = 1.0 / none, .ramp_share = none / none});
+    left.read(0.0, 0.0, 3.0);
+    EXPECT_NEAR(left.share_done(3.0), 0.75, 1e-9);
+    left.end_extension(3.0);
+    EXPECT_NEAR(left.share_done(4.0), 1.0, 1e-9);
+    EXPECT_NEAR(left.at(3.0), 1.0, 1e-9);
+}
+
 TEST(Progress, AResumedRunCountsItsOwnCycles) {
     TimeLeft left({.before = 3.0, .extension = 100.0, .after = 5.0});
     left.read(500.0, 1000.0, 0.0);
