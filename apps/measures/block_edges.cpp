@@ -173,10 +173,9 @@ std::optional<double> turn_behind(const Edge& edge, BlockSide side, const Baseme
 
 constexpr Measure<Polyline> of_edge[] = {
     {"_dip_deg", "deg",
-     "dip of the best straight line through a block's edge: antithetic that of the outer block, "
-     "above "
-     "the lowest seventh of the flat's depth; synthetic that of the head block, above half of it, "
-     "where zones branch",
+     "dip of the best straight line through a block's edge. Antithetic: outer block, above the "
+     "lowest seventh of the flat's depth. Synthetic: head block, above half of it, where zones "
+     "branch",
      [](const Polyline& edge) { return std::optional(dip_of(edge)); }},
     {"_bow", "1",
      "greatest distance of the best parabola through a block's edge, in the depths of the edge's "

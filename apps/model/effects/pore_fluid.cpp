@@ -132,10 +132,9 @@ void check(const Scene& scene, const Refuse& refuse) {
                            "porosity, {} a, which follows it",
                            text(p.interval), text(parts.sediment->porosity_interval)));
     if (bending_base(scene))
-        refuse(
-            "pore_fluid",
-            "beside a base that bends is not in the program yet: the base would lose the weight "
-            "that water carries, 40 % of its load; make the base rigid, or leave out [pore_fluid]");
+        refuse("pore_fluid",
+               "beside a base that bends is not in the program yet: the base would lose the weight "
+               "that water carries; make the base rigid, or leave out [pore_fluid]");
 }
 
 /// Thick strata are shocks.
