@@ -10,7 +10,7 @@
 #include <map>
 #include <numeric>
 
-namespace listric {
+namespace listric::base_motion_test {
 
 using namespace dem;
 namespace {
@@ -136,4 +136,4 @@ TEST(DetachmentNodes, FollowTheChain) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::base_motion_test

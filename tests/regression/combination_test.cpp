@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <set>
 
-namespace listric {
+namespace listric::combination_test {
 
 using namespace dem;
 namespace {
@@ -249,4 +249,4 @@ TEST_F(Combination, PairsThatDoNotGoTogetherAreRefused) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::combination_test

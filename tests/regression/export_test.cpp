@@ -13,7 +13,7 @@
 #include <numeric>
 #include <sstream>
 
-namespace listric {
+namespace listric::export_test {
 
 using namespace archive;
 using namespace dem;
@@ -310,4 +310,4 @@ TEST_F(ExportTest, BadCallsSayWhatIsWrongInOneLine) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::export_test

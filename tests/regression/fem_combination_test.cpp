@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace listric {
+namespace listric::fem_combination_test {
 
 using namespace dem;
 namespace {
@@ -68,4 +68,4 @@ TEST_F(ElasticCombination, WithNothingElse) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_combination_test

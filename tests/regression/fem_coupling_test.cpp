@@ -2,7 +2,7 @@
 
 #include "tests/scene_runs.hpp"
 
-namespace listric {
+namespace listric::fem_coupling_test {
 
 using namespace dem;
 namespace {
@@ -85,4 +85,4 @@ TEST_F(CoupledRun, NearlyIncompressibleRockCarriesDiscs) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_coupling_test

@@ -16,7 +16,7 @@
 #include <sstream>
 #include <sys/wait.h>
 
-namespace listric {
+namespace listric::fem_elastic_base_test {
 
 using namespace dem;
 using namespace coupling;
@@ -288,4 +288,4 @@ TEST_F(ElasticBaseRun, AMissingOrStrangePluginIsNamedWithTheCure) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_elastic_base_test

@@ -15,7 +15,7 @@
 #include <sstream>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::fem_flexure_test {
 
 using namespace dem;
 namespace {
@@ -114,4 +114,4 @@ TEST_F(FlexureRun, IsTheSameTwiceAndResumesToItself) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_flexure_test

@@ -17,7 +17,7 @@
 #include <sys/resource.h>
 #include <thread>
 
-namespace listric {
+namespace listric::interruption_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -212,4 +212,4 @@ TEST_F(InterruptionTest, MemoryThatDoesNotSufficeSaysHowMuchIsNeeded) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::interruption_test

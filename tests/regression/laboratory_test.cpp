@@ -17,7 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::laboratory_test {
 
 using namespace dem;
 namespace {
@@ -257,4 +257,4 @@ TEST(Laboratory, BadCallsSayWhatIsWrong) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::laboratory_test

@@ -13,7 +13,7 @@
 
 #include <ranges>
 
-namespace listric {
+namespace listric::own_effect_test {
 
 using namespace dem;
 namespace {
@@ -193,4 +193,4 @@ TEST_F(OwnEffect, IsNowhereWithoutItsTable) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::own_effect_test

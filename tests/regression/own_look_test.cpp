@@ -11,7 +11,7 @@
 
 #include <string_view>
 
-namespace listric {
+namespace listric::own_look_test {
 
 using namespace dem;
 namespace {
@@ -80,4 +80,4 @@ TEST_F(OwnLook, LayersAreInFiguresAndReport) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::own_look_test

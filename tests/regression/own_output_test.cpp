@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-namespace listric {
+namespace listric::own_output_test {
 
 using namespace support;
 using testing::HasSubstr;
@@ -134,4 +134,4 @@ TEST_F(OwnOutput, ColumnsOfTheHistoryHaveUnits) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::own_output_test

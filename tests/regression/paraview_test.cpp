@@ -27,7 +27,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::paraview_test {
 
 using namespace archive;
 using namespace dem;
@@ -329,4 +329,4 @@ TEST_F(ParaviewTest, DamageIsNoticed) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::paraview_test

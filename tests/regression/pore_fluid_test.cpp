@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace listric {
+namespace listric::pore_fluid_test {
 
 using namespace dem;
 namespace {
@@ -156,4 +156,4 @@ TEST_F(PoreFluidRun, RefusesWhatItCannotBe) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::pore_fluid_test

@@ -12,7 +12,7 @@
 
 #include <sstream>
 
-namespace listric {
+namespace listric::recorded_hash_test {
 
 using namespace dem;
 namespace {
@@ -85,4 +85,4 @@ TEST_F(RecordedHash, HoldsForARunThatAnEarlierVersionBeganWithItsDefaultRock) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::recorded_hash_test

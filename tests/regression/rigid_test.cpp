@@ -16,7 +16,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::rigid_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST_F(Rigid, TheTestWouldSeeThem) {
 #endif
 
 } // namespace
-} // namespace listric
+} // namespace listric::rigid_test

@@ -32,7 +32,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::run_test {
 
 using namespace archive;
 using namespace dem;
@@ -1154,4 +1154,4 @@ TEST_F(RunTest, BenchNamesTheLineOfAMalformedPacking) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::run_test

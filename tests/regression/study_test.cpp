@@ -12,7 +12,7 @@
 #include <sstream>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::study_test {
 
 using namespace dem;
 namespace {
@@ -150,4 +150,4 @@ TEST(Study, RefusesWhatItDoesNotKnow) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::study_test

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <thread>
 
-namespace listric {
+namespace listric::sweep_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -185,4 +185,4 @@ TEST_F(SweepTest, AFailedRunIsARow) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::sweep_test

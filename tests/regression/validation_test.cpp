@@ -16,6 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+namespace listric::validation_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -261,3 +262,4 @@ TEST_F(ValidationTest, BadCalls) {
 }
 
 } // namespace
+} // namespace listric::validation_test

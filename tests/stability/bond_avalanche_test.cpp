@@ -7,7 +7,7 @@
 
 #include "tests/stability/hard_case.hpp"
 
-namespace listric {
+namespace listric::bond_avalanche_test {
 
 using namespace dem;
 namespace {
@@ -95,4 +95,4 @@ TEST(BondAvalanche, CreatesEnergyBeyondTheLimitOfTheStep) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::bond_avalanche_test

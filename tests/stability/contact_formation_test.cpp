@@ -6,7 +6,7 @@
 
 #include "tests/stability/hard_case.hpp"
 
-namespace listric {
+namespace listric::contact_formation_test {
 
 using namespace dem;
 namespace {
@@ -60,4 +60,4 @@ TEST(ContactFormation, NeverDoWithTheStepOfWhatTouchedBefore) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::contact_formation_test

@@ -12,7 +12,7 @@
 
 #include "tests/stability/hard_case.hpp"
 
-namespace listric {
+namespace listric::corner_test {
 
 using namespace dem;
 namespace {
@@ -130,4 +130,4 @@ TEST(Corner, NothingEscapesAtTheBreakaway) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::corner_test

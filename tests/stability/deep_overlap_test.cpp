@@ -7,7 +7,7 @@
 #include "dem/genesis/packing.hpp"
 #include "tests/stability/hard_case.hpp"
 
-namespace listric {
+namespace listric::deep_overlap_test {
 
 using namespace dem;
 namespace {
@@ -87,4 +87,4 @@ TEST(DeepOverlap, DiscsOfFullSizeAtOnceFlyAway) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::deep_overlap_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::elastic_base_test {
 
 using namespace dem;
 using namespace coupling;
@@ -122,4 +122,4 @@ TEST(Footwall, RestartsInTheMiddleOfABlow) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::elastic_base_test

@@ -9,7 +9,7 @@
 #include "tests/verification/every_cycle.hpp"
 #include "tests/verification/shaken_lattice.hpp"
 
-namespace listric {
+namespace listric::energy_drift_test {
 
 using namespace dem;
 namespace {
@@ -44,4 +44,4 @@ TEST_P(EnergyDrift, IsUnboundedBeyondTheLimit) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::energy_drift_test

@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-namespace listric {
+namespace listric::range_ends_test {
 namespace {
 
 using support::Ended;
@@ -152,4 +152,4 @@ TEST_F(RangeEnds, ARefusalNamesFileValueAndCure) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::range_ends_test

@@ -12,7 +12,7 @@
 #include <functional>
 #include <sys/wait.h>
 
-namespace listric {
+namespace listric::run_test {
 
 using namespace dem;
 namespace {
@@ -148,4 +148,4 @@ TEST_F(HardRun, AnEventThatCannotBeDoneIsNamedToo) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::run_test

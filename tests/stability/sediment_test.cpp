@@ -8,7 +8,7 @@
 #include "tests/stability/hard_case.hpp"
 #include "tests/verification/settled_packing.hpp"
 
-namespace listric {
+namespace listric::sediment_test {
 
 using namespace dem;
 namespace {
@@ -74,4 +74,4 @@ TEST(Sediment, IsThrownAboutIfItOverlaps) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::sediment_test

@@ -8,7 +8,7 @@
 #include "tests/stability/hard_case.hpp"
 #include "tests/verification/settled_packing.hpp"
 
-namespace listric {
+namespace listric::size_ratio_test {
 
 using namespace dem;
 namespace {
@@ -56,4 +56,4 @@ TEST(SizeRatio, TenIsLostWithoutTheFloorOfTheMass) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::size_ratio_test

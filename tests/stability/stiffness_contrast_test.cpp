@@ -8,7 +8,7 @@
 #include "dem/genesis/genesis.hpp"
 #include "tests/stability/hard_case.hpp"
 
-namespace listric {
+namespace listric::stiffness_contrast_test {
 
 using namespace dem;
 namespace {
@@ -115,4 +115,4 @@ TEST_P(StiffnessContrast, DivergesWithTheTimeStepOfTheSofter) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::stiffness_contrast_test

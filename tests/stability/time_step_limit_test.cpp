@@ -19,7 +19,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::time_step_limit_test {
 
 using namespace dem;
 namespace {
@@ -180,4 +180,4 @@ TEST(TimeStepLimit, ShrinksWithMassAndStiffness) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::time_step_limit_test

@@ -11,7 +11,7 @@
 #include "tests/stability/hard_case.hpp"
 #include "tests/verification/settled_packing.hpp"
 
-namespace listric {
+namespace listric::weakening_test {
 
 using namespace dem;
 namespace {
@@ -127,4 +127,4 @@ TEST(Weakening, RadiiGrowInSmallSteps) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::weakening_test

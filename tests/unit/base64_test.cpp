@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace listric {
+namespace listric::base64_test {
 namespace {
 
 std::string encoded(const std::string& text) {
@@ -39,4 +39,4 @@ TEST(Base64Test, EveryLetterAndBytesAboveText) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::base64_test

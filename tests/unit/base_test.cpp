@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::base_test {
 
 using namespace dem;
 namespace {
@@ -203,4 +203,4 @@ TEST(Base, SpeedRampsUpFromRest) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::base_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric::measures {
+namespace listric::measures::basin_area_test {
 
 using namespace dem;
 namespace {
@@ -44,4 +44,4 @@ TEST(BasinArea, OfTheStartIsThatOfPreRiftRockThatIsThere) {
 }
 
 } // namespace
-} // namespace listric::measures
+} // namespace listric::measures::basin_area_test

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace listric {
+namespace listric::best_team_test {
 
 using namespace dem;
 namespace {
@@ -95,4 +95,4 @@ TEST(BestTeam, IsSoonOneThreadWhereAllCoresAreBusy) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::best_team_test

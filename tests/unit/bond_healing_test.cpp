@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::bond_healing_test {
 
 using namespace dem;
 namespace {
@@ -140,4 +140,4 @@ TEST(BondHealing, StandingBondsKeepTheirStrength) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::bond_healing_test

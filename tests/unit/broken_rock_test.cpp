@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace listric {
+namespace listric::broken_rock_test {
 
 using namespace dem;
 using namespace measures;
@@ -113,4 +113,4 @@ TEST(Relief, FallsByWhatStrataAreThickerInTheGraben) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::broken_rock_test

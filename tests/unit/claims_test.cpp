@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace listric::dem {
+namespace listric::dem::claims_test {
 namespace {
 
 TEST(Claims, EveryItemIsTakenOnceInEveryPhase) {
@@ -39,4 +39,4 @@ TEST(Claims, AThreadGoesOnWithWhatOthersHaveNotBegun) {
 }
 
 } // namespace
-} // namespace listric::dem
+} // namespace listric::dem::claims_test

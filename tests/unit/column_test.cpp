@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::column_test {
 
 using namespace dem;
 namespace {
@@ -125,4 +125,4 @@ TEST(Column, RemoveTakesTheColumnOnly) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::column_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::compaction_test {
 
 using namespace dem;
 namespace {
@@ -217,4 +217,4 @@ TEST(Compaction, MomentOfInertiaIsThatOfTheRadiusAtItsLastApplication) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::compaction_test

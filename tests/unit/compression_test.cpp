@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::compression_test {
 
 using namespace dem;
 namespace {
@@ -42,4 +42,4 @@ TEST(Compression, PeakIsAMeanOverATenthOfAPercent) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::compression_test

@@ -11,7 +11,7 @@
 #include <map>
 #include <set>
 
-namespace listric {
+namespace listric::contacts_test {
 
 using namespace dem;
 namespace {
@@ -247,4 +247,4 @@ TEST(Contacts, TouchingMeansOverlapOrBond) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::contacts_test

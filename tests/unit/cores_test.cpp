@@ -11,7 +11,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::cores_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ TEST_F(CoresTest, WhatIsNoNumberGrantsAll) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::cores_test

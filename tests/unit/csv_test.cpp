@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::csv_test {
 
 namespace {
 
@@ -195,4 +195,4 @@ TEST_F(Csv, FilesThatAreNone) {
 
 } // namespace
 
-} // namespace listric
+} // namespace listric::csv_test

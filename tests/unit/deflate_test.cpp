@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace listric {
+namespace listric::deflate_test {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
@@ -42,4 +42,4 @@ TEST(DeflateTest, RefusesAnotherLevel) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::deflate_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace listric {
+namespace listric::effects_table_test {
 namespace {
 
 using testing::HasSubstr;
@@ -41,4 +41,4 @@ TEST(EffectsTable, FewSeedsAreWarnedOf) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::effects_table_test

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <map>
 
-namespace listric {
+namespace listric::evolution_test {
 
 using namespace dem;
 using namespace measures;
@@ -304,4 +304,4 @@ TEST(ReverseFaults, AboveTheKink) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::evolution_test

@@ -17,7 +17,7 @@
 #include <system_error>
 #include <vector>
 
-namespace listric {
+namespace listric::exit_code_test {
 namespace {
 
 using testing::AllOf;
@@ -87,4 +87,4 @@ TEST(ExitCodeDeathTest, FaultsOnThreadsEndTheProgramWithTheirCode) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::exit_code_test

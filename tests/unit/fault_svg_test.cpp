@@ -16,7 +16,7 @@
 #include <fstream>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::fault_svg_test {
 
 using namespace dem;
 
@@ -230,4 +230,4 @@ TEST(Ordinal, IsEnglish) {
 
 } // namespace
 
-} // namespace listric
+} // namespace listric::fault_svg_test

@@ -19,7 +19,7 @@
 #include <cmath>
 #include <functional>
 
-namespace listric {
+namespace listric::fault_trace_test {
 
 using namespace dem;
 using namespace measures;
@@ -404,4 +404,4 @@ TEST(WeakOffFaults, ByAreaAndDistance) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fault_trace_test

@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::fault_weakening_test {
 
 using namespace dem;
 namespace {
@@ -336,4 +336,4 @@ TEST(FaultWeakening, LooseSedimentIsLeftAlone) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fault_weakening_test

@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,4 +137,4 @@ TEST_F(FileTest, JsonIsWrittenWhateverItHolds) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::file_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::flexure_plan_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ TEST_F(FlexurePlans, ExplainIsFiniteAtTheEndsOfRanges) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::flexure_plan_test

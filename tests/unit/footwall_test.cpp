@@ -17,7 +17,7 @@
 #include <set>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::footwall_test {
 
 namespace {
 
@@ -242,4 +242,4 @@ TEST(FootwallSeries, IsReplacedWhole) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::footwall_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::gauss_newton_test {
 namespace {
 
 using testing::DoubleNear;
@@ -74,4 +74,4 @@ TEST(GaussNewton, ReturnsTheBestPointThatItMet) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::gauss_newton_test

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::genesis_test {
 
 using namespace dem;
 namespace {
@@ -169,4 +169,4 @@ TEST(Genesis, AreaAboveTheDetachment) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::genesis_test

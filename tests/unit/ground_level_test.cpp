@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::ground_level_test {
 
 using namespace dem;
 namespace {
@@ -49,4 +49,4 @@ TEST(GroundLevel, GoesOnWhereThereIsNoDisc) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::ground_level_test

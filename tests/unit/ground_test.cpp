@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace listric {
+namespace listric::ground_test {
 
 using namespace dem;
 namespace {
@@ -165,4 +165,4 @@ TEST(Ground, NoDiscHangsOnTheSideOfAnother) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::ground_test

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace listric::dem {
+namespace listric::dem::hash_test {
 namespace {
 
 TEST(Hash, ValuesStay) {
@@ -27,4 +27,4 @@ TEST(Hash, OrderMatters) {
 }
 
 } // namespace
-} // namespace listric::dem
+} // namespace listric::dem::hash_test

@@ -9,7 +9,7 @@
 #include <regex>
 #include <sstream>
 
-namespace listric {
+namespace listric::help_test {
 namespace {
 
 using testing::ElementsAre;
@@ -126,4 +126,4 @@ TEST(Help, BreaksBetweenWordsAndKeepsADefaultTogether) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::help_test

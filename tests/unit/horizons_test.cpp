@@ -17,7 +17,7 @@
 #include <map>
 #include <numeric>
 
-namespace listric {
+namespace listric::horizons_test {
 
 using namespace dem;
 using namespace measures;
@@ -287,4 +287,4 @@ TEST_F(HorizonTest, FreeSurfaceIsTheTopOfAll) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::horizons_test

@@ -12,7 +12,7 @@
 #include <features.h>
 #endif
 
-namespace listric::dem {
+namespace listric::dem::hypotenuse_test {
 
 namespace {
 
@@ -83,4 +83,4 @@ TEST(Hypotenuse, KnowsLimits) {
     }
 }
 
-} // namespace listric::dem
+} // namespace listric::dem::hypotenuse_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::kinematics_test {
 
 using namespace dem;
 using namespace measures;
@@ -219,4 +219,4 @@ TEST(KinematicPrediction, AShareIsNoMoreThanTheWhole) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::kinematics_test

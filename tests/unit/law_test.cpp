@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace listric {
+namespace listric::law_test {
 
 using namespace dem;
 namespace {
@@ -133,4 +133,4 @@ TEST(Law, BrokenBondsStayBroken) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::law_test

@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace listric {
+namespace listric::material_file_test {
 
 using namespace dem;
 namespace {
@@ -264,4 +264,4 @@ TEST_F(MaterialFileTest, WhatARunWritesNeedsNoMaterialFile) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::material_file_test

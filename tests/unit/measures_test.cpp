@@ -16,7 +16,7 @@
 #include <cmath>
 #include <vector>
 
-namespace listric {
+namespace listric::measures_test {
 
 using namespace dem;
 using namespace measures;
@@ -362,4 +362,4 @@ TEST(OldSediment, BondedShareOfDeepAndOldPairs) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::measures_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace listric::fem {
+namespace listric::fem::mesh_scan_test {
 
 namespace {
 
@@ -105,4 +105,4 @@ TEST(MeshScan, SectionsEnd) {
 
 } // namespace
 
-} // namespace listric::fem
+} // namespace listric::fem::mesh_scan_test

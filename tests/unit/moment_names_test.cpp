@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace listric {
+namespace listric::moment_names_test {
 namespace {
 
 TEST(MomentNames, OfABasinHaveTwoDecimals) {
@@ -76,4 +76,4 @@ TEST(MomentNames, LengthsAreToldInTheirUnit) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::moment_names_test

@@ -17,7 +17,7 @@
 #include <fstream>
 #include <numbers>
 
-namespace listric::measures {
+namespace listric::measures::moved_points_test {
 
 using namespace dem;
 namespace {
@@ -141,4 +141,4 @@ TEST(MovedPoints, AFileThatIsNoneIsRefusedByLineAndColumn) {
 }
 
 } // namespace
-} // namespace listric::measures
+} // namespace listric::measures::moved_points_test

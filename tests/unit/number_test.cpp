@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace listric {
+namespace listric::number_test {
 
 namespace {
 
@@ -81,4 +81,4 @@ TEST(Number, IsToldForWhatItIs) {
 
 } // namespace
 
-} // namespace listric
+} // namespace listric::number_test

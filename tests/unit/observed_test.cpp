@@ -18,7 +18,7 @@
 #include <fstream>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::observed_test {
 
 using namespace dem;
 
@@ -248,4 +248,4 @@ TEST_F(PicksFile, AgesChooseTheTop) {
 
 } // namespace
 
-} // namespace listric
+} // namespace listric::observed_test

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <vector>
 
-namespace listric {
+namespace listric::order_free_test {
 
 using namespace dem;
 namespace {
@@ -55,4 +55,4 @@ TEST(OrderFree, TheGreaterOfTwoIsNaNIfOneIs) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::order_free_test

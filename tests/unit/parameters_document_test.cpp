@@ -12,7 +12,7 @@
 #include <iterator>
 #include <string>
 
-namespace listric {
+namespace listric::parameters_document_test {
 namespace {
 
 std::string contents(const char* file) {
@@ -34,4 +34,4 @@ TEST(ParametersDocument, DictionaryIsCurrent) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::parameters_document_test

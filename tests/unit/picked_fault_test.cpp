@@ -18,7 +18,7 @@
 #include <fstream>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::picked_fault_test {
 
 using namespace dem;
 
@@ -308,4 +308,4 @@ TEST_F(PickedFaultFile, ADrawingGivesTheChainOfTheTable) {
 
 } // namespace
 
-} // namespace listric
+} // namespace listric::picked_fault_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::png_test {
 namespace {
 
 using testing::HasSubstr;
@@ -109,4 +109,4 @@ TEST_F(PngFile, IsRefusedWhereItIsTooLarge) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::png_test

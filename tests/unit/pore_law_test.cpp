@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::pore_law_test {
 
 using namespace coupling;
 namespace {
@@ -63,4 +63,4 @@ TEST(PoreLaw, PermeabilityOfEachLaw) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::pore_law_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <numeric>
 
-namespace listric {
+namespace listric::power_cell_test {
 
 using namespace dem;
 namespace {
@@ -154,4 +154,4 @@ TEST(PowerCell, ALidEndsIt) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::power_cell_test

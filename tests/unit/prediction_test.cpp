@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::prediction_test {
 
 using namespace dem;
 namespace {
@@ -87,4 +87,4 @@ TEST(Prediction, SpeedIsMeasuredOnNoMoreDiscsThanTellIt) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::prediction_test

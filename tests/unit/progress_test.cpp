@@ -15,7 +15,7 @@
 #include <sstream>
 #include <vector>
 
-namespace listric {
+namespace listric::progress_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -179,4 +179,4 @@ TEST(Progress, LineFitsTheTerminal) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::progress_test

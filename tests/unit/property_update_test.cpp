@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::property_update_test {
 
 using namespace dem;
 namespace {
@@ -167,4 +167,4 @@ TEST(Overburden, IsTheWeightOfRockAndSedimentAbove) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::property_update_test

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::provenance_test {
 
 using namespace archive;
 
@@ -69,4 +69,4 @@ TEST_F(ProvenanceTest, OfARunIsWhatItsSummarySays) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::provenance_test

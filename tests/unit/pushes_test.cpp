@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::pushes_test {
 
 using namespace dem;
 namespace {
@@ -102,4 +102,4 @@ TEST(Pushes, HaveAPotential) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::pushes_test

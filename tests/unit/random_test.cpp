@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-namespace listric {
+namespace listric::random_test {
 
 using namespace dem;
 namespace {
@@ -98,4 +98,4 @@ TEST(Random, PurposesSeedsAndNeighboursAreUncorrelated) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::random_test

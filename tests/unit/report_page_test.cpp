@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace listric {
+namespace listric::report_page_test {
 namespace {
 
 using testing::HasSubstr;
@@ -60,4 +60,4 @@ TEST(ReportPage, WhatIsDamagedIsMissingAndThePageSaysSo) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::report_page_test

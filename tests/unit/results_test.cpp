@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::results_test {
 namespace {
 
 using namespace measures;
@@ -103,4 +103,4 @@ TEST(Results, LogHasTimesAndRepeatsItsWarnings) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::results_test

@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace listric::measures {
+namespace listric::measures::rock_behaviour_test {
 namespace {
 
 using testing::DoubleEq;
@@ -63,4 +63,4 @@ TEST(RockBehaviour, SharesOfContactsWithoutBond) {
 }
 
 } // namespace
-} // namespace listric::measures
+} // namespace listric::measures::rock_behaviour_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace listric {
+namespace listric::rock_line_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ TEST_F(RockLine, OlderVersionsTookTable1) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::rock_line_test

@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace listric::archive {
+namespace listric::archive::run_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ TEST(SceneDifference, AParameterThatAnEarlierProgramDidNotHaveHasItsDefault) {
 }
 
 } // namespace
-} // namespace listric::archive
+} // namespace listric::archive::run_files_test

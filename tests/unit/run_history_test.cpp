@@ -7,7 +7,7 @@
 
 #include <initializer_list>
 
-namespace listric::archive {
+namespace listric::archive::run_history_test {
 namespace {
 
 using measures::DiscPlaces;
@@ -63,4 +63,4 @@ TEST(RunHistory, SnapshotsThatCannotBeReadArePassedOver) {
 }
 
 } // namespace
-} // namespace listric::archive
+} // namespace listric::archive::run_history_test

@@ -22,7 +22,7 @@
 #include <fstream>
 #include <random>
 
-namespace listric {
+namespace listric::scene_test {
 
 using namespace dem;
 namespace {
@@ -970,4 +970,4 @@ TEST(Text, NumbersAreShortAndExact) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::scene_test

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::sediment_stress_test {
 
 using namespace dem;
 namespace {
@@ -131,4 +131,4 @@ TEST(SedimentStress, MeansAreOfTheLastWindow) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::sediment_stress_test

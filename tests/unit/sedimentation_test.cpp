@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace listric {
+namespace listric::sedimentation_test {
 
 using namespace dem;
 namespace {
@@ -278,4 +278,4 @@ TEST(Sedimentation, ATargetBelowEverythingIsRefused) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::sedimentation_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-namespace listric {
+namespace listric::shared_loop_test {
 
 using namespace dem;
 namespace {
@@ -93,4 +93,4 @@ TEST(SharedLoop, TheFirstFailureInOrderIsThrownAndNothingElseBegun) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::shared_loop_test

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::simulation_test {
 
 namespace {
 
@@ -184,4 +184,4 @@ TEST_F(SimulationEvents, AStoppedAndResumedSimulationIsTheSame) {
 
 } // namespace
 
-} // namespace listric
+} // namespace listric::simulation_test

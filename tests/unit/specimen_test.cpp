@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::specimen_test {
 
 using namespace dem;
 namespace {
@@ -86,4 +86,4 @@ TEST(Servo, HoldsItsStressOnAYieldingSample) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::specimen_test

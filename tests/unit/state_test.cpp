@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace listric {
+namespace listric::state_test {
 
 using namespace dem;
 namespace {
@@ -177,4 +177,4 @@ TEST(State, HashSeesEveryNumber) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::state_test

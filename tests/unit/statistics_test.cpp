@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::statistics_test {
 namespace {
 
 TEST(ProbabilityLimits, OfAllAndOfNoneAreRoots) {
@@ -39,4 +39,4 @@ TEST(ProbabilityLimits, AreThoseOfTheTables) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::statistics_test

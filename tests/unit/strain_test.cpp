@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::strain_test {
 
 using namespace dem;
 namespace {
@@ -66,4 +66,4 @@ TEST(Strain, AddsUpWindows) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::strain_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::student_test {
 namespace {
 
 TEST(Student, HasItsClosedForms) {
@@ -33,4 +33,4 @@ TEST(Student, HoldsTheTruthInNineteenOfTwenty) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::student_test

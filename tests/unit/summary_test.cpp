@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::summary_test {
 
 using namespace dem;
 using namespace measures;
@@ -89,4 +89,4 @@ TEST(Summary, WhatEffectsAdd) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::summary_test

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <set>
 
-namespace listric {
+namespace listric::sweep_test {
 
 namespace {
 
@@ -331,4 +331,4 @@ TEST(SweepEffects, WordsWithoutOrderDoNotBiasOthers) {
 
 } // namespace
 
-} // namespace listric
+} // namespace listric::sweep_test

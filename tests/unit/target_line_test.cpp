@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace listric {
+namespace listric::target_line_test {
 
 using namespace dem;
 namespace {
@@ -249,4 +249,4 @@ TEST_F(TargetFileTest, BadLinesOfScenesAreRefused) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::target_line_test

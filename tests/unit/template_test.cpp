@@ -14,7 +14,7 @@
 #include <numbers>
 #include <unistd.h>
 
-namespace listric {
+namespace listric::template_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ TEST_F(Template, NamesTheRockAndShowsUnitsAndDefaults) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::template_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace listric {
+namespace listric::text_test {
 namespace {
 
 TEST(Text, is_sound_where_it_is_utf8) {
@@ -65,4 +65,4 @@ TEST(Text, NamesOfOneFolder) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::text_test

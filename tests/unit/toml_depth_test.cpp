@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace listric {
+namespace listric::toml_depth_test {
 
 namespace {
 
@@ -77,4 +77,4 @@ TEST(TomlDepth, WhatIsNoTomlIsLeftToTheParser) {
 
 } // namespace
 
-} // namespace listric
+} // namespace listric::toml_depth_test

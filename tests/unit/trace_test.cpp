@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace listric {
+namespace listric::trace_test {
 
 using namespace dem;
 namespace {
@@ -165,4 +165,4 @@ TEST(Trace, StandsAsChainWhereItIs) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::trace_test

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace listric {
+namespace listric::validation_plan_test {
 
 using namespace dem;
 namespace {
@@ -252,4 +252,4 @@ TEST(Judge, NothingIsClaimedWithoutRunsOrExpectation) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::validation_plan_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::vocabulary_test {
 namespace {
 
 TEST(Vocabulary, AScaleEndsAtAPlainNumberAboveNinetyNineOfAHundredValues) {
@@ -46,4 +46,4 @@ TEST(Vocabulary, IsThatOfTheMeasures) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::vocabulary_test

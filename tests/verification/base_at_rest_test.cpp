@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace listric {
+namespace listric::base_at_rest_test {
 namespace {
 
 using namespace support;
@@ -162,4 +162,4 @@ TEST(BaseAtRest, IsWhereTheModesComeTo) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::base_at_rest_test

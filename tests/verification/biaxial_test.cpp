@@ -20,7 +20,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::biaxial_test {
 
 using namespace dem;
 namespace {
@@ -102,4 +102,4 @@ TEST_P(Biaxial, StrengthHardlyDependsOnSize) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::biaxial_test

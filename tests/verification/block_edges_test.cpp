@@ -18,7 +18,7 @@
 #include <map>
 #include <string>
 
-namespace listric {
+namespace listric::block_edges_test {
 
 using namespace dem;
 using namespace measures;
@@ -198,4 +198,4 @@ TEST_P(BlockEdges, DipAndBowOfTheHeadBlockAboveHalfDepth) {
 INSTANTIATE_TEST_SUITE_P(DraftStandardFine, BlockEdges, testing::Values(1, 2, 4));
 
 } // namespace
-} // namespace listric
+} // namespace listric::block_edges_test

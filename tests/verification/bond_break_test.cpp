@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::bond_break_test {
 
 using namespace dem;
 namespace {
@@ -172,4 +172,4 @@ TEST_P(BondBreak, NoMomentInTheBond) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::bond_break_test

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::compaction_test {
 
 using namespace dem;
 namespace {
@@ -85,4 +85,4 @@ TEST(CompactionOfACementedColumn, BreaksMostOfThemAtOnce) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::compaction_test

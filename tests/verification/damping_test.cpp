@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::damping_test {
 
 using namespace dem;
 namespace {
@@ -103,4 +103,4 @@ TEST_P(Damping, DoesNotHoldBackWhatMovesWithAStretchingBase) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::damping_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::determinism_test {
 
 using namespace dem;
 namespace {
@@ -139,4 +139,4 @@ TEST(Determinism, ClockCountsCyclesAndExtension) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::determinism_test

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::elastic_base_test {
 
 using namespace dem;
 using namespace coupling;
@@ -184,4 +184,4 @@ TEST(ElasticBase, ModesGiveTheComplianceBack) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::elastic_base_test

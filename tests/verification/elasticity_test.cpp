@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::elasticity_test {
 
 using namespace dem;
 namespace {
@@ -50,4 +50,4 @@ TEST(Elasticity, UniaxialTestMeasuresTheHexagonalLattice) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::elasticity_test

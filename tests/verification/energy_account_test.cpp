@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::energy_account_test {
 
 using namespace dem;
 namespace {
@@ -300,4 +300,4 @@ TEST(EnergyAccount, DoesNotDependOnHowCallsAreCut) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::energy_account_test

@@ -19,7 +19,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::energy_test {
 
 using namespace dem;
 namespace {
@@ -263,4 +263,4 @@ TEST_P(Energy, SwingsByTheSquareOfTheStep) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::energy_test

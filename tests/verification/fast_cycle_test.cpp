@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::fast_cycle_test {
 
 using namespace dem;
 namespace {
@@ -153,4 +153,4 @@ TEST(FastCycle, NoDiscsAndOneDisc) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fast_cycle_test

@@ -24,7 +24,7 @@
 #include <functional>
 #include <map>
 
-namespace listric {
+namespace listric::fault_detection_test {
 
 using namespace dem;
 namespace {
@@ -215,4 +215,4 @@ TEST(FaultDetection, TheFaultIsAlongTheCut) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fault_detection_test

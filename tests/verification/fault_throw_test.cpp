@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <map>
 
-namespace listric {
+namespace listric::fault_throw_test {
 
 using namespace dem;
 using namespace measures;
@@ -70,4 +70,4 @@ TEST(GrowthFaults, ThrowByStratumIsExactToADiameter) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fault_throw_test

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace listric {
+namespace listric::fem_compliance_test {
 
 namespace {
 
@@ -235,4 +235,4 @@ TEST(Solvers, MultigridAgreesWithFactors) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_compliance_test

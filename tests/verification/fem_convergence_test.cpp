@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::fem_convergence_test {
 
 namespace {
 
@@ -183,4 +183,4 @@ TEST_P(Order, OnTheCurvedMesh) {
 INSTANTIATE_TEST_SUITE_P(Footwall, Order, testing::Values(1, 2));
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_convergence_test

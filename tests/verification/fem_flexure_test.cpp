@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::fem_flexure_test {
 
 namespace {
 
@@ -282,4 +282,4 @@ TEST(Flexure, StripOnAHalfSpace) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_flexure_test

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace listric {
+namespace listric::fem_footwall_loads_test {
 
 using namespace dem;
 using namespace coupling;
@@ -366,4 +366,4 @@ TEST(IndependentSolution, TractionsHaveTheForces) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_footwall_loads_test

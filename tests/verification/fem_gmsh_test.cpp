@@ -10,7 +10,7 @@
 #include <regex>
 #include <sstream>
 
-namespace listric {
+namespace listric::fem_gmsh_test {
 
 namespace {
 
@@ -116,4 +116,4 @@ TEST(Gmsh, RefusesWhatIsNoFootwall) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_gmsh_test

@@ -8,7 +8,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace listric {
+namespace listric::fem_parallel_test {
 
 namespace {
 
@@ -50,4 +50,4 @@ TEST(Parallel, TwoProcessesGiveTheSame) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_parallel_test

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <string>
 
-namespace listric {
+namespace listric::fem_prestress_test {
 
 namespace {
 
@@ -119,4 +119,4 @@ TEST(Prestress, IsTooMuchForRockThatIsTooSoft) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_prestress_test

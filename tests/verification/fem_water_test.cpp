@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::fem_water_test {
 
 using namespace dem;
 using namespace coupling;
@@ -171,4 +171,4 @@ TEST_F(FlankWater, IsALoadOfTheFlank) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::fem_water_test

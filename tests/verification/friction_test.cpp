@@ -15,7 +15,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::friction_test {
 
 using namespace dem;
 namespace {
@@ -166,4 +166,4 @@ TEST_P(Friction, AStretchingBaseCarriesWhatRestsOnIt) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::friction_test

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace listric {
+namespace listric::impact_test {
 
 using namespace dem;
 namespace {
@@ -96,4 +96,4 @@ INSTANTIATE_TEST_SUITE_P(Of, Impacts, testing::Combine(testing::Bool(), every_cy
                          });
 
 } // namespace
-} // namespace listric
+} // namespace listric::impact_test

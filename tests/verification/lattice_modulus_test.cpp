@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::lattice_modulus_test {
 
 using namespace dem;
 namespace {
@@ -133,4 +133,4 @@ TEST_P(LatticeModulus, OfUniaxialStress) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::lattice_modulus_test

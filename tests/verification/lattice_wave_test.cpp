@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::lattice_wave_test {
 
 using namespace dem;
 namespace {
@@ -148,4 +148,4 @@ TEST_P(LatticeWave, DispersionOfPressureWaves) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::lattice_wave_test

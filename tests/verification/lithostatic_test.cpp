@@ -17,7 +17,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::lithostatic_test {
 
 using namespace dem;
 namespace {
@@ -90,4 +90,4 @@ TEST_P(Lithostatic, StressIsTheWeightAbove) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::lithostatic_test

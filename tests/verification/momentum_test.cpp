@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::momentum_test {
 
 using namespace dem;
 namespace {
@@ -93,4 +93,4 @@ TEST_P(Momentum, IsKeptWhileBondsBreak) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::momentum_test

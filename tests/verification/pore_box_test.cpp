@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::pore_box_test {
 
 using namespace dem;
 using namespace coupling;
@@ -112,4 +112,4 @@ TEST_P(PoreBox, ContactsCarryWeightLessLift) {
 INSTANTIATE_TEST_SUITE_P(Ratios, PoreBox, testing::Values(0.5, 0.9, 0.97));
 
 } // namespace
-} // namespace listric
+} // namespace listric::pore_box_test

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric {
+namespace listric::pore_column_test {
 
 using namespace coupling;
 namespace {
@@ -102,4 +102,4 @@ TEST(PoreColumn, GibsonNumberGrowsWithRateAndFallsWithPermeability) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::pore_column_test

@@ -14,7 +14,7 @@
 #include <limits>
 #include <numeric>
 
-namespace listric {
+namespace listric::pore_flow_test {
 
 using namespace dem;
 using namespace coupling;
@@ -346,4 +346,4 @@ TEST(PoreFlow, ForcesAddUpToThePressureAround) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::pore_flow_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <functional>
 
-namespace listric {
+namespace listric::pore_fluid_hard_test {
 
 using namespace dem;
 using namespace coupling;
@@ -111,4 +111,4 @@ TEST(PoreFluidHard, ConvergesAndKeepsItsWater) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::pore_fluid_hard_test

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::ranks_test {
 
 namespace {
 
@@ -205,4 +205,4 @@ TEST(Ranks, MayHaveOneDiscOrFewerThanATileEach) {
 
 } // namespace
 
-} // namespace listric
+} // namespace listric::ranks_test

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::sediment_stress_test {
 
 using namespace dem;
 namespace {
@@ -81,4 +81,4 @@ TEST(SedimentStress, OfAColumnAmongOthers) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::sediment_stress_test

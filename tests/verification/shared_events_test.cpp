@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace listric {
+namespace listric::shared_events_test {
 
 using namespace dem;
 namespace {
@@ -93,4 +93,4 @@ TEST(SharedEvents, HaveTheBitsOfOneThread) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::shared_events_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace listric {
+namespace listric::sweep_effects_test {
 namespace {
 
 /// Runs of a design, and what is true of them.
@@ -114,4 +114,4 @@ TEST(SweepEffectsCoverage, AScatteredDesignAndFailedRuns) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::sweep_effects_test

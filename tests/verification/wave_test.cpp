@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace listric {
+namespace listric::wave_test {
 
 using namespace dem;
 namespace {
@@ -100,4 +100,4 @@ TEST_P(Wave, SpeedOfLongWavesIsOfSecondOrder) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::wave_test

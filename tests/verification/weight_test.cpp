@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace listric {
+namespace listric::weight_test {
 
 using namespace dem;
 namespace {
@@ -104,4 +104,4 @@ TEST_P(Weight, OfABlock) {
 }
 
 } // namespace
-} // namespace listric
+} // namespace listric::weight_test
