@@ -18,7 +18,7 @@ namespace listric::support {
 using namespace dem;
 using namespace coupling;
 
-constexpr double radius = 1500.0, length = 4000.0, gravity = 9.81; // m, m, m/s^2
+constexpr double radius = 1500.0, length = 4000.0; // m
 
 inline RigidBase make_listric_base() {
     RigidBase base = listric_base(radius, length);
@@ -38,7 +38,7 @@ inline const State& hanging_wall() {
         request.base = make_listric_base();
         request.materials = {Material{}, Material{}, Material{}};
         request.bonds = BondStrength{};
-        request.physics = {0.7, gravity};
+        request.physics = {0.7, dem::standard_gravity};
         return make_hanging_wall(request, [](std::string_view, double) {});
     }();
     return state;
@@ -72,7 +72,7 @@ constexpr double soft = 1e-11;
 
 struct Coupled {
     RigidBase base = make_listric_base();
-    CyclePhysics physics{0.7, gravity};
+    CyclePhysics physics{0.7, dem::standard_gravity};
     State state = hanging_wall();
     ElasticBase elastic;
 
@@ -86,7 +86,7 @@ struct Coupled {
 
     static CouplingParameters complete(CouplingParameters p) {
         p.wall_x = length;
-        p.gravity = gravity;
+        p.gravity = dem::standard_gravity;
         const std::vector<Material> discs{Material{}};
         p.contact_stiffness = node_stiffness(Material{}, discs, 100.0, 60.0);
         return p;
@@ -122,7 +122,7 @@ inline Coupled settled(double compliance, CouplingParameters p = {}) {
 }
 
 /// Length of the interface, m, and restoring stress of mantle below, Pa/m.
-constexpr double afloat = 6e3, mantle = 3300.0 * gravity;
+constexpr double afloat = 6e3, mantle = 3300.0 * dem::standard_gravity;
 
 /// An elastic base that also floats, as one: its compliance over that of rock as stiff as the
 /// discs' (50 GPa: 2e-11 m per N/m over a kilometre), and its springs over the mantle's.

@@ -37,7 +37,7 @@ TEST(ElasticBase, TransferKeepsForceMomentAndWork) {
         EXPECT_LT(balance.force_error, 1e-12);
         EXPECT_LT(balance.moment_error, 1e-12);
         EXPECT_LT(balance.work_error, 1e-12);
-        EXPECT_GT(force_balance(coupled.state, coupled.base, gravity).reaction[0].y, 0.0);
+        EXPECT_GT(force_balance(coupled.state, coupled.base, standard_gravity).reaction[0].y, 0.0);
     }
 }
 
@@ -54,15 +54,16 @@ TEST(ElasticBase, NodesCollectTheReactionOfTheCycle) {
     for (std::size_t k = 0; k < before.base_contacts.rows(); ++k)
         base_contact_columns(before).shear_force[k] =
             base_contact_columns(coupled.state).shear_force[k];
-    const double reaction = force_balance(before, coupled.base, gravity).reaction[0].y;
+    const double reaction = force_balance(before, coupled.base, standard_gravity).reaction[0].y;
     EXPECT_NEAR(-y / reaction, 1.0, 1e-9);
 }
 
 TEST(ElasticBase, HeldNodesAreTheRigidBase) {
     Coupled coupled(soft);
-    const double on_nodes = force_balance(coupled.state, coupled.base, gravity).reaction[0].y;
+    const double on_nodes =
+        force_balance(coupled.state, coupled.base, standard_gravity).reaction[0].y;
     const double on_chain =
-        force_balance(hanging_wall(), make_listric_base(), gravity).reaction[0].y;
+        force_balance(hanging_wall(), make_listric_base(), standard_gravity).reaction[0].y;
     // The trace departs from the arc by h^4 / (100 R^3), 3e-4 m against overlaps of 0.05 m.
     EXPECT_NEAR(on_nodes / on_chain, 1.0, 0.01);
 }

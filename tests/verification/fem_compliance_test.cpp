@@ -20,8 +20,8 @@ using fem::Vector;
 fem::FootwallRequest lis1_footwall(double cell_size) {
     fem::FootwallRequest request;
     request.detachment = listric_detachment();
-    request.surface_spring = request.detachment_spring = 2700.0 * gravity;
-    request.base_spring = 600.0 * gravity;
+    request.surface_spring = request.detachment_spring = 2700.0 * standard_gravity;
+    request.base_spring = 600.0 * standard_gravity;
     request.elastic_thickness = 10e3;
     request.skin_thickness = 3e3;
     request.cell_size = cell_size;

@@ -18,7 +18,7 @@ using namespace support;
 using fem::Boundary;
 using fem::Vector;
 
-constexpr double restoring = 3300.0 * gravity;
+constexpr double restoring = 3300.0 * standard_gravity;
 
 fem::ElasticLayer exact_layer(const fem::FootwallRequest& request) {
     return {request.layers[0].young_modulus, request.layers[0].poisson_ratio, request.depth,
@@ -69,8 +69,8 @@ TEST(Flexure, WaveOnALayerIsExactWithFourCells) {
     std::printf("Te 10 km, 100 km, four Q2 cells: %.2e\n", error);
     EXPECT_LT(error, 1e-4); // discretisation: fourth order in the deflection
     fem::FootwallRequest split = layer(10e3, 0.0, 1.0, 2500.0);
-    split.surface_spring = 2700.0 * gravity;
-    split.base_spring = 600.0 * gravity;
+    split.surface_spring = 2700.0 * standard_gravity;
+    split.base_spring = 600.0 * standard_gravity;
     EXPECT_LT(wave_error(split, 100e3), 1e-4);
 }
 
@@ -161,7 +161,7 @@ TEST_P(Thickness, BrokenPlate) {
 TEST_P(Thickness, StripLoad) {
     const double te = GetParam();
     const fem::Plate thin = plate(te);
-    constexpr double half_width = 20e3, pressure = 2600.0 * gravity * 2000.0;
+    constexpr double half_width = 20e3, pressure = 2600.0 * standard_gravity * 2000.0;
     const double side = half_width + 10.0 * thin.alpha(); // as above
     fem::FootwallRequest request = layer(te, -side, side, te / 4.0);
     request.surface_breaks = {-half_width, half_width};

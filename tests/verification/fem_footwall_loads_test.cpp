@@ -20,12 +20,12 @@ namespace {
 using namespace support;
 
 constexpr double crust = 2700.0, mantle = 3300.0; // kg/m^3
-constexpr double contrast = (mantle - crust) * gravity;
+constexpr double contrast = (mantle - crust) * standard_gravity;
 
 /// A flat crust that floats; rollers on its sides, so that under even loads it is one column.
 fem::FootwallRequest floating_crust() {
     fem::FootwallRequest request = layer(30e3, -100e3, 0.0, 5e3);
-    request.surface_spring = crust * gravity;
+    request.surface_spring = crust * standard_gravity;
     request.base_spring = contrast;
     return request;
 }
@@ -126,7 +126,7 @@ TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
         sum += 0.5 * (response.interface[at] + response.interface[at + 2]) *
                (nodes[k + 1].place.x - nodes[k].place.x);
     }
-    EXPECT_NEAR(-sum * mantle * gravity / (contrast * 20e3 * 10e3), 1.0, 0.01);
+    EXPECT_NEAR(-sum * mantle * standard_gravity / (contrast * 20e3 * 10e3), 1.0, 0.01);
     // In between rows are straight to 1e-3.
     const std::vector<fem::Load> half = {lower_crust_load(thinning, contrast, 5.5e3)};
     const fem::Responses exact = footwall->responses(half);
@@ -160,9 +160,9 @@ TEST_F(Erosion, EvenErosionReboundsByAirysAmount) {
     ASSERT_EQ(response_.x.front(), request_.left);
     ASSERT_EQ(response_.x.back(), 0.0);
     const std::vector<double> uplift(response_.x.size(), 100.0);
-    adapt_footwall(response_, erosion_, gravity, uplift, target_, cover_);
+    adapt_footwall(response_, erosion_, standard_gravity, uplift, target_, cover_);
     // Eroded rock rebounds by the share c of its weight: E = 100 + c E.
-    const double share = crust * gravity * column_uplift();
+    const double share = crust * standard_gravity * column_uplift();
     // Within the 0.01 m at which rebound is no longer followed up, over 1 - share.
     for (std::size_t k = 0; k < eroded_.size(); ++k) {
         EXPECT_NEAR(eroded_[k], 100.0 / (1.0 - share), 0.01 / (1.0 - share));
@@ -170,7 +170,7 @@ TEST_F(Erosion, EvenErosionReboundsByAirysAmount) {
     }
     EXPECT_NEAR(share, crust / mantle, 3e-3); // Airy's, but for what the column gives
     // Forces of the interface for the same: its displacement is the rebound.
-    const std::vector<double> pressure = cover_pressure(erosion_, gravity, cover_);
+    const std::vector<double> pressure = cover_pressure(erosion_, standard_gravity, cover_);
     const std::size_t unknowns = 2 * footwall_->interface().size();
     for (std::size_t i = 1; i < unknowns; i += 2) {
         double u = 0.0;
@@ -182,14 +182,14 @@ TEST_F(Erosion, EvenErosionReboundsByAirysAmount) {
 
 TEST_F(Erosion, FillsHollowsAndTakesSedimentFirst) {
     std::vector<double> uplift(response_.x.size(), -100.0);
-    adapt_footwall(response_, erosion_, gravity, uplift, target_, cover_);
-    const double share = 2300.0 * gravity * column_uplift();
+    adapt_footwall(response_, erosion_, standard_gravity, uplift, target_, cover_);
+    const double share = 2300.0 * standard_gravity * column_uplift();
     for (std::size_t k = 0; k < eroded_.size(); ++k) {
         EXPECT_EQ(eroded_[k], 0.0);
         EXPECT_NEAR(deposited_[k], 100.0 / (1.0 - share), 0.01 / (1.0 - share));
     }
     std::ranges::fill(uplift, 0.0);
-    adapt_footwall(response_, erosion_, gravity, uplift, target_, cover_);
+    adapt_footwall(response_, erosion_, standard_gravity, uplift, target_, cover_);
     for (std::size_t k = 0; k < eroded_.size(); ++k) {
         EXPECT_NEAR(deposited_[k], 0.0, 0.01 / (1.0 - share));
         EXPECT_NEAR(eroded_[k], 0.0, 0.01 / (1.0 - share));
@@ -202,8 +202,8 @@ TEST_F(Erosion, BringsAnUnevenSurfaceToTheTarget) {
         uplift.push_back(500.0 * std::exp(x / 20e3) * std::cos(x / 20e3) - 20.0);
     for (std::size_t k = 0; k < target_.size(); ++k)
         target_[k] = -1e-3 * response_.x[k];
-    EXPECT_LT(adapt_footwall(response_, erosion_, gravity, uplift, target_, cover_), 100);
-    const std::vector<double> pressure = cover_pressure(erosion_, gravity, cover_);
+    EXPECT_LT(adapt_footwall(response_, erosion_, standard_gravity, uplift, target_, cover_), 100);
+    const std::vector<double> pressure = cover_pressure(erosion_, standard_gravity, cover_);
     const std::size_t n = response_.x.size();
     for (std::size_t k = 0; k < n; ++k) {
         double height = uplift[k] + deposited_[k] - eroded_[k];
@@ -230,7 +230,7 @@ TEST(BasinWater, WeighsOnWhatLiesBelow) {
     const DiscColumns d = disc_columns(state);
     const BaseNodeColumns nodes = base_node_columns(state);
     const BasinWaterParameters parameters{.level = 0.0, .density = 1030.0};
-    BasinWater water(interface, parameters, gravity, column, 0.01);
+    BasinWater water(interface, parameters, standard_gravity, column, 0.01);
     water.begin(state);
     EXPECT_NEAR(water.memory.get<double>("start_depth_m")[0], 10.0, 1e-9);
     water.apply(state, {});
@@ -243,10 +243,10 @@ TEST(BasinWater, WeighsOnWhatLiesBelow) {
     EXPECT_FALSE(water.apply(state, {})); // neighbours are the same
     // Over the ramp 100, 300, ... 1900 m deep but for the roughness, over the hanging wall 1000 m.
     const double area = 2000.0 * (1000.0 - 10.0) + 9800.0 * 1000.0;
-    EXPECT_NEAR(water_weight(state), 1030.0 * gravity * area, 1e-9 * water_weight(state));
+    EXPECT_NEAR(water_weight(state), 1030.0 * standard_gravity * area, 1e-9 * water_weight(state));
     // On the flat, on each metre of the detachment what is above it; Simpson's weights.
     const auto load = state.base_memory.at("interface_loads").get<double>("basin_water");
-    const double on_a_node = 500.0 * 1030.0 * gravity * 1000.0;
+    const double on_a_node = 500.0 * 1030.0 * standard_gravity * 1000.0;
     for (std::size_t k = 6; k < 22; ++k)
         EXPECT_NEAR(load[2 * k + 1], -on_a_node * (k % 2 ? 4.0 : 2.0) / 3.0, 1e-9 * on_a_node) << k;
     for (std::size_t k = 0; k < interface.x.size(); ++k)
@@ -256,7 +256,7 @@ TEST(BasinWater, WeighsOnWhatLiesBelow) {
     std::ranges::fill(nodes.uy, 500.0);
     water.apply(state, {});
     const double left = column * (200.0 + 400.0 + 600.0 + 800.0 + 1000.0 + 1200.0 + 1400.0 - 70.0);
-    EXPECT_NEAR(water_weight(state), 1030.0 * gravity * (left + 9800.0 * 1000.0),
+    EXPECT_NEAR(water_weight(state), 1030.0 * standard_gravity * (left + 9800.0 * 1000.0),
                 1e-9 * water_weight(state));
     // Discs that have come up are dry.
     for (std::size_t i = 0; i < d.x.size(); ++i)
@@ -269,7 +269,7 @@ TEST(BasinWater, WeighsOnWhatLiesBelow) {
 TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
     fem::FootwallRequest request;
     request.detachment = listric_detachment();
-    request.surface_spring = request.detachment_spring = crust * gravity;
+    request.surface_spring = request.detachment_spring = crust * standard_gravity;
     request.base_spring = contrast;
     request.cell_size = 2000.0;
     request.interface_end = 60e3;
@@ -315,7 +315,7 @@ TEST(SurfaceResponse, IsTheTransposeOfTheInterfaces) {
 TEST(IndependentSolution, IsTheBaseOnAnotherMesh) {
     fem::FootwallRequest request;
     request.detachment = listric_detachment();
-    request.surface_spring = request.detachment_spring = crust * gravity;
+    request.surface_spring = request.detachment_spring = crust * standard_gravity;
     request.base_spring = contrast;
     request.elastic_thickness = 10e3;
     request.skin_thickness = 3e3;

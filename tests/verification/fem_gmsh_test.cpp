@@ -24,8 +24,8 @@ const std::string mesh_file = LISTRIC_SOURCE_DIR "/meshes/lis1-footwall.msh";
 fem::FootwallRequest lis1_footwall() {
     fem::FootwallRequest request;
     request.detachment = listric_detachment();
-    request.surface_spring = request.detachment_spring = 2700.0 * gravity;
-    request.base_spring = 600.0 * gravity;
+    request.surface_spring = request.detachment_spring = 2700.0 * standard_gravity;
+    request.base_spring = 600.0 * standard_gravity;
     request.cell_size = 2500.0;
     request.interface_end = 60e3;
     return request;

@@ -16,7 +16,7 @@ namespace {
 using namespace support;
 using fem::Vector;
 
-constexpr double weight = 2700.0 * gravity; // N/m^3
+constexpr double weight = 2700.0 * standard_gravity; // N/m^3
 
 /// Load of a liquid up to y = 0 on the interface's nodes, from its trace as it is displaced:
 /// pressure times normal, N. The trace's order is linear or quadratic, so that three of Gauss's
@@ -48,7 +48,7 @@ std::vector<double> liquid_forces(const fem::Footwall& footwall, const std::vect
 /// nothing rested in springs there.
 TEST(Prestress, IsBornByALiquidOfTheSameDensity) {
     fem::FootwallRequest request;
-    request.base_spring = 600.0 * gravity;
+    request.base_spring = 600.0 * standard_gravity;
     request.surface_spring = weight;
     request.elastic_thickness = 10e3;
     request.skin_thickness = 3e3;
@@ -98,7 +98,7 @@ TEST(Prestress, IsTooMuchForRockThatIsTooSoft) {
     fem::FootwallRequest request;
     request.detachment = listric_detachment();
     request.surface_spring = request.detachment_spring = weight;
-    request.base_spring = 600.0 * gravity;
+    request.base_spring = 600.0 * standard_gravity;
     request.elastic_thickness = 10e3;
     request.cell_size = 2000.0;
     request.interface_end = 60e3;

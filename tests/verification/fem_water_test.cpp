@@ -75,8 +75,8 @@ TEST_F(PoreWater, FillsThePoresBelowTheLevel) {
 
 TEST_F(PoreWater, WeighsOnTheDetachmentBesideTheWaterAbove) {
     const BasinWaterParameters parameters{.level = 0.0, .density = water_density};
-    BasinWater dry(interface_, parameters, gravity, column, 0.01);
-    BasinWater wet(interface_, parameters, gravity, column, 0.01, PoreSpace{2600.0, 0.2});
+    BasinWater dry(interface_, parameters, standard_gravity, column, 0.01);
+    BasinWater wet(interface_, parameters, standard_gravity, column, 0.01, PoreSpace{2600.0, 0.2});
     State with = state_;
     for (auto [water, state] : {std::pair(&dry, &state_), std::pair(&wet, &with)}) {
         water->begin(*state);
@@ -85,10 +85,10 @@ TEST_F(PoreWater, WeighsOnTheDetachmentBesideTheWaterAbove) {
     }
     EXPECT_EQ(pore_water_weight(state_), 0.0);
     EXPECT_FALSE(state_.base_memory.at("interface_loads").has("pore_water"));
-    const double pores = 600.0 * water_density * gravity;
+    const double pores = 600.0 * water_density * standard_gravity;
     EXPECT_NEAR(pore_water_weight(with), pores, 1e-9 * pores);
     // To the tops of rock in 47 columns, of sediment in two; the last disc is in none.
-    const double free = column * (47 * 950.0 + 850.0 + 750.0) * water_density * gravity;
+    const double free = column * (47 * 950.0 + 850.0 + 750.0) * water_density * standard_gravity;
     EXPECT_NEAR(water_weight(state_), free, 1e-9 * free);
     EXPECT_NEAR(water_weight(with), free + pores, 1e-9 * free);
     // It lies on the nodes below: those of the columns from 400 to 800 m and of the last one.
@@ -104,7 +104,7 @@ TEST_F(PoreWater, WeighsOnTheDetachmentBesideTheWaterAbove) {
 /// A flat crust that floats; rollers on its sides, so that under even loads it is one column.
 class FlankWater : public testing::Test {
 protected:
-    static constexpr double weight = water_density * gravity;
+    static constexpr double weight = water_density * standard_gravity;
     std::vector<double> knots_ = surface_knots(100e3, -100e3);
     std::unique_ptr<fem::Footwall> footwall_ = fem::make_footwall(request());
     double share_ = 0.0; ///< of its depth, by which the flank sinks under water
@@ -112,8 +112,8 @@ protected:
 
     static fem::FootwallRequest request() {
         fem::FootwallRequest request = layer(30e3, -100e3, 0.0, 5e3);
-        request.surface_spring = 2700.0 * gravity;
-        request.base_spring = 600.0 * gravity;
+        request.surface_spring = 2700.0 * standard_gravity;
+        request.base_spring = 600.0 * standard_gravity;
         return request;
     }
     SurfaceResponse respond() {
@@ -121,8 +121,8 @@ protected:
         const LoadResponse solved =
             solve_unit_loads(*footwall_, loads, 2 * footwall_->interface().size()).front();
         // The column's stiffness: lambda + 2 mu over its height.
-        const double stiffness = 70e9 * 0.75 / (1.25 * 0.5) / 30e3, base = 600.0 * gravity;
-        share_ = weight / (2700.0 * gravity + base / (1.0 + base / stiffness));
+        const double stiffness = 70e9 * 0.75 / (1.25 * 0.5) / 30e3, base = 600.0 * standard_gravity;
+        share_ = weight / (2700.0 * standard_gravity + base / (1.0 + base / stiffness));
         return {knots_, solved.interface, solved.sums, solved.work.front()};
     }
     void expect_even(double height, double level, double depth) const {
@@ -155,8 +155,8 @@ TEST_F(FlankWater, IsALoadOfTheFlank) {
     Flank flank{response_, std::vector<double>(knots_.size() * unknowns, 0.0),
                 [&](const State&) { return std::vector<double>(knots_.size(), height); }};
     flank.forces[1] = 2.0; // of the first knot on the first node
-    BasinWater water(interface, {.level = 0.0, .density = water_density}, gravity, 200.0, 0.01, {},
-                     flank);
+    BasinWater water(interface, {.level = 0.0, .density = water_density}, standard_gravity, 200.0,
+                     0.01, {}, flank);
     water.begin(state);
     water.apply(state, {});
     EXPECT_EQ(water.flank_weight(), 0.0);

@@ -2,6 +2,7 @@
 
 // Footwalls that the tests of elastic bases start from.
 
+#include "dem/units.hpp"
 #include "fem/footwall.hpp"
 
 #include <cmath>
@@ -11,7 +12,7 @@
 namespace listric::support {
 
 inline constexpr double right_angle = 0.5 * std::numbers::pi;
-inline constexpr double gravity = 9.81; ///< m/s^2
+using dem::standard_gravity;
 
 /// A bend of the detachment: radius, m, and turn, rad (> 0 left); or a line: length and no turn.
 struct Bend {
@@ -58,8 +59,8 @@ inline fem::FootwallRequest small_footwall() {
     request.right = 45e3;
     request.depth = 40e3;
     request.layers = {{0.0, 50e9, 0.25, 2700.0}};
-    request.surface_spring = request.detachment_spring = 2700.0 * gravity;
-    request.base_spring = 600.0 * gravity;
+    request.surface_spring = request.detachment_spring = 2700.0 * standard_gravity;
+    request.base_spring = 600.0 * standard_gravity;
     request.cell_size = 4000.0;
     return request;
 }
@@ -71,7 +72,7 @@ inline fem::FootwallRequest layer(double thickness, double left, double right, d
     request.right = right;
     request.depth = thickness;
     request.layers = {{0.0, 70e9, 0.25, 2700.0}};
-    request.base_spring = 3300.0 * gravity;
+    request.base_spring = 3300.0 * standard_gravity;
     request.cell_size = cell_size;
     return request;
 }
