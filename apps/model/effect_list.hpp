@@ -22,12 +22,10 @@
     EFFECT(base_motion)
 // clang-format on
 
-namespace listric::effects {
-
 #define EFFECT(name)                                                                               \
-    const Effect& name();                                                                          \
-    Works name##_works();
+    namespace listric::effects::name {                                                             \
+    const Effect& effect();                                                                        \
+    Works works();                                                                                 \
+    }
 LISTRIC_EFFECTS
 #undef EFFECT
-
-} // namespace listric::effects

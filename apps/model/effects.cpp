@@ -7,7 +7,7 @@
 namespace listric {
 
 EffectList program_effects() {
-#define EFFECT(name) &effects::name(),
+#define EFFECT(name) &effects::name::effect(),
     static const std::array list{LISTRIC_EFFECTS};
 #undef EFFECT
     return list;
@@ -16,7 +16,7 @@ EffectList program_effects() {
 Works works_behind(std::string_view effect) {
 #define EFFECT(name)                                                                               \
     if (effect == #name)                                                                           \
-        return effects::name##_works();
+        return effects::name::works();
     LISTRIC_EFFECTS
 #undef EFFECT
     return {};

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace listric::effects {
+namespace listric::effects::base_motion {
 
 namespace {
 
@@ -66,9 +66,9 @@ private:
 
 } // namespace
 
-Works base_motion_works() { return {}; }
+Works works() { return {}; }
 
-const Effect& base_motion() {
+const Effect& effect() {
     static const Effect effect{
         .name = "base_motion",
         .doc = "the detachment moves as prescribed; needs no finite elements",
@@ -109,4 +109,4 @@ const Effect& base_motion() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::base_motion

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace listric::effects {
+namespace listric::effects::basin_water {
 
 namespace {
 
@@ -38,9 +38,9 @@ std::vector<double> water_band(const Observation& now) {
 
 } // namespace
 
-Works basin_water_works() { return {}; }
+Works works() { return {}; }
 
-const Effect& basin_water() {
+const Effect& effect() {
     static const Effect effect{
         .name = "basin_water",
         .doc = "water fills the basin and the pores of its sediment and weighs on the footwall",
@@ -79,4 +79,4 @@ const Effect& basin_water() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::basin_water

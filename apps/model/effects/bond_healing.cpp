@@ -2,11 +2,11 @@
 
 #include "apps/model/effect_list.hpp"
 
-namespace listric::effects {
+namespace listric::effects::bond_healing {
 
-Works bond_healing_works() { return {}; }
+Works works() { return {}; }
 
-const Effect& bond_healing() {
+const Effect& effect() {
     using P = dem::BondHealingParameters;
     static const Effect effect{
         .name = "bond_healing",
@@ -41,4 +41,4 @@ const Effect& bond_healing() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::bond_healing

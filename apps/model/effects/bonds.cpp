@@ -1,7 +1,7 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/pieces.hpp"
 
-namespace listric::effects {
+namespace listric::effects::bonds {
 
 namespace {
 
@@ -12,9 +12,9 @@ struct RockBonds {
 
 } // namespace
 
-Works bonds_works() { return {&works::itasca}; }
+Works works() { return {&works::itasca}; }
 
-const Effect& bonds() {
+const Effect& effect() {
     static const Effect effect{
         .name = "bonds",
         .doc = "contact bonds that make rock of grains",
@@ -44,4 +44,4 @@ const Effect& bonds() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::bonds

@@ -2,11 +2,11 @@
 
 #include "apps/model/effect_list.hpp"
 
-namespace listric::effects {
+namespace listric::effects::compaction {
 
-Works compaction_works() { return {&works::baldwin_butler}; }
+Works works() { return {&works::baldwin_butler}; }
 
-const Effect& compaction() {
+const Effect& effect() {
     using P = dem::CompactionParameters;
     static const Effect effect{
         .name = "compaction",
@@ -54,4 +54,4 @@ const Effect& compaction() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::compaction

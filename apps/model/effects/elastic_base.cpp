@@ -17,7 +17,7 @@
 #include <filesystem>
 #include <iterator>
 
-namespace listric::effects {
+namespace listric::effects::elastic_base {
 
 namespace {
 
@@ -139,7 +139,7 @@ std::vector<Parameter> parameters() {
 
 /// Refusals of the footwall itself, before a run prepares anything.
 void check(const Scene& scene, const Refuse& refuse) {
-    const P& base = *elastic_base(scene);
+    const P& base = *listric::elastic_base(scene);
     const std::string why = objection_to_densities(base.bending);
     if (!why.empty())
         refuse("elastic_base.crust_density_kg_per_m3", why);
@@ -169,14 +169,14 @@ void check(const Scene& scene, const Refuse& refuse) {
 }
 
 void contribute(const Scene& scene, ModelParts& parts) {
-    const P& base = *elastic_base(scene);
+    const P& base = *listric::elastic_base(scene);
     dem::follow_nodes(parts.base, base.bending.degree);
     parts.base_moves = true;
 }
 
 /// Loads that the footwall feels, and those that it does not.
 std::string explain(const Scene& scene, EffectList list) {
-    const P& base = *elastic_base(scene);
+    const P& base = *listric::elastic_base(scene);
     constexpr const char* schemes[] = {"modal", "lumped"};
     std::string text = fmt::format(
         "elastic base\n"
@@ -216,13 +216,13 @@ std::string explain(const Scene& scene, EffectList list) {
 /// Set-up, settling of the discs, and an answer every few cycles.
 double price(const Scene& scene, const Workload& work) {
     return 5e7 + 1.2e4 * work.at_start +
-           1350.0 * work.cycles / elastic_base(scene)->update_interval;
+           1350.0 * work.cycles / listric::elastic_base(scene)->update_interval;
 }
 
 /// The plug-in, and factors of the base and of the finer one that it is checked with: measured 223,
 /// 263 and 379 MB with 9, 20 and 50 thousand unknowns (lis1-elastic, cells of 2, 1 and 0.5 km).
 double memory(const Scene& scene) {
-    const P& base = *elastic_base(scene);
+    const P& base = *listric::elastic_base(scene);
     constexpr double plug_in = 190e6, unknown = 3800.0;
     if (!base.mesh_file.empty())
         return plug_in;
@@ -316,9 +316,9 @@ std::vector<Measure<Observation>> measures() {
 
 } // namespace
 
-Works elastic_base_works() { return {&works::hetenyi, &works::turcotte_schubert}; }
+Works works() { return {&works::hetenyi, &works::turcotte_schubert}; }
 
-const Effect& elastic_base() {
+const Effect& effect() {
     static const Effect effect{
         .name = "elastic_base",
         .doc = "footwall and basement bend and float",
@@ -348,4 +348,4 @@ const Effect& elastic_base() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::elastic_base

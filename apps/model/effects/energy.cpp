@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace listric::effects {
+namespace listric::effects::energy {
 
 namespace {
 
@@ -95,9 +95,9 @@ std::optional<std::vector<NamedNumbers>> by_event(const Observation& now) {
 
 } // namespace
 
-Works energy_works() { return {}; }
+Works works() { return {}; }
 
-const Effect& energy() {
+const Effect& effect() {
     static const Effect effect{
         .name = "energy",
         .doc = "energy budget; the cycle then takes one thread and five times as long",
@@ -120,4 +120,4 @@ const Effect& energy() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::energy

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace listric::effects {
+namespace listric::effects::fault_weakening {
 
 namespace {
 
@@ -148,9 +148,9 @@ std::vector<double> weak_discs(const Observation& now) {
 
 } // namespace
 
-Works fault_weakening_works() { return {}; }
+Works works() { return {}; }
 
-const Effect& fault_weakening() {
+const Effect& effect() {
     static const Effect effect{
         .name = "fault_weakening",
         .doc = "automatic fault detection (AFD) with its property update",
@@ -198,4 +198,4 @@ const Effect& fault_weakening() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::fault_weakening

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace listric::effects {
+namespace listric::effects::footwall_erosion {
 
 namespace {
 
@@ -62,9 +62,9 @@ std::string explain(const Scene& scene, EffectList) {
 
 } // namespace
 
-Works footwall_erosion_works() { return {}; }
+Works works() { return {}; }
 
-const Effect& footwall_erosion() {
+const Effect& effect() {
     static const Effect effect{
         .name = "footwall_erosion",
         .doc = "the footwall's surface adapts to a target: what rises is eroded, what sinks filled",
@@ -86,4 +86,4 @@ const Effect& footwall_erosion() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::footwall_erosion

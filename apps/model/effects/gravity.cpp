@@ -1,6 +1,6 @@
 #include "apps/model/effect_list.hpp"
 
-namespace listric::effects {
+namespace listric::effects::gravity {
 
 namespace {
 
@@ -10,9 +10,9 @@ struct GravityParameters {
 
 } // namespace
 
-Works gravity_works() { return {}; }
+Works works() { return {}; }
 
-const Effect& gravity() {
+const Effect& effect() {
     using P = GravityParameters;
     static const Effect effect{
         .name = "gravity",
@@ -32,4 +32,4 @@ const Effect& gravity() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::gravity

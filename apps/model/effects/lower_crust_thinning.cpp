@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace listric::effects {
+namespace listric::effects::lower_crust_thinning {
 
 namespace {
 
@@ -31,9 +31,9 @@ std::string explain(const Scene& scene, EffectList) {
 
 } // namespace
 
-Works lower_crust_thinning_works() { return {&works::kusznir}; }
+Works works() { return {&works::kusznir}; }
 
-const Effect& lower_crust_thinning() {
+const Effect& effect() {
     static const Effect effect{
         .name = "lower_crust_thinning",
         .doc = "the lower crust stretches, mantle rises: isostasy lowers the base",
@@ -61,4 +61,4 @@ const Effect& lower_crust_thinning() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::lower_crust_thinning

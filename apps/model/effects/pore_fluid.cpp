@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace listric::effects {
+namespace listric::effects::pore_fluid {
 
 namespace {
 
@@ -183,12 +183,12 @@ std::string explain(const Scene& scene, EffectList) {
 
 } // namespace
 
-Works pore_fluid_works() {
+Works works() {
     return {&works::gibson,     &works::audet_fowler,   &works::wangen,
             &works::yang_aplin, &works::baldwin_butler, &works::catalano};
 }
 
-const Effect& pore_fluid() {
+const Effect& effect() {
     static const Effect effect{
         .name = "pore_fluid",
         .doc = "water in the pores of sediment: buoyancy, overpressure and undercompaction",
@@ -215,4 +215,4 @@ const Effect& pore_fluid() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::pore_fluid

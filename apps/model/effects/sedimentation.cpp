@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace listric::effects {
+namespace listric::effects::sedimentation {
 
 namespace {
 
@@ -194,9 +194,9 @@ std::vector<MeasuredObjects> objects() {
 
 } // namespace
 
-Works sedimentation_works() { return {}; }
+Works works() { return {}; }
 
-const Effect& sedimentation() {
+const Effect& effect() {
     static const Effect effect{
         .name = "sedimentation",
         .doc = "adapts the surface to a target: deposits below, erodes above",
@@ -248,4 +248,4 @@ const Effect& sedimentation() {
     return effect;
 }
 
-} // namespace listric::effects
+} // namespace listric::effects::sedimentation
