@@ -17,7 +17,7 @@ FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
 INSTRUCTION = re.compile(r"^ +[0-9a-f]+:\t(?:(?:bnd|data16|lock|notrack|rep|repz|repnz|cs|ds) )*(\w+)")
 # AVX and AVX-512, whose names begin with v or work on masks (k); BMI, and what came with it.
 BEYOND_SSE2 = re.compile(r"v(?!err|erw|mcall|mlaunch)|k(?:add|and|mov|not|or|shift|test|unpck|xn?or)"
-                         r"|andn(?!p)|bextr|bls|bzhi|mulx|pdep|pext|rorx|sarx|shlx|shrx|movbe|lzcnt"
+                         r"|andn(?!p)|bextr|bls|bzhi|mulx|pdep|pext(?!rw)|rorx|sarx|shlx|shrx|movbe|lzcnt"
                          r"|popcnt|crc32|p?blendv|round[sp][sd]|dpp[sd]|pshufb|haddp|pcmpeqq")
 FUSED = re.compile(r"vfn?m(?:add|sub)")
 

@@ -1,0 +1,1 @@
+// Compiles what most tests include, once for all of them (CMakeLists.txt).
