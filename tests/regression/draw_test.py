@@ -195,6 +195,7 @@ class Draw(unittest.TestCase):
         self.assertRegex(told, r"Node 1: x [\d.]+ km, depth [\d.]+ km; arc of radius [\d.]+ km, dip 90.0° to [\d.]+°")
         self.drag("turn 0", 40, 0)
         self.assertLess(self.shape()["startDip"], 89.0)
+        depth = self.script("return depthOf(shapeNow());")
         self.drag("node 1", 30, 30)                            # where it soles out: the arc keeps its end flat
         self.assertEqual(self.shape()["pieces"][1]["endDip"], 0)
         self.assertGreater(self.script("return depthOf(shapeNow());"), depth)
@@ -245,8 +246,8 @@ class Draw(unittest.TestCase):
         self.assertEqual(self.script("return cornersOf(pictureNow());"), [0, -1000, 40000, 14000])
         left, top, right = self.script("const b = page.section.image.getBoundingClientRect(), s = page.section.svg"
                                        ".getBoundingClientRect(); return [b.left - s.left, b.top - s.top, b.right - s.left];")
-        for found, wanted in zip((left, top, right), self.script("const a = page.section.px(0, -1000), b = page.section.px(40000, 0);"
-                                                                 "return [...a, b[0]];")):
+        for found, wanted in zip((left, top, right), self.script("const from = page.section.px(0, -1000), [to] = page.section.px(40000, 0);"
+                                                                 "return [...from, to];")):
             self.assertAlmostEqual(found, wanted, delta=0.5)
         # Two points that are dragged to known places of the picture, and where these are.
         self.script("setTool('picture'); return 0;")
@@ -431,7 +432,7 @@ class Draw(unittest.TestCase):
     def test_11_keyboard_alone(self):
         self.open()
         controls = self.script("return [...document.querySelectorAll('button, select, input, textarea, summary, .handle')].filter(e =>"
-                               "!e.disabled && (e.offsetParent || e.closest('svg')) && (e.type !== 'radio' || e.checked))"
+                               "!e.disabled && e.checkVisibility() && (e.type !== 'radio' || e.checked))"
                                ".map(e => e.dataset.n = String(Math.random()));")
         reached, body = set(), self.driver.find_element("tag name", "body")
         for _ in range(len(controls) + 40):
@@ -439,7 +440,8 @@ class Draw(unittest.TestCase):
             reached.add(self.driver.execute_script("return document.activeElement.dataset.n"))
             if reached >= set(controls):
                 break
-        self.assertEqual(set(controls) - reached, set())
+        missed = [self.script("return document.querySelector(`[data-n='${a[0]}']`)?.outerHTML;", n) for n in set(controls) - reached]
+        self.assertEqual(missed, [])
         self.script("page.section.handles.find(h => h.dataset.key === 'node 0').focus(); return 0;")
         before = self.script("return depthOf(shapeNow());")
         press = lambda *keys: ActionChains(self.driver).send_keys(*keys).perform()

@@ -58,7 +58,7 @@ class Forms {
   }
 
   addTable(name, title, doc, keys, isPart) {
-    const details = element("details", {className: "table", open: name === "" || name === "hanging_wall"});
+    const details = element("details", {className: "table", open: ["", "hanging_wall", "extension"].includes(name)});
     const summary = element("summary");
     if (!isPart) {
       const box = element("input", {type: "checkbox", id: `on_${name}`});
@@ -81,13 +81,15 @@ class Forms {
     const doc = element("p", {className: "doc"}, element("code", {}, key), notes ? `: ${notes}. ` : ". ", facts.changes || "");
     const fault = element("p", {className: "fault", id: `${id}_fault`, role: "alert"});
     input.setAttribute("aria-describedby", fault.id);
-    const field = element("div", {className: `field ${input.tagName === "TEXTAREA" ? "broad" : ""}`}, label, input,
+    const field = element("div", {className: `field ${this.isBroad(own, input) ? "broad" : ""}`}, label, input,
       element("span", {className: "unit"}, facts.unit || ""), doc, fault);
     input.onchange = () => this.take(path);
     input.oninput = () => this.judge(path);
     this.fields.set(path, {field, input, fault, own, text: `${path} ${facts.doc} ${facts.symbol || ""}`.toLowerCase()});
     return field;
   }
+
+  isBroad(own, input) { return input.tagName === "TEXTAREA" || own.type === "string" && !own.enum && !own.anyOf; }
 
   inputOf(own, id) {
     const choices = own.type === "boolean" ? ["true", "false"] : own.anyOf ? null : own.enum;
@@ -122,6 +124,9 @@ class Forms {
     this.change(path, why ? undefined : valueOf(input.value, own).value, why);
   }
 
+  /** Whether the section decides a value: a wall is as thick as the detachment is deep. */
+  isDrawn(path, scene) { return path === "hanging_wall.thickness_m" && Array.isArray(scene.detachment?.segments); }
+
   /** Shows a scene and what is wrong with it; a text that is refused stays. */
   show(scene, faults) {
     for (const [name, details] of this.tables) {
@@ -135,7 +140,8 @@ class Forms {
       const keys = path.split("."), value = keys.length === 1 ? scene[path] : scene[keys[0]]?.[keys[1]], {input, own} = one;
       const text = value === undefined ? "" : typeof value === "boolean" ? String(value) : fieldText(value, own);
       if (input.value !== text) input.value = text;
-      const usual = this.defaultOf(path), word = usual === undefined ? own["x-listric"]?.default ?? "" : fieldText(usual, own);
+      input.readOnly = this.isDrawn(path, scene);
+      const usual = this.defaultOf(path), word = usual === undefined ? (own["x-listric"]?.default ?? "").replace(/^""$/, "") : fieldText(usual, own);
       if (input.tagName === "SELECT") input.options[0].textContent = `${word} (default)`;
       else input.placeholder = word;
       one.field.classList.toggle("given", value !== undefined);

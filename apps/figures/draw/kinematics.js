@@ -37,17 +37,28 @@ class ShearCoordinate {
   }
 }
 
-/** Top of a hanging wall that shears on planes inclined by an angle from the vertical (White et al. 1986), of what was flat
- * so much extension ago at a height; from its cutoff to x = right. */
-function inclinedShearTop(chain, extension, angle, right, fault = new ShearCoordinate(chain, Math.tan(angle * degree)), level = 0) {
+/** Top of a hanging wall that shears on planes inclined by an angle from the vertical (White et al. 1986), from its cutoff
+ * to x = right. */
+function inclinedShearTop(chain, extension, angle, right, fault = new ShearCoordinate(chain, Math.tan(angle * degree)), step = spacing) {
   const tangent = Math.tan(angle * degree), deepest = -pointAt(chain, lengthOf(chain)).y, top = [];
-  for (let u = extension; u <= right + deepest * tangent; u += spacing) {
+  for (let u = extension; u <= right + deepest * tangent; u += step) {
     const y = fault.height(u) - fault.height(u - extension), x = u + y * tangent;
     if (x > right && u > right) break;
-    if (level === 0) top.push({x, y});
-    else if (level > fault.height(u - extension)) top.push({x: x + level * tangent, y: y + level});
+    top.push({x, y});
   }
   return top;
+}
+
+/** What was flat at a depth before extension, in the same hanging wall. */
+function inclinedShearLayer(extension, angle, right, fault, depth, step) {
+  const tangent = Math.tan(angle * degree), line = [];
+  for (let u = extension; u <= right + 2 * depth * Math.abs(tangent) + extension; u += step) {
+    if (-depth < fault.height(u - extension)) continue; // in the footwall
+    const y = fault.height(u) - fault.height(u - extension) - depth;
+    line.push({x: u + y * tangent, y});
+    if (line.at(-1).x > right) break;
+  }
+  return line;
 }
 
 /** Top of a hanging wall whose lines normal to the detachment stay normal (Braun et al. 1994). */
@@ -85,10 +96,10 @@ function headBlockTurns(chain, extension) {
 }
 
 /** Tilt, cutoff and basin of a chain at an extension. */
-function predictKinematics(chain, extension, angle, right) {
-  const cutoff = pointAt(chain, extension), top = inclinedShearTop(chain, extension, angle, right);
+function predictKinematics(chain, extension, angle, right, fault = new ShearCoordinate(chain, Math.tan(angle * degree))) {
+  const cutoff = pointAt(chain, extension), top = inclinedShearTop(chain, extension, angle, right, fault);
   const deepest = top.reduce((low, p) => p.y < low.y ? p : low, {x: 0, y: 0});
   return {tilt: headBlockTurns(chain, extension) ? normalsTilt(chain, extension) : null,
     cutoff: extension <= lengthOf(chain) ? {x: cutoff.x, depth: -cutoff.y} : null,
-    area: extension * -pointAt(chain, lengthOf(chain)).y, deepest: {x: deepest.x, depth: -deepest.y}, top};
+    area: extension * -pointAt(chain, lengthOf(chain)).y, deepest: {x: deepest.x, depth: -deepest.y}};
 }

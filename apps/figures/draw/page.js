@@ -85,15 +85,16 @@ function settings() {
 function showSection() {
   const {scene, picks, faultPoints} = page.state, {length, distance} = settings(), section = page.section, shape = shapeNow();
   const good = shape && shape.pieces.length && shape.pieces.every(piece => piece.radius > 0 || piece.length > 0);
-  const chain = (shape ? good && chainOf(shape, length + 2 * distance + 1e5) : baseOf(facts, schema, scene)) || null;
+  const chain = (shape ? good && chainOf(shape, 1.5 * (length + 2 * distance)) : baseOf(facts, schema, scene)) || null, angle = Number($("angle").value);
+  const fault = good ? new ShearCoordinate(chain, Math.tan(angle * degree)) : null;
   page.chain = chain;
   section.drawPicture(pictureNow(), Number($("opacity").value));
-  if (chain) section.drawModel({chain, shape: good ? shape : null, length, extension: page.extension, angle: Number($("angle").value),
+  if (chain) section.drawModel({chain, shape: good ? shape : null, fault, length, extension: page.extension, angle,
     preview: Boolean(good), chosen: page.tool === "fault" ? nodeOf(page.chosen) : -1});
   section.drawAxes(length);
   section.drawPicks(picks, faultPoints);
   section.drawHandles(handlesNow(good ? shape : null, chain), page.chosen);
-  if (good) showKinematics(chain, length);
+  if (good) showKinematics(chain, length, angle, fault);
 }
 
 const nodeOf = key => key.startsWith("node ") ? Number(key.slice(5)) : -1;
@@ -153,11 +154,11 @@ function tellChosen() {
   } else tell(page.state.scene.stretching ? "This scene has a flat base that stretches: there is no detachment to draw." : "");
 }
 
-function showKinematics(chain, length) {
-  const {extension} = page, angle = Number($("angle").value);
+function showKinematics(chain, length, angle, fault) {
+  const {extension} = page;
   $("extension_told").textContent = km(extension, 1);
   $("angle_told").textContent = `${angle}°`;
-  const found = extension > 0 ? predictKinematics(chain, extension, angle, length + extension) : null;
+  const found = extension > 0 ? predictKinematics(chain, extension, angle, length + extension, fault) : null;
   page.kinematics = found;
   const rows = [["Tilt of the head block", found?.tilt != null ? `${found.tilt.toFixed(1)}°` : "-"],
     ["Cutoff of the pre-rift top", found?.cutoff ? `x ${km(found.cutoff.x)}, depth ${km(found.cutoff.depth)}` : "-"],
@@ -174,58 +175,82 @@ function duration(s) {
 
 const about = new Intl.NumberFormat("en", {maximumSignificantDigits: 3});
 
+/** Makes a table's rows when there are others than before; else they stay, and with them the focus. */
+function keepRows(table, signature, make) {
+  if (table.dataset.rows === signature) return;
+  table.dataset.rows = signature;
+  table.replaceChildren(...make());
+}
+
+const headOf = names => element("tr", {}, ...names.map(text => element("th", {}, text)));
+const cells = count => Array.from({length: count}, () => element("td", {className: "number"}));
+
 function showCost() {
   const {scene} = page.state, table = $("cost"), now = scene.accuracy ?? "standard";
-  const head = element("tr", {}, ...["Accuracy", "Mean radius", "Discs", "at the end", "Time"].map(text => element("th", {}, text)));
-  const rows = facts.levels.map(level => {
-    const other = structuredClone(scene), here = level.name === now;
+  keepRows(table, "levels", () => [headOf(["Accuracy", "Radius", "Discs", "At the end", "Time"]), ...facts.levels.map(({name}) => {
+    const radio = element("input", {type: "radio", name: "accuracy", value: name});
+    radio.onchange = () => change("", state => { state.scene.accuracy = name; });
+    return element("tr", {}, element("td", {}, element("label", {}, radio, ` ${name}`)), ...cells(4));
+  })]);
+  facts.levels.forEach((level, k) => {
+    const here = level.name === now, row = table.rows[k + 1], other = structuredClone(scene);
     other.accuracy = level.name;
-    if (!here) for (const path of ["hanging_wall.mean_radius_m", "extension.speed_m_per_s"]) if (schemaAt(other, path)) setAt(other, path, undefined);
-    if (!here && other.hanging_wall) delete other.hanging_wall.mean_radius_m;
-    if (!here && other.extension) delete other.extension.speed_m_per_s;
-    const cost = page.chain ? predictCost(facts, schema, other) : null;
+    if (!here) delete other.hanging_wall?.mean_radius_m;
+    if (!here) delete other.extension?.speed_m_per_s;
+    const cost = page.chain ? predictCost(facts, schema, other) : null, radius = Number(valueAt(facts, schema, other, "hanging_wall.mean_radius_m"));
     if (here) page.cost = cost;
-    const radius = Number(valueAt(facts, schema, other, "hanging_wall.mean_radius_m"));
-    const radio = element("input", {type: "radio", name: "accuracy", checked: here});
-    radio.onchange = () => change("accuracy", state => { state.scene.accuracy = level.name; });
+    row.className = here ? "chosen" : "";
+    row.querySelector("input").checked = here;
     const numbers = cost ? [about.format(cost.discs), about.format(cost.discsAtEnd), duration(cost.seconds)] : ["-", "-", "-"];
-    return element("tr", {className: here ? "chosen" : ""}, element("td", {}, element("label", {}, radio, ` ${level.name}`)),
-      ...[`${Number(radius.toPrecision(4))} m`, ...numbers].map(text => element("td", {className: "number"}, text)));
+    [`${Number(radius.toPrecision(4))} m`, ...numbers].forEach((text, column) => { row.cells[column + 1].textContent = text; });
   });
-  table.replaceChildren(head, ...rows);
-  const threads = facts.speeds.threads;
+  const threads = facts.speeds.threads, speed = speedAt(facts.speeds, page.cost?.discs ?? 1e4, false).team / 1e6;
   $("cost_note").textContent = `On the machine that wrote this page, with ${threads} ${threads === 1 ? "thread" : "threads"} when nothing else runs ` +
-    `(${about.format(speedAt(facts.speeds, page.cost?.discs ?? 1e4, false).team / 1e6)} million disc-steps per second). Elsewhere: listric explain.`;
+    `(${about.format(speed)} million disc-steps per second). Elsewhere: listric explain.`;
 }
 
 function showPieces() {
   const shape = shapeNow(), table = $("pieces"), chain = page.chain;
   if (!shape || !chain) {
-    table.replaceChildren();
+    keepRows(table, "none", () => []);
     return;
   }
-  const head = element("tr", {}, ...["", "Piece", "Radius or length, m", "Dip from, °", "to, °", "Ends at x, km", "depth, km"].map(text => element("th", {}, text)));
-  const rows = shape.pieces.map((piece, k) => {
-    const number = (value, label, make, readOnly = false) => {
-      const input = element("input", {type: "text", inputMode: "decimal", value: String(Number(value.toFixed(2))), readOnly, disabled: readOnly});
-      input.setAttribute("aria-label", `${label} of piece ${k + 1}`);
-      input.onchange = () => typePiece(input, k, make);
-      return element("td", {}, input);
-    };
-    const isLast = k === lastSloping(shape), isTurned = k === 0 || "startDip" in piece;
-    const choose = element("button", {title: `Choose piece ${k + 1}`}, String(k + 1));
-    choose.onclick = () => chooseHandle(`node ${k}`, true);
-    return element("tr", {className: page.chosen === `node ${k}` ? "chosen" : ""}, element("td", {}, choose), element("td", {}, piece.kind),
-      number(piece.radius ?? piece.length, piece.kind === "arc" ? "Radius" : "Length", (next, x) => { next.pieces[k][piece.kind === "arc" ? "radius" : "length"] = x; }),
-      isTurned ? number(chain[k].startDip, "First dip", (next, x) => {
-        if (k === 0) next.startDip = x;
-        if (k > 0 || "startDip" in next.pieces[0]) next.pieces[k].startDip = x;
-      }) : element("td", {className: "number"}, chain[k].startDip.toFixed(2)),
-      piece.kind === "arc" && !isLast ? number(piece.endDip, "Last dip", (next, x) => { next.pieces[k].endDip = x; })
-        : element("td", {className: "number"}, chain[k].endDip.toFixed(2)),
-      element("td", {className: "number"}, (chain[k].end.x / 1000).toFixed(2)), element("td", {className: "number"}, (-chain[k].end.y / 1000).toFixed(2)));
+  const last = lastSloping(shape);
+  keepRows(table, JSON.stringify([last, ...shape.pieces.map(piece => [piece.kind, "startDip" in piece])]), () =>
+    [headOf(["", "Piece", "Radius or length, m", "Dip, °", "", "Ends at x, km", "depth, km"]), ...shape.pieces.map((piece, k) => rowOfPiece(piece, k, last))]);
+  const put = (cell, value) => {
+    const field = cell.querySelector("input"), text = String(Number(value.toFixed(2)));
+    if (!field) cell.lastChild.textContent = text;
+    else if (field.value !== text) field.value = text;
+    field?.setAttribute("aria-invalid", false);
+  };
+  shape.pieces.forEach((piece, k) => {
+    const row = table.rows[k + 1], {startDip, endDip, end} = chain[k];
+    row.className = page.chosen === `node ${k}` ? "chosen" : "";
+    put(row.cells[2], piece.radius ?? piece.length);
+    put(row.cells[3], startDip);
+    if (piece.kind === "arc") put(row.cells[4], endDip);
+    [end.x, -end.y].forEach((x, column) => { row.cells[5 + column].textContent = (x / 1000).toFixed(2); });
   });
-  table.replaceChildren(head, ...rows);
+}
+
+function rowOfPiece(piece, k, last) {
+  const number = (label, broad, make) => {
+    const input = element("input", {type: "text", inputMode: "decimal", className: broad ? "broad" : ""});
+    input.setAttribute("aria-label", `${label} of piece ${k + 1}`);
+    input.onchange = () => typePiece(input, k, make);
+    return input;
+  };
+  const choose = element("button", {title: `Choose piece ${k + 1}`}, String(k + 1)), text = () => document.createTextNode("");
+  choose.onclick = () => chooseHandle(`node ${k}`, true);
+  const from = k === 0 || "startDip" in piece ? number("First dip", false, (next, x) => {
+    if (k === 0) next.startDip = x;
+    if (k > 0 || "startDip" in next.pieces[0]) next.pieces[k].startDip = x;
+  }) : text();
+  const to = piece.kind === "line" ? [] : ["to ", k === last ? text() : number("Last dip", false, (next, x) => { next.pieces[k].endDip = x; })];
+  const size = number(piece.kind === "arc" ? "Radius" : "Length", true, (next, x) => { next.pieces[k][piece.kind === "arc" ? "radius" : "length"] = x; });
+  return element("tr", {}, element("td", {}, choose), element("td", {}, piece.kind), element("td", {}, size),
+    element("td", {className: "number"}, from), element("td", {className: "number"}, ...to), ...cells(2));
 }
 
 /** A number that is typed into the table of pieces. */
@@ -239,27 +264,30 @@ function typePiece(input, k, make) {
 }
 
 function showLines() {
-  const rows = [];
-  for (const kind of ["horizons", "faults"])
-    page.state.picks[kind].forEach((line, index) => {
-      const here = page.line?.kind === kind && page.line.index === index;
-      const radio = element("input", {type: "radio", name: "line", checked: here});
-      radio.setAttribute("aria-label", `Draw ${line.name}`);
-      radio.onchange = () => { page.line = {kind, index}; showAll(); };
-      const name = element("input", {type: "text", className: "name", value: line.name});
-      name.setAttribute("aria-label", `Name of ${line.name}`);
-      name.onchange = () => change("", state => nameLine(state, kind, index, name.value));
-      const age = element("input", {type: "text", inputMode: "decimal", value: line.age_a === undefined ? "" : String(line.age_a / 1e6)});
-      age.setAttribute("aria-label", `Age of ${line.name}, million years before the end of extension`);
-      age.onchange = () => change("", state => ageLine(state, kind, index, age));
-      const drop = element("button", {}, "Remove");
-      drop.setAttribute("aria-label", `Remove ${line.name}`);
-      drop.onclick = () => change("", state => { state.picks[kind].splice(index, 1); page.line = null; });
-      rows.push(element("tr", {className: here ? "chosen" : ""}, element("td", {}, radio), element("td", {}, kind === "faults" ? "fault" : "horizon"),
-        element("td", {}, name), element("td", {}, kind === "faults" ? "" : age), element("td", {className: "number"}, String(line.x_m.length)), element("td", {}, drop)));
-    });
-  const head = element("tr", {}, ...["", "Kind", "Name", "Age before the end, Myr", "Points", ""].map(text => element("th", {}, text)));
-  $("lines").replaceChildren(...(rows.length ? [head, ...rows] : []));
+  const {picks} = page.state, table = $("lines"), all = ["horizons", "faults"].flatMap(kind => picks[kind].map((line, index) => ({kind, index, line})));
+  keepRows(table, all.map(({kind}) => kind).join(), () => all.length
+    ? [headOf(["", "Kind", "Name", "Age before the end, Myr", "Points", ""]), ...all.map(({kind, index}) => rowOfLine(kind, index))] : []);
+  all.forEach(({kind, index, line}, k) => {
+    const row = table.rows[k + 1], here = page.line?.kind === kind && page.line.index === index, [radio, name, age] = row.querySelectorAll("input");
+    row.className = here ? "chosen" : "";
+    radio.checked = here;
+    name.value = line.name;
+    if (age) age.value = line.age_a === undefined ? "" : String(line.age_a / 1e6);
+    row.cells[4].textContent = line.x_m.length;
+    for (const [part, label] of [[radio, "Draw"], [name, "Name of"], [age, "Age, million years before the end of extension, of"], [row.cells[5].firstChild, "Remove"]])
+      part?.setAttribute("aria-label", `${label} ${line.name}`);
+  });
+}
+
+function rowOfLine(kind, index) {
+  const radio = element("input", {type: "radio", name: "line"}), name = element("input", {type: "text", className: "name"});
+  const age = element("input", {type: "text", inputMode: "decimal"}), drop = element("button", {}, "Remove");
+  radio.onchange = () => { page.line = {kind, index}; showAll(); };
+  name.onchange = () => change("", state => nameLine(state, kind, index, name.value));
+  age.onchange = () => change("", state => ageLine(state, kind, index, age));
+  drop.onclick = () => change("", state => { state.picks[kind].splice(index, 1); page.line = null; });
+  return element("tr", {}, element("td", {}, radio), element("td", {}, kind === "faults" ? "fault" : "horizon"), element("td", {}, name),
+    element("td", {}, kind === "faults" ? "" : age), ...cells(1), element("td", {}, drop));
 }
 
 function nameLine(state, kind, index, name) {
@@ -292,8 +320,8 @@ function showReferences() {
     host.replaceChildren();
     return;
   }
-  host.replaceChildren(...picture.points.flatMap((p, k) => ["x", "depth"].map(key => {
-    const input = element("input", {type: "text", inputMode: "decimal", value: String(Number(p[key].toFixed(1))), size: 8, id: `reference_${"ab"[k]}_${key}`});
+  if (!host.childNodes.length) host.append(...[0, 1].flatMap(k => ["x", "depth"].map(key => {
+    const input = element("input", {type: "text", inputMode: "decimal", size: 8, id: `reference_${"ab"[k]}_${key}`});
     input.onchange = () => {
       const {value} = valueOf(input.value, {type: "number"});
       input.setAttribute("aria-invalid", typeof value !== "number");
@@ -301,6 +329,7 @@ function showReferences() {
     };
     return element("label", {}, `${"AB"[k]}: ${key}, m `, input);
   })));
+  picture.points.forEach((p, k) => ["x", "depth"].forEach(key => { $(`reference_${"ab"[k]}_${key}`).value = Number(p[key].toFixed(1)); }));
   const corners = cornersOf(picture).map(x => x.toFixed(0)).join(",");
   $("corners").textContent = `Later, over the run: listric figures DIR --underlay ${picture.name} --corners ${corners}`;
 }
@@ -834,7 +863,8 @@ async function begin() {
     defaultOf: path => path.includes(".") ? defaultAt(facts, schema, page.state.scene, path) : schemaAt(schema, path)?.default});
   readScene(facts.toml, `${facts.scene}.toml`, facts.observed, facts.fault_points || null);
   const {distance} = settings();
-  $("extension").max = $("extension").value = page.extension = distance;
+  $("extension").max = distance;
+  $("extension").value = page.extension = distance;
   if (window.innerWidth < 640) $("height").value = "2";
   page.section.view.height = Number($("height").value);
   addListeners();

@@ -107,7 +107,7 @@ class Section {
   }
 
   /** Detachment, rock on both sides of it, and the preview. */
-  drawModel({chain, shape, length, extension, angle, preview, chosen}) {
+  drawModel({chain, shape, fault, length, extension, angle, preview, chosen}) {
     const line = chain.flatMap(segment => this.pointsOf(segment)), bottom = this.metres(0, this.host.clientHeight + 10).y;
     const left = this.metres(-10, 0).x, wall = length + (preview ? extension : 0), right = this.metres(this.width + 10, 0).x;
     this.fault.setAttribute("d", this.path(line));
@@ -123,7 +123,7 @@ class Section {
       hit.dataset.piece = k;
       hit.setAttribute("d", this.path(this.pointsOf(chain[k])));
     });
-    this.drawPreview(preview && extension > 0 ? {chain, extension, angle, wall} : null);
+    this.drawPreview(preview && extension > 0 ? {chain, fault, extension, angle, wall} : null);
   }
 
   /** Sediment that kept the basin full, in strata of equal age, and the pre-rift top. */
@@ -132,19 +132,19 @@ class Section {
       for (const path of [...this.strata, this.pre, this.top]) path.setAttribute("d", "");
       return;
     }
-    const {chain, extension, angle, wall} = basin, fault = new ShearCoordinate(chain, Math.tan(angle * degree));
+    const {chain, fault, extension, angle, wall} = basin, step = Math.max(spacing, 3 / this.view.scale); // three pixels
     const exposed = slip => this.pointsOfChain(chain, slip);
     let below = null;
     for (let k = 0; k <= strataCount; ++k) {
       const slip = extension * (1 - k / strataCount);
-      const top = k === strataCount ? [{x: 0, y: 0}, {x: wall, y: 0}] : [...exposed(slip), ...inclinedShearTop(chain, slip, angle, wall, fault)];
+      const before = exposed(slip), top = k === strataCount ? [{x: 0, y: 0}, {x: wall, y: 0}] : [...before, ...inclinedShearTop(chain, slip, angle, wall, fault, step)];
       if (k > 0) this.strata[k - 1].setAttribute("d", this.path([...below, ...top.slice().reverse()], true));
-      else this.top.setAttribute("d", this.path(top.slice(exposed(slip).length)));
+      else this.top.setAttribute("d", this.path(top.slice(before.length)));
       below = top;
     }
     const depth = -chain.at(-1).end.y;
     this.pre.setAttribute("d", [0.2, 0.4, 0.6, 0.8].map(share =>
-      this.path(inclinedShearTop(chain, extension, angle, wall, fault, -share * depth))).join(""));
+      this.path(inclinedShearLayer(extension, angle, wall, fault, share * depth, 4 * step))).join(""));
   }
 
   /** The detachment from the breakaway to an arc length. */
@@ -171,6 +171,7 @@ class Section {
     for (const kind of ["horizons", "faults"])
       for (const line of lines[kind]) {
         const points = line.x_m.map((x, k) => ({x, y: -line.depth_m[k]}));
+        svg("path", {class: "pick-halo", d: this.path(points)}, this.picks);
         svg("path", {class: `pick-line ${kind === "faults" ? "of-fault" : ""}`, d: this.path(points)}, this.picks);
         if (points.length) {
           const [x, y] = this.px(points.at(-1).x, -points.at(-1).y);
