@@ -322,19 +322,21 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
     if (picture)
         data["picture"] = picture_json(*picture);
     const fs::path folder = resource_folder() / "figures/draw";
-    std::string scripts;
-    for (const char* script : {"toml.js", "schema.js", "geometry.js", "kinematics.js", "cost.js"})
-        scripts += read_text(folder / script);
-    std::string page;
-    for (const char* script : {"section.js", "forms.js", "page.js"})
-        page += read_text(folder / script);
-    return filled_page(read_text(folder / "draw.html"),
-                       {{"style", read_text(folder / "draw.css")},
-                        {"vocabulary", as_data(to_text(vocabulary()))},
-                        {"schema", as_data(to_text(schema_of(effects)))},
-                        {"data", as_data(to_text(data))},
-                        {"model", as_script(scripts)},
-                        {"page", as_script(page)}});
+    const auto joined = [&](std::initializer_list<const char*> names) {
+        std::string scripts;
+        for (const char* script : names)
+            scripts += read_text(folder / script);
+        return as_script(scripts);
+    };
+    return filled_page(
+        read_text(folder / "draw.html"),
+        {{"style", read_text(folder / "draw.css")},
+         {"vocabulary", as_data(to_text(vocabulary()))},
+         {"schema", as_data(to_text(schema_of(effects)))},
+         {"data", as_data(to_text(data))},
+         {"model", joined({"toml.js", "schema.js", "geometry.js", "kinematics.js", "cost.js"})},
+         {"page", joined({"section.js", "forms.js", "state.js", "tables.js", "gestures.js",
+                          "files.js", "page.js"})}});
 }
 
 } // namespace listric

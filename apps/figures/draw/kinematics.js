@@ -55,8 +55,9 @@ function inclinedShearLayer(extension, angle, right, fault, depth, step) {
   for (let u = extension; u <= right + 2 * depth * Math.abs(tangent) + extension; u += step) {
     if (-depth < fault.height(u - extension)) continue; // in the footwall
     const y = fault.height(u) - fault.height(u - extension) - depth;
-    line.push({x: u + y * tangent, y});
-    if (line.at(-1).x > right) break;
+    const x = u + y * tangent;
+    if (x > right) break;
+    line.push({x, y});
   }
   return line;
 }

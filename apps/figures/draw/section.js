@@ -1,3 +1,4 @@
+"use strict";
 // The section: an SVG whose nodes, picks and reference points are elements that take the focus.
 
 const dataOf = id => JSON.parse(document.getElementById(id).textContent);
@@ -38,9 +39,14 @@ class Section {
     this.picks = svg("g", {}, this.layers.lines);
     this.view = {left: 0, top: 0, scale: 1, height: 1};
     this.handles = [];
+    this.measure();
   }
 
-  get width() { return this.host.clientWidth; }
+  /** Sizes are read when they may have changed, since reading them lays the page out. */
+  measure() {
+    this.width = this.host.clientWidth;
+    this.height = this.host.clientHeight;
+  }
 
   px(x, depth) { return [(x - this.view.left) * this.view.scale, (depth - this.view.top) * this.view.scale * this.view.height]; }
   metres(column, row) { return {x: this.view.left + column / this.view.scale, y: -(this.view.top + row / this.view.scale / this.view.height)}; }
@@ -52,6 +58,7 @@ class Section {
 
   /** The view that holds everything, at the host's width. */
   showWhole(length, thickness) {
+    this.measure();
     const margin = 0.04 * length, width = this.width;
     this.view.scale = width / (length + 2.4 * margin);
     this.view.left = -1.4 * margin;
@@ -59,9 +66,10 @@ class Section {
     this.view.top = -above - 0.03 * thickness;
     const height = (above + 1.12 * thickness + below) * this.view.scale * this.view.height;
     this.host.style.height = `${Math.round(Math.min(Math.max(height, 200), window.innerHeight * 0.72))}px`;
+    this.measure();
   }
 
-  zoom(factor, centre = {column: this.width / 2, row: this.host.clientHeight / 2}) {
+  zoom(factor, centre = {column: this.width / 2, row: this.height / 2}) {
     const at = this.metres(centre.column, centre.row);
     this.view.scale *= factor;
     this.view.left = at.x - centre.column / this.view.scale;
@@ -79,7 +87,9 @@ class Section {
   }
 
   drawAxes(length) {
-    const {clientWidth: width, clientHeight: height} = this.host, {view} = this;
+    const {width, height, view} = this, drawn = JSON.stringify([width, height, view, length]);
+    if (drawn === this.drawnAxes) return;
+    this.drawnAxes = drawn;
     const step = (metresPerPixel, least) => {
       const rough = metresPerPixel * least, power = 10 ** Math.floor(Math.log10(rough));
       return power * [1, 2, 5, 10].find(k => k * power >= rough);
@@ -108,7 +118,7 @@ class Section {
 
   /** Detachment, rock on both sides of it, and the preview. */
   drawModel({chain, shape, fault, length, extension, angle, preview, chosen}) {
-    const line = chain.flatMap(segment => this.pointsOf(segment)), bottom = this.metres(0, this.host.clientHeight + 10).y;
+    const line = chain.flatMap(segment => this.pointsOf(segment)), bottom = this.metres(0, this.height + 10).y;
     const left = this.metres(-10, 0).x, wall = length + (preview ? extension : 0), right = this.metres(this.width + 10, 0).x;
     this.fault.setAttribute("d", this.path(line));
     this.footwall.setAttribute("d", this.path([{x: left, y: 0}, {x: 0, y: 0}, ...line, {x: right, y: line.at(-1).y}, {x: right, y: bottom}, {x: left, y: bottom}], true));
@@ -175,7 +185,7 @@ class Section {
         svg("path", {class: `pick-line ${kind === "faults" ? "of-fault" : ""}`, d: this.path(points)}, this.picks);
         if (points.length) {
           const [x, y] = this.px(points.at(-1).x, -points.at(-1).y);
-          svg("text", {x: x + 6, y: y - 5}, this.picks).textContent = line.name;
+          svg("text", x > this.width - 150 ? {x: x - 6, y: y - 7, "text-anchor": "end"} : {x: x + 6, y: y - 5}, this.picks).textContent = line.name;
         }
       }
     if (faultPoints) faultPoints.x_m.forEach((x, k) => {
