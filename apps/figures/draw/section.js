@@ -184,8 +184,8 @@ class Section {
         svg("path", {class: "pick-halo", d: this.path(points)}, this.picks);
         svg("path", {class: `pick-line ${kind === "faults" ? "of-fault" : ""}`, d: this.path(points)}, this.picks);
         if (points.length) {
-          const [x, y] = this.px(points.at(-1).x, -points.at(-1).y);
-          svg("text", x > this.width - 150 ? {x: x - 6, y: y - 7, "text-anchor": "end"} : {x: x + 6, y: y - 5}, this.picks).textContent = line.name;
+          const [x, y] = this.px(points[0].x, -points[0].y), isLeft = x < 150;
+          svg("text", {x: isLeft ? x + 2 : x - 8, y: isLeft ? y - 8 : y + 4, "text-anchor": isLeft ? "start" : "end"}, this.picks).textContent = line.name;
         }
       }
     if (faultPoints) faultPoints.x_m.forEach((x, k) => {
