@@ -305,6 +305,7 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
     add_own_rocks(rocks, scene);
     Json data{{"program", "listric " + std::string(version)},
               {"scene", scene.name},
+              {"on_shelf", !is_path(name)},
               {"toml", scene_text(scene, path, effects)},
               {"basement", basement_source.key},
               {"rocks", rocks},

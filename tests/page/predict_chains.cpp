@@ -1,6 +1,6 @@
-// Geometry and kinematics of detachments: a JSON list of {start_dip, pieces, length, extension, angle}
-// on standard input, an answer for each on standard output. tests/regression/draw_test.py compares the
-// drawing page with them.
+// Geometry and kinematics of detachments: a JSON list of {start_dip, pieces, length, extension,
+// angle} on standard input, an answer for each on standard output.
+// tests/regression/draw_test.py compares the drawing page with them.
 
 #include "apps/measures/kinematics.hpp"
 #include "dem/genesis/detachment.hpp"

@@ -434,7 +434,7 @@ class Draw(unittest.TestCase):
         controls = self.script("return [...document.querySelectorAll('button, select, input, textarea, summary, .handle')].filter(e =>"
                                "!e.disabled && e.checkVisibility() && (e.type !== 'radio' || e.checked))"
                                ".map(e => e.dataset.n = String(Math.random()));")
-        reached, body = set(), self.driver.find_element("tag name", "body")
+        reached = set()
         for _ in range(len(controls) + 40):
             ActionChains(self.driver).send_keys(Keys.TAB).perform()
             reached.add(self.driver.execute_script("return document.activeElement.dataset.n"))
@@ -491,7 +491,34 @@ class Draw(unittest.TestCase):
         self.assertEqual(self.text("title"), hostile)
         self.assertEqual(self.driver.find_elements("tag name", "img"), [])
 
-    def test_14_files_of_others_stay(self):
+    def test_14_odd_files_are_told_of(self):
+        self.open()
+        before = self.scene()
+        bad = self.folder / "bad.toml"
+        for text, why in (("[hanging_wall]\nlength_m = 4\n[detachment]\nsegments = [{arc = 3}, 5]\nfrction = 1\n", r"line 5: detachment.frction: unknown key, did you mean friction\?"),
+                          ("[hanging_wall]\nx = ]\n", None), ("[hanging_wall]\n[detachment]\ncsv = 'fault.csv'\n[gravity]\n", "Correct"),
+                          ("seed = 1.0\n[hanging_wall]\n[stretching]\n", "seed: wrong type")):
+            bad.write_text(text)
+            self.read_into_page(bad)
+            if why:
+                self.assertRegex(self.text("state"), why)
+            else:
+                self.assertIn("bad.toml:2: ", self.text("told"))
+        self.script("document.getElementById('at_seed').value = '2'; page.forms.take('seed'); return 0;")
+        self.assertIn("Correct", self.text("state"))
+        points = self.folder / "fault.csv"
+        points.write_text("x_m;depth_m\n0;0\n100;1900\n\n# end\n")
+        self.read_into_page(points)
+        self.assertEqual(self.script("return page.state.faultPoints;"), {"x_m": [0, 100], "depth_m": [0, 1900]})
+        points.write_text("x_m,depth_km\n0,0\n")
+        self.read_into_page(points)
+        self.assertIn("did you mean depth_km?", self.text("told"))
+        for _ in range(10):
+            self.script("$('undo').click(); return 0;")
+        self.assertEqual(self.scene(), before)
+        self.assertIn("lis1.toml", self.text("subtitle"))
+
+    def test_15_files_of_others_stay(self):
         other = self.folder / "mine.html"
         other.write_text("<!DOCTYPE html>\nmine")
         ended = listric("draw", "-o", other)

@@ -11,11 +11,8 @@ function readScene(text, name, picks = {horizons: [], faults: []}, faultPoints =
     return false;
   }
   const scene = read.document, {shift, asked, lines} = takePicks(scene);
-  page.floats = read.floats;
   page.lines = read.lines;
-  page.file = name;
-  page.asked = {...asked, shift};
-  page.state = {...page.state, scene, picks: {horizons: [...picks.horizons, ...lines.horizons], faults: [...picks.faults, ...lines.faults]}, faultPoints};
+  page.state = {...page.state, scene, file: name, floats: read.floats, asked: {...asked, shift}, picks: {horizons: [...picks.horizons, ...lines.horizons], faults: [...picks.faults, ...lines.faults]}, faultPoints};
   return true;
 }
 
@@ -31,7 +28,7 @@ function takePicks(scene) {
 }
 
 function missingFiles() {
-  const {asked, state} = page, table = state.scene.detachment, names = Object.values(asked || {}).filter(name => typeof name === "string");
+  const {asked, scene} = page.state, table = scene.detachment, names = Object.values(asked).filter(name => typeof name === "string");
   if (table?.csv || table?.svg) names.push(table.csv || table.svg);
   return names;
 }
@@ -65,7 +62,7 @@ function picksIn(text, name, shift) {
 }
 
 function takeCsv(text, name) {
-  const asked = page.asked || {}, {lines, hasNames} = picksIn(text, name, asked.shift || 0);
+  const {asked} = page.state, {lines, hasNames} = picksIn(text, name, asked.shift || 0);
   if (!hasNames) {
     change("", state => { state.faultPoints = {x_m: lines[0].x_m, depth_m: lines[0].depth_m}; });
     tell(`${name}: ${lines[0].x_m.length} points, drawn as dots. Drag the nodes onto them.`);
@@ -76,8 +73,8 @@ function takeCsv(text, name) {
   change("", state => {
     state.picks[kind] = [...state.picks[kind].filter(old => !lines.some(line => line.name === old.name)), ...lines];
     page.line = {kind, index: state.picks[kind].length - 1};
+    delete state.asked[kind];
   });
-  delete asked[kind];
   setTool("picks");
   tell(`${name}: ${lines.length} ${kind}.`);
 }
@@ -92,12 +89,12 @@ function readPicture(file) {
   });
 }
 
-function takePicture(picture, corners) {
+/** Lays a picture under the section; without corners over all of its width. */
+function takePicture(state, picture, corners) {
   const {length, distance} = settings(), width = length + distance;
   const [x0, z0, x1, z1] = corners || [0, 0, width, width * picture.height / picture.width];
   page.pictureImage = picture;
-  page.state.picture = [{px: 0, py: 0, x: x0, depth: z0}, {px: picture.width, py: picture.height, x: x1, depth: z1}];
-  setTool("picture");
+  state.picture = [{px: 0, py: 0, x: x0, depth: z0}, {px: picture.width, py: picture.height, x: x1, depth: z1}];
 }
 
 async function takeFiles(files) {
@@ -107,18 +104,19 @@ async function takeFiles(files) {
       if (order(file) === 0) takeSceneFile(await file.text(), file.name);
       else if (order(file) === 1) takeCsv(await file.text(), file.name);
       else if (/\.svg$/i.test(file.name)) tell(`${file.name}: a drawing is fitted by the program: listric draw my.toml with svg = "${file.name}"`);
-      else takePicture(await readPicture(file));
+      else {
+        const picture = await readPicture(file);
+        change("", state => takePicture(state, picture));
+        setTool("picture");
+      }
     } catch (error) {
       tell(error.message);
     }
 }
 
 function takeSceneFile(text, name) {
-  const before = copyState(page.state), old = {floats: page.floats, lines: page.lines, file: page.file};
-  if (!readScene(text, name)) {
-    Object.assign(page, old);
-    return;
-  }
+  const before = copyState(page.state);
+  if (!readScene(text, name)) return;
   const after = page.state;
   page.state = before;
   page.chosen = "";
@@ -140,12 +138,12 @@ function sceneText() {
   if (horizons.some(line => line.x_m.length)) observed.horizons = `${name}-horizons.csv`;
   if (faults.some(line => line.x_m.length)) observed.faults = `${name}-faults.csv`;
   if (Object.keys(observed).length && scene.detachment?.shift_x_m) observed.shift_x_m = 0;
-  for (const kind of ["horizons", "faults"]) observed[kind] ??= page.asked?.[kind]; // a file that nobody has dropped
+  for (const kind of ["horizons", "faults"]) observed[kind] ??= page.state.asked[kind]; // a file that nobody has dropped
   if (observed.horizons || observed.faults) scene.observed = JSON.parse(JSON.stringify(observed));
   return `# Drawn with ${facts.program}.\n\n${writeToml(scene, schema)}`;
 }
 
-function baseName() { return (page.state.scene.name || page.file.replace(/\.toml$/i, "") || "drawn").replace(/[^\w.-]+/g, "-"); }
+function baseName() { return (page.state.scene.name || page.state.file.replace(/\.toml$/i, "") || "drawn").replace(/[^\w.-]+/g, "-"); }
 
 function picksText(lines, withAges) {
   const quoted = text => /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;

@@ -7,9 +7,11 @@ const leastLength = 10;     // of a line and radius of an arc, m
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
-/** {startDip, pieces} of a scene's [detachment]; null: it has none. */
+/** {startDip, pieces} of a scene's [detachment]; null: it has none, or none that can be drawn. */
 function shapeOf(table) {
-  if (!table || !Array.isArray(table.segments)) return null;
+  const isPiece = segment => Object.entries(segment || {}).every(([kind, given], k) => k === 0 && (kind === "arc" || kind === "line") &&
+    typeof given === "object" && Number(given.radius_m ?? given.length_m) > 0) && Object.keys(segment || {}).length === 1;
+  if (!table || !Array.isArray(table.segments) || !table.segments.length || !table.segments.every(isPiece)) return null;
   return {startDip: Number(table.start_dip_deg ?? 90), pieces: table.segments.map(segment => {
     const [[kind, given]] = Object.entries(segment);
     const piece = kind === "arc" ? {kind, radius: Number(given.radius_m), endDip: Number(given.end_dip_deg ?? 0)}

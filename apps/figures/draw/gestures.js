@@ -162,7 +162,8 @@ function pressKey(event) {
     page.chosen = name;
     nudge(name, handle, arrow.map(x => x * step));
     event.preventDefault();
-  } else if (key === "delete" || key === "backspace") removeHere();
+  } else if (!event.target.closest?.("#section") && event.target !== document.body) return;
+  else if (key === "delete" || key === "backspace") removeHere();
   else if (key === "a" || key === "insert") addHere();
   else if (key === "0") showWhole();
   else if (key === "+" || key === "-") zoom(key === "+" ? 1.25 : 0.8);

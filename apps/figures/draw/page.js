@@ -24,7 +24,7 @@ function setByText(path, value, names, final) {
   const why = objectionTo(schema, path, value);
   if (why) return why;
   if (!final) return "Enter sets it";
-  change("", state => setAt(state.scene, path, valueOf(value, schemaAt(schema, path)).value));
+  change("", state => setAt(state, path, valueOf(value, schemaAt(schema, path)).value));
   return `${path} is set`;
 }
 
@@ -102,13 +102,14 @@ function addFileDrop() {
 async function begin() {
   page.section = new Section($("section"));
   page.forms = new Forms($("forms"), schema, {
-    change: (path, value, why) => why ? showState() : change("", state => setAt(state.scene, path, value)),
+    change: (path, value, why) => why ? showState() : change("", state => setAt(state, path, value)),
     toggle: (name, isOn) => change("", state => {
       if (isOn) state.scene[name] ??= {};
       else delete state.scene[name];
     }),
     defaultOf: path => path.includes(".") ? defaultAt(facts, schema, page.state.scene, path) : schemaAt(schema, path)?.default});
   readScene(facts.toml, `${facts.scene}.toml`, facts.observed, facts.fault_points || null);
+  page.description = facts.on_shelf ? page.state.scene.description : null; // which will not fit what is drawn
   const {distance} = settings();
   $("extension").max = distance;
   $("extension").value = page.extension = distance;
@@ -119,8 +120,8 @@ async function begin() {
     const {image, name, corners_m: corners} = facts.picture, shown = new Image();
     shown.src = image;
     await shown.decode();
-    takePicture({image, name, width: shown.naturalWidth, height: shown.naturalHeight}, corners);
-    if (corners) setTool("fault");
+    takePicture(page.state, {image, name, width: shown.naturalWidth, height: shown.naturalHeight}, corners);
+    if (!corners) setTool("picture");
   }
   showAll();
   showWhole();

@@ -136,6 +136,13 @@ class Section {
     this.drawPreview(preview && extension > 0 ? {chain, fault, extension, angle, wall} : null);
   }
 
+  /** Nothing of a model, where a scene has no base that can be drawn. */
+  clear() {
+    for (const path of [this.fault, this.footwall, this.rock, this.wall, this.chosen]) path.setAttribute("d", "");
+    this.hits.textContent = "";
+    this.drawPreview(null);
+  }
+
   /** Sediment that kept the basin full, in strata of equal age, and the pre-rift top. */
   drawPreview(basin) {
     if (!basin) {

@@ -2,10 +2,11 @@
 
 const facts = dataOf("data"), schema = dataOf("schema");
 
-/** A state is what undo goes back to: the scene's document, picks, and where the picture is. */
+/** A state is what undo goes back to: the scene's document with its file's name, the paths of numbers that were written as
+ * floats and the files of picks that it names; picks, and where the picture is. */
 const page = {
-  state: {scene: {}, picks: {horizons: [], faults: []}, faultPoints: null, picture: null},
-  past: [], future: [], floats: new Set(), file: "", pictureImage: null,
+  state: {scene: {}, file: "", floats: new Set(), asked: {}, picks: {horizons: [], faults: []}, faultPoints: null, picture: null},
+  past: [], future: [], pictureImage: null,
   tool: "fault", chosen: "", line: null, drag: null, extension: 0, lastChange: {},
 };
 
@@ -23,7 +24,7 @@ function change(kind, make) {
   if (!joined) page.past.push(before);
   if (page.past.length > 200) page.past.shift();
   page.future = [];
-  page.saved = false;
+  page.saved = page.fresh = false;
   page.lastChange = {kind, time: now};
   showAll();
 }
@@ -33,11 +34,13 @@ function travel(from, to) {
   to.push(copyState(page.state));
   page.state = from.pop();
   page.lastChange = {};
+  page.fresh = false;
   page.forms.bad.clear();
   showAll();
 }
 
-function setAt(scene, path, value) {
+function setAt({scene, floats}, path, value) {
+  floats.delete(path);
   const [table, key] = path.includes(".") ? path.split(".") : [null, path], inside = table ? scene[table] ??= {} : scene;
   if (value === undefined) delete inside[key];
   else inside[key] = value;
@@ -47,6 +50,7 @@ function setAt(scene, path, value) {
 function putShape(state, shape) {
   Object.assign(state.scene.detachment, tableOf(shape));
   (state.scene.hanging_wall ??= {}).thickness_m = Number(depthOf(shape).toFixed(2));
+  if (state.scene.description === page.description) state.scene.description = `drawn, from ${facts.scene}`;
 }
 
 /** A shape that a node's change made, at the depth that is kept if so asked. */
@@ -66,7 +70,7 @@ function changeShape(kind, make) {
 // -- faults
 
 function faultsNow() {
-  const {scene} = page.state, found = faultsBySchema(schema, scene, page.floats);
+  const {scene, floats} = page.state, found = faultsBySchema(schema, scene, floats);
   const all = found.length ? found : faultsOfWhole(facts, schema, scene);
   const typed = [...page.forms.bad].map(([path, message]) => ({path, message}));
   return [...typed, ...all.filter(fault => !page.forms.bad.has(fault.path))];

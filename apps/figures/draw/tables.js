@@ -8,13 +8,14 @@ function settings() {
 /** Draws the section as it is now; forms and tables stay as they are. */
 function showSection() {
   const {scene, picks, faultPoints} = page.state, {length, distance} = settings(), section = page.section, shape = shapeNow();
-  const good = shape && shape.pieces.length && shape.pieces.every(piece => piece.radius > 0 || piece.length > 0);
+  const good = Boolean(shape) && Number.isFinite(chainOf(shape).at(-1).end.x);
   const chain = (shape ? good && chainOf(shape, 1.5 * (length + 2 * distance)) : baseOf(facts, schema, scene)) || null, angle = Number($("angle").value);
   const fault = good ? new ShearCoordinate(chain, Math.tan(angle * degree)) : null;
   page.chain = chain;
   section.drawPicture(pictureNow(), Number($("opacity").value));
   if (chain) section.drawModel({chain, shape: good ? shape : null, fault, length, extension: page.extension, angle,
     preview: Boolean(good), chosen: page.tool === "fault" ? nodeOf(page.chosen) : -1});
+  else section.clear();
   section.drawAxes(length);
   section.drawPicks(picks, faultPoints);
   section.drawHandles(handlesNow(good ? shape : null, chain), page.chosen);
@@ -271,9 +272,8 @@ function showState() {
 
 function showAll() {
   const {scene, picks} = page.state, {distance} = settings();
-  if (page.lastChange.time) page.fresh = false;
   $("title").textContent = scene.description || "Draw a section";
-  $("subtitle").textContent = `${page.file}${page.past.length ? ", changed" : ""}; ${facts.program}`;
+  $("subtitle").textContent = `${page.state.file}${page.past.length ? ", changed" : ""}; ${facts.program}`;
   $("undo").disabled = !page.past.length;
   $("redo").disabled = !page.future.length;
   $("save_picks").disabled = !picks.horizons.length && !picks.faults.length;
