@@ -62,8 +62,7 @@ ExitCode draw(const DrawCall& call) {
                               : call.file;
     require_own_or_none(file);
     const auto picture = picture_of(call);
-    write_text(file,
-               drawing_html(call.scene, picture, measure_speeds(call.threads), program_effects()));
+    write_text(file, drawing_html(call.scene, picture, call.threads, program_effects()));
     std::cout << file.string() << '\n';
     return ExitCode::done;
 }

@@ -4,6 +4,7 @@
 #include "apps/figures/vocabulary.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/effect_prices.hpp"
+#include "apps/run/prediction.hpp"
 #include "apps/scene/file_names.hpp"
 #include "apps/scene/schema.hpp"
 #include "apps/scene/tables.hpp"
@@ -231,15 +232,20 @@ Json prices_json() {
             {"figures_of_moving_base", p.figures_of_moving_base}};
 }
 
-Json speeds_json(const MachineSpeeds& speeds) {
+Json speed_json(const CycleSpeed& speed) {
+    return {{"team", speed.team}, {"one_thread", speed.one_thread}};
+}
+
+/// Speeds of the bare cycle on this machine by the size of the packing, ascending.
+Json speeds_json(int threads) {
     Json sizes = Json::array();
-    for (const MachineSpeeds::AtSize& at : speeds.by_size)
-        sizes.push_back(
-            {{"discs", at.discs}, {"team", at.speed.team}, {"one_thread", at.speed.one_thread}});
-    return {{"by_size", sizes},
-            {"accounted",
-             {{"team", speeds.accounted.team}, {"one_thread", speeds.accounted.one_thread}}},
-            {"threads", speeds.threads}};
+    for (const int power : {12, 14, 16, 17}) {
+        const std::size_t discs = std::size_t{1} << power;
+        sizes.push_back(speed_json(measure_speed(discs, threads, 0.05, false)));
+        sizes.back()["discs"] = discs;
+    }
+    const CycleSpeed accounted = measure_speed(std::size_t{1} << 13, 1, 0.05, true);
+    return {{"by_size", sizes}, {"accounted", speed_json(accounted)}, {"threads", threads}};
 }
 
 Json levels_json() {
@@ -286,19 +292,8 @@ Json picture_json(const UnderPicture& picture) {
 
 } // namespace
 
-MachineSpeeds measure_speeds(int threads) {
-    MachineSpeeds speeds{.by_size = {}, .accounted = {}, .threads = threads};
-    for (const int power : {11, 13, 15, 17}) {
-        const std::size_t discs = std::size_t{1} << power;
-        speeds.by_size.push_back(
-            {static_cast<double>(discs), measure_speed(discs, threads, 0.1, false)});
-    }
-    speeds.accounted = measure_speed(std::size_t{1} << 13, 1, 0.1, true);
-    return speeds;
-}
-
 std::string drawing_html(const std::string& name, const std::optional<UnderPicture>& picture,
-                         const MachineSpeeds& speeds, EffectList effects) {
+                         int threads, EffectList effects) {
     const fs::path path = scenes.find(name);
     const Scene scene = load_scene({.scene = name}, effects);
     Json rocks = rocks_on_shelf();
@@ -312,7 +307,6 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
               {"levels", levels_json()},
               {"effects", effects_json(effects)},
               {"prices", prices_json()},
-              {"speeds", speeds_json(speeds)},
               {"predicted", predicted_json(scene)}};
     if (scene.observed)
         data["observed"] = {{"horizons", lines_of(scene.observed->horizons)},
@@ -322,6 +316,7 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
                                 {"depth_m", scene.picked_fault->depth}};
     if (picture)
         data["picture"] = picture_json(*picture);
+    data["speeds"] = speeds_json(threads);
     const fs::path folder = resource_folder() / "figures/draw";
     const auto joined = [&](std::initializer_list<const char*> names) {
         std::string scripts;
