@@ -39,7 +39,7 @@ def listric(*words, **options):
 
 def browser(downloads):
     options = Options()
-    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1400,1500"):
+    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1200,1000"):
         options.add_argument(word)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
@@ -127,7 +127,7 @@ class Draw(unittest.TestCase):
         self.script("await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))); return 0;")
 
     def handle(self, key):
-        return self.driver.find_element("css selector", f'.handle[data-key="{key}"]')
+        return self.driver.find_element("css selector", f'.handle[data-key="{key}"] .reach')
 
     def drag(self, key, across, down):
         """Drags a handle by pixels, as a hand does."""
@@ -329,7 +329,7 @@ class Draw(unittest.TestCase):
         numbers = [(table, key) for table, of in SCHEMA["properties"].items() for key, own in of.get("properties", {}).items()
                    if own.get("type") in ("number", "integer")]
         values = [-1, 0, 0.5, 1e9, -1e30, True, "text", [], {}, 3, 90, 1e-9]
-        for _ in range(400):
+        for _ in range(250):
             document = json.loads(json.dumps(chance.choice(scenes)))
             table, key = chance.choice(numbers)
             kind = chance.randrange(5)
@@ -347,8 +347,8 @@ class Draw(unittest.TestCase):
             good = judge.is_valid(document)
             refused += not good
             self.assertEqual(good, not faults, f"{faults}\n{document}")
-        self.assertGreater(refused, 150)
-        self.assertLess(refused, 390)
+        self.assertGreater(refused, 100)
+        self.assertLess(refused, 240)
 
     @unittest.skipUnless(CHAINS, "no LISTRIC_CHAINS")
     def test_08_geometry_and_kinematics_are_the_programs(self):

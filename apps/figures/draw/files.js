@@ -91,10 +91,11 @@ function readPicture(file) {
 
 /** Lays a picture under the section; without corners over all of its width. */
 function takePicture(state, picture, corners) {
-  const {length, distance} = settings(), width = length + distance;
-  const [x0, z0, x1, z1] = corners || [0, 0, width, width * picture.height / picture.width];
+  const {length, distance} = settings(), across = length + distance, {width, height} = picture;
+  const [x0, z0, x1, z1] = corners || [0, 0, across, across * height / width];
   page.pictureImage = picture;
-  state.picture = [{px: 0, py: 0, x: x0, depth: z0}, {px: picture.width, py: picture.height, x: x1, depth: z1}];
+  state.picture = (corners ? [0, 1] : [0.1, 0.9]).map(share =>
+    ({px: share * width, py: share * height, x: x0 + share * (x1 - x0), depth: z0 + share * (z1 - z0)}));
 }
 
 async function takeFiles(files) {

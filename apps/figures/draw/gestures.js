@@ -187,7 +187,8 @@ function nudge(name, handle, [dx, dy]) {
 
 function showWhole() {
   const {length, thickness, distance} = settings();
-  page.section.showWhole(length + distance, thickness);
+  const depths = page.tool === "picture" ? (pictureNow()?.points || []).map(p => p.depth) : [];
+  page.section.showWhole(length + distance, Math.max(thickness, ...depths.filter(depth => depth < 4 * thickness)));
   showSection();
 }
 

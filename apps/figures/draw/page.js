@@ -35,6 +35,7 @@ function setTool(tool) {
   page.chosen = "";
   document.querySelector(`input[name=tool][value=${tool}]`).checked = true;
   showAll();
+  if (tool === "picture") showWhole();
 }
 
 function addListeners() {
