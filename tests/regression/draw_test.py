@@ -237,6 +237,32 @@ class Draw(unittest.TestCase):
         self.assertAlmostEqual(self.script("return depthOf(shapeNow());"), depth, delta=0.1)
         self.script("chooseHandle('node 1'); return 0;")
 
+    def test_03b_any_change_leaves_a_detachment_that_the_program_takes(self):
+        """Thousands of random drags, turns, additions and removals."""
+        self.open()
+        faults, count = self.script("""
+            let seed = 1, count = 0;
+            const chance = () => (seed = (seed * 1103515245 + 12345) % 2147483648) / 2147483648, faults = [];
+            for (const begin of a[0]) for (let t = 0; t < 20; ++t) {
+              let shape = shapeOf(readToml(begin).document.detachment);
+              for (let step = 0; step < 60; ++step) {
+                const k = Math.floor(chance() * shape.pieces.length), {end} = chainOf(shape)[k], far = chance() < 0.2 ? 40000 : 2000, kind = chance();
+                const next = kind < 0.55 ? dragNode(shape, k, {x: end.x + (chance() - 0.5) * far, y: end.y + (chance() - 0.5) * far})
+                  : kind < 0.7 ? addNode(shape, k, chance()) : kind < 0.85 ? removeNode(shape, k) : turnStart(shape, chance() * 120 - 15);
+                if (!next) continue;
+                ++count;
+                const chain = chainOf(next), kink = Math.max(0, ...chain.map((s, n) => n && !("startDip" in next.pieces[n]) ?
+                  Math.hypot(s.startTangent.x - chain[n - 1].endTangent.x, s.startTangent.y - chain[n - 1].endTangent.y) : 0));
+                const why = objectionToShape(next) || faultsBySchema(schema.properties.detachment, tableOf(next))[0]?.message ||
+                  (kink > 1e-9 ? "a kink" : depthOf(next) > 0 ? "" : "no depth");
+                if (why) faults.push([why, JSON.stringify(shape), JSON.stringify(next)]);
+                shape = next;
+              }
+            }
+            return [faults.slice(0, 3), count];""", [path.read_text() for path in SCENES if path.stem in ("lis1", "lis2", "rfr")])
+        self.assertEqual(faults, [])
+        self.assertGreater(count, 2500)
+
     def test_04_a_picture_lies_under_it(self):
         picture, over = self.folder / "section.png", self.folder / "over.html"
         picture_file(picture)

@@ -4,6 +4,7 @@
 const degree = Math.PI / 180;
 const leastTurn = 0.5;      // of an arc, degrees
 const leastLength = 10;     // of a line and radius of an arc, m
+const largestRadius = 1e6;  // that a hand makes, m
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
@@ -166,7 +167,7 @@ function dipBounds(shape, k) {
     else high = Math.min(high, shape.pieces[n].endDip - leastTurn);
     break;
   }
-  return [Math.min(low, high), high];
+  return [clamp(Math.min(low, high), 0, 90), clamp(high, 0, 90)];
 }
 
 const rounded = (x, step) => Math.round(x / step) * step;
@@ -179,7 +180,7 @@ function setDepth(shape, depth) {
     if (shape.pieces[k].kind !== "arc") continue;
     const segment = chainOf(shape)[k], drop = Math.cos(segment.endDip * degree) - Math.cos(segment.startDip * degree);
     const radius = shape.pieces[k].radius + (depth - depthOf(shape)) / drop;
-    if (!(radius >= leastLength)) return false;
+    if (!(radius >= leastLength && radius <= largestRadius)) return false;
     shape.pieces[k].radius = Number(radius.toFixed(2));
     return true;
   }
@@ -207,7 +208,7 @@ function dragArcEnd(shape, k, segment, target, isLast) {
   // The chord from the arc's start dips by the mean of the dips at its ends.
   const chord = 0.5 * (a + endDip) * degree, length = d.x * Math.cos(chord) - d.y * Math.sin(chord);
   piece.endDip = endDip;
-  piece.radius = roundLength(clamp(length / (2 * Math.sin(0.5 * Math.abs(a - endDip) * degree)), leastLength, 1e7));
+  piece.radius = roundLength(clamp(length / (2 * Math.sin(0.5 * Math.abs(a - endDip) * degree)), leastLength, largestRadius));
 }
 
 function dragLineEnd(shape, k, segment, target) {
@@ -254,7 +255,7 @@ function turnStart(shape, dip, k = 0) {
     else high = next.pieces[n].endDip - leastTurn;
     break;
   }
-  const value = roundDip(clamp(dip, low, high));
+  const value = roundDip(clamp(dip, clamp(low, 0, 90), clamp(high, 0, 90)));
   if (k === 0) next.startDip = value;
   if ("startDip" in piece) piece.startDip = value;
   return next;
@@ -295,7 +296,7 @@ function removeNode(shape, k) {
       next.pieces[n - 1].length += next.pieces[n].length;
       next.pieces.splice(n, 1);
     }
-  if (!next.pieces.length || objectionToShape(next)) return null;
+  if (!next.pieces.length || objectionToShape(next) || !(depthOf(next) >= leastLength)) return null;
   setDepth(next, depth);
   return next;
 }

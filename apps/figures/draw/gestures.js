@@ -34,7 +34,7 @@ function startDrag(event) {
   const at = section.at(event);
   if (handle) {
     const matrix = handle.transform.baseVal[0].matrix, place = section.metres(matrix.e, matrix.f);
-    page.drag = {key: handle.dataset.key, before: copyState(page.state), off: {x: place.x - at.x, y: place.y - at.y}, moved: false};
+    page.drag = {key: handle.dataset.key, before: copyState(page.state), at, off: {x: place.x - at.x, y: place.y - at.y}, moved: false};
     chooseHandle(handle.dataset.key, true);
   } else {
     page.drag = {key: null, from: {column: event.clientX, row: event.clientY}, view: {...section.view}, piece: event.target.dataset?.piece, moved: false};
@@ -47,6 +47,7 @@ function goOnDragging(event) {
   if (!drag) return;
   if (drag.key) {
     const at = section.at(event);
+    if (!drag.moved && Math.hypot(at.x - drag.at.x, (at.y - drag.at.y) * section.view.height) * section.view.scale < 3) return;
     drag.moved = true;
     page.state = copyState(drag.before);
     moveHandle(page.state, drag.key, {x: at.x + drag.off.x, y: at.y + drag.off.y});
