@@ -292,6 +292,11 @@ class Draw(unittest.TestCase):
         self.open()                                      # the other way: given to the page itself
         self.read_into_page(picture)
         self.assertTrue(self.script("return page.section.image.getAttribute('href').startsWith('data:image/png');"))
+        broken, page = self.folder / "broken.jpg", self.folder / "broken.html"
+        broken.write_bytes(b"\xff\xd8\xff and no more")
+        self.assertEqual(listric("draw", "--over", broken, "-o", page, "--threads", "1").returncode, 0)
+        self.open(page)
+        self.assertIn("broken.jpg: is damaged", self.text("told"))
         for words, why in ((("--over", self.folder / "none.png"), "no such file"), (("--over", __file__), "PNG"),
                            (("--corners", "0,0,1,1"), "is of --over")):
             ended = listric("draw", *words, "-o", self.folder / "no.html", cwd=self.folder)

@@ -120,12 +120,14 @@ async function begin() {
   if (facts.picture) {
     const {image, name, corners_m: corners} = facts.picture, shown = new Image();
     shown.src = image;
-    await shown.decode();
-    takePicture(page.state, {image, name, width: shown.naturalWidth, height: shown.naturalHeight}, corners);
-    if (!corners) setTool("picture");
+    const isGood = await shown.decode().then(() => true, () => false);
+    if (isGood) takePicture(page.state, {image, name, width: shown.naturalWidth, height: shown.naturalHeight}, corners);
+    if (!corners || !isGood) setTool("picture");
+    if (!isGood) page.badPicture = `${name}: is damaged, or no picture that a browser reads; choose another`;
   }
   showAll();
   showWhole();
+  if (page.badPicture) tell(page.badPicture);
   $("footer").textContent = `${facts.program}. One file: nothing leaves this computer. Drop TOML, CSV of picks, PNG or JPEG anywhere.`;
   $("trouble").hidden = true;
 }
