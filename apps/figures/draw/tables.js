@@ -86,8 +86,8 @@ function showKinematics(chain, length, angle, fault) {
   const found = extension > 0 ? predictKinematics(chain, extension, angle, length + extension, fault) : null;
   page.kinematics = found;
   const rows = [["Tilt of the head block", found?.tilt != null ? `${found.tilt.toFixed(1)}°` : "-"],
-    ["Cutoff of the pre-rift top", found?.cutoff ? `x ${km(found.cutoff.x)}, depth ${km(found.cutoff.depth)}` : "-"],
-    ["Deepest basin", found ? `${km(found.deepest.depth)} at x ${km(found.deepest.x)}` : "-"],
+    ["Cutoff of the head block", found?.cutoff ? `x ${km(found.cutoff.x)}, depth ${km(found.cutoff.depth)}` : "-"],
+    ["Deepest drawn basin", found ? `${km(found.deepest.depth)} at x ${km(found.deepest.x)}` : "-"],
     ["Area of the basin", found ? `${(found.area / 1e6).toFixed(1)} km²` : "-"]];
   const table = $("kinematics");
   if (!table.rows.length) for (const [name] of rows) table.append(element("tr", {}, element("td", {}, name), element("td", {className: "number"})));
