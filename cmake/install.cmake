@@ -29,7 +29,7 @@ install(FILES ${PROJECT_BINARY_DIR}/listric.1 DESTINATION ${CMAKE_INSTALL_MANDIR
   COMPONENT program)
 install(DIRECTORY apps/figures/python DESTINATION ${share}/figures COMPONENT program
   FILES_MATCHING PATTERN *.py)
-install(DIRECTORY apps/figures/report DESTINATION ${share}/figures COMPONENT program)
+install(DIRECTORY apps/figures/report apps/figures/draw DESTINATION ${share}/figures COMPONENT program)
 install(FILES apps/figures/vocabulary.json DESTINATION ${share}/figures COMPONENT program)
 install(FILES docs/measures.md DESTINATION ${share} COMPONENT program)
 # Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/python.md).

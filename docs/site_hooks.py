@@ -2,7 +2,8 @@
 
 The pages are written for GitHub, where `$...$` and `$$...$$` are formulas and links lead to any file.
 Formulas are set here, by KaTeX, so that a page needs no script; style and fonts are copied into the
-site. (Browsers set MathML alone badly where no font for it is installed; it is there for readers
+site. Where the environment's LISTRIC names the program, the site has the page of `listric draw`, and where
+LISTRIC_RUN names a finished run, its report; the home page links to them. (Browsers set MathML alone badly where no font for it is installed; it is there for readers
 who hear the page.)
 """
 
@@ -36,6 +37,7 @@ console.log(JSON.stringify(formulas.map(([tex, displayMode]) =>
     katex.renderToString(tex, {displayMode, strict: "error"}))));
 """
 
+DEMOS = "try"  # folder of the site
 formulas = []  # (TeX, whether it stands on a line of its own) of all pages
 
 
@@ -55,6 +57,8 @@ def on_post_build(config):
     Path(to, "katex.css").write_text(style)
     for font in set(re.findall(r"url\(([^)]*)\)", style)):
         shutil.copy(KATEX_STYLE.parent / font, to / font)
+    if demos():
+        make_demos(config["site_dir"])
 
 
 def on_files(files, config):
@@ -66,7 +70,34 @@ def on_files(files, config):
     return files
 
 
+def demos():
+    """Pages of the program by their files: what makes each, and its link's text."""
+    program, run = os.environ.get("LISTRIC"), os.environ.get("LISTRIC_RUN")
+    made = {"lis1-drawing.html": ([program, "draw", "lis1"], "draw a section")} if program else {}
+    if program and run:
+        made["report.html"] = ([program, "report", run], "explore a finished run")
+    return made
+
+
+def make_demos(site):
+    Path(site, DEMOS).mkdir(exist_ok=True)
+    for name, (call, _) in demos().items():
+        ended = subprocess.run([*call, "--output", Path(site, DEMOS, name)], stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True)
+        if ended.returncode:
+            raise PluginError(f"{' '.join(call)}: {ended.stdout}")
+
+
+def with_demos(markdown):
+    """The home page with links to the demos below its first picture's line."""
+    links = " · ".join(f'<a href="{DEMOS}/{name}">{text}</a>' for name, (_, text) in demos().items())
+    head, mark, rest = markdown.partition("\n## ")
+    return f"{head}\nTry it in the browser, without installing: {links}.\n{mark}{rest}" if links else markdown
+
+
 def on_page_markdown(markdown, page, config, files):
+    if page.file.src_path == "index.md":
+        markdown = with_demos(markdown)
     return FORMULA.sub(mark_formula, relink(markdown, page.file))
 
 

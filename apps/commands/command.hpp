@@ -27,6 +27,7 @@ struct Command {
 // Each adds a call and its options to the program's.
 Command add_run(CLI::App& program);
 Command add_new(CLI::App& program);
+Command add_draw(CLI::App& program);
 Command add_scenes(CLI::App& program);
 Command add_explain(CLI::App& program);
 Command add_export(CLI::App& program);

@@ -30,7 +30,8 @@ namespace {
 /// Largest coordinate of a section of the Earth: nobody means more, m.
 constexpr double furthest = 1e8;
 
-/// Throws UsageError.
+} // namespace
+
 void require_corners(const std::vector<double>& c) {
     const auto refuse = [](const std::string& why) {
         throw UsageError(fmt::format(
@@ -52,8 +53,6 @@ void require_corners(const std::vector<double>& c) {
         refuse(fmt::format("z1 = {:g} must be greater than z0 = {:g}{}", c[3], c[1],
                            c[3] < 0.0 ? ", these are heights" : ""));
 }
-
-} // namespace
 
 std::optional<Underlay> underlay_of(const UnderlayOptions& options) {
     if (options.image.empty() && options.corners.empty())

@@ -18,6 +18,9 @@ struct UnderlayOptions {
 
 void add_underlay(CLI::App& command, UnderlayOptions& options);
 
+/// Refuses what are no corners of a picture. Throws UsageError.
+void require_corners(const std::vector<double>& corners);
+
 /// Throws UsageError.
 std::optional<Underlay> underlay_of(const UnderlayOptions& options);
 

@@ -3,6 +3,7 @@
 #include "apps/archive/dictionary.hpp"
 #include "apps/archive/fault_fields.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/figures/page_parts.hpp"
 #include "apps/figures/vocabulary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/effect.hpp"
@@ -33,23 +34,6 @@ fs::path charts_folder() {
     const fs::path own = resource_folder() / "figures/report/dygraphs";
     std::error_code error;
     return fs::is_directory(own, error) ? own : fs::path("/usr/share/javascript/dygraphs");
-}
-
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-    for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
-}
-
-/// A text that no tag can end that stands within it.
-std::string as_script(std::string text) {
-    replace_all(text, "</script", "<\\/script");
-    return text;
-}
-
-/// JSON in which nothing looks like a tag.
-std::string as_data(std::string text) {
-    replace_all(text, "<", "\\u003c");
-    return text;
 }
 
 json picks_of(const std::vector<PickedLine>& lines) {
@@ -176,15 +160,7 @@ std::string report_html(const ReportPage& page) {
         {"vocabulary", as_data(to_text(vocabulary()))},
         {"data", data_of(page)},
         {"scripts", as_script(scripts)}};
-    const std::string frame = read_text(folder / "report.html");
-    std::string html;
-    std::size_t at = 0;
-    for (std::size_t open = frame.find("{{"); open != frame.npos; open = frame.find("{{", at)) {
-        const std::size_t close = frame.find("}}", open);
-        html += frame.substr(at, open - at) + parts.at(frame.substr(open + 2, close - open - 2));
-        at = close + 2;
-    }
-    return html + frame.substr(at);
+    return filled_page(read_text(folder / "report.html"), parts);
 }
 
 } // namespace listric

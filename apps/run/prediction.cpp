@@ -105,23 +105,14 @@ CycleSpeed measure_speed(std::size_t discs, int threads, double seconds, bool ac
 
 namespace {
 
-// Prices in disc-steps of the bare cycle, so that they follow the machine's speed. Measured on
-// lis1, lis2 and rfr at draft and lis1 at standard.
-
-/// Contacts of a moving packing are less regular than those of the lattice, and are listed anew
-/// more often.
-constexpr double cycle_price = 1.05;
-constexpr double shared_from = 10000.0; ///< discs; one thread makes the lists of fewer
-constexpr double list_price_alone = 0.15, list_price_shared = 0.07;
-
-/// Making the hanging wall. Settling takes as many cycles as waves need to cross it.
 double price_of_genesis(const HangingWallParameters& h, double discs) {
-    return discs * (24000.0 + 24.0 * h.thickness / h.mean_radius);
+    return discs * (run_prices.genesis + run_prices.genesis_crossing * h.thickness / h.mean_radius);
 }
 
 /// Windows of history and snapshots.
 double price_of_windows(const Scene& s, const Workload& work) {
-    return s.extension.distance / s.output.interval * (1e6 + 1300.0 * work.discs);
+    return s.extension.distance / s.output.interval *
+           (run_prices.window + run_prices.window_disc * work.discs);
 }
 
 /// Snapshots, one a window and no more than cycles.
@@ -142,7 +133,9 @@ double memory_of_report(const Scene& s, double snapshots, double discs) {
 }
 
 /// Samples of how quasi-static the run is, and contacts found anew after events.
-double price_of_samples(const Workload& work) { return work.years / 2500.0 * 30.0 * work.discs; }
+double price_of_samples(const Workload& work) {
+    return work.years / run_prices.sample_interval * run_prices.sample_disc * work.discs;
+}
 
 double price_of_effects(const Scene& s, const Workload& work) {
     double price = 0.0;
@@ -152,13 +145,12 @@ double price_of_effects(const Scene& s, const Workload& work) {
     return price;
 }
 
-/// The last pictures and the sheet with all moments; earlier ones are drawn beside the cycle, and
-/// only their arrays take time.
 double price_of_figures(const Scene& s, double discs, bool base_moves) {
     const double end = s.extension.distance;
     const auto before_end = static_cast<double>(std::ranges::count_if(
         s.output.figures, [&](double at) { return at < end - 0.5 * s.output.interval; }));
-    return before_end * 1000.0 * discs + 2.2e8 + 3000.0 * discs + (base_moves ? 1.5e8 : 0.0);
+    return before_end * run_prices.early_figure_disc * discs + run_prices.figures +
+           run_prices.figures_disc * discs + (base_moves ? run_prices.figures_of_moving_base : 0.0);
 }
 
 /// Discs that effects bring until the end.
@@ -197,14 +189,14 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     // Threads share genesis and loops over discs about as well as the cycle. Measures, figures and
     // effects are counted as work of one: drop and roll is a chain.
     double shared =
-        cycle_price * p.disc_steps + price_of_genesis(h, start) + price_of_samples(work);
+        run_prices.cycle * p.disc_steps + price_of_genesis(h, start) + price_of_samples(work);
     const double figures = price_of_figures(scene, work.discs, parts.base_moves);
     const double windows = price_of_windows(scene, work);
     double serial = windows + price_of_effects(scene, work) + figures;
-    if (start < shared_from)
-        serial += list_price_alone * p.disc_steps;
+    if (start < run_prices.lists_shared_from)
+        serial += run_prices.list_alone * p.disc_steps;
     else
-        shared += list_price_shared * p.disc_steps;
+        shared += run_prices.list_shared * p.disc_steps;
     p.work = shared + serial;
     p.seconds = shared / speed.team + serial / speed.one_thread;
     p.forecast = {.before = price_of_genesis(h, start) / speed.team,

@@ -32,6 +32,27 @@ struct Prediction {
 
 Prediction predict(const Scene& scene, const CycleSpeed& speed = {});
 
+/// Prices of a run's parts besides effects, disc-steps of the bare cycle, so that they follow the
+/// machine's speed. Measured on lis1, lis2 and rfr at draft and lis1 at standard.
+struct RunPrices {
+    /// Contacts of a moving packing are less regular than those of the lattice, and are listed anew
+    /// more often.
+    double cycle = 1.05;
+    double lists_shared_from = 10000.0; ///< discs; one thread makes the lists of fewer
+    double list_alone = 0.15, list_shared = 0.07;
+    /// A disc of the hanging wall that is made. Settling takes as many cycles as waves need to
+    /// cross it: so many more per radius of its thickness.
+    double genesis = 24000.0, genesis_crossing = 24.0;
+    double window = 1e6, window_disc = 1300.0; ///< history and a snapshot
+    double sample_interval = 2500.0;           ///< of how quasi-static the run is, a
+    double sample_disc = 30.0;
+    /// The last pictures and the sheet with all moments; earlier ones are drawn beside the cycle,
+    /// and only their arrays take time.
+    double early_figure_disc = 1000.0, figures = 2.2e8, figures_disc = 3000.0;
+    double figures_of_moving_base = 1.5e8;
+};
+inline constexpr RunPrices run_prices{};
+
 /// A bonded lattice of the scene's size, at most 262,144 discs, is cycled for about `seconds` by
 /// the team, and half as long by one thread, with or without the account of energy. Processor time
 /// tells the speed, so that other programs do not change it.

@@ -4,6 +4,7 @@
 """
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -11,7 +12,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from program import SOURCES
+from program import PROGRAM, SOURCES
 
 # What a browser fetches by itself, in a page, a style or a script.
 FETCHED = re.compile(r"<(?:script|img|iframe|source|object|embed)\b[^>]*?\b(?:src|data)=[\"']([^\"']+)"
@@ -23,9 +24,9 @@ def fetched(text):
     return [next(filter(None, groups)) for groups in FETCHED.findall(text)]
 
 
-def build(sources, site):
+def build(sources, site, **environment):
     return subprocess.run(["mkdocs", "build", "--strict", "--site-dir", site], cwd=sources,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                          env={**os.environ, **environment}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
 class Site(unittest.TestCase):
@@ -34,7 +35,7 @@ class Site(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.site = Path(folder.name, "site")
-        cls.built = build(SOURCES, cls.site)
+        cls.built = build(SOURCES, cls.site, LISTRIC=str(PROGRAM))
         cls.pages = {page.relative_to(cls.site): re.sub(r"<!--.*?-->", "", page.read_text(), flags=re.DOTALL)
                      for page in sorted(cls.site.rglob("*.html"))}
 
@@ -50,6 +51,10 @@ class Site(unittest.TestCase):
 
     def test_the_lab_book_is_not_in_the_menu(self):
         self.assertIn("record/2026-11/accuracy.md", self.not_in_menu())
+
+    def test_a_section_is_drawn_without_installing(self):
+        self.assertIn('<a href="try/lis1-drawing.html">draw a section</a>', self.pages[Path("index.html")])
+        self.assertIn('"scene":"lis1"', (self.site / "try/lis1-drawing.html").read_text())
 
     def test_the_search_finds_parameters_and_measures(self):
         index = json.loads((self.site / "search/search_index.json").read_text())

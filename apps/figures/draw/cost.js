@@ -1,0 +1,122 @@
+// How many discs a scene has and how long it takes, as apps/run/prediction.cpp has it. Prices and speeds are the
+// program's own numbers, which it wrote into the page.
+
+/** A parameter in force: the scene's, that of its accuracy, or the default. */
+function valueAt(facts, schema, document, path) {
+  const [table, key] = path.split("."), given = document[table]?.[key];
+  if (given !== undefined) return typeof given === "bigint" ? Number(given) : given;
+  return defaultAt(facts, schema, document, path);
+}
+
+function defaultAt(facts, schema, document, path) {
+  const [table, key] = path.split("."), name = document.accuracy ?? "standard";
+  const level = facts.levels.find(one => one.name === name) || facts.levels[1];
+  if (path === "hanging_wall.mean_radius_m") return level.mean_radius_m;
+  if (path === "extension.speed_m_per_s") return level.speed_m_per_s;
+  const scaled = facts.effects[table]?.levels?.[level.name]?.[key];
+  if (scaled !== undefined) return scaled;
+  const source = table === "material" ? facts.basement : facts.effects[table]?.rock;
+  const rock = source && facts.rocks[document.materials?.[source] ?? schema.properties.materials.properties[source].default];
+  return rock?.[key] ?? schemaAt(schema, path)?.default;
+}
+
+/** The chain on which a scene slides, as far as its model needs it; null: the scene has none. */
+function baseOf(facts, schema, document) {
+  const of = key => valueAt(facts, schema, document, key);
+  const [length, thickness, distance] = ["hanging_wall.length_m", "hanging_wall.thickness_m", "extension.distance_m"].map(of);
+  const reach = length + 1.5 * distance + thickness, shape = shapeOf(document.detachment);
+  if (document.stretching) return [lineSegment({x: 0, y: -thickness}, {x: reach, y: -thickness})];
+  return shape && shape.pieces.length ? chainOf(shape, reach) : null;
+}
+
+function meanSquareRadius(mean, ratio) {
+  const smallest = 2 * mean / (1 + ratio), largest = ratio * smallest;
+  return (largest * largest + largest * smallest + smallest * smallest) / 3;
+}
+
+/** Terms of an effect's price with the scene's parameters. */
+function termsOf(facts, schema, document, name) {
+  const effect = facts.effects[name];
+  let terms = effect.terms;
+  for (const {key, is_switch: isSwitch, terms: own} of effect.parameters || []) {
+    const value = valueAt(facts, schema, document, `${name}.${key}`), usual = schemaAt(schema, `${name}.${key}`).default;
+    if (value === usual) continue;
+    if (isSwitch) terms = own;
+    else terms = Object.fromEntries(Object.entries(terms).map(([term, price]) => [term, price + own[term] * (usual / value - 1)]));
+  }
+  return terms;
+}
+
+function stableTimeStep(facts, schema, document) {
+  const of = key => valueAt(facts, schema, document, key);
+  const radius = of("hanging_wall.mean_radius_m"), smallest = 2 / (1 + of("hanging_wall.radius_ratio"));
+  const mass = of("hanging_wall.rock_density_kg_per_m3") / (1 - 0.166) * Math.PI * radius * radius;
+  const floor = of("cycle.inertial_mass_floor"), inertia = (floor > 0 ? floor : smallest * smallest) * mass;
+  const rocks = ["material", ...Object.keys(facts.effects).filter(name => name in document)]
+    .filter(table => schemaAt(schema, `${table}.normal_stiffness_pa`));
+  return Math.min(...rocks.map(table => {
+    const normal = 0.5 * of(`${table}.normal_stiffness_pa`), shear = 0.5 * of(`${table}.shear_stiffness_pa`);
+    const stiffness = Math.max(3 * (normal + shear), 12 * shear);
+    return of("cycle.time_step_safety") * Math.sqrt(2 * inertia / (stiffness * (1 + of("cycle.damping"))));
+  }));
+}
+
+/** Discs, cycles and time of a scene on the machine that wrote the page; null without a base. */
+function predictCost(facts, schema, document) {
+  const of = key => valueAt(facts, schema, document, key), chain = baseOf(facts, schema, document), p = facts.prices;
+  if (!chain) return null;
+  const radius = of("hanging_wall.mean_radius_m"), thickness = of("hanging_wall.thickness_m"), distance = of("extension.distance_m");
+  const discsIn = area => Math.floor((1 - of("hanging_wall.porosity")) * area /
+    (Math.PI * meanSquareRadius(radius, of("hanging_wall.radius_ratio"))));
+  const effects = Object.keys(facts.effects).filter(name => name in document);
+  const start = discsIn(hangingWallArea(of("hanging_wall.length_m"), chain));
+  const newArea = effects.reduce((sum, name) => sum + facts.effects[name].new_area, 0) * distance * thickness;
+  const end = start + (newArea > 0 ? discsIn(newArea) : 0), discs = 0.5 * (start + end);
+  const timeStep = stableTimeStep(facts, schema, document);
+  const cycles = Math.floor((distance / of("extension.speed_m_per_s") + 0.5 * of("extension.ramp_s")) / timeStep);
+  const years = distance / of("extension.rate_m_per_a"), steps = discs * cycles, interval = of("output.interval_m");
+  const marks = document.output?.figures_at_m ?? [5000, 10000], movesBase = effects.some(name => facts.effects[name].moves_base);
+  const figures = marks.filter(at => at < distance - 0.5 * interval).length * p.early_figure_disc * discs + p.figures +
+    p.figures_disc * discs + (movesBase ? p.figures_of_moving_base : 0);
+  const ofEffects = effects.reduce((sum, name) => {
+    const terms = termsOf(facts, schema, document, name);
+    return sum + terms.fixed + terms.per_start_disc * start + terms.per_cycle * cycles + years * (terms.per_year + terms.per_disc_year * discs);
+  }, 0);
+  let shared = p.cycle * steps + start * (p.genesis + p.genesis_crossing * thickness / radius) +
+    years / p.sample_interval * p.sample_disc * discs;
+  let serial = distance / interval * (p.window + p.window_disc * discs) + ofEffects + figures;
+  if (start < p.lists_shared_from) serial += p.list_alone * steps;
+  else shared += p.list_shared * steps;
+  const speed = speedAt(facts.speeds, start, effects.some(name => facts.effects[name].accounts_energy));
+  return {discs: start, discsAtEnd: end, timeStep, cycles, work: shared + serial,
+    seconds: shared / speed.team + serial / speed.one_thread};
+}
+
+/** Speed of a packing, between those that were measured. */
+function speedAt(speeds, discs, accounted) {
+  if (accounted) return speeds.accounted;
+  const sizes = speeds.by_size, k = clamp(sizes.findIndex(one => one.discs >= discs), 1, sizes.length - 1);
+  const at = discs >= sizes.at(-1).discs ? sizes.length - 1 : k, [a, b] = [sizes[at - 1], sizes[at]];
+  const share = clamp(Math.log(discs / a.discs) / Math.log(b.discs / a.discs), 0, 1);
+  return {team: a.team + share * (b.team - a.team), one_thread: a.one_thread + share * (b.one_thread - a.one_thread)};
+}
+
+/** Faults of a scene that no schema knows, as apps/scene/scene_checks.cpp finds them: [{path, message}]. */
+function faultsOfWhole(facts, schema, document) {
+  const of = key => valueAt(facts, schema, document, key), faults = [], shape = shapeOf(document.detachment);
+  if (!document.hanging_wall) return faults;
+  if (shape) {
+    const why = objectionToShape(shape), depth = shape.pieces.length ? depthOf(shape) : 0, thickness = of("hanging_wall.thickness_m");
+    if (why) return [{path: "detachment.segments", message: why}];
+    if (Math.abs(depth - thickness) > 1)
+      faults.push({path: "hanging_wall.thickness_m", message: `the detachment soles out at ${depth.toFixed(1)} m, allowed: that depth within 1 m`});
+  }
+  const chain = baseOf(facts, schema, document);
+  if (!chain) return faults;
+  const area = hangingWallArea(of("hanging_wall.length_m"), chain);
+  if (!(area > 0)) return [...faults, {path: "detachment.segments", message: "stays at the surface up to the moving wall, needs to descend before hanging_wall.length_m"}];
+  const discs = (1 - of("hanging_wall.porosity")) * area / (Math.PI * meanSquareRadius(of("hanging_wall.mean_radius_m"), of("hanging_wall.radius_ratio")));
+  if (!(discs >= 100 && discs <= 5e6))
+    faults.push({path: "hanging_wall.mean_radius_m", message: `gives ${discs.toFixed(0)} discs, allowed: 100 to 5e6; take ${discs < 100 ? "smaller" : "larger"} discs`});
+  return faults;
+}

@@ -1,0 +1,181 @@
+// Files that the page reads and writes: scenes, picks and pictures.
+
+/** Reads a scene; picks that its table names come as files of their own. */
+function readScene(text, name, picks = {horizons: [], faults: []}, faultPoints = null) {
+  let read;
+  try {
+    read = readToml(text);
+  } catch (error) {
+    if (!(error instanceof TomlError)) throw error;
+    tell(`${name}:${error.line}: ${error.message}`);
+    return false;
+  }
+  const scene = read.document, {shift, asked, lines} = takePicks(scene);
+  page.lines = read.lines;
+  page.state = {...page.state, scene, file: name, floats: read.floats, asked: {...asked, shift}, picks: {horizons: [...picks.horizons, ...lines.horizons], faults: [...picks.faults, ...lines.faults]}, faultPoints};
+  return true;
+}
+
+/** Takes [observed] out of a scene: lines, names of files that are asked for, and the shift of both. */
+function takePicks(scene) {
+  const observed = typeof scene.observed === "object" ? scene.observed : {}, table = scene.detachment;
+  const shift = Number(observed.shift_x_m ?? table?.shift_x_m ?? 0), asked = {};
+  const good = faultsBySchema(schema.properties.observed, observed).length === 0;
+  const lines = {horizons: good ? observed.horizon_lines || [] : [], faults: good ? observed.fault_lines || [] : []};
+  for (const kind of ["horizons", "faults"]) if (good && observed[kind]) asked[kind] = observed[kind];
+  if (good) delete scene.observed;
+  return {shift, asked, lines};
+}
+
+function missingFiles() {
+  const {asked, scene} = page.state, table = scene.detachment, names = Object.values(asked).filter(name => typeof name === "string");
+  if (table?.csv || table?.svg) names.push(table.csv || table.svg);
+  return names;
+}
+
+/** Rows of a CSV file with a header: commas, semicolons or tabs. */
+function readCsv(text) {
+  const rows = text.replace(/^\ufeff/, "").split(/\r\n|\n|\r/).filter(row => row.trim() && !row.startsWith("#"));
+  const delimiter = [";", "\t", ","].find(sign => rows[0]?.includes(sign)) || ",";
+  const cells = row => row.match(new RegExp(`("([^"]|"")*"|[^${delimiter}]*)(${delimiter}|$)`, "g")).map(cell =>
+    cell.replace(new RegExp(`${delimiter}$`), "").trim().replace(/^"([\s\S]*)"$/, (_, inner) => inner.replace(/""/g, '"')));
+  const head = cells(rows[0] || "");
+  return {head, rows: rows.slice(1).map(row => Object.fromEntries(cells(row).slice(0, head.length).map((cell, k) => [head[k], cell])))};
+}
+
+/** Picked lines of a CSV file. Throws Error. */
+function picksIn(text, name, shift) {
+  const {head, rows} = readCsv(text), lines = new Map();
+  for (const needed of ["x_m", "depth_m"])
+    if (!head.includes(needed)) throw new Error(`${name}: has no column ${needed}, ${adviceOn(needed, head)}`);
+  rows.forEach((row, k) => {
+    const title = head.includes("name") ? row.name : "picked fault", x = Number(row.x_m), depth = Number(row.depth_m), age = row.age_a ? Number(row.age_a) : undefined;
+    if (!title || !row.x_m || !row.depth_m || !Number.isFinite(x) || !Number.isFinite(depth) || age !== undefined && !(age >= 0))
+      throw new Error(`${name}: row ${k + 2} needs a name and numbers x_m and depth_m`);
+    if (!lines.has(title)) lines.set(title, {name: title, x_m: [], depth_m: []});
+    const line = lines.get(title);
+    if (age !== undefined) line.age_a = age;
+    line.x_m.push(x + shift);
+    line.depth_m.push(depth);
+  });
+  return {lines: [...lines.values()], hasNames: head.includes("name"), hasAges: head.includes("age_a")};
+}
+
+function takeCsv(text, name) {
+  const {asked} = page.state, {lines, hasNames} = picksIn(text, name, asked.shift || 0);
+  if (!hasNames) {
+    change("", state => { state.faultPoints = {x_m: lines[0].x_m, depth_m: lines[0].depth_m}; });
+    tell(`${name}: ${lines[0].x_m.length} points, drawn as dots. Drag the nodes onto them.`);
+    return;
+  }
+  const kind = asked.faults && asked.faults.endsWith(name) ? "faults" : asked.horizons && asked.horizons.endsWith(name) ? "horizons"
+    : /fault/i.test(name) ? "faults" : "horizons";
+  change("", state => {
+    state.picks[kind] = [...state.picks[kind].filter(old => !lines.some(line => line.name === old.name)), ...lines];
+    page.line = {kind, index: state.picks[kind].length - 1};
+    delete state.asked[kind];
+  });
+  setTool("picks");
+  tell(`${name}: ${lines.length} ${kind}.`);
+}
+
+function readPicture(file) {
+  return new Promise((done, failed) => {
+    const reader = new FileReader(), image = new Image();
+    reader.onload = () => { image.src = reader.result; };
+    reader.onerror = image.onerror = () => failed(new Error(`${file.name}: is no picture that a browser reads; PNG or JPEG`));
+    image.onload = () => done({image: reader.result, name: file.name, width: image.naturalWidth, height: image.naturalHeight});
+    reader.readAsDataURL(file);
+  });
+}
+
+/** Lays a picture under the section; without corners over all of its width. */
+function takePicture(state, picture, corners) {
+  const {length, distance} = settings(), across = length + distance, {width, height} = picture;
+  const [x0, z0, x1, z1] = corners || [0, 0, across, across * height / width];
+  page.pictureImage = picture;
+  state.picture = (corners ? [0, 1] : [0.1, 0.9]).map(share =>
+    ({px: share * width, py: share * height, x: x0 + share * (x1 - x0), depth: z0 + share * (z1 - z0)}));
+}
+
+async function takeFiles(files) {
+  const order = file => /\.toml$/i.test(file.name) ? 0 : /\.csv$/i.test(file.name) ? 1 : 2;
+  for (const file of [...files].sort((a, b) => order(a) - order(b)))
+    try {
+      if (order(file) === 0) takeSceneFile(await file.text(), file.name);
+      else if (order(file) === 1) takeCsv(await file.text(), file.name);
+      else if (/\.svg$/i.test(file.name)) tell(`${file.name}: a drawing is fitted by the program: listric draw my.toml with svg = "${file.name}"`);
+      else {
+        const picture = await readPicture(file);
+        change("", state => takePicture(state, picture));
+        setTool("picture");
+      }
+    } catch (error) {
+      tell(error.message);
+    }
+}
+
+function takeSceneFile(text, name) {
+  const before = copyState(page.state);
+  if (!readScene(text, name)) return;
+  const after = page.state;
+  page.state = before;
+  page.chosen = "";
+  page.line = null;
+  page.forms.bad.clear();
+  change("", () => { page.state = after; });
+  page.fresh = true;
+  $("extension").value = $("extension").max;
+  showAll();
+  showWhole();
+  const missing = missingFiles();
+  if (missing.length) tell(`${name} names ${missing.join(" and ")}. Drop ${missing.length > 1 ? "them" : "it"} here, too; or begin with: listric draw ${name}`);
+}
+
+/** The scene with picks as files of their own beside it. */
+function sceneText() {
+  const scene = structuredClone(page.state.scene), {horizons, faults} = page.state.picks, name = baseName();
+  const observed = {};
+  if (horizons.some(line => line.x_m.length)) observed.horizons = `${name}-horizons.csv`;
+  if (faults.some(line => line.x_m.length)) observed.faults = `${name}-faults.csv`;
+  if (Object.keys(observed).length && scene.detachment?.shift_x_m) observed.shift_x_m = 0;
+  for (const kind of ["horizons", "faults"]) observed[kind] ??= page.state.asked[kind]; // a file that nobody has dropped
+  if (observed.horizons || observed.faults) scene.observed = JSON.parse(JSON.stringify(observed));
+  return `# Drawn with ${facts.program}.\n\n${writeToml(scene, schema)}`;
+}
+
+function baseName() { return (page.state.scene.name || page.state.file.replace(/\.toml$/i, "") || "drawn").replace(/[^\w.-]+/g, "-"); }
+
+function picksText(lines, withAges) {
+  const quoted = text => /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+  const rows = lines.flatMap(line => line.x_m.map((x, k) => [quoted(line.name), x, line.depth_m[k], ...(withAges ? [line.age_a ?? ""] : [])].join(",")));
+  return [["name", "x_m", "depth_m", ...(withAges ? ["age_a"] : [])].join(","), ...rows].join("\n") + "\n";
+}
+
+function download(name, text, type) {
+  const link = element("a", {href: URL.createObjectURL(new Blob([text], {type})), download: name});
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+function save() {
+  const faults = showState(), missing = missingFiles();
+  if (faults.length) {
+    tell(`Not saved: ${faults[0].path}: ${faults[0].message}`);
+    $("state").scrollIntoView({block: "nearest"});
+    return;
+  }
+  page.saved = true;
+  download(`${baseName()}.toml`, sceneText(), "application/toml");
+  if (!$("save_picks").disabled) savePicks();
+  tell(`Saved ${baseName()}.toml. Next: listric check ${baseName()}.toml, then listric run ${baseName()}.toml --accuracy draft` +
+    (missing.length ? `. It needs ${missing.join(" and ")} beside it.` : ""));
+}
+
+function savePicks() {
+  const {horizons, faults} = page.state.picks;
+  if (horizons.some(line => line.x_m.length)) download(`${baseName()}-horizons.csv`, picksText(horizons, true), "text/csv");
+  if (faults.some(line => line.x_m.length)) download(`${baseName()}-faults.csv`, picksText(faults, false), "text/csv");
+}

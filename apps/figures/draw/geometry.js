@@ -1,0 +1,302 @@
+// The detachment as the program has it (dem/genesis/detachment.cpp, dem/base.cpp): a chain of arcs and lines from the
+// breakaway at the origin, y up, metres; and what dragging, adding and removing its nodes makes of it.
+
+const degree = Math.PI / 180;
+const leastTurn = 0.5;      // of an arc, degrees
+const leastLength = 10;     // of a line and radius of an arc, m
+const largestRadius = 1e6;  // that a hand makes, m
+
+const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
+
+/** {startDip, pieces} of a scene's [detachment]; null: it has none, or none that can be drawn. */
+function shapeOf(table) {
+  const isPiece = segment => Object.entries(segment || {}).every(([kind, given], k) => k === 0 && (kind === "arc" || kind === "line") &&
+    typeof given === "object" && Number(given.radius_m ?? given.length_m) > 0) && Object.keys(segment || {}).length === 1;
+  if (!table || !Array.isArray(table.segments) || !table.segments.length || !table.segments.every(isPiece)) return null;
+  return {startDip: Number(table.start_dip_deg ?? 90), pieces: table.segments.map(segment => {
+    const [[kind, given]] = Object.entries(segment);
+    const piece = kind === "arc" ? {kind, radius: Number(given.radius_m), endDip: Number(given.end_dip_deg ?? 0)}
+      : {kind, length: Number(given.length_m)};
+    if ("start_dip_deg" in given) piece.startDip = Number(given.start_dip_deg);
+    return piece;
+  })};
+}
+
+/** The keys of [detachment] that hold a shape. */
+function tableOf(shape) {
+  return {start_dip_deg: shape.startDip, segments: shape.pieces.map(piece => {
+    const kink = "startDip" in piece ? {start_dip_deg: piece.startDip} : {};
+    return piece.kind === "arc" ? {arc: {radius_m: piece.radius, end_dip_deg: piece.endDip, ...kink}}
+      : {line: {length_m: piece.length, ...kink}};
+  })};
+}
+
+function copyOf(shape) { return {startDip: shape.startDip, pieces: shape.pieces.map(piece => ({...piece}))}; }
+
+function lineSegment(start, end) {
+  const length = Math.hypot(end.x - start.x, end.y - start.y);
+  const t = {x: (end.x - start.x) / length, y: (end.y - start.y) / length};
+  return {start, end, startTangent: t, endTangent: t, length, curvature: 0};
+}
+
+/** An arc of so many radians, counterclockwise where positive. */
+function arcSegment(start, tangent, radius, turn) {
+  const side = turn > 0 ? 1 : -1, cosine = Math.cos(turn), sine = Math.sin(turn);
+  const c = {x: start.x - side * radius * tangent.y, y: start.y + side * radius * tangent.x};
+  const from = {x: start.x - c.x, y: start.y - c.y};
+  return {start, end: {x: c.x + cosine * from.x - sine * from.y, y: c.y + sine * from.x + cosine * from.y},
+    startTangent: tangent,
+    endTangent: {x: cosine * tangent.x - sine * tangent.y, y: sine * tangent.x + cosine * tangent.y},
+    length: radius * Math.abs(turn), curvature: side / radius};
+}
+
+/** Segments end to end, continued by a flat to x = reach. Each knows its dips, degrees. */
+function chainOf(shape, reach = 0) {
+  const chain = [];
+  let start = {x: 0, y: 0}, dip = shape.startDip;
+  for (const piece of shape.pieces) {
+    dip = piece.startDip ?? dip;
+    const along = {x: Math.cos(dip * degree), y: -Math.sin(dip * degree)}, startDip = dip;
+    if (piece.kind === "arc") {
+      chain.push(arcSegment(start, along, piece.radius, (dip - piece.endDip) * degree));
+      dip = piece.endDip;
+    } else {
+      chain.push(lineSegment(start, {x: start.x + piece.length * along.x, y: start.y + piece.length * along.y}));
+    }
+    Object.assign(chain.at(-1), {startDip, endDip: dip});
+    start = chain.at(-1).end;
+  }
+  if (start.x < reach) chain.push({...lineSegment(start, {x: reach, y: start.y}), startDip: 0, endDip: 0});
+  return chain;
+}
+
+function lengthOf(chain) { return chain.reduce((sum, segment) => sum + segment.length, 0); }
+
+/** The point at an arc length; before and beyond the chain, of its ends' tangents. */
+function pointAt(chain, arcLength) {
+  let k = 0;
+  while (k + 1 < chain.length && arcLength > chain[k].length) arcLength -= chain[k++].length;
+  const s = chain[k], t = s.startTangent;
+  if (s.curvature === 0) return {x: s.start.x + arcLength * t.x, y: s.start.y + arcLength * t.y};
+  const turn = arcLength * s.curvature, c = {x: s.start.x - t.y / s.curvature, y: s.start.y + t.x / s.curvature};
+  const from = {x: s.start.x - c.x, y: s.start.y - c.y}, cosine = Math.cos(turn), sine = Math.sin(turn);
+  return {x: c.x + cosine * from.x - sine * from.y, y: c.y + sine * from.x + cosine * from.y};
+}
+
+/** Signed distance and arc length of the nearest point of a chain, positive on its left; null where there is none. */
+function footPoint(chain, p) {
+  let best = null, before = 0;
+  const consider = (distance, arcLength) => {
+    if (!best || Math.abs(distance) < Math.abs(best.distance)) best = {distance, arcLength};
+  };
+  const dot = (ax, ay, b) => ax * b.x + ay * b.y;
+  chain.forEach((s, k) => {
+    const [dx, dy, ex, ey] = [p.x - s.start.x, p.y - s.start.y, p.x - s.end.x, p.y - s.end.y];
+    const t = s.startTangent;
+    if (dot(dx, dy, t) >= 0 && dot(ex, ey, s.endTangent) <= 0) {
+      if (s.curvature === 0) consider(t.x * dy - t.y * dx, before + dot(dx, dy, t));
+      else {
+        const c = {x: s.start.x - t.y / s.curvature, y: s.start.y + t.x / s.curvature};
+        const [rx, ry, sx, sy] = [p.x - c.x, p.y - c.y, s.start.x - c.x, s.start.y - c.y];
+        const r = Math.hypot(rx, ry), turn = Math.atan2(sx * ry - sy * rx, sx * rx + sy * ry);
+        if (r > 0) consider(Math.sign(s.curvature) * (Math.abs(1 / s.curvature) - r), before + Math.abs(turn / s.curvature));
+      }
+    }
+    before += s.length;
+    const next = chain[k + 1], distance = Math.hypot(ex, ey);
+    if (next && dot(ex, ey, s.endTangent) > 0 && dot(ex, ey, next.startTangent) < 0 && distance > 0)
+      consider((s.endTangent.x * ey - s.endTangent.y * ex < 0 ? -1 : 1) * distance, before);
+  });
+  return best;
+}
+
+/** Area between surface, detachment and moving wall, m2, summed as dem/genesis/genesis.cpp does. */
+function hangingWallArea(wallLength, chain) {
+  const pieces = 20000, length = lengthOf(chain);
+  let area = 0, a = pointAt(chain, 0);
+  for (let k = 1; k <= pieces; ++k) {
+    let b = pointAt(chain, length * k / pieces);
+    if (b.x > wallLength) {
+      const share = b.x > a.x ? Math.max(0, (wallLength - a.x) / (b.x - a.x)) : 0;
+      b = {x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y)};
+    }
+    area -= 0.5 * (a.y + b.y) * (b.x - a.x);
+    a = b;
+  }
+  return area;
+}
+
+/** Depth of the flat, m. */
+function depthOf(shape) { return -chainOf(shape).at(-1).end.y; }
+
+// -- rules that hold after every change
+
+/** The last piece that is no line at a dip of 0: it ends where the detachment soles out. */
+function lastSloping(shape) {
+  const chain = chainOf(shape);
+  for (let k = chain.length - 1; k >= 0; --k)
+    if (chain[k].startDip !== 0 || chain[k].endDip !== 0) return k;
+  return 0;
+}
+
+/** Why the program would refuse a shape; empty: it would not. */
+function objectionToShape(shape) {
+  if (!shape.pieces.length) return "has no arc and no line, needs at least one";
+  let dip = shape.startDip;
+  if ((shape.pieces[0].startDip ?? dip) !== dip)
+    return "does not join: the first piece has another start_dip_deg than the detachment; give one";
+  for (const piece of shape.pieces) {
+    const start = piece.startDip ?? dip;
+    dip = piece.kind === "arc" ? piece.endDip : start;
+    if (piece.kind === "arc" && start === dip)
+      return `has an arc that starts and ends with a dip of ${dip} degrees, needs an end_dip_deg that differs, or a line`;
+  }
+  return dip === 0 ? "" : `ends with a dip of ${dip} degrees, allowed: 0; let the last arc have end_dip_deg = 0.0`;
+}
+
+/** Bounds of the dip at which piece k ends, so that the next arc, and piece k itself, keep the way in which they turn. */
+function dipBounds(shape, k) {
+  const chain = chainOf(shape), own = shape.pieces[k];
+  let low = 0, high = 90;
+  if (own?.kind === "arc")
+    if (chain[k].startDip > own.endDip) high = Math.min(high, chain[k].startDip - leastTurn);
+    else low = Math.max(low, chain[k].startDip + leastTurn);
+  for (let n = k + 1; n < shape.pieces.length && !("startDip" in shape.pieces[n]); ++n) {
+    if (shape.pieces[n].kind !== "arc") continue;
+    if (chain[n].startDip > shape.pieces[n].endDip) low = Math.max(low, shape.pieces[n].endDip + leastTurn);
+    else high = Math.min(high, shape.pieces[n].endDip - leastTurn);
+    break;
+  }
+  return [clamp(Math.min(low, high), 0, 90), clamp(high, 0, 90)];
+}
+
+const rounded = (x, step) => Math.round(x / step) * step;
+const roundDip = dip => Number(rounded(dip, 0.01).toFixed(2));
+const roundLength = length => Number(rounded(length, 1).toFixed(0));
+
+/** Gives the last arc the radius with which the detachment soles out at a depth; false: there is no such radius. */
+function setDepth(shape, depth) {
+  for (let k = shape.pieces.length - 1; k >= 0; --k) {
+    if (shape.pieces[k].kind !== "arc") continue;
+    const segment = chainOf(shape)[k], drop = Math.cos(segment.endDip * degree) - Math.cos(segment.startDip * degree);
+    const radius = shape.pieces[k].radius + (depth - depthOf(shape)) / drop;
+    if (!(radius >= leastLength && radius <= largestRadius)) return false;
+    shape.pieces[k].radius = Number(radius.toFixed(2));
+    return true;
+  }
+  return false;
+}
+
+// -- changes, each of which returns another shape
+
+/** The detachment after its node k (the end of piece k) has been dragged toward a point. */
+function dragNode(shape, k, target) {
+  const next = copyOf(shape), piece = next.pieces[k], segment = chainOf(shape)[k];
+  if (piece.kind === "arc") dragArcEnd(next, k, segment, target, k === lastSloping(shape));
+  else dragLineEnd(next, k, segment, target);
+  return next;
+}
+
+function dragArcEnd(shape, k, segment, target, isLast) {
+  const piece = shape.pieces[k], t = segment.startTangent, a = segment.startDip;
+  const d = {x: target.x - segment.start.x, y: target.y - segment.start.y};
+  let endDip = piece.endDip;
+  if (!isLast) {
+    const along = Math.max(d.x * t.x + d.y * t.y, leastLength);
+    endDip = roundDip(clamp(a - 2 * Math.atan2(t.x * d.y - t.y * d.x, along) / degree, ...dipBounds(shape, k)));
+  }
+  // The chord from the arc's start dips by the mean of the dips at its ends.
+  const chord = 0.5 * (a + endDip) * degree, length = d.x * Math.cos(chord) - d.y * Math.sin(chord);
+  piece.endDip = endDip;
+  piece.radius = roundLength(clamp(length / (2 * Math.sin(0.5 * Math.abs(a - endDip) * degree)), leastLength, largestRadius));
+}
+
+function dragLineEnd(shape, k, segment, target) {
+  const piece = shape.pieces[k], before = shape.pieces[k - 1], isFlat = k > lastSloping(shape);
+  const project = (start, dip) => roundLength(Math.max((target.x - start.x) * Math.cos(dip * degree) -
+    (target.y - start.y) * Math.sin(dip * degree), leastLength));
+  if (!isFlat && (k === 0 || "startDip" in piece)) {
+    const dip = roundDip(clamp(-Math.atan2(target.y - segment.start.y, target.x - segment.start.x) / degree, ...dipBounds(shape, k)));
+    if (k === 0) shape.startDip = dip;
+    if (k > 0 || "startDip" in piece) piece.startDip = dip;
+    piece.length = project(segment.start, dip);
+  } else if (!isFlat && before.kind === "arc") {
+    before.endDip = roundDip(clamp(tangentDip(chainOf(shape)[k - 1], before.radius, target) ?? before.endDip, ...lineBounds(shape, k)));
+    piece.length = project(chainOf(shape)[k].start, before.endDip);
+  } else {
+    piece.length = project(segment.start, segment.startDip);
+  }
+}
+
+/** Bounds of the dip of line k, which the arc before it ends with. */
+function lineBounds(shape, k) {
+  const [low, high] = dipBounds(shape, k - 1), after = dipBounds(shape, k);
+  return [Math.max(low, after[0]), Math.min(high, after[1])];
+}
+
+/** Dip at which a line leaves an arc's circle to reach a point; undefined: the point is within the circle. */
+function tangentDip(segment, radius, target) {
+  const side = Math.sign(segment.curvature), t = segment.startTangent;
+  const c = {x: segment.start.x - side * radius * t.y, y: segment.start.y + side * radius * t.x};
+  const d = {x: target.x - c.x, y: target.y - c.y}, square = d.x * d.x + d.y * d.y - radius * radius;
+  if (square <= 0) return undefined;
+  const radial = Math.atan2(d.y, d.x) - side * Math.atan2(Math.sqrt(square), radius);
+  const direction = radial + side * Math.PI / 2;
+  return -Math.atan2(Math.sin(direction), Math.cos(direction)) / degree;
+}
+
+/** The detachment with another dip at the breakaway, or at a kink at the start of piece k. */
+function turnStart(shape, dip, k = 0) {
+  const next = copyOf(shape), piece = next.pieces[k];
+  let low = 0, high = 90;
+  for (let n = k; n < next.pieces.length && (n === k || !("startDip" in next.pieces[n])); ++n) {
+    if (next.pieces[n].kind !== "arc") continue;
+    if (chainOf(shape)[n].startDip > next.pieces[n].endDip) low = next.pieces[n].endDip + leastTurn;
+    else high = next.pieces[n].endDip - leastTurn;
+    break;
+  }
+  const value = roundDip(clamp(dip, clamp(low, 0, 90), clamp(high, 0, 90)));
+  if (k === 0) next.startDip = value;
+  if ("startDip" in piece) piece.startDip = value;
+  return next;
+}
+
+/** The detachment with a node more on piece k: an arc becomes two of its radius, a line gets a ramp of two arcs. */
+function addNode(shape, k, share = 0.5) {
+  const next = copyOf(shape), piece = next.pieces[k], segment = chainOf(shape)[k], kink = "startDip" in piece ? {startDip: piece.startDip} : {};
+  if (piece.kind === "arc") {
+    const middle = roundDip(segment.startDip + clamp(share, 0.05, 0.95) * (segment.endDip - segment.startDip));
+    if (Math.abs(segment.startDip - middle) < leastTurn || Math.abs(middle - segment.endDip) < leastTurn) return null;
+    next.pieces.splice(k, 1, {kind: "arc", radius: piece.radius, endDip: middle, ...kink},
+      {kind: "arc", radius: piece.radius, endDip: piece.endDip});
+    return next;
+  }
+  const dip = segment.startDip, turn = dip > 80 ? -10 : 10, sine = Math.sin(10 * degree);
+  const radius = roundLength(Math.min(5000, 0.15 * piece.length / sine)), width = 2 * radius * sine;
+  const first = roundLength(clamp(share * piece.length - 0.5 * width, leastLength, piece.length - width - leastLength));
+  if (radius < leastLength || !(first >= leastLength)) return null;
+  next.pieces.splice(k, 1, {kind: "line", length: first, ...kink}, {kind: "arc", radius, endDip: dip + turn},
+    {kind: "arc", radius, endDip: dip}, {kind: "line", length: Math.max(roundLength(piece.length - width - first), leastLength)});
+  return next;
+}
+
+/** The detachment without node k: piece k goes, and a neighbouring arc takes over where it led. null: it cannot be. */
+function removeNode(shape, k) {
+  const next = copyOf(shape), depth = depthOf(shape), chain = chainOf(shape), [gone] = next.pieces.splice(k, 1);
+  if (!next.pieces.length) return null;
+  if ("startDip" in gone && next.pieces[k] && !("startDip" in next.pieces[k]) && k > 0) next.pieces[k].startDip = gone.startDip;
+  if (gone.kind === "arc") {
+    const before = next.pieces[k - 1], after = next.pieces[k];
+    if (after?.kind !== "arc" && before?.kind === "arc" && !(after && "startDip" in after)) before.endDip = gone.endDip;
+    if (after?.kind === "arc" && after.endDip === chain[k].startDip && !("startDip" in after)) next.pieces.splice(k, 1);
+    if (before?.kind === "arc" && before.endDip === (chain[k - 1].startDip)) next.pieces.splice(k - 1, 1);
+  }
+  for (let n = next.pieces.length - 1; n > 0; --n)
+    if (next.pieces[n].kind === "line" && next.pieces[n - 1].kind === "line" && !("startDip" in next.pieces[n])) {
+      next.pieces[n - 1].length += next.pieces[n].length;
+      next.pieces.splice(n, 1);
+    }
+  if (!next.pieces.length || objectionToShape(next) || !(depthOf(next) >= leastLength)) return null;
+  setDepth(next, depth);
+  return next;
+}

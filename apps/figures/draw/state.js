@@ -1,0 +1,79 @@
+// What is drawn and chosen now, and what undo goes back to.
+
+const facts = dataOf("data"), schema = dataOf("schema");
+
+/** A state is what undo goes back to: the scene's document with its file's name, the paths of numbers that were written as
+ * floats and the files of picks that it names; picks, and where the picture is. */
+const page = {
+  state: {scene: {}, file: "", floats: new Set(), asked: {}, picks: {horizons: [], faults: []}, faultPoints: null, picture: null},
+  past: [], future: [], pictureImage: null,
+  tool: "fault", chosen: "", line: null, drag: null, extension: 0, lastChange: {},
+};
+
+const copyState = state => structuredClone(state);
+const shapeNow = () => shapeOf(page.state.scene.detachment);
+const km = (x, digits = 2) => `${(x / 1000).toFixed(digits)} km`;
+
+// -- changes and undo
+
+/** Makes a change that undo takes back; changes of one kind in quick succession are one. */
+function change(kind, make) {
+  const before = copyState(page.state), now = performance.now();
+  if (make(page.state) === false) return;
+  const joined = kind && kind === page.lastChange.kind && now - page.lastChange.time < 800 && !page.future.length;
+  if (!joined) page.past.push(before);
+  if (page.past.length > 200) page.past.shift();
+  page.future = [];
+  page.saved = page.fresh = false;
+  page.lastChange = {kind, time: now};
+  showAll();
+}
+
+function travel(from, to) {
+  if (!from.length) return;
+  to.push(copyState(page.state));
+  page.state = from.pop();
+  page.lastChange = {};
+  page.fresh = false;
+  page.forms.bad.clear();
+  showAll();
+}
+
+function setAt({scene, floats}, path, value) {
+  floats.delete(path);
+  const [table, key] = path.includes(".") ? path.split(".") : [null, path], inside = table ? scene[table] ??= {} : scene;
+  if (value === undefined) delete inside[key];
+  else inside[key] = value;
+}
+
+/** Puts a shape into the scene; the hanging wall is as thick as it is deep. */
+function putShape(state, shape) {
+  Object.assign(state.scene.detachment, tableOf(shape));
+  (state.scene.hanging_wall ??= {}).thickness_m = Number(depthOf(shape).toFixed(2));
+  if (state.scene.description === page.description) state.scene.description = `drawn, from ${facts.scene}`;
+}
+
+/** A shape that a node's change made, at the depth that is kept if so asked. */
+function atKeptDepth(before, after) {
+  if ($("keep_depth").checked && !setDepth(after, depthOf(before))) return before;
+  return objectionToShape(after) ? before : after;
+}
+
+function changeShape(kind, make) {
+  const before = shapeNow();
+  if (!before) return;
+  const after = make(before);
+  if (after) change(kind, state => putShape(state, atKeptDepth(before, after)));
+  else tell("That is not possible here: pieces would be too short, or the detachment would not end flat.");
+}
+
+// -- faults
+
+function faultsNow() {
+  const {scene, floats} = page.state, found = faultsBySchema(schema, scene, floats);
+  const all = found.length ? found : faultsOfWhole(facts, schema, scene);
+  const typed = [...page.forms.bad].map(([path, message]) => ({path, message}));
+  return [...typed, ...all.filter(fault => !page.forms.bad.has(fault.path))];
+}
+
+function tell(text) { $("told").textContent = text; }

@@ -1,0 +1,295 @@
+// What the page shows beside its forms: the section, tables of pieces, picks and cost, and what is wrong.
+
+function settings() {
+  const {scene} = page.state, of = path => Number(valueAt(facts, schema, scene, path));
+  return {length: of("hanging_wall.length_m"), thickness: of("hanging_wall.thickness_m"), distance: of("extension.distance_m")};
+}
+
+/** Draws the section as it is now; forms and tables stay as they are. */
+function showSection() {
+  const {scene, picks, faultPoints} = page.state, {length, distance} = settings(), section = page.section, shape = shapeNow();
+  const good = Boolean(shape) && Number.isFinite(chainOf(shape).at(-1).end.x);
+  const chain = (shape ? good && chainOf(shape, 1.5 * (length + 2 * distance)) : baseOf(facts, schema, scene)) || null, angle = Number($("angle").value);
+  const fault = good ? new ShearCoordinate(chain, Math.tan(angle * degree)) : null;
+  page.chain = chain;
+  section.drawPicture(pictureNow(), Number($("opacity").value));
+  if (chain) section.drawModel({chain, shape: good ? shape : null, fault, length, extension: page.extension, angle,
+    preview: Boolean(good), chosen: page.tool === "fault" ? nodeOf(page.chosen) : -1});
+  else section.clear();
+  section.drawAxes(length);
+  section.drawPicks(picks, faultPoints);
+  section.drawHandles(handlesNow(good ? shape : null, chain), page.chosen);
+  if (good) showKinematics(chain, length, angle, fault);
+}
+
+const nodeOf = key => key.startsWith("node ") ? Number(key.slice(5)) : -1;
+
+/** Picture with its reference points; undo goes back to the points, not to another picture. */
+function pictureNow() { return page.pictureImage && page.state.picture ? {...page.pictureImage, points: page.state.picture} : null; }
+
+function handlesNow(shape, chain) {
+  if (page.tool === "picks") return pickHandles();
+  if (page.tool === "picture") return pictureNow()?.points.map((p, k) => ({key: `reference ${"ab"[k]}`, kind: "reference", x: p.x, y: -p.depth,
+    label: `Reference point ${"AB"[k]} at x ${km(p.x)}, depth ${km(p.depth)}`})) || [];
+  if (!shape) return [];
+  const handles = [];
+  const turn = k => {
+    const s = chain[k], reach = 64 / page.section.view.scale / Math.max(1, page.section.view.height * Math.sin(s.startDip * degree));
+    handles.push({key: `turn ${k}`, kind: "turn", x: s.start.x + reach * s.startTangent.x, y: s.start.y + reach * s.startTangent.y,
+      from: s.start, label: `Dip ${k ? `at the kink before piece ${k + 1}` : "at the breakaway"}: ${s.startDip.toFixed(1)} degrees`});
+  };
+  shape.pieces.forEach((piece, k) => {
+    if (k === 0 && piece.kind === "arc" || k > 0 && "startDip" in piece && piece.kind === "arc") turn(k);
+    const {end} = chain[k];
+    handles.push({key: `node ${k}`, kind: "node", x: end.x, y: end.y, label: `Node ${k + 1} of ${shape.pieces.length}: ${tellPiece(k, chain)}`});
+  });
+  return handles;
+}
+
+function pickHandles() {
+  const line = lineNow();
+  return line ? line.x_m.map((x, k) => ({key: `pick ${k}`, kind: "pick", x, y: -line.depth_m[k],
+    label: `Point ${k + 1} of ${line.name} at x ${km(x)}, depth ${km(line.depth_m[k])}`})) : [];
+}
+
+function lineNow(state = page.state) { return page.line ? state.picks[page.line.kind]?.[page.line.index] : undefined; }
+
+function tellPiece(k, chain = page.chain) {
+  const s = chain[k], shape = shapeNow(), piece = shape.pieces[k];
+  const kind = piece.kind === "arc" ? `arc of radius ${km(piece.radius)}, dip ${s.startDip.toFixed(1)}° to ${s.endDip.toFixed(1)}°`
+    : `line of ${km(piece.length)}, dip ${s.startDip.toFixed(1)}°`;
+  return `x ${km(s.end.x)}, depth ${km(-s.end.y)}; ${kind}, from the node before`;
+}
+
+/** Where the detachment soles out, in a sentence. */
+function tellSole(chain = page.chain, shape = shapeNow()) {
+  const s = chain[lastSloping(shape)];
+  return `Soles out at a depth of ${km(-s.end.y)} at x = ${km(s.end.x)}.`;
+}
+
+function tellChosen() {
+  const shape = shapeNow(), k = nodeOf(page.chosen), line = lineNow();
+  if (page.tool === "picture") {
+    tell(pictureNow() ? "Drag A and B to places that you know, then type x and depth of both." : "Choose a PNG or JPEG of a section, or drop one here.");
+  } else if (page.tool === "picks") {
+    tell(line ? `${line.name}: ${line.x_m.length} points. Click the section to add one.` : "Make a horizon or a fault first, then click the section.");
+  } else if (shape && page.chain) {
+    const turned = page.chosen.startsWith("turn ") ? `Dip ${page.chain[Number(page.chosen.slice(5))].startDip.toFixed(1)}°. ` : "";
+    tell((k >= 0 && k < shape.pieces.length ? `Node ${k + 1}: ${tellPiece(k)}. ` : turned) + tellSole());
+  } else tell(page.state.scene.stretching ? "This scene has a flat base that stretches: there is no detachment to draw." : "");
+}
+
+function showKinematics(chain, length, angle, fault) {
+  const {extension} = page;
+  $("extension_told").textContent = km(extension, 1);
+  $("angle_told").textContent = `${angle}°`;
+  const found = extension > 0 ? predictKinematics(chain, extension, angle, length + extension, fault) : null;
+  page.kinematics = found;
+  const rows = [["Tilt of the head block", found?.tilt != null ? `${found.tilt.toFixed(1)}°` : "-"],
+    ["Cutoff of the head block", found?.cutoff ? `x ${km(found.cutoff.x)}, depth ${km(found.cutoff.depth)}` : "-"],
+    ["Deepest drawn basin", found ? `${km(found.deepest.depth)} at x ${km(found.deepest.x)}` : "-"],
+    ["Area of the basin", found ? `${(found.area / 1e6).toFixed(1)} km²` : "-"]];
+  const table = $("kinematics");
+  if (!table.rows.length) for (const [name] of rows) table.append(element("tr", {}, element("td", {}, name), element("td", {className: "number"})));
+  rows.forEach(([, text], k) => { table.rows[k].cells[1].textContent = text; });
+}
+
+function duration(s) {
+  return s < 90 ? `${s.toFixed(0)} s` : s < 5400 ? `${(s / 60).toFixed(1)} min` : s < 172800 ? `${(s / 3600).toFixed(1)} h` : `${(s / 86400).toFixed(1)} d`;
+}
+
+const about = new Intl.NumberFormat("en", {maximumSignificantDigits: 3});
+
+/** Makes a table's rows when there are others than before; else they stay, and with them the focus. */
+function keepRows(table, signature, make) {
+  if (table.dataset.rows === signature) return;
+  table.dataset.rows = signature;
+  table.replaceChildren(...make());
+}
+
+const headOf = names => element("tr", {}, ...names.map(text => element("th", {}, text)));
+const cells = count => Array.from({length: count}, () => element("td", {className: "number"}));
+
+function showCost() {
+  const {scene} = page.state, table = $("cost"), now = scene.accuracy ?? "standard";
+  keepRows(table, "levels", () => [headOf(["Accuracy", "Radius", "Discs", "At the end", "Time"]), ...facts.levels.map(({name}) => {
+    const radio = element("input", {type: "radio", name: "accuracy", value: name});
+    radio.onchange = () => change("", state => { state.scene.accuracy = name; });
+    return element("tr", {}, element("td", {}, element("label", {}, radio, ` ${name}`)), ...cells(4));
+  })]);
+  facts.levels.forEach((level, k) => {
+    const here = level.name === now, row = table.rows[k + 1], other = structuredClone(scene);
+    other.accuracy = level.name;
+    if (!here) delete other.hanging_wall?.mean_radius_m;
+    if (!here) delete other.extension?.speed_m_per_s;
+    const cost = page.chain ? predictCost(facts, schema, other) : null, radius = Number(valueAt(facts, schema, other, "hanging_wall.mean_radius_m"));
+    if (here) page.cost = cost;
+    row.className = here ? "chosen" : "";
+    row.querySelector("input").checked = here;
+    const numbers = cost ? [about.format(cost.discs), about.format(cost.discsAtEnd), duration(cost.seconds)] : ["-", "-", "-"];
+    [`${Number(radius.toPrecision(4))} m`, ...numbers].forEach((text, column) => { row.cells[column + 1].textContent = text; });
+  });
+  const threads = facts.speeds.threads, speed = speedAt(facts.speeds, page.cost?.discs ?? 1e4, false).team / 1e6;
+  $("cost_note").textContent = `On the machine that wrote this page, with ${threads} ${threads === 1 ? "thread" : "threads"} when nothing else runs ` +
+    `(${about.format(speed)} million disc-steps per second). Elsewhere: listric explain.`;
+}
+
+function showPieces() {
+  const shape = shapeNow(), table = $("pieces"), chain = page.chain;
+  if (!shape || !chain) {
+    keepRows(table, "none", () => []);
+    return;
+  }
+  const last = lastSloping(shape);
+  keepRows(table, JSON.stringify([last, ...shape.pieces.map(piece => [piece.kind, "startDip" in piece])]), () =>
+    [headOf(["", "Piece", "Radius or length, m", "Dip, °", "", "Ends at x, km", "depth, km"]), ...shape.pieces.map((piece, k) => rowOfPiece(piece, k, last))]);
+  const put = (cell, value) => {
+    const field = cell.querySelector("input"), text = String(Number(value.toFixed(2)));
+    if (!field) cell.lastChild.textContent = text;
+    else if (field.value !== text) field.value = text;
+    field?.setAttribute("aria-invalid", false);
+  };
+  shape.pieces.forEach((piece, k) => {
+    const row = table.rows[k + 1], {startDip, endDip, end} = chain[k];
+    row.className = page.chosen === `node ${k}` ? "chosen" : "";
+    put(row.cells[2], piece.radius ?? piece.length);
+    put(row.cells[3], startDip);
+    if (piece.kind === "arc") put(row.cells[4], endDip);
+    [end.x, -end.y].forEach((x, column) => { row.cells[5 + column].textContent = (x / 1000).toFixed(2); });
+  });
+}
+
+function rowOfPiece(piece, k, last) {
+  const number = (label, broad, make) => {
+    const input = element("input", {type: "text", inputMode: "decimal", className: broad ? "broad" : ""});
+    input.setAttribute("aria-label", `${label} of piece ${k + 1}`);
+    input.onchange = () => typePiece(input, k, make);
+    return input;
+  };
+  const choose = element("button", {title: `Choose piece ${k + 1}`}, String(k + 1)), text = () => document.createTextNode("");
+  choose.onclick = () => chooseHandle(`node ${k}`, true);
+  const from = k === 0 || "startDip" in piece ? number("First dip", false, (next, x) => {
+    if (k === 0) next.startDip = x;
+    if (k > 0 || "startDip" in next.pieces[0]) next.pieces[k].startDip = x;
+  }) : text();
+  const to = piece.kind === "line" ? [] : ["to ", k === last ? text() : number("Last dip", false, (next, x) => { next.pieces[k].endDip = x; })];
+  const size = number(piece.kind === "arc" ? "Radius" : "Length", true, (next, x) => { next.pieces[k][piece.kind === "arc" ? "radius" : "length"] = x; });
+  return element("tr", {}, element("td", {}, choose), element("td", {}, piece.kind), element("td", {}, size),
+    element("td", {className: "number"}, from), element("td", {className: "number"}, ...to), ...cells(2));
+}
+
+/** A number that is typed into the table of pieces. */
+function typePiece(input, k, make) {
+  const {value, fault} = valueOf(input.value, {type: "number"}), next = copyOf(shapeNow());
+  if (!fault && value !== undefined) make(next, Number(value));
+  const faults = fault ? [{message: fault}] : faultsBySchema(schema.properties.detachment, tableOf(next)), why = faults[0]?.message || objectionToShape(next);
+  input.setAttribute("aria-invalid", Boolean(why || value === undefined));
+  if (why || value === undefined) tell(`Piece ${k + 1}: ${why || "a number is missing"}.`);
+  else change("", state => putShape(state, next));
+}
+
+function showLines() {
+  const {picks} = page.state, table = $("lines"), all = ["horizons", "faults"].flatMap(kind => picks[kind].map((line, index) => ({kind, index, line})));
+  keepRows(table, all.map(({kind}) => kind).join(), () => all.length
+    ? [headOf(["", "Kind", "Name", "Age before the end, Myr", "Points", ""]), ...all.map(({kind, index}) => rowOfLine(kind, index))] : []);
+  all.forEach(({kind, index, line}, k) => {
+    const row = table.rows[k + 1], here = page.line?.kind === kind && page.line.index === index, [radio, name, age] = row.querySelectorAll("input");
+    row.className = here ? "chosen" : "";
+    radio.checked = here;
+    name.value = line.name;
+    if (age) age.value = line.age_a === undefined ? "" : String(line.age_a / 1e6);
+    row.cells[4].textContent = line.x_m.length;
+    for (const [part, label] of [[radio, "Draw"], [name, "Name of"], [age, "Age, million years before the end of extension, of"], [row.cells[5].firstChild, "Remove"]])
+      part?.setAttribute("aria-label", `${label} ${line.name}`);
+  });
+}
+
+function rowOfLine(kind, index) {
+  const radio = element("input", {type: "radio", name: "line"}), name = element("input", {type: "text", className: "name"});
+  const age = element("input", {type: "text", inputMode: "decimal"}), drop = element("button", {}, "Remove");
+  radio.onchange = () => { page.line = {kind, index}; showAll(); };
+  name.onchange = () => change("", state => nameLine(state, kind, index, name.value));
+  age.onchange = () => change("", state => ageLine(state, kind, index, age));
+  drop.onclick = () => change("", state => { state.picks[kind].splice(index, 1); page.line = null; });
+  return element("tr", {}, element("td", {}, radio), element("td", {}, kind === "faults" ? "fault" : "horizon"), element("td", {}, name),
+    element("td", {}, kind === "faults" ? "" : age), ...cells(1), element("td", {}, drop));
+}
+
+function nameLine(state, kind, index, name) {
+  const taken = state.picks[kind].some((line, k) => k !== index && line.name === name.trim());
+  if (!name.trim() || taken) {
+    tell(taken ? `There is a line ${name.trim()} already; rows of one name are one line.` : "A line needs a name.");
+    return false;
+  }
+  state.picks[kind][index].name = name.trim();
+  return true;
+}
+
+function ageLine(state, kind, index, input) {
+  const {value, missing} = valueOf(input.value, {type: "number"}), age = Number(value) * 1e6;
+  if (missing) delete state.picks[kind][index].age_a;
+  else if (age >= 0 && age <= 1e10) state.picks[kind][index].age_a = age;
+  else {
+    input.setAttribute("aria-invalid", true);
+    tell("An age is in million years before the end of extension, 0 to 10000.");
+    return false;
+  }
+  return true;
+}
+
+function showReferences() {
+  const picture = pictureNow(), host = $("references");
+  $("drop_picture").disabled = !picture;
+  $("corners").textContent = "";
+  if (!picture) {
+    host.replaceChildren();
+    return;
+  }
+  if (!host.childNodes.length) host.append(...[0, 1].flatMap(k => ["x", "depth"].map(key => {
+    const input = element("input", {type: "text", inputMode: "decimal", size: 8, id: `reference_${"ab"[k]}_${key}`});
+    input.onchange = () => {
+      const {value} = valueOf(input.value, {type: "number"});
+      input.setAttribute("aria-invalid", typeof value !== "number");
+      if (typeof value === "number") change("", state => { state.picture[k][key] = value; });
+    };
+    return element("label", {}, `${"AB"[k]}: ${key}, m `, input);
+  })));
+  picture.points.forEach((p, k) => ["x", "depth"].forEach(key => { $(`reference_${"ab"[k]}_${key}`).value = Number(p[key].toFixed(1)); }));
+  const corners = cornersOf(picture).map(x => x.toFixed(0)).join(",");
+  $("corners").textContent = `Later, over the run: listric figures DIR --underlay ${picture.name} --corners ${corners}`;
+}
+
+function showState() {
+  const faults = faultsNow(), box = $("state"), {lines} = page;
+  box.classList.toggle("bad", faults.length > 0);
+  const place = path => page.fresh && lines?.has(path) ? `line ${lines.get(path)}: ` : "";
+  box.textContent = faults.length
+    ? faults.slice(0, 6).map(({path, message}) => `${place(path)}${path}: ${message}`).join("\n") + (faults.length > 6 ? `\nand ${faults.length - 6} more` : "")
+    : `Correct: listric check accepts this scene. ${page.cost ? `${about.format(page.cost.discs)} discs, about ${duration(page.cost.seconds)} at ${page.state.scene.accuracy ?? "standard"}.` : ""}`;
+  page.forms.show(page.state.scene, faults);
+  return faults;
+}
+
+function showAll() {
+  const {scene, picks} = page.state, {distance} = settings();
+  $("title").textContent = scene.description || "Draw a section";
+  $("subtitle").textContent = `${page.state.file}${page.past.length ? ", changed" : ""}; ${facts.program}`;
+  $("undo").disabled = !page.past.length;
+  $("redo").disabled = !page.future.length;
+  $("save_picks").disabled = !picks.horizons.length && !picks.faults.length;
+  const slider = $("extension"), atEnd = Number(slider.value) >= Number(slider.max);
+  slider.max = distance;
+  if (atEnd || page.extension > distance) slider.value = distance;
+  page.extension = Number(slider.value);
+  for (const tool of ["fault", "picks", "picture"]) $(`panel_${tool}`).hidden = page.tool !== tool;
+  showSection();
+  showPieces();
+  showCost();
+  showLines();
+  showReferences();
+  showState();
+  const shape = shapeNow(), k = nodeOf(page.chosen);
+  $("add").disabled = !shape;
+  $("remove").disabled = !shape || k < 0 || k >= shape.pieces.length || !removeNode(shape, k);
+  tellChosen();
+}
