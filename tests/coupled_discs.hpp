@@ -8,6 +8,7 @@
 #include "dem/base/place.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/genesis/genesis.hpp"
+#include "tests/gravity.hpp"
 #include "tests/support.hpp"
 
 #include <cmath>
@@ -18,7 +19,7 @@ namespace listric::support {
 using namespace dem;
 using namespace coupling;
 
-constexpr double radius = 1500.0, length = 4000.0, gravity = 9.81; // m, m, m/s^2
+constexpr double radius = 1500.0, length = 4000.0; // m
 
 inline RigidBase make_listric_base() {
     RigidBase base = listric_base(radius, length);

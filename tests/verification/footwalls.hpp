@@ -3,6 +3,7 @@
 // Footwalls that the tests of elastic bases start from.
 
 #include "fem/footwall.hpp"
+#include "tests/gravity.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -11,7 +12,6 @@
 namespace listric::support {
 
 inline constexpr double right_angle = 0.5 * std::numbers::pi;
-inline constexpr double gravity = 9.81; ///< m/s^2
 
 /// A bend of the detachment: radius, m, and turn, rad (> 0 left); or a line: length and no turn.
 struct Bend {

@@ -218,11 +218,15 @@ const Effect& sedimentation() {
                 .key = "sediment",
                 .file = "sediment",
                 .doc = "material, by name or path, with the defaults of sediment discs in "
-                       "[sedimentation]",
-                .changes = "Sets stiffness and friction of sediment at once.",
+                       "[sedimentation] and, if it has [pores], of its pores there and in the "
+                       "effects of water and compaction",
+                .changes = "Sets stiffness and friction of sediment at once; mud, silt and sand "
+                           "also how they compact and let water through.",
                 .take =
                     [](Scene& scene, const RockMaterial& rock) {
                         take_microproperties(scene.find<P>()->material, rock);
+                        if (rock.pores)
+                            scene.find<P>()->surface_porosity = rock.pores->surface_porosity;
                     },
             },
         .check = check,
