@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/scene/parameter.hpp"
+#include "apps/scene/sediment_pores.hpp"
 #include "apps/scene/shelf.hpp"
-#include "coupling/pore_law.hpp"
 #include "dem/material.hpp"
 
 #include <filesystem>
@@ -11,13 +11,6 @@
 #include <vector>
 
 namespace listric {
-
-/// How sediment compacts, and how it lets water through.
-struct SedimentPores {
-    double surface_porosity = 0.5; ///< as deposited
-    double coefficient = 4e-4;     ///< decay of porosity with depth, 1/m
-    coupling::Permeability permeability = {};
-};
 
 /// Microproperties of a rock or sediment, from a file: `description`, [material] and, for rock
 /// that can be bonded, [bonds], with the keys of the scene's tables of these names; for sediment

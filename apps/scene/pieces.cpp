@@ -1,6 +1,6 @@
 #include "apps/scene/pieces.hpp"
 
-#include "apps/scene/material_file.hpp"
+#include "apps/scene/sediment_pores.hpp"
 
 namespace listric {
 

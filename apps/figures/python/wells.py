@@ -27,7 +27,7 @@ PANELS = (
       ("fracture_pressure_pa", PASCAL, "fracture line", {"color": OPEN, "ls": ":", "lw": 1.3}),
       ("total_stress_pa", PASCAL, "lithostat", {"color": GRAINS, "lw": 1.3}))),
     ("Porosity",
-     (("normal_porosity", 1.0, "normal compaction", {"color": FAINT, "ls": "--", "lw": 1.1}),
+     (("normal_porosity", 1.0, "with water at rest", {"color": FAINT, "ls": "--", "lw": 1.1}),
       ("porosity", 1.0, "porosity", {"color": MUD, "lw": 2.0}))),
     ("Equivalent mud weight (g/cm³)",
      (("rest_pressure_pa", None, "hydrostat", {"color": WATER, "ls": "--", "lw": 1.1}),

@@ -217,11 +217,11 @@ const Effect& sedimentation() {
             RockSource{
                 .key = "sediment",
                 .file = "sediment",
-                .doc = "material, by name or path, with the defaults of sediment discs in "
-                       "[sedimentation] and, if it has [pores], of its pores there and in the "
-                       "effects of water and compaction",
+                .doc =
+                    "material, by name or path, with the defaults of sediment discs in "
+                    "[sedimentation]; if it has [pores], also of how pores close and water flows",
                 .changes = "Sets stiffness and friction of sediment at once; mud, silt and sand "
-                           "also how they compact and let water through.",
+                           "also how their pores close and water flows.",
                 .take =
                     [](Scene& scene, const RockMaterial& rock) {
                         take_microproperties(scene.find<P>()->material, rock);
