@@ -174,7 +174,7 @@ TEST(Ground, KnowsWhatDiscsKeepADiscAbove) {
         row.push_back({100.0 + 200.0 * k, 100.0, 100.0});
     const Ground ground(make_state(row), base, 120.0);
     const double pocket = 100.0 + std::sqrt(180.0 * 180.0 - 100.0 * 100.0);
-    EXPECT_TRUE(ground.keeps_above(pocket - 0.2, 350.0, 1650.0, 80.0));
+    EXPECT_TRUE(ground.keeps_above(pocket - 1.5, 350.0, 1650.0, 80.0));
     EXPECT_FALSE(ground.keeps_above(pocket + 0.2, 350.0, 1650.0, 80.0));
     EXPECT_TRUE(ground.keeps_above(pocket + 0.2, 480.0, 520.0, 80.0));
     EXPECT_FALSE(ground.keeps_above(280.2, 499.0, 501.0, 80.0));
