@@ -1,6 +1,7 @@
 // Water in the pores from the scene to the discs: what it leaves as it is, what it keeps, and what
 // it refuses.
 
+#include "apps/figures/draw_run.hpp"
 #include "apps/figures/export_run.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
@@ -163,6 +164,9 @@ TEST_F(PoreFluidRun, ExportsWells) {
     const auto one = columns_of(export_run({.kind = "well", .output = run, .wells = {x}}).back());
     EXPECT_EQ(one.at("pressure_pa")[0], of["pressure_pa"][0]);
     EXPECT_THROW(export_run({.kind = "well", .output = run, .wells = {1e6}}), UsageError);
+    draw_run(run, std::nullopt, {"png"}, {}, {x});
+    EXPECT_THAT(std::distance(fs::directory_iterator(run / "figures"), {}), 1);
+    EXPECT_THROW(draw_run(run, std::nullopt, {"png"}, {}, {1e6}), UsageError);
     EXPECT_THROW(export_run({.kind = "faults", .output = run, .wells = {x}}), UsageError);
 }
 
