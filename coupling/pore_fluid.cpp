@@ -84,6 +84,8 @@ void PoreFluid::begin(State& state) {
     state.discs.add<double>("burial", "m", 0.0);
     state.discs.add<double>("wanted_porosity", "1", law_.surface_porosity);
     state.discs.add<double>("overpressure_ratio", "1", 0.0);
+    for (const char* name : {"darcy_x", "darcy_y"})
+        state.discs.add<double>(name, "m/s", 0.0);
     if (fluid_.pushes)
         add_pushes(state);
 }
@@ -147,6 +149,14 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
             d.radius[static_cast<std::size_t>(cells.rows[k])] * (1.0 - porosity[k]);
         ratio.push_back(u[k] / (law_.grain_weight * std::max(grains[k], least)));
     }
+    std::vector<double> darcy_x, darcy_y;
+    const std::vector<Point> gradients = pressure_gradients(cells, u);
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        darcy_x.push_back(-conductivity[k] / fluid_.viscosity * gradients[k].x);
+        darcy_y.push_back(-conductivity[k] / fluid_.viscosity * gradients[k].y);
+    }
+    scatter(darcy_x, cells, state, "darcy_x");
+    scatter(darcy_y, cells, state, "darcy_y");
     scatter(u, cells, state, "excess_pressure");
     scatter(water, cells, state, "pore_water");
     scatter(burial, cells, state, "burial");

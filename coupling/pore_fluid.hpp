@@ -49,7 +49,8 @@ PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, 
 ///
 /// Columns of discs: excess_pressure, Pa; pore_water, m^2 (-1: not counted yet); burial, m,
 /// greatest equivalent depth; wanted_porosity, which compaction follows; overpressure_ratio, u over
-/// the weight of grains in water; push_x, push_y. Its memory has one row: see Sums.
+/// the weight of grains in water; darcy_x, darcy_y, m/s, volume of water that passes an area in a
+/// time; push_x, push_y. Its memory has one row: see Sums.
 class PoreFluid : public dem::Event {
 public:
     /// @param gravity  of planet, not of discs in water, m/s^2

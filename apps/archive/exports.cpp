@@ -163,6 +163,27 @@ LineTable base_table(const ExportedMoment& at) {
     return table;
 }
 
+LineTable wells_table(const ExportedMoment& at) {
+    LineTable table{"wells", "", {"name"}};
+    const MeasuredWell* const well = measured_well(at.now.scene);
+    if (!well)
+        return table;
+    for (const Quantity& part : well->parts) // a line's depth is that below the original surface
+        table.point_columns.emplace_back(part.name == "depth_m" ? "ground_depth_m" : part.name);
+    std::vector<WellPlace> places;
+    for (const double x : at.wells)
+        places.push_back({fmt::format("x {:g} m", x), x});
+    for (const WellPlace& place : places.empty() ? well->places(at.now) : places) {
+        Line line{{place.name}, rounded(at, well->points(at.now, place.x))};
+        for (const NamedNumbers& numbers : well->numbers(at.now, place.x))
+            for (const auto& [name, value] : numbers)
+                line.at_points.push_back(value);
+        if (!line.points.empty())
+            table.lines.push_back(std::move(line));
+    }
+    return table;
+}
+
 std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
     const State& state = at.now.state;
     const ConstDiscColumns d = disc_columns(state);
@@ -194,7 +215,8 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
         {"stress_yy_pa", component(&Stress::yy)},
         {"stress_xy_pa", component(&Stress::xy)},
     };
-    for (const char* name : {"window_strain", "total_strain", "porosity"})
+    for (const char* name :
+         {"window_strain", "total_strain", "porosity", "excess_pressure", "overpressure_ratio"})
         if (state.discs.has(name))
             columns.push_back({name, numbers(state.discs.get<double>(name))});
     return columns;

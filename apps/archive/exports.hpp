@@ -13,6 +13,7 @@ namespace listric::archive {
 struct ExportedMoment {
     Observation now;
     measures::FaultReport faults = {};
+    std::vector<double> wells = {}; ///< x of wells, m; empty: where the effect has them
 };
 
 // Exports of docs/export.md, a table per kind. Points are rounded to a millimetre.
@@ -34,6 +35,9 @@ LineTable base_table(const ExportedMoment& at);
 
 /// Discs, a "line" for each rock, by id.
 LineTable discs_table(const ExportedMoment& at);
+
+/// Wells, a "line" each, from the ground down; none where no effect measures wells.
+LineTable wells_table(const ExportedMoment& at);
 
 /// A column of discs: its name and what it holds by row of the disc table.
 struct DiscColumn {

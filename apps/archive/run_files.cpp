@@ -40,14 +40,14 @@ constexpr TopFile top_files[] = {
     {"footwall.vtu", "<VTKFile", Written::with_base},
 };
 
-constexpr std::string_view section_pictures[] = {"strata",   "bonds",    "behaviour",
-                                                 "strain",   "sediment", "kinematics",
-                                                 "overview", "underlay", "experiment"};
+constexpr std::string_view section_pictures[] = {
+    "strata",     "bonds",    "behaviour", "strain",     "sediment",
+    "kinematics", "overview", "underlay",  "experiment", "well"};
 constexpr std::string_view layer_picture = "layer-"; ///< and the name of an effect's layer
 constexpr std::string_view base_pictures[] = {"base", "footwall", "flexure"};
 constexpr std::string_view picture_endings[] = {".png", ".pdf", ".svg"};
 constexpr std::string_view film_endings[] = {".mp4", ".gif"};
-constexpr std::string_view line_exports[] = {"horizons", "faults", "surfaces", "base"};
+constexpr std::string_view line_exports[] = {"horizons", "faults", "surfaces", "base", "well"};
 constexpr std::string_view line_endings[] = {".csv", ".geojson", ".gmt"};
 constexpr std::string_view series_parts[] = {"discs", "contacts", "base"};
 

@@ -124,7 +124,7 @@ std::string check(const std::string& name, const fs::path& file, Times& times) {
         return check_validation(file);
     const auto is_of_material = [](const auto& entry) {
         const std::string_view key = entry.first;
-        return key == "description" || key == "material" || key == "bonds";
+        return key == "description" || key == "material" || key == "bonds" || key == "pores";
     };
     if (document.contains("material") && std::ranges::all_of(document, is_of_material))
         return fmt::format("a material{}", read_material(file).bonds ? " that is bonded" : "");

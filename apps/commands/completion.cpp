@@ -80,6 +80,8 @@ Words material_assignments() {
         words.push_back(fmt::format("material.{}=", parameter.key));
     for (const Parameter& parameter : bond_parameters<>())
         words.push_back(fmt::format("bonds.{}=", parameter.key));
+    for (const Parameter& parameter : pore_parameters())
+        words.push_back(fmt::format("pores.{}=", parameter.key));
     return words;
 }
 

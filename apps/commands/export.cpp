@@ -12,13 +12,14 @@ namespace listric {
 Command add_export(CLI::App& program) {
     const auto request = std::make_shared<ExportRequest>();
     CLI::App* command = add_call(
-        program, {"Look",
-                  "export",
-                  "write lines or discs of a run for other programs",
-                  "docs/export.md",
-                  {{{"export horizons out/lis1", "tops of all strata as CSV"},
-                    {"export faults out/lis1 --format geojson", "faults for a GIS"},
-                    {"export discs out/lis1 --at 5000", "discs after 5 km of extension"}}}});
+        program,
+        {"Look",
+         "export",
+         "write lines or discs of a run for other programs",
+         "docs/export.md",
+         {{{"export horizons out/lis1", "tops of all strata as CSV"},
+           {"export faults out/lis1 --format geojson", "faults for a GIS"},
+           {"export well out/lis1-mud --x 3750", "pressure and mud weight along a well"}}}});
     command->add_option("KIND", request->kind, fmt::format("{}", fmt::join(export_kinds(), ", ")))
         ->type_name("KIND")
         ->required();
@@ -33,6 +34,9 @@ Command add_export(CLI::App& program) {
     add_numbers(*command, "--at", request->extensions,
                 "extension of a snapshot, m, or several with commas")
         ->default_str("all snapshots");
+    add_numbers(*command, "--x", request->wells,
+                "of well: distance from the breakaway, m, or several with commas")
+        ->default_str("the depocentre and its flank");
     return {command, [request] {
                 for (const std::filesystem::path& file : export_run(*request))
                     std::cout << file.string() << '\n';

@@ -24,6 +24,7 @@ struct FiguresCall {
     bool animation = false;
     UnderlayOptions underlay;
     std::vector<double> extensions; ///< m
+    std::vector<double> wells;      ///< x, m
     std::vector<std::string> formats{"png"};
 };
 
@@ -38,6 +39,8 @@ void require_formats(const FiguresCall& call) {
         throw UsageError("--format: is not of an animation, which is a film");
     if (call.animation && !call.extensions.empty())
         throw UsageError("--at: an animation has all snapshots");
+    if (call.animation && !call.wells.empty())
+        throw UsageError("--well: is not drawn in an animation");
 }
 
 } // namespace
@@ -59,6 +62,9 @@ Command add_figures(CLI::App& program) {
     add_numbers(*command, "--at", call->extensions,
                 "extensions of snapshots whose sections are drawn, m, with commas between")
         ->default_str("the scene's output.figures_at_m, and the end");
+    add_numbers(*command, "--well", call->wells,
+                "distances from the breakaway, m, of wells whose figure alone is drawn")
+        ->default_str("the depocentre and its flank, beside all figures");
     command
         ->add_option("--format", call->formats,
                      "png, pdf or svg, or several: png,pdf; discs are an image in all of them")
@@ -71,7 +77,8 @@ Command add_figures(CLI::App& program) {
                     throw UsageError("--underlay: is not drawn in an animation");
                 require_formats(*call);
                 call->animation ? animate_run(call->folder)
-                                : draw_run(call->folder, underlay, call->formats, call->extensions);
+                                : draw_run(call->folder, underlay, call->formats, call->extensions,
+                                           call->wells);
                 return ExitCode::done;
             }};
 }

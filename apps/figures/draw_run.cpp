@@ -9,7 +9,11 @@
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/flexure_figure.hpp"
+#include "apps/figures/well_figure.hpp"
 #include "apps/support/error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string>
 #include <vector>
@@ -48,7 +52,8 @@ void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
 } // namespace
 
 void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
-              const std::vector<std::string>& formats, const std::vector<double>& extensions) {
+              const std::vector<std::string>& formats, const std::vector<double>& extensions,
+              const std::vector<double>& wells) {
     std::error_code error;
     if (fs::exists(output / "deflection.csv", error))
         return draw_flexure(output,
@@ -57,6 +62,13 @@ void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
     const PictureOrder order{formats, provenance_of_run(output, run.scene)};
     const std::vector<fs::path> chosen =
         extensions.empty() ? chosen_snapshots(run) : run.snapshots_at(extensions);
+    const bool has_wells = draw_wells(run, chosen, wells, order);
+    if (!wells.empty()) {
+        if (!has_wells)
+            throw UsageError(fmt::format("--well {}: no pore water under pressure there",
+                                         fmt::join(wells, ",")));
+        return;
+    }
     FigureFrames frames(output / "figures", underlay, order, run.names);
     const RunHistory history(run);
     bool base_moves = false;

@@ -16,8 +16,10 @@ namespace listric {
 /// @param underlay  that sections are drawn over, if there is one
 /// @param formats  of picture_formats
 /// @param extensions  of the snapshots, m, whose sections alone are drawn; none: the scene's
+/// @param wells  x, m, of wells whose figure alone is drawn; none: where the effect has them
 void draw_run(const std::filesystem::path& output, const std::optional<Underlay>& underlay,
-              const std::vector<std::string>& formats, const std::vector<double>& extensions);
+              const std::vector<std::string>& formats, const std::vector<double>& extensions,
+              const std::vector<double>& wells = {});
 
 /// Draws the same moments on one sheet, if there are at least two. Throws as draw_run.
 /// @param history  the run's past, up to its end

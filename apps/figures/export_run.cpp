@@ -6,6 +6,7 @@
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/measures/rock.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/npy.hpp"
@@ -42,7 +43,7 @@ const std::vector<Kind>& kinds() {
     static const std::vector<Kind> all{
         {"horizons", horizons_table, true, of_lines},  {"faults", faults_table, true, of_lines},
         {"surfaces", surfaces_table, false, of_lines}, {"base", base_table, false, of_lines},
-        {"discs", discs_table, false, {"csv", "gsd"}},
+        {"discs", discs_table, false, {"csv", "gsd"}}, {"well", wells_table, false, of_lines},
     };
     return all;
 }
@@ -101,6 +102,24 @@ void Trajectory::write(const fs::path& file) const {
     run_script_with("gsd", "python3-gsd", "trajectory.py", words);
 }
 
+/// Why there is no well.
+std::string no_well(const ExportRequest& request, const Observation& now) {
+    const MeasuredWell* const well = measured_well(now.scene);
+    if (!well || well->places(now).empty()) {
+        std::vector<std::string> tables;
+        for (const Effect* effect : program_effects())
+            if (effect->well)
+                tables.push_back(fmt::format("[{}]", effect->name));
+        return fmt::format(
+            "{}: no pressure of pore water to export; wells need {}, a pressure that "
+            "is not that of water at rest, and sediment",
+            request.output.string(), fmt::join(tables, " or "));
+    }
+    const WellPlace place = well->places(now).front();
+    return fmt::format("--x {}: no sediment there; the {} is at {:.0f} m",
+                       fmt::join(request.wells, ","), place.name, place.x);
+}
+
 std::string written(const LineTable& table, const std::string& format) {
     return format == "csv"       ? to_csv(table)
            : format == "geojson" ? to_geojson(table)
@@ -119,6 +138,8 @@ std::vector<std::string_view> export_kinds() {
 std::vector<fs::path> export_run(const ExportRequest& request) {
     const Kind& kind = kind_named(request.kind);
     require_formats(kind, request.formats);
+    if (!request.wells.empty() && kind.name != "well")
+        throw UsageError(fmt::format("--x: is of export well; export {} has no places", kind.name));
     if (list_snapshots(request.output).empty())
         throw UsageError(request.output.string() +
                          ": no snapshots to export; is this a run's folder?");
@@ -134,10 +155,12 @@ std::vector<fs::path> export_run(const ExportRequest& request) {
     for (const fs::path& path : moments) {
         const Moment moment = run.read(path);
         const Observation now{run.scene, run.parts, moment.state, moment.events};
-        const ExportedMoment at{now, kind.needs_faults
-                                         ? report_faults(make_setting(run.scene, run.parts),
-                                                         run.parts.base, moment.state, history)
-                                         : measures::FaultReport()};
+        const ExportedMoment at{now,
+                                kind.needs_faults
+                                    ? report_faults(make_setting(run.scene, run.parts),
+                                                    run.parts.base, moment.state, history)
+                                    : measures::FaultReport(),
+                                request.wells};
         if (trajectory)
             trajectory->add(at);
         if (trajectory && request.formats.size() == 1)
@@ -146,6 +169,11 @@ std::vector<fs::path> export_run(const ExportRequest& request) {
         if (table.lines.empty() && kind.name == "base")
             throw UsageError(request.output.string() + ": the base of this run is rigid; there is "
                                                        "no deflection to export");
+        if (table.lines.empty() && kind.name == "well") { // at the start there is no sediment
+            if (path == moments.back())
+                throw UsageError(no_well(request, now));
+            continue;
+        }
         table.name = fmt::format("{}-{}", kind.name, path.stem().string());
         for (const std::string& format : request.formats)
             if (format != "gsd") {

@@ -13,6 +13,7 @@ struct ExportRequest {
     std::filesystem::path output;               ///< the run's folder
     std::vector<std::string> formats = {"csv"}; ///< that the kind has
     std::vector<double> extensions = {};        ///< of the nearest snapshots, m; empty: all
+    std::vector<double> wells = {};             ///< x, m, of kind well; empty: the effect's places
 };
 
 std::vector<std::string_view> export_kinds();

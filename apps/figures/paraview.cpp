@@ -132,9 +132,17 @@ std::string discs_file(const State& state, const RigidBase& base) {
                                      static_cast<float>(s.xy)});
     file.array(file.point_data, "velocity_m_per_s", velocity, 3);
     file.array(file.point_data, "stress_pa", stress, 3, {"XX", "YY", "XY"});
-    for (const char* name : {"window_strain", "total_strain", "porosity"})
+    for (const char* name :
+         {"window_strain", "total_strain", "porosity", "excess_pressure", "overpressure_ratio"})
         if (state.discs.has(name))
             file.array(file.point_data, name, as<float>(state.discs.get<double>(name)));
+    if (state.discs.has("darcy_x")) {
+        const auto x = state.discs.get<double>("darcy_x"), y = state.discs.get<double>("darcy_y");
+        std::vector<float> flow;
+        for (std::size_t i = 0; i < n; ++i)
+            flow.insert(flow.end(), {static_cast<float>(x[i]), static_cast<float>(y[i]), 0.0f});
+        file.array(file.point_data, "darcy_velocity_m_per_s", flow, 3);
+    }
     return file.text();
 }
 

@@ -46,4 +46,11 @@ std::vector<FigureLayer> figure_layers(const Scene& scene) {
     return layers;
 }
 
+const MeasuredWell* measured_well(const Scene& scene) {
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->well)
+            return &*part.effect->well;
+    return nullptr;
+}
+
 } // namespace listric

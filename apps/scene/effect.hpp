@@ -120,6 +120,21 @@ struct MeasuredObjects {
     bool is_list = true; ///< else the one object itself
 };
 
+/// A place where a well is worth a look.
+struct WellPlace {
+    std::string name;
+    double x; ///< m
+};
+
+/// Numbers along vertical lines through a section.
+struct MeasuredWell {
+    std::vector<Quantity> parts = {}; ///< of a point
+    std::vector<WellPlace> (*places)(const Observation& now) = nullptr;
+    /// From the ground down; empty: there is nothing to measure.
+    std::vector<NamedNumbers> (*numbers)(const Observation& now, double x) = nullptr;
+    std::vector<dem::Point> (*points)(const Observation& now, double x) = nullptr; ///< their places
+};
+
 /// How a figure draws a layer.
 enum class LayerKind {
     band, ///< an area behind the discs; rows x, bottom, top (m, y up)
@@ -207,6 +222,7 @@ struct Effect {
     std::vector<Measure<Observation>> measures = {};
     std::vector<MeasuredObjects> objects = {};
     std::vector<FigureLayer> layers = {};
+    std::optional<MeasuredWell> well = {};
 };
 
 /// Whether the effect of that name is on.
@@ -226,6 +242,9 @@ std::vector<std::string> effect_names(const Scene& scene);
 
 /// Layers of the effects that are on.
 std::vector<FigureLayer> figure_layers(const Scene& scene);
+
+/// Wells of the effect that has some; null where none of those that are on has.
+const MeasuredWell* measured_well(const Scene& scene);
 
 /// Default parameters of a type, and where an object of it is in a std::any.
 template <class Parameters> std::any make_defaults() { return Parameters{}; }

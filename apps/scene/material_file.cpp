@@ -7,6 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
 namespace listric {
 
 using namespace dem;
@@ -27,7 +31,11 @@ void read_whole_table(const Entry& entry, const std::vector<Parameter>& paramete
 
 } // namespace
 
-bool must_be_said(const Parameter& parameter) { return parameter.key != "strength_is"; }
+bool must_be_said(const Parameter& parameter) {
+    constexpr std::string_view have_defaults[] = {"strength_is", "permeability_law",
+                                                  "clay_fraction"};
+    return std::ranges::find(have_defaults, parameter.key) == std::end(have_defaults);
+}
 
 RockMaterial read_material(const std::filesystem::path& file,
                            const std::vector<std::string>& changes) {
@@ -52,9 +60,13 @@ RockMaterial read_material(const std::filesystem::path& file,
             rock.bonds.emplace();
             rock.material.bondable = true;
             read_whole_table(entry, bond_parameters<>(), &*rock.bonds);
+        } else if (key == "pores") {
+            rock.pores.emplace();
+            read_whole_table(entry, pore_parameters(), &*rock.pores);
         } else {
-            fail(entry, fmt::format("unknown {}, {}", node.is_table() ? "table" : "key",
-                                    advice(key.str(), {"description", "material", "bonds"})));
+            fail(entry,
+                 fmt::format("unknown {}, {}", node.is_table() ? "table" : "key",
+                             advice(key.str(), {"description", "material", "bonds", "pores"})));
         }
     }
     if (!has_material)
@@ -78,6 +90,8 @@ std::string to_toml(const RockMaterial& rock) {
                                     write(material_parameters<>(), &rock.material));
     if (rock.bonds)
         lines += fmt::format("\n[bonds]\n{}", write(bond_parameters<>(), &*rock.bonds));
+    if (rock.pores)
+        lines += fmt::format("\n[pores]\n{}", write(pore_parameters(), &*rock.pores));
     return lines;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/scene/parameter.hpp"
+#include "apps/scene/sediment_pores.hpp"
 #include "apps/scene/shelf.hpp"
 #include "dem/material.hpp"
 
@@ -12,12 +13,14 @@
 namespace listric {
 
 /// Microproperties of a rock or sediment, from a file: `description`, [material] and, for rock
-/// that can be bonded, [bonds], with the keys of the scene's tables of these names.
+/// that can be bonded, [bonds], with the keys of the scene's tables of these names; for sediment
+/// with pores of its own [pores].
 struct RockMaterial {
     std::string name; ///< the file's, without folder and ending
     std::string description;
     dem::Material material; ///< bondable if it has bonds
     std::optional<dem::BondStrength> bonds;
+    std::optional<SedimentPores> pores;
 };
 
 /// Stiffness and friction of a rock. Whether bonds heal stays as it is: that is up to the effects.
@@ -27,7 +30,8 @@ void take_microproperties(dem::Material& material, const RockMaterial& rock);
 inline constexpr Shelf materials{"material", "a material has at least [material]",
                                  "LISTRIC_MATERIALS", "materials"};
 
-/// Whether a material's file must give a parameter: all but the reading of strengths.
+/// Whether a material's file must give a parameter: all but the reading of strengths and the law of
+/// permeability.
 bool must_be_said(const Parameter& parameter);
 
 /// Reads and checks a material, with changes such as "material.friction=1". Throws SceneError.

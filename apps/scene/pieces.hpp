@@ -16,6 +16,9 @@ const std::vector<Parameter>& layer_parameters();
 /// Parameters of a horizon or fault that was picked.
 const std::vector<Parameter>& picked_line_parameters();
 
+/// How sediment compacts and lets water through, [pores], of SedimentPores.
+const std::vector<Parameter>& pore_parameters();
+
 /// Microproperties, [material], of the Material at a path of members; no path: of a Material.
 template <auto... Path> std::vector<Parameter> material_parameters() {
     using dem::Material;

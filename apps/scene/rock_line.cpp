@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace listric {
 
@@ -58,10 +59,12 @@ std::string name_of(const Scene& scene, const Sources& sources) {
 
 std::string rock_line(const Scene& scene) {
     std::string line = "rock: " + name_of(scene, sources_of(scene, basement_source.key));
+    std::vector<std::string_view> named{basement_source.key}; // some effects share a rock
     for (const EffectPart& part : scene.effects) {
         const auto& rock = part.effect->rock;
-        if (!rock || rock->key == basement_source.key)
+        if (!rock || std::ranges::find(named, rock->key) != named.end())
             continue;
+        named.push_back(rock->key);
         const std::string name = name_of(scene, sources_of(scene, rock->key));
         if (name != rock->key) // sediment made of sediment says nothing
             line += fmt::format("; {}: {}", rock->plural.empty() ? rock->key : rock->plural, name);

@@ -269,11 +269,14 @@ std::string material_schema() {
     };
     const dem::Material material;
     const dem::BondStrength bonds;
+    const SedimentPores pores;
     const Json properties{
         {"description", {{"type", "string"}, {"description", "what the material stands for"}}},
         {"material", whole("microproperties of its discs", material_parameters<>(), &material)},
         {"bonds",
-         whole("strengths of contact bonds, of rock that is bonded", bond_parameters<>(), &bonds)}};
+         whole("strengths of contact bonds, of rock that is bonded", bond_parameters<>(), &bonds)},
+        {"pores",
+         whole("how sediment compacts and lets water through", pore_parameters(), &pores)}};
     return finished("A material of Listric", closed_table("", properties, {"material"}));
 }
 

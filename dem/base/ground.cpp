@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace listric::dem {
@@ -33,6 +34,7 @@ Ground::Ground(const State& state, const RigidBase& base, double largest_radius)
     const double largest = std::max(largest_radius, *std::ranges::max_element(d.radius));
     // A column and its two neighbours hold all discs that one dropped into it can touch.
     width_ = largest_radius + largest;
+    largest_ = largest;
     left_ = low_x - width_;
     bottom_ = *std::ranges::min_element(d.y) - width_;
     columns_.resize(static_cast<std::size_t>((high_x - left_) / width_) + 2);
@@ -53,6 +55,8 @@ Ground::Ground(const State& state, const RigidBase& base, double largest_radius)
         if (d.y[i] >= least - 3.0 * width_)
             columns_[c].push_back({{d.x[i], d.y[i]}, d.radius[i]});
     }
+    for (Column& discs : columns_)
+        std::ranges::sort(discs, std::greater{}, [](const Obstacle& o) { return o.centre.y; });
 }
 
 std::size_t Ground::column(double x) const {
@@ -69,16 +73,58 @@ double Ground::clearance(Point p) const {
     return least;
 }
 
-double Ground::height(double x, double radius) const {
+double Ground::height_over_discs(double x, double radius) const {
     double highest = -infinity;
     const std::size_t c = column(x);
+    const double most = radius + largest_; // above a disc's centre
     for (std::size_t k = c > 0 ? c - 1 : 0; k <= std::min(c + 1, columns_.size() - 1); ++k)
         for (const Obstacle& o : columns_[k]) {
+            if (o.centre.y + most <= highest)
+                break;
             const double reach = radius + o.radius, dx = x - o.centre.x;
             if (std::abs(dx) < reach)
                 highest = std::max(highest, o.centre.y + std::sqrt(reach * reach - dx * dx));
         }
-    double low = std::max(highest, bottom_);
+    return highest;
+}
+
+bool Ground::keeps_above(double height, double from, double to, double radius) const {
+    // Over a disc height is a concave function of x, so it is least at an end.
+    const auto keeps = [&](const Obstacle& o, double left, double right) {
+        const double reach = radius + o.radius, above = height - o.centre.y;
+        const double a = left - o.centre.x, b = right - o.centre.x;
+        const double dx = std::max(std::abs(a), std::abs(b));
+        return dx < reach && (above < 0.0 || reach * reach - dx * dx > above * above);
+    };
+    const double most = radius + largest_, shortest = 1e-3 * (to - from);
+    const auto some_disc_keeps = [&](double left, double right) {
+        const std::size_t first = column(left), last = column(right);
+        for (std::size_t k = first > 0 ? first - 1 : 0;
+             k <= std::min(last + 1, columns_.size() - 1); ++k)
+            for (const Obstacle& o : columns_[k]) {
+                if (o.centre.y + most <= height)
+                    break;
+                if (keeps(o, left, right))
+                    return true;
+            }
+        return false;
+    };
+    for (double left = from, step = to - from; left < to;) {
+        const double right = std::min(left + step, to);
+        if (some_disc_keeps(left, right)) {
+            left = right;
+            step *= 2.0;
+        } else {
+            step = 0.5 * (right - left);
+            if (step < shortest)
+                return false;
+        }
+    }
+    return true;
+}
+
+double Ground::height(double x, double radius) const {
+    double low = std::max(height_over_discs(x, radius), bottom_);
     if (clearance({x, low}) >= radius)
         return low;
     // The base is higher than the discs here. Over a detachment that does not overhang, clearance
@@ -135,7 +181,10 @@ std::optional<Point> Ground::rest(double x, double radius) const {
 }
 
 void Ground::add(Point centre, double radius) {
-    columns_[column(centre.x)].push_back({centre, radius});
+    Column& discs = columns_[column(centre.x)];
+    const auto place = std::ranges::upper_bound(discs, centre.y, std::greater{},
+                                                [](const Obstacle& o) { return o.centre.y; });
+    discs.insert(place, {centre, radius});
 }
 
 } // namespace listric::dem

@@ -38,6 +38,76 @@ double erode(State& state, const TargetLine& line) {
     return removed;
 }
 
+/// Where there may be room for a disc below the target line. A try elsewhere must fail: a disc that
+/// falls on ground of discs stops where two of them hold it, after a few radii, since only slopes
+/// of more than some 20 degrees lead over a disc, and it has started near the line.
+class Room {
+public:
+    Room(const Ground& ground, const TargetLine& line, double smallest, double largest)
+        : ground_(ground), line_(line), smallest_(smallest), largest_(largest),
+          width_(0.5 * smallest) {
+        const auto count = static_cast<std::size_t>((ground.right() - ground.left()) / width_) + 1;
+        reach_ =
+            is_gentle() ? static_cast<std::size_t>(longest_roll * largest / width_) + 1 : count;
+        open_.resize(count);
+        open_near_.resize(count);
+        look(0, count);
+    }
+
+    bool is_near(double x) const { return open_near_[interval(x)] > 0; }
+
+    /// Looks again where a disc has been added.
+    void look_about(double x) {
+        const double far = 2.0 * largest_ + width_;
+        look(interval(x - far), interval(x + far) + 1);
+    }
+
+private:
+    static constexpr double longest_roll = 8.0; ///< largest radii
+    static constexpr double gentle = 0.2;       ///< slope of a line that no disc rolls down along
+
+    bool is_gentle() const {
+        const std::vector<Point>& p = line_.points();
+        for (std::size_t k = 1; k < p.size(); ++k)
+            if (std::abs(p[k].y - p[k - 1].y) > gentle * (p[k].x - p[k - 1].x))
+                return false;
+        return true;
+    }
+
+    std::size_t interval(double x) const {
+        return static_cast<std::size_t>(
+            std::clamp((x - ground_.left()) / width_, 0.0, static_cast<double>(open_.size() - 1)));
+    }
+
+    void look(std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const bool open = is_open(k);
+            if (open == open_[k])
+                continue;
+            open_[k] = open;
+            for (std::size_t j = k - std::min(k, reach_);
+                 j <= std::min(k + reach_, open_.size() - 1); ++j)
+                open_near_[j] += open ? 1 : -1;
+        }
+    }
+
+    bool is_open(std::size_t k) const {
+        const double from = ground_.left() + width_ * static_cast<double>(k), to = from + width_;
+        double height = std::max(line_.height(from), line_.height(to));
+        for (const Point p : line_.points())
+            if (p.x > from && p.x < to)
+                height = std::max(height, p.y);
+        return !ground_.keeps_above(height - 0.5 * smallest_, from, to, smallest_);
+    }
+
+    const Ground& ground_;
+    const TargetLine& line_;
+    double smallest_, largest_, width_;
+    std::size_t reach_ = 0;      ///< intervals
+    std::vector<bool> open_;     ///< by interval
+    std::vector<int> open_near_; ///< number of open intervals within reach
+};
+
 /// Fills the ground up to the line until a long row of tries finds no more room.
 std::vector<Placed> fill(Ground& ground, const TargetLine& line, double smallest, double largest,
                          std::uint64_t seed, std::uint64_t stratum, const StepReport& report) {
@@ -46,14 +116,17 @@ std::vector<Placed> fill(Ground& ground, const TargetLine& line, double smallest
     const double width = ground.right() - ground.left();
     const auto patience = static_cast<std::uint64_t>(20.0 * width / smallest);
     std::uint64_t failures = 0;
+    Room room(ground, line, smallest, largest);
     for (std::uint64_t tries = 0; failures < patience; ++tries) {
         if (report && tries % between_reports == 0)
             report("sedimentation: " + std::to_string(placed.size()) + " discs laid down");
         const double x =
             ground.left() + width * uniform(seed, Purpose::deposition_place, stratum, tries);
+        ++failures;
+        if (!room.is_near(x))
+            continue;
         double radius = smallest + (largest - smallest) *
                                        uniform(seed, Purpose::deposition_radius, stratum, tries);
-        ++failures;
         if (ground.height(x, smallest) + smallest > line.height(x) + 2.0 * largest)
             continue;
         auto centre = ground.rest(x, radius);
@@ -65,6 +138,7 @@ std::vector<Placed> fill(Ground& ground, const TargetLine& line, double smallest
         if (!centre || line.above(*centre) + radius > 0.5 * smallest)
             continue;
         ground.add(*centre, radius);
+        room.look_about(centre->x);
         placed.push_back({*centre, radius});
         failures = 0;
     }

@@ -295,7 +295,7 @@ TEST_F(ExportTest, BadCallsSayWhatIsWrongInOneLine) {
         EXPECT_EQ(ended.out, "");
     };
     expect_refused({"horizon", output}, "no kind horizon; did you mean horizons?");
-    expect_refused({"wells", output}, "no kind wells; allowed: horizons, faults, surfaces, base");
+    expect_refused({"quartz", output}, "no kind quartz; allowed: horizons, faults, surfaces, base");
     expect_refused({"horizons", output, "--format", "geojsn"}, "did you mean geojson?");
     expect_refused({"horizons", output, "--format", "gsd"},
                    "export horizons: no format gsd; allowed: csv, geojson, gmt");

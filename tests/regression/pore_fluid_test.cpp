@@ -1,18 +1,27 @@
 // Water in the pores from the scene to the discs: what it leaves as it is, what it keeps, and what
 // it refuses.
 
+#include "apps/figures/draw_run.hpp"
+#include "apps/figures/export_run.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace listric::pore_fluid_test {
 
 using namespace dem;
 namespace {
 
+namespace fs = std::filesystem;
 using namespace support;
 using testing::AllOf;
 using testing::Contains;
@@ -66,7 +75,8 @@ TEST_F(PoreFluidRun, HasTheSameBitsHoweverItIsRun) {
     const std::vector<std::string> mud{"pore_fluid.permeability_m2=1e-19"};
     const auto once = run_with("once", mud);
     EXPECT_EQ(run_with("plain", mud, 1, true)["state_hash"], once["state_hash"]);
-    EXPECT_EQ(run_with("threads", mud, 2)["state_hash"], once["state_hash"]);
+    for (const int threads : {2, 4})
+        EXPECT_EQ(run_with("threads", mud, threads)["state_hash"], once["state_hash"]) << threads;
     RunOptions o = options("parts");
     o.until = 112.5; // between two solutions
     run_scene(with(mud), o);
@@ -112,6 +122,81 @@ TEST_F(PoreFluidRun, Limits) {
     EXPECT_LT(tight["water_surface_m2"].get<double>(), 1e-2 * came);
     EXPECT_LE(tight["overpressure_ratio_max"].get<double>(), 0.95); // 0.9 of the last solution's G
     EXPECT_GE(sand["deposited_fraction"].get<double>(), tight["deposited_fraction"].get<double>());
+}
+
+/// Numbers of a CSV file by column; words are left out.
+std::map<std::string, std::vector<double>> columns_of(const fs::path& file) {
+    std::istringstream lines(contents(file));
+    std::string line, word;
+    std::vector<std::string> names;
+    std::getline(lines, line);
+    for (std::istringstream words(line); std::getline(words, word, ',');)
+        names.push_back(word);
+    std::map<std::string, std::vector<double>> columns;
+    while (std::getline(lines, line)) {
+        std::istringstream words(line);
+        for (const std::string& name : names)
+            if (std::getline(words, word, ',') && name != "name")
+                columns[name].push_back(std::stod(word));
+    }
+    return columns;
+}
+
+TEST_F(PoreFluidRun, ExportsWells) {
+    run_with("well", {"pore_fluid.permeability_m2=1e-19"});
+    const fs::path run = folder / "well";
+    const fs::path file = export_run({.kind = "well", .output = run}).back();
+    EXPECT_THAT(contents(file), HasSubstr("depocentre"));
+    auto of = columns_of(file);
+    const std::size_t rows = of["ground_depth_m"].size();
+    ASSERT_GE(rows, 1u);
+    for (std::size_t k = 0; k < rows; ++k) {
+        const double rest = of["rest_pressure_pa"][k], pressure = of["pressure_pa"][k];
+        EXPECT_NEAR(rest, 1030.0 * 9.81 * of["ground_depth_m"][k], 1e-9 * rest);
+        EXPECT_NEAR(pressure, rest + of["excess_pressure_pa"][k], 1e-9 * rest);
+        EXPECT_NEAR(of["mud_weight_kg_per_m3"][k], 1030.0 * pressure / rest, 1e-6);
+        EXPECT_NEAR(of["effective_stress_pa"][k], of["total_stress_pa"][k] - pressure, 1e-9 * rest);
+        EXPECT_LT(of["fracture_pressure_pa"][k], of["total_stress_pa"][k]);
+        EXPECT_GE(of["porosity"][k], of["normal_porosity"][k] - 0.02);
+        EXPECT_GE(of["age_a"][k], 0.0);
+    }
+    const double x = of["x_m"][0];
+    const auto one = columns_of(export_run({.kind = "well", .output = run, .wells = {x}}).back());
+    EXPECT_EQ(one.at("pressure_pa")[0], of["pressure_pa"][0]);
+    EXPECT_THROW(export_run({.kind = "well", .output = run, .wells = {1e6}}), UsageError);
+    draw_run(run, std::nullopt, {"png"}, {}, {x});
+    EXPECT_THAT(std::distance(fs::directory_iterator(run / "figures"), {}), 1);
+    EXPECT_THROW(draw_run(run, std::nullopt, {"png"}, {}, {1e6}), UsageError);
+    EXPECT_THROW(export_run({.kind = "faults", .output = run, .wells = {x}}), UsageError);
+}
+
+TEST_F(PoreFluidRun, HasNoWellsWhereWaterIsAtRest) {
+    run_with("rest", {"pore_fluid.hydrostatic=true"});
+    try {
+        export_run({.kind = "well", .output = folder / "rest"});
+        FAIL();
+    } catch (const UsageError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("rest"), HasSubstr("[pore_fluid]")));
+    }
+}
+
+TEST_F(PoreFluidRun, TakesPoresFromTheRockOfSediment) {
+    const auto text = [](std::vector<std::string> set) {
+        set.insert(set.begin(), "pore_fluid={}");
+        return to_toml(load_scene({.scene = test_scene("every-effect.toml"), .set = set}));
+    };
+    EXPECT_THAT(text({"materials.sediment=sand"}),
+                AllOf(HasSubstr("surface_porosity = 0.49"), HasSubstr("coefficient_per_km = 0.27"),
+                      HasSubstr("permeability_m2 = 1e-14")));
+    EXPECT_THAT(text({"materials.sediment=mud", "pore_fluid.permeability_m2=1e-20"}),
+                AllOf(HasSubstr("surface_porosity = 0.63"), HasSubstr("permeability_m2 = 1e-20")));
+    EXPECT_EQ(text({}), text({"materials.sediment=sediment"}));
+    const fs::path file = folder / "clay.toml";
+    write_text(file, "description = \"\"\n[material]\nnormal_stiffness_pa = 1e11\n"
+                     "shear_stiffness_pa = 4e10\nfriction = 0.3\n[pores]\n"
+                     "surface_porosity = 0.7\ncoefficient_per_km = 0.6\n");
+    EXPECT_THAT(refusal({fmt::format("materials.sediment={}", file.string())}),
+                AllOf(HasSubstr("pores"), HasSubstr("permeability_m2")));
 }
 
 TEST_F(PoreFluidRun, WarnsOfStrataThatAreShocks) {

@@ -164,5 +164,26 @@ TEST(Ground, NoDiscHangsOnTheSideOfAnother) {
     }
 }
 
+TEST(Ground, KnowsWhatDiscsKeepADiscAbove) {
+    // A row of touching discs: between two a disc of radius 80 rests at its lowest, 100 +
+    // sqrt(180^2
+    // - 100^2), over a disc at its highest, 280.
+    const RigidBase base = box(4000.0, 1e5);
+    std::vector<Disc> row;
+    for (int k = 0; k < 20; ++k)
+        row.push_back({100.0 + 200.0 * k, 100.0, 100.0});
+    const Ground ground(make_state(row), base, 120.0);
+    const double pocket = 100.0 + std::sqrt(180.0 * 180.0 - 100.0 * 100.0);
+    EXPECT_TRUE(ground.keeps_above(pocket - 1.5, 350.0, 1650.0, 80.0));
+    EXPECT_FALSE(ground.keeps_above(pocket + 0.2, 350.0, 1650.0, 80.0));
+    EXPECT_TRUE(ground.keeps_above(pocket + 0.2, 480.0, 520.0, 80.0));
+    EXPECT_FALSE(ground.keeps_above(280.2, 499.0, 501.0, 80.0));
+    for (const double x : {350.0, 412.5, 500.0, 1650.0}) { // as height() has it
+        const double height = ground.height(x, 80.0);
+        EXPECT_TRUE(ground.keeps_above(height - 0.2, x, x + 1e-3, 80.0));
+        EXPECT_FALSE(ground.keeps_above(height + 0.2, x, x + 1e-3, 80.0));
+    }
+}
+
 } // namespace
 } // namespace listric::ground_test

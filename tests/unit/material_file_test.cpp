@@ -94,7 +94,7 @@ protected:
 TEST_F(MaterialFileTest, ShippedMaterials) {
     EXPECT_THAT(materials.names(),
                 ElementsAre("mat18-b", "mat18-b-calibrated", "mat18-w", "mat18-w-calibrated",
-                            "mat18-w-frictional", "sediment"));
+                            "mat18-w-frictional", "mud", "sand", "sediment", "silt"));
     for (const std::string& name : materials.names()) {
         const RockMaterial rock = load_material(name);
         EXPECT_EQ(rock.name, name);
@@ -169,7 +169,7 @@ TEST_F(MaterialFileTest, WrongValuesAreNamed) {
     EXPECT_EQ(error(rock_text + "[bond]\n"),
               "rock.toml:6: bond: unknown table, did you mean bonds?");
     EXPECT_EQ(error("seed = 3\n" + rock_text),
-              "rock.toml:1: seed: unknown key, allowed: description, material, bonds");
+              "rock.toml:1: seed: unknown key, allowed: description, material, bonds, pores");
     EXPECT_EQ(error("[material]\nnormal_stiffness_pa = -1.0\n"),
               "rock.toml:2: material.normal_stiffness_pa: out of range (-1), "
               "allowed: at least 1000, at most 1e15");
@@ -183,7 +183,8 @@ TEST_F(MaterialFileTest, WrongValuesAreNamed) {
 
 TEST_F(MaterialFileTest, MissingFilesAreAnsweredWithWhatThereIs) {
     const std::string shipped = "(materials: mat18-b, mat18-b-calibrated, mat18-w, "
-                                "mat18-w-calibrated, mat18-w-frictional, sediment)";
+                                "mat18-w-calibrated, mat18-w-frictional, mud, sand, sediment, "
+                                "silt)";
     const auto missing = [&](const std::string& name) {
         return error_of([&] { load_material(name); });
     };

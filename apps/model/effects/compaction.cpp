@@ -28,6 +28,15 @@ const Effect& effect() {
                  {},
                  1e3},
             },
+        .rock = RockSource{.key = "sediment",
+                           .file = "sediment",
+                           .doc = "",
+                           .changes = "",
+                           .take =
+                               [](Scene& scene, const RockMaterial& rock) {
+                                   if (rock.pores)
+                                       scene.find<P>()->coefficient = rock.pores->coefficient;
+                               }},
         .needs = {"sedimentation"},
         .contribute =
             [](const Scene& scene, ModelParts& parts) {

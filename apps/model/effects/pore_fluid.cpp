@@ -1,6 +1,7 @@
 #include "coupling/pore_fluid.hpp"
 
 #include "apps/model/effects/pore_fluid_measures.hpp"
+#include "apps/model/effects/pore_fluid_well.hpp"
 #include "apps/model/model.hpp"
 #include "apps/support/spelling.hpp"
 #include "coupling/pore_column.hpp"
@@ -195,6 +196,15 @@ const Effect& effect() {
         .defaults = make_defaults<P>,
         .address = address_of<P>,
         .parameters = parameters(),
+        .rock = RockSource{.key = "sediment",
+                           .file = "sediment",
+                           .doc = "",
+                           .changes = "",
+                           .take =
+                               [](Scene& scene, const RockMaterial& rock) {
+                                   if (rock.pores)
+                                       scene.find<P>()->permeability = rock.pores->permeability;
+                               }},
         .needs = {"gravity", "sedimentation", "compaction"},
         .in_genesis = true,
         .as_in_genesis = as_in_genesis,
@@ -211,6 +221,7 @@ const Effect& effect() {
         .measures = pore_fluid_measures(),
         .objects = pore_fluid_objects(),
         .layers = pore_fluid_layers(),
+        .well = pore_well(),
     };
     return effect;
 }

@@ -1,9 +1,8 @@
 #include "apps/model/effects/pore_fluid_measures.hpp"
 
+#include "apps/model/effects/pore_fluid_well.hpp"
 #include "apps/model/model.hpp"
 #include "coupling/pore_fluid.hpp"
-#include "dem/base/ground_level.hpp"
-#include "dem/contacts/grain_columns.hpp"
 #include "dem/events/energy_account.hpp"
 
 #include <algorithm>
@@ -16,50 +15,6 @@ namespace {
 using coupling::PoreFluid;
 using Sums = PoreFluid::Sums;
 using V = std::optional<double>;
-
-const PoreFluid* fluid_in(const Observation& now) { return dem::find<const PoreFluid>(now.events); }
-
-/// State of the fluid in a disc of sediment.
-struct WetDisc {
-    std::size_t row = 0;
-    double x = 0.0, depth = 0.0;                ///< m
-    double volume = 0.0;                        ///< of its mud, m^2
-    double excess_pressure = 0.0, weight = 0.0; ///< weight of grains in water, Pa
-    double porosity = 0.0, normal_porosity = 0.0;
-
-    double ratio() const { return weight > 0.0 ? excess_pressure / weight : 0.0; }
-};
-
-std::vector<WetDisc> wet_discs(const Observation& now) {
-    std::vector<WetDisc> wet;
-    const PoreFluid* const fluid = fluid_in(now);
-    if (!fluid)
-        return wet;
-    const dem::State& state = now.state;
-    const dem::ConstDiscColumns d = dem::disc_columns(state);
-    const auto porosity = state.discs.get<double>("porosity");
-    const auto pressure = state.discs.get<double>("excess_pressure");
-    const auto ratio = state.discs.get<double>("overpressure_ratio");
-    const auto water = state.discs.get<double>("pore_water");
-    const std::vector<double> grains = dem::grains_above(state, porosity);
-    const dem::GroundLevel ground(state);
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (water[i] < 0.0) // rock, and sediment that came after the last solution
-            continue;
-        WetDisc& disc = wet.emplace_back();
-        disc.row = i;
-        disc.x = d.x[i];
-        disc.depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
-        disc.volume = d.mass[i] / fluid->sediment().grain_density / (1.0 - porosity[i]);
-        disc.excess_pressure = pressure[i];
-        // A stratum that came after the last solution does not count.
-        disc.weight =
-            ratio[i] != 0.0 ? pressure[i] / ratio[i] : grains[i] * fluid->law().grain_weight;
-        disc.porosity = porosity[i];
-        disc.normal_porosity = coupling::porosity_at(fluid->law(), disc.depth);
-    }
-    return wet;
-}
 
 /// Mean of a number of wet discs, by their mud; none without any.
 template <class Number> V mean(const std::vector<WetDisc>& wet, Number&& number) {
@@ -81,101 +36,17 @@ double overpressure(const std::vector<WetDisc>& wet) {
     return weight > 0.0 ? pressure / weight : std::nan("");
 }
 
-constexpr double half_well = 1000.0; ///< m to either side of a well
-
-/// Where sediment is thickest: the middle of the deepest kilometre, m.
-double depocentre(const std::vector<WetDisc>& wet) {
-    double deepest = -1.0, x = 0.0;
-    for (const WetDisc& disc : wet)
-        if (disc.depth > deepest) {
-            deepest = disc.depth;
-            x = disc.x;
-        }
-    return x;
-}
-
-/// Means of the discs of a well, by depth.
-struct WellPoint {
-    double depth = 0.0;     ///< m
-    double pressure = 0.0;  ///< of water, Pa
-    double excess = 0.0;    ///< over that of water at rest, Pa
-    double effective = 0.0; ///< vertical stress of the grains, Pa
-    double ratio = 0.0, porosity = 0.0, normal_porosity = 0.0;
-    double permeability = 0.0; ///< m^2
-    double mud_weight = 0.0;   ///< density of a mud that balances the pressure, kg/m3
-    double total = 0.0;        ///< vertical stress of grains and water, Pa
-};
-
-std::vector<WellPoint> well(const Observation& now, double x) {
-    const PoreFluid* const fluid = fluid_in(now);
-    std::vector<WellPoint> points;
-    if (!fluid)
-        return points;
-    const double step = std::max(250.0, 4.0 * now.state.mean_radius);
-    std::vector<std::vector<WetDisc>> bins;
-    for (const WetDisc& disc : wet_discs(now)) {
-        if (std::abs(disc.x - x) > half_well)
-            continue;
-        const auto bin = static_cast<std::size_t>(disc.depth / step);
-        if (bin >= bins.size())
-            bins.resize(bin + 1);
-        bins[bin].push_back(disc);
-    }
-    for (const std::vector<WetDisc>& bin : bins) {
-        if (bin.empty())
-            continue;
-        WellPoint& p = points.emplace_back();
-        p.depth = *mean(bin, [](const WetDisc& d) { return d.depth; });
-        p.excess = *mean(bin, [](const WetDisc& d) { return d.excess_pressure; });
-        const double weight = *mean(bin, [](const WetDisc& d) { return d.weight; });
-        const double at_rest = fluid->fluid_weight() * p.depth;
-        p.pressure = at_rest + p.excess;
-        p.total = at_rest + weight;
-        p.effective = weight - p.excess;
-        p.ratio = p.excess / weight;
-        p.porosity = *mean(bin, [](const WetDisc& d) { return d.porosity; });
-        p.normal_porosity = *mean(bin, [](const WetDisc& d) { return d.normal_porosity; });
-        p.permeability = coupling::permeability(fluid->parameters().permeability, p.porosity);
-        p.mud_weight = p.pressure / (now.parts.gravity * p.depth);
-    }
-    return points;
-}
-
-constexpr Measure<WellPoint> of_point[] = {
-    {"depth_m", "m", "mean depth below the ground", taken<&WellPoint::depth>},
-    {"pressure_pa", "Pa", "pressure of the pore water", taken<&WellPoint::pressure>},
-    {"excess_pressure_pa", "Pa", "pressure over that of water at rest", taken<&WellPoint::excess>},
-    {"overpressure_ratio", "1", "excess pressure over the weight of grains in water",
-     taken<&WellPoint::ratio>},
-    {"effective_stress_pa", "Pa", "vertical stress that the grains carry",
-     taken<&WellPoint::effective>},
-    {"total_stress_pa", "Pa", "weight of grains and water above", taken<&WellPoint::total>},
-    {"porosity", "1", "porosity", taken<&WellPoint::porosity>},
-    {"normal_porosity", "1", "porosity that the depth has where water is at rest",
-     taken<&WellPoint::normal_porosity>},
-    {"permeability_m2", "m2", "permeability", taken<&WellPoint::permeability>},
-    {"mud_weight_kg_per_m3", "kg/m3", "density of a drilling mud whose weight is the pressure",
-     taken<&WellPoint::mud_weight>},
-};
-
 std::optional<std::vector<NamedNumbers>> profile(const Observation& now) {
     if (!fluid_in(now))
         return std::nullopt;
-    std::vector<NamedNumbers> rows;
-    for (const WellPoint& point : well(now, depocentre(wet_discs(now)))) {
-        NamedNumbers& numbers = rows.emplace_back();
-        for (const auto& measure : of_point)
-            if (const auto value = measure.value(point))
-                numbers.emplace_back(measure.name, *value);
-    }
-    return rows;
+    return pore_well().numbers(now, depocentre(wet_discs(now)));
 }
 
 /// Pressure over total stress in the lowest part of the depocentre's well.
 V lambda_floor(const Observation& now) {
     if (!fluid_in(now))
         return std::nullopt;
-    const auto points = well(now, depocentre(wet_discs(now)));
+    const auto points = well_at(now, depocentre(wet_discs(now)));
     return points.empty() ? std::nan("") : points.back().pressure / points.back().total;
 }
 
@@ -183,7 +54,7 @@ V lambda_floor(const Observation& now) {
 V top_of_overpressure(const Observation& now) {
     if (!fluid_in(now))
         return std::nullopt;
-    for (const WellPoint& point : well(now, depocentre(wet_discs(now))))
+    for (const WellPoint& point : well_at(now, depocentre(wet_discs(now))))
         if (point.ratio >= 0.5)
             return point.depth;
     return std::nan("");
@@ -300,8 +171,7 @@ std::vector<MeasuredObjects> pore_fluid_objects() {
         "over 1 km to either side",
         {},
         profile};
-    for (const auto& measure : of_point)
-        list.parts.push_back(measure.quantity());
+    list.parts = pore_well().parts;
     return {list};
 }
 

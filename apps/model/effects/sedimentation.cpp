@@ -94,7 +94,7 @@ double new_area(const Scene& scene) {
 /// Looking for room, and laying down a heap whose columns are looked through for every disc.
 double price(const Scene& scene, const Workload& work) {
     constexpr double of_a_heaped_disc = 2e5;
-    return work.years / scene.find<P>()->interval * (6e6 + 480.0 * work.discs) +
+    return work.years / scene.find<P>()->interval * (5e5 + 40.0 * work.discs) +
            of_a_heaped_disc *
                static_cast<double>(dem::disc_count(scene.hanging_wall, area_above_surface(scene)));
 }
@@ -217,12 +217,16 @@ const Effect& effect() {
             RockSource{
                 .key = "sediment",
                 .file = "sediment",
-                .doc = "material, by name or path, with the defaults of sediment discs in "
-                       "[sedimentation]",
-                .changes = "Sets stiffness and friction of sediment at once.",
+                .doc =
+                    "material, by name or path, with the defaults of sediment discs in "
+                    "[sedimentation]; if it has [pores], also of how pores close and water flows",
+                .changes = "Sets stiffness and friction of sediment at once; mud, silt and sand "
+                           "also how their pores close and water flows.",
                 .take =
                     [](Scene& scene, const RockMaterial& rock) {
                         take_microproperties(scene.find<P>()->material, rock);
+                        if (rock.pores)
+                            scene.find<P>()->surface_porosity = rock.pores->surface_porosity;
                     },
             },
         .check = check,

@@ -5,12 +5,14 @@
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/draw_run.hpp"
 #include "apps/figures/figures.hpp"
+#include "apps/figures/well_figure.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
 
 #include <exception>
 #include <future>
 #include <memory>
+#include <span>
 
 namespace listric {
 
@@ -81,6 +83,8 @@ private:
             const RunFolder folder(run.options.output, run.scene);
             if (run.parts.base_moves)
                 draw_base(folder, {.provenance = provenance(run.scene)});
+            draw_wells(folder, std::span(&folder.snapshots.back(), 1), {},
+                       {.provenance = provenance(run.scene)});
             draw_experiment(folder, run.past);
         } catch (const std::exception& failure) {
             warn(run, failure.what());

@@ -1,0 +1,66 @@
+#include "apps/figures/well_figure.hpp"
+
+#include "apps/scene/effect.hpp"
+#include "apps/support/file.hpp"
+#include "apps/support/json_text.hpp"
+#include "apps/support/moment_names.hpp"
+#include "apps/support/python.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace listric {
+
+using namespace archive;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Numbers of the wells for the drawing script, by name a list from the ground down.
+nlohmann::ordered_json wells_json(const Observation& now, const MeasuredWell& well,
+                                  const std::vector<double>& places) {
+    std::vector<WellPlace> chosen;
+    for (const double x : places)
+        chosen.push_back({"well", x});
+    auto list = nlohmann::ordered_json::array();
+    for (const WellPlace& place : places.empty() ? well.places(now) : chosen) {
+        nlohmann::ordered_json columns = nlohmann::ordered_json::object();
+        const std::vector<NamedNumbers> rows = well.numbers(now, place.x);
+        for (const NamedNumbers& numbers : rows)
+            for (const auto& [name, value] : numbers)
+                columns[name].push_back(value);
+        if (!rows.empty())
+            list.push_back({{"name", place.name}, {"x_m", place.x}, {"columns", columns}});
+    }
+    return list;
+}
+
+} // namespace
+
+bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
+                const std::vector<double>& wells, const PictureOrder& order) {
+    const MeasuredWell* const well = measured_well(run.scene);
+    if (!well)
+        return false;
+    auto frames = nlohmann::ordered_json::array();
+    for (const fs::path& path : snapshots) {
+        const Moment moment = run.read(path);
+        const Observation now{run.scene, run.parts, moment.state, moment.events};
+        const nlohmann::ordered_json list = wells_json(now, *well, wells);
+        if (!list.empty())
+            frames.push_back({{"scene", run.scene.name},
+                              {"extension_km", run.names.kilometres(snapshot_extension(path))},
+                              {"wells", list}});
+    }
+    if (frames.empty())
+        return false;
+    const fs::path figures = fs::absolute(run.output) / "figures";
+    const TemporaryFolder data(figures);
+    write_text(data.path / "wells.json", to_text(nlohmann::ordered_json{{"frames", frames}}));
+    run_drawing_script("wells.py", {data.path.string(), figures.string(), order.text()});
+    return true;
+}
+
+} // namespace listric

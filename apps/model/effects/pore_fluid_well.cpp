@@ -1,0 +1,192 @@
+#include "apps/model/effects/pore_fluid_well.hpp"
+
+#include "apps/model/model.hpp"
+#include "dem/base/ground_level.hpp"
+#include "dem/contacts/grain_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace listric::effects {
+
+using coupling::PoreFluid;
+
+const PoreFluid* fluid_in(const Observation& now) { return dem::find<const PoreFluid>(now.events); }
+
+std::vector<WetDisc> wet_discs(const Observation& now) {
+    std::vector<WetDisc> wet;
+    const PoreFluid* const fluid = fluid_in(now);
+    if (!fluid)
+        return wet;
+    const dem::State& state = now.state;
+    const dem::ConstDiscColumns d = dem::disc_columns(state);
+    const auto porosity = state.discs.get<double>("porosity");
+    const auto pressure = state.discs.get<double>("excess_pressure");
+    const auto ratio = state.discs.get<double>("overpressure_ratio");
+    const auto water = state.discs.get<double>("pore_water");
+    const std::vector<double> grains = dem::grains_above(state, porosity);
+    const dem::GroundLevel ground(state);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        if (water[i] < 0.0) // rock, and sediment that came after the last solution
+            continue;
+        WetDisc& disc = wet.emplace_back();
+        disc.row = i;
+        disc.x = d.x[i];
+        disc.y = d.y[i];
+        disc.depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
+        disc.age = (state.clock.extension - d.start_extension[i]) / now.scene.extension.rate;
+        disc.volume = d.mass[i] / fluid->sediment().grain_density / (1.0 - porosity[i]);
+        disc.excess_pressure = pressure[i];
+        disc.weight_now = grains[i] * fluid->law().grain_weight;
+        disc.weight = ratio[i] != 0.0 ? pressure[i] / ratio[i] : disc.weight_now;
+        disc.porosity = porosity[i];
+        disc.normal_porosity = coupling::porosity_at(fluid->law(), disc.depth);
+    }
+    return wet;
+}
+
+double depocentre(const std::vector<WetDisc>& wet) {
+    double deepest = -1.0, x = 0.0;
+    for (const WetDisc& disc : wet)
+        if (disc.depth > deepest) {
+            deepest = disc.depth;
+            x = disc.x;
+        }
+    return x;
+}
+
+namespace {
+
+constexpr double half_well = 1000.0; ///< m to either side
+
+using Bin = std::vector<WetDisc>;
+
+/// Mean of a number of the discs, by their mud.
+template <auto number> double mean_of(const Bin& bin) {
+    double sum = 0.0, volume = 0.0;
+    for (const WetDisc& disc : bin) {
+        sum += disc.volume * disc.*number;
+        volume += disc.volume;
+    }
+    return sum / volume;
+}
+
+std::vector<Bin> bins_by_depth(const Observation& now, double x) {
+    const double step = std::max(250.0, 4.0 * now.state.mean_radius);
+    std::vector<Bin> bins;
+    for (const WetDisc& disc : wet_discs(now)) {
+        if (std::abs(disc.x - x) > half_well)
+            continue;
+        const auto bin = static_cast<std::size_t>(disc.depth / step);
+        if (bin >= bins.size())
+            bins.resize(bin + 1);
+        bins[bin].push_back(disc);
+    }
+    return bins;
+}
+
+} // namespace
+
+std::vector<WellPoint> well_at(const Observation& now, double x) {
+    const PoreFluid* const fluid = fluid_in(now);
+    std::vector<WellPoint> points;
+    if (!fluid)
+        return points;
+    for (const Bin& bin : bins_by_depth(now, x)) {
+        if (bin.empty())
+            continue;
+        WellPoint& p = points.emplace_back();
+        p.x = x;
+        p.y = mean_of<&WetDisc::y>(bin);
+        p.depth = mean_of<&WetDisc::depth>(bin);
+        p.age = mean_of<&WetDisc::age>(bin);
+        p.excess = mean_of<&WetDisc::excess_pressure>(bin);
+        const double weight = mean_of<&WetDisc::weight_now>(bin);
+        p.at_rest = fluid->fluid_weight() * p.depth;
+        p.pressure = p.at_rest + p.excess;
+        p.fracture = p.at_rest + fluid->parameters().fracture_ratio * weight;
+        p.total = p.at_rest + weight;
+        p.effective = weight - p.excess;
+        p.ratio = p.excess / mean_of<&WetDisc::weight>(bin);
+        p.porosity = mean_of<&WetDisc::porosity>(bin);
+        p.normal_porosity = mean_of<&WetDisc::normal_porosity>(bin);
+        p.permeability = coupling::permeability(fluid->parameters().permeability, p.porosity);
+        p.mud_weight = p.pressure / (now.parts.gravity * p.depth);
+    }
+    return points;
+}
+
+namespace {
+
+constexpr Measure<WellPoint> of_point[] = {
+    {"depth_m", "m", "mean depth below the ground", taken<&WellPoint::depth>},
+    {"pressure_pa", "Pa", "pressure of the pore water", taken<&WellPoint::pressure>},
+    {"excess_pressure_pa", "Pa", "pressure over that of water at rest", taken<&WellPoint::excess>},
+    {"overpressure_ratio", "1", "excess pressure over the weight of grains in water",
+     taken<&WellPoint::ratio>},
+    {"effective_stress_pa", "Pa", "vertical stress that the grains carry",
+     taken<&WellPoint::effective>},
+    {"total_stress_pa", "Pa", "weight of grains and water above: the lithostat",
+     taken<&WellPoint::total>},
+    {"rest_pressure_pa", "Pa", "pressure of water at rest: the hydrostat",
+     taken<&WellPoint::at_rest>},
+    {"fracture_pressure_pa", "Pa", "pressure at which fractures open and vent",
+     taken<&WellPoint::fracture>},
+    {"porosity", "1", "porosity", taken<&WellPoint::porosity>},
+    {"normal_porosity", "1", "porosity that the depth has where water is at rest",
+     taken<&WellPoint::normal_porosity>},
+    {"permeability_m2", "m2", "permeability", taken<&WellPoint::permeability>},
+    {"mud_weight_kg_per_m3", "kg/m3", "density of a drilling mud whose weight is the pressure",
+     taken<&WellPoint::mud_weight>},
+    {"age_a", "a", "time since the sediment was laid down", taken<&WellPoint::age>},
+};
+
+std::vector<NamedNumbers> numbers_at(const Observation& now, double x) {
+    std::vector<NamedNumbers> rows;
+    for (const WellPoint& point : well_at(now, x)) {
+        NamedNumbers& numbers = rows.emplace_back();
+        for (const auto& measure : of_point)
+            if (const auto value = measure.value(point))
+                numbers.emplace_back(measure.name, *value);
+    }
+    return rows;
+}
+
+/// The depocentre, and from there toward the moving wall the first place where the sediment's
+/// floor is half as deep.
+std::vector<WellPlace> places(const Observation& now) {
+    const std::vector<WetDisc> wet = wet_discs(now);
+    if (wet.empty())
+        return {};
+    std::vector<WellPlace> places{{"depocentre", depocentre(wet)}};
+    const auto floor_about = [&](double x) {
+        double floor = 0.0;
+        for (const WetDisc& disc : wet)
+            if (std::abs(disc.x - x) <= 0.5 * half_well)
+                floor = std::max(floor, disc.depth);
+        return floor;
+    };
+    const double deepest = floor_about(places[0].x);
+    for (double x = places[0].x; x < now.right_end(); x += 0.5 * half_well)
+        if (const double floor = floor_about(x); floor > 0.0 && floor <= 0.5 * deepest) {
+            places.push_back({"flank", x});
+            break;
+        }
+    return places;
+}
+
+} // namespace
+
+MeasuredWell pore_well() {
+    MeasuredWell well{{}, places, numbers_at, [](const Observation& now, double x) {
+                          std::vector<dem::Point> points;
+                          for (const WellPoint& point : well_at(now, x))
+                              points.push_back({point.x, point.y});
+                          return points;
+                      }};
+    for (const auto& measure : of_point)
+        well.parts.push_back(measure.quantity());
+    return well;
+}
+
+} // namespace listric::effects
