@@ -1,0 +1,58 @@
+#pragma once
+
+#include "apps/measures/fault.hpp"
+#include "apps/measures/seismic_trace.hpp"
+#include "apps/scene/effect.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace listric {
+
+/// How a section is made to look as seismics would see it.
+struct SeismicOptions {
+    double frequency = 25.0; ///< of the wavelet's strongest part, Hz
+    double lateral = 0.0;    ///< full width at half maximum of the point-spread function along x, m
+    bool in_depth = false;   ///< samples by depth, else by two-way time
+    double trace_spacing = 0.0;   ///< m; 0: that of the owner map, a quarter of a mean radius
+    double sample_interval = 0.0; ///< s, or m in depth; 0: a tenth of the wavelet
+    bool has_labels = false;      ///< strain and faults at every sample, too
+    measures::SeismicLaw law = {};
+};
+
+/// Pre-rift porosity at the surface, of rock that was buried before; it decays with depth as that
+/// of sediment does.
+inline constexpr double pre_rift_porosity = 0.1, porosity_decay_per_m = 4e-4;
+
+/// Traces side by side, from the breakaway to the right wall. Samples begin at the datum: the
+/// original surface, or the highest rock above it. Above the surface there is water.
+struct SeismicSection {
+    SeismicOptions options = {}; ///< with spacing and interval as they are
+    std::size_t traces = 0, samples = 0;
+    double first_x = 0.0;            ///< m
+    double datum = 0.0;              ///< m, y up
+    std::vector<float> amplitude = {};    ///< trace by trace
+    std::vector<float> strain = {};       ///< shear strain of the last window; NaN outside rock
+    std::vector<std::uint8_t> fault = {}; ///< 1 within a mean diameter of an active fault
+
+    double x(std::size_t trace) const {
+        return first_x + options.trace_spacing * static_cast<double>(trace);
+    }
+    /// s, or m below the datum.
+    double sample(std::size_t k) const { return options.sample_interval * static_cast<double>(k); }
+};
+
+/// Reflectivity of the section by velocity and density of each disc's rock: by porosity (of
+/// sediment as it compacted, of pre-rift rock by the depth at which it began), slower where it is
+/// weakened, and by turns a little faster and slower in strata and pre-rift layers, which have no
+/// rock of their own in the model. Convolved with Ricker's wavelet; no migration, no noise.
+/// @param faults  for labels
+SeismicSection seismic_section(const Observation& now, std::span<const measures::Fault> faults,
+                               const SeismicOptions& options);
+
+/// Whether seismics make sense of a model: it is a kilometre thick or more.
+bool has_seismics(const Scene& scene);
+
+} // namespace listric
