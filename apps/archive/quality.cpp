@@ -124,7 +124,7 @@ void add_sediment(std::vector<QualityCheck>& all, const JsonObject& summary) {
         return;
     const bool usual = least <= *ratio && *ratio <= most;
     all.push_back({effects::sediment_stress_ratio, "Weight of the sediment",
-                   fmt::format("{:.2f}", *ratio), fmt::format("{:g} to {:g} (lis1)", least, most),
+                   fmt::format("{:.2f}", *ratio), fmt::format("lis1: {:g} to {:g}", least, most),
                    usual ? Verdict::good : Verdict::note,
                    usual ? "The sediment carries its own weight."
                          : "Stress in the sediment over the weight above: 1 if it carries its own "

@@ -126,7 +126,7 @@ CLI::Option* add_lengths(CLI::App& command, const char* option, std::vector<doub
         ->type_name("LENGTHS")
         ->delimiter(',')
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->check(length);
+        ->transform(length);
 }
 
 void add_words(CLI::App& command, const char* option, const char* kind,

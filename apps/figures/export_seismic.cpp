@@ -33,7 +33,7 @@ std::vector<std::string> words_of(const archive::ExportedMoment& at,
             ? fmt::format("SAMPLES BY DEPTH, {:g} M; HEADERS HAVE MILLIMETRES", o.sample_interval)
             : fmt::format("SAMPLES BY TWO-WAY TIME, {:g} MS", 1e3 * o.sample_interval),
         fmt::format("POINT-SPREAD FUNCTION ALONG X: {:g} M", o.lateral),
-        fmt::format("DATUM {:g} M ABOVE THE ORIGINAL SURFACE; WATER ABOVE THE ROCK", section.datum),
+        fmt::format("DATUM {:.0f} M ABOVE THE ORIGINAL SURFACE", section.datum),
         "POSITIVE AMPLITUDE: THE ROCK BELOW IS HARDER",
         "VELOCITY: WYLLIE'S TIME AVERAGE (GEOPHYSICS 21, 41, 1956)",
         fmt::format("MATRIX {:g} M/S, {:g} KG/M3; FLUID {:g} M/S, {:g} KG/M3", law.matrix_velocity,
@@ -76,7 +76,8 @@ std::vector<fs::path> export_seismic(const archive::ExportedMoment& at, const st
         return std::ranges::find(request.formats, format) != request.formats.end();
     };
     options.has_labels = wants("npy");
-    const SeismicSection section = seismic_section(at.now, at.faults.faults, options);
+    const SeismicSection section =
+        seismic_section(at.now, at.faults.faults, seismic_horizons(at.now), options);
     const std::string stem = "seismic-" + name;
     std::vector<fs::path> files;
     if (wants("segy")) {

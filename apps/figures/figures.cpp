@@ -27,7 +27,8 @@ namespace {
 /// Arrays of a seismic section for a frame: amplitude, a row per trace, and the numbers of its
 /// axes.
 void write_seismic(const Observation& now, const fs::path& folder, const std::string& panel) {
-    const SeismicSection section = seismic_section(now, {}, {.in_depth = panel != "seismic"});
+    const SeismicSection section =
+        seismic_section(now, {}, seismic_horizons(now), {.in_depth = panel != "seismic"});
     const SeismicOptions& o = section.options;
     std::string name = panel;
     std::ranges::replace(name, '-', '_');

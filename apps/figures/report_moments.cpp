@@ -8,6 +8,7 @@
 #include "apps/figures/vocabulary.hpp"
 #include "apps/figures/window_strain.hpp"
 #include "apps/measures/cohesion.hpp"
+#include "apps/measures/horizons.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/measures/rock_behaviour.hpp"
@@ -163,9 +164,9 @@ json cutoffs_of(const FaultReport& report, double steps) {
 
 /// The section as seismics would see it, in depth: amplitudes from -127 to 127 trace by trace, in
 /// base64, at a trace per 150th and a sample per 750th of the hanging wall's thickness.
-json seismic_of(const Observation& now) {
+json seismic_of(const Observation& now, std::span<const Horizon> horizons) {
     const double thickness = now.scene.hanging_wall.thickness;
-    const SeismicSection section = seismic_section(now, {},
+    const SeismicSection section = seismic_section(now, {}, horizons,
                                                    {.in_depth = true,
                                                     .trace_spacing = thickness / 150.0,
                                                     .sample_interval = thickness / 750.0});
@@ -228,11 +229,12 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
                {"surfaces", lines_of(reference_surfaces_table(at), steps_of(now))},
                {"base", lines_of(base_table(at), steps_of(now))}};
     if (followed) {
-        lines["horizons"] = lines_of(horizons_table(at), steps_of(now));
+        const std::vector<Horizon> horizons = horizons_of(at);
+        lines["horizons"] = lines_of(horizons_table(at, horizons), steps_of(now));
         lines["predictions"] = predictions_of(now);
         lines["cutoffs"] = cutoffs_of(faults, steps_of(now));
         if (has_seismics(now.scene))
-            lines["seismic"] = seismic_of(now);
+            lines["seismic"] = seismic_of(now, horizons);
     }
     if (!footwall.empty())
         lines["footwall"] = footwall_of(footwall, now.right_end());

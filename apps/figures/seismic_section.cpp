@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace listric {
 
@@ -20,94 +21,157 @@ using namespace measures;
 
 namespace {
 
-/// Rock of every disc for a wave.
-std::vector<SeismicRock> rock_of_discs(const Observation& now, const SeismicLaw& law) {
-    const State& state = now.state;
-    const ConstDiscColumns d = disc_columns(state);
-    const std::vector<std::uint32_t> rock = rocks(state);
-    const double layer = vocabulary().at("pre_rift").at("layer_m").get<double>();
-    const bool compacts = state.discs.has("porosity");
-    std::vector<SeismicRock> all;
-    all.reserve(d.x.size());
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        const bool is_sediment = d.stratum[i] > 0;
-        const double start_depth = std::max(-d.start_y[i], 0.0);
-        const double surface = now.parts.sediment ? now.parts.sediment->surface_porosity : 0.0;
-        const double porosity =
-            !is_sediment ? pre_rift_porosity * std::exp(-porosity_decay_per_m * start_depth)
-            : compacts   ? state.discs.get<double>("porosity")[i]
-                         : surface;
-        SeismicRock& one = all.emplace_back(saturated_rock(law, porosity));
-        const bool is_even = is_sediment ? d.stratum[i] % 2 == 0
-                                         : std::fmod(std::floor(start_depth / layer), 2.0) == 0.0;
-        one.velocity *= is_even ? 1.0 + law.contrast : 1.0 - law.contrast;
-        if (rock[i] % 2 == 1) // rock_names: weak
-            one.velocity *= law.weak_factor;
-    }
-    return all;
+/// Mean of neighbours within `reach` places along rows or columns of a map, in place.
+void average(std::vector<double>& values, std::size_t lines, std::size_t line_step,
+             std::size_t length, std::size_t step, std::size_t reach) {
+    for_each_shared(lines, [&](std::size_t line) {
+        std::vector<double> sums{0.0};
+        for (std::size_t k = 0; k < length; ++k)
+            sums.push_back(sums.back() + values[line * line_step + k * step]);
+        for (std::size_t k = 0; k < length; ++k) {
+            const std::size_t from = k - std::min(reach, k), to = std::min(k + reach + 1, length);
+            values[line * line_step + k * step] =
+                (sums[to] - sums[from]) / static_cast<double>(2 * reach + 1);
+        }
+    });
 }
 
-/// A column of the section from the datum down.
-struct Ray {
-    std::vector<SeismicLayer> layers; ///< the last one: the footwall
-    std::vector<std::int32_t> owner;  ///< of each layer: disc, or of OwnerMap
-};
+/// Porosity of sediment at every place of a map: of its discs, as a mean over a disc's
+/// surroundings. 0 where there is none near.
+std::vector<double> sediment_porosity(const Observation& now, const OwnerMap& map) {
+    const State& state = now.state;
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<double> weight(map.owner.size(), 0.0), sum(map.owner.size(), 0.0);
+    std::vector<double> porosity(d.x.size(),
+                                 now.parts.sediment ? now.parts.sediment->surface_porosity : 0.0);
+    if (state.discs.has("porosity"))
+        std::ranges::copy(state.discs.get<double>("porosity"), porosity.begin());
+    for (std::size_t at = 0; at < map.owner.size(); ++at)
+        if (map.owner[at] >= 0) {
+            const auto i = static_cast<std::size_t>(map.owner[at]);
+            if (d.stratum[i] > 0) {
+                weight[at] = 1.0;
+                sum[at] = porosity[i];
+            }
+        }
+    const auto reach = static_cast<std::size_t>(std::lround(2.0 * state.mean_radius / map.spacing));
+    for (std::vector<double>* values : {&weight, &sum})
+        for (int twice = 0; twice < 2; ++twice) {
+            average(*values, map.rows, map.columns, map.columns, 1, reach);
+            average(*values, map.columns, 1, map.rows, map.columns, reach);
+        }
+    for (std::size_t at = 0; at < sum.size(); ++at)
+        sum[at] = weight[at] > 1e-6 ? sum[at] / weight[at] : 0.0;
+    return sum;
+}
 
-class RaysOf {
+/// Highest place of lines at x, m; none if they are not there.
+std::optional<double> height_of(std::span<const Polyline> lines, double x) {
+    std::optional<double> highest;
+    for (const Polyline& line : lines)
+        for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+            const Point a = line[k], b = line[k + 1];
+            if ((a.x - x) * (b.x - x) > 0.0 || a.x == b.x)
+                continue;
+            const double y = std::lerp(a.y, b.y, (x - a.x) / (b.x - a.x));
+            highest = std::max(highest.value_or(y), y);
+        }
+    return highest;
+}
+
+/// Columns of the section from the datum down, as layers of rock.
+class Rays {
 public:
-    RaysOf(const Observation& now, const SeismicLaw& law, double spacing)
-        : room_(archive::make_setting(now.scene, now.parts), now.parts.base, now.state),
-          map_(now.state, room_, spacing),
-          rock_(rock_of_discs(now, law)), water_{law.fluid_velocity, law.fluid_density},
-          footwall_(saturated_rock(law, 0.0)) {
-        for (std::size_t at = 0; at < map_.owner.size(); ++at)
-            if (map_.owner[at] >= 0)
-                datum_ = std::max(datum_, map_.place(0, at / map_.columns).y + 0.5 * spacing);
+    Rays(const Observation& now, std::span<const Horizon> horizons, const SeismicLaw& law,
+         double spacing)
+        : law_(law), horizons_(horizons.begin(), horizons.end()),
+          room_(archive::make_setting(now.scene, now.parts), now.parts.base, now.state),
+          map_(now.state, room_, spacing), porosity_(sediment_porosity(now, map_)),
+          rock_(rocks(now.state)), is_under_water_(has_effect(now.scene, "basin_water")),
+          layer_(vocabulary().at("pre_rift").at("layer_m").get<double>()) {
+        std::ranges::sort(horizons_, {}, &Horizon::stratum);
+        for (const Horizon& horizon : horizons_)
+            for (const Polyline& line : horizon.top)
+                for (const Point p : line)
+                    datum_ = std::max(datum_, p.y);
     }
 
     double datum() const { return datum_; }
     const OwnerMap& map() const { return map_; }
     const Room& room() const { return room_; }
 
-    Ray at(double x) const {
-        const auto column =
-            static_cast<std::size_t>(std::clamp(std::round((x - map_.corner.x) / map_.spacing), 0.0,
-                                                static_cast<double>(map_.columns - 1)));
+    /// The last layer is the footwall, without end.
+    std::vector<SeismicLayer> at(double x) const {
         const double floor = height_at(room_.floor, x);
-        Ray ray;
-        double top = datum_; // of what is not yet in a layer
-        const auto add = [&](std::int32_t owner, double bottom) {
-            if (bottom >= top)
-                return;
-            if (ray.owner.empty() || ray.owner.back() != owner) {
-                ray.owner.push_back(owner);
-                ray.layers.push_back({0.0, rock_for(owner)});
+        std::vector<SeismicLayer> layers;
+        // Tops of horizons, each at least as high as the one below.
+        std::vector<double> tops;
+        for (const Horizon& horizon : horizons_)
+            tops.push_back(std::max(height_of(horizon.top, x).value_or(floor),
+                                    tops.empty() ? floor : tops.back()));
+        const double surface = tops.empty() ? floor : tops.back();
+        if (is_under_water_ && surface < datum_)
+            layers.push_back({datum_ - surface, {law_.fluid_velocity, law_.fluid_density}});
+        const std::size_t column = column_of(x);
+        double top = is_under_water_ ? surface : datum_; // dry: the top rock begins at the datum
+        bool is_weak = false;
+        for (std::size_t n = horizons_.size(); n-- > 0;) {
+            const double bottom = n > 0 ? tops[n - 1] : floor;
+            while (bottom < tops[n] && bottom < top) {
+                const std::size_t row = row_of(std::min(top, surface) - 1e-6 * map_.spacing);
+                // The cell's lower edge, or the horizon.
+                const double cell = map_.place(column, row).y - 0.5 * map_.spacing;
+                const double edge = std::max(bottom, std::min(cell, top - 1e-3 * map_.spacing));
+                const std::size_t place = row * map_.columns + column;
+                if (map_.owner[place] >= 0)
+                    is_weak = rock_[static_cast<std::size_t>(map_.owner[place])] % 2 == 1;
+                add(layers, top - edge, rock_at(horizons_[n].stratum, porosity_[place], is_weak));
+                top = edge;
             }
-            ray.layers.back().thickness += top - bottom;
-            top = bottom;
-        };
-        for (std::size_t row = map_.rows; row-- > 0;) {
-            const double bottom = std::max(map_.place(column, row).y - 0.5 * map_.spacing, floor);
-            std::int32_t owner = map_.owner[row * map_.columns + column];
-            if (owner == OwnerMap::outside) // a large pore goes on as what is above
-                owner = ray.owner.empty() ? OwnerMap::air : ray.owner.back();
-            add(owner, bottom);
         }
-        add(OwnerMap::air, floor); // nothing at all is there
-        ray.owner.push_back(OwnerMap::outside);
-        ray.layers.push_back({0.0, footwall_});
-        return ray;
+        layers.push_back({0.0, saturated_rock(law_, 0.0)});
+        return layers;
+    }
+
+    std::size_t column_of(double x) const {
+        return static_cast<std::size_t>(std::clamp(std::round((x - map_.corner.x) / map_.spacing),
+                                                   0.0, static_cast<double>(map_.columns - 1)));
+    }
+    std::size_t row_of(double y) const {
+        return static_cast<std::size_t>(std::clamp(std::round((y - map_.corner.y) / map_.spacing),
+                                                   0.0, static_cast<double>(map_.rows - 1)));
     }
 
 private:
-    SeismicRock rock_for(std::int32_t owner) const {
-        return owner >= 0 ? rock_[static_cast<std::size_t>(owner)] : water_;
+    SeismicRock rock_at(int stratum, double porosity, bool is_weak) const {
+        const double depth = (0.5 - stratum) * layer_; // of pre-rift rock, at the start
+        SeismicRock rock = saturated_rock(
+            law_,
+            stratum > 0 ? porosity : pre_rift_porosity * std::exp(-porosity_decay_per_m * depth));
+        rock.velocity *= stratum % 2 == 0 ? 1.0 + law_.contrast : 1.0 - law_.contrast;
+        if (is_weak)
+            rock.velocity *= law_.weak_factor;
+        return rock;
     }
 
+    /// Rock that hardly differs from the layer above belongs to it: gradients become steps that
+    /// reflect a thousandth.
+    static void add(std::vector<SeismicLayer>& layers, double thickness, SeismicRock rock) {
+        constexpr double hardly = 2e-3;
+        if (layers.empty() ||
+            std::abs(layers.back().rock.impedance() / rock.impedance() - 1.0) > hardly)
+            layers.push_back({0.0, rock});
+        layers.back().thickness += thickness;
+    }
+
+    SeismicLaw law_;
+    std::vector<Horizon> horizons_; ///< oldest first
     Room room_;
     OwnerMap map_;
-    std::vector<SeismicRock> rock_;
-    SeismicRock water_, footwall_;
+    std::vector<double> porosity_;
+    std::vector<std::uint32_t> rock_;
+    bool is_under_water_;
+    double layer_; ///< thickness of the layers of pre-rift rock, m
     double datum_ = 0.0;
 };
 
@@ -180,11 +244,12 @@ double depth_at(std::span<const Reflection> boundaries, double time, double last
 } // namespace
 
 SeismicSection seismic_section(const Observation& now, std::span<const Fault> faults,
-                               const SeismicOptions& wanted) {
+                               std::span<const Horizon> horizons, const SeismicOptions& wanted) {
     SeismicSection section{.options = wanted};
     SeismicOptions& options = section.options;
     const double thickness = now.scene.hanging_wall.thickness;
-    const RaysOf rays(now, options.law, std::max(0.25 * now.state.mean_radius, thickness / 1500.0));
+    const Rays rays(now, horizons, options.law,
+                    std::max(0.25 * now.state.mean_radius, thickness / 1500.0));
     const OwnerMap& map = rays.map();
     section.datum = rays.datum();
     if (options.trace_spacing <= 0.0)
@@ -195,12 +260,9 @@ SeismicSection seismic_section(const Observation& now, std::span<const Fault> fa
     section.first_x = std::max(rays.room().left, 0.0) + 0.5 * options.trace_spacing;
     section.traces = static_cast<std::size_t>(
         std::max((rays.room().right - section.first_x) / options.trace_spacing + 1.0, 1.0));
-    std::vector<Ray> all(section.traces);
     std::vector<std::vector<Reflection>> boundaries(section.traces);
-    for_each_shared(section.traces, [&](std::size_t k) {
-        all[k] = rays.at(section.x(k));
-        boundaries[k] = reflections(all[k].layers);
-    });
+    for_each_shared(section.traces,
+                    [&](std::size_t k) { boundaries[k] = reflections(rays.at(section.x(k))); });
     double end = 0.0;
     for (const auto& ray : boundaries)
         if (!ray.empty())
@@ -208,7 +270,7 @@ SeismicSection seismic_section(const Observation& now, std::span<const Fault> fa
     end += options.in_depth ? 500.0 : 3.0 / options.frequency;
     section.samples = static_cast<std::size_t>(std::ceil(end / options.sample_interval)) + 1;
     section.amplitude.assign(section.traces * section.samples, 0.0f);
-    const double last = all.front().layers.back().rock.velocity;
+    const double last = saturated_rock(options.law, 0.0).velocity;
     for_each_shared(section.traces, [&](std::size_t k) {
         const std::span<float> trace(section.amplitude.data() + k * section.samples,
                                      section.samples);
@@ -227,9 +289,7 @@ SeismicSection seismic_section(const Observation& now, std::span<const Fault> fa
     section.strain.assign(section.amplitude.size(), std::numeric_limits<float>::quiet_NaN());
     section.fault.assign(section.amplitude.size(), 0);
     for (std::size_t trace = 0; trace < section.traces; ++trace) {
-        const auto column = static_cast<std::size_t>(
-            std::clamp(std::round((section.x(trace) - map.corner.x) / map.spacing), 0.0,
-                       static_cast<double>(map.columns - 1)));
+        const std::size_t column = rays.column_of(section.x(trace));
         for (std::size_t k = 0; k < section.samples; ++k) {
             const double depth = options.in_depth
                                      ? section.sample(k)
@@ -246,6 +306,11 @@ SeismicSection seismic_section(const Observation& now, std::span<const Fault> fa
         }
     }
     return section;
+}
+
+std::vector<Horizon> seismic_horizons(const Observation& now) {
+    return trace_horizons(archive::make_setting(now.scene, now.parts), now.parts.base, now.state,
+                          {});
 }
 
 bool has_seismics(const Scene& scene) { return scene.hanging_wall.thickness >= 1e3; }

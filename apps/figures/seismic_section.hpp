@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/measures/fault.hpp"
+#include "apps/measures/horizons.hpp"
 #include "apps/measures/seismic_trace.hpp"
 #include "apps/scene/effect.hpp"
 
@@ -27,12 +28,13 @@ struct SeismicOptions {
 inline constexpr double pre_rift_porosity = 0.1, porosity_decay_per_m = 4e-4;
 
 /// Traces side by side, from the breakaway to the right wall. Samples begin at the datum: the
-/// original surface, or the highest rock above it. Above the surface there is water.
+/// original surface, or the highest rock above it. Above dry land the topmost rock begins there,
+/// which reflects nothing; above a basin under water there is water.
 struct SeismicSection {
     SeismicOptions options = {}; ///< with spacing and interval as they are
     std::size_t traces = 0, samples = 0;
-    double first_x = 0.0;            ///< m
-    double datum = 0.0;              ///< m, y up
+    double first_x = 0.0;                 ///< m
+    double datum = 0.0;                   ///< m, y up
     std::vector<float> amplitude = {};    ///< trace by trace
     std::vector<float> strain = {};       ///< shear strain of the last window; NaN outside rock
     std::vector<std::uint8_t> fault = {}; ///< 1 within a mean diameter of an active fault
@@ -44,13 +46,19 @@ struct SeismicSection {
     double sample(std::size_t k) const { return options.sample_interval * static_cast<double>(k); }
 };
 
-/// Reflectivity of the section by velocity and density of each disc's rock: by porosity (of
-/// sediment as it compacted, of pre-rift rock by the depth at which it began), slower where it is
-/// weakened, and by turns a little faster and slower in strata and pre-rift layers, which have no
-/// rock of their own in the model. Convolved with Ricker's wavelet; no migration, no noise.
-/// @param faults  for labels
+/// Reflectivity of the section by velocity and density of its rock, convolved with Ricker's
+/// wavelet: no migration, no noise. Layers are those between the horizons; they are faster and
+/// slower by turns, as the model gives them no rock of their own. Porosity of sediment is that of
+/// its discs, averaged over a disc's surroundings; of pre-rift rock it falls with the depth of the
+/// layer at the start. Weakened discs are slower, each by itself.
+/// @param faults    for labels
+/// @param horizons  of trace_horizons()
 SeismicSection seismic_section(const Observation& now, std::span<const measures::Fault> faults,
+                               std::span<const measures::Horizon> horizons,
                                const SeismicOptions& options);
+
+/// Horizons that a section needs: tops of strata and of pre-rift layers.
+std::vector<measures::Horizon> seismic_horizons(const Observation& now);
 
 /// Whether seismics make sense of a model: it is a kilometre thick or more.
 bool has_seismics(const Scene& scene);

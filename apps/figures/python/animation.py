@@ -12,13 +12,15 @@ from scales import share_scales
 from sections import draw_figure
 
 SHOWN = ("strata", "strain")
+FILMS = ("mp4", "gif", "webp")
 ANIMATION_DPI = 80
 FRAME_MS, LAST_FRAME_MS = 250, 2000
 
 
 def save_animation(frames: Sequence[Frame], folder: str, order: Order) -> None:
     """animation-<extension>km in the order's format; in none: .mp4 with ffmpeg, else .gif"""
-    [wanted] = order.formats or (["mp4"] if shutil.which("ffmpeg") else ["gif"])
+    films = [kind for kind in order.formats if kind in FILMS]
+    wanted = films[0] if films else "mp4" if shutil.which("ffmpeg") else "gif"
     if wanted == "mp4" and not shutil.which("ffmpeg"):
         raise InputError("--format mp4: needs ffmpeg, which is not installed; gif and webp need Pillow alone")
     with tempfile.TemporaryDirectory(dir=folder, prefix=".listric-") as temporary:

@@ -62,7 +62,7 @@ def provenance_text(order: Order) -> str:
         return ""
     words = json.loads(order.provenance)
     known = [f"{key.replace('_', ' ')} {words[key]}" for key in ("commit", "scene_hash") if words.get(key)]
-    return f"Made with {', '.join([order.software, *known])}." if known else ""
+    return f"Made by {', '.join(known)}." if known else ""
 
 
 def write_captions(captions: dict[str, str], folder: str) -> None:

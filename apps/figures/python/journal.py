@@ -2,15 +2,14 @@
 
 Lengths are in inches. Panels are those of the pages; only what is around them differs.
 """
+import textwrap
 from collections.abc import Sequence
 
-from axes import section_axes
 from frame import Frame
 from page import add_axes, extension_text, name_distance
 from panels import panel_of
 from plot import FAINT, Figure, Order, new_figure, save
 
-import matplotlib
 from matplotlib.collections import LineCollection
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
@@ -21,10 +20,12 @@ from matplotlib.ticker import MaxNLocator
 POINTS, SMALL = 8.0, 7.0          # of text; small: legends, numbers within a panel
 PRINT_DPI = 300
 MM = 1 / 25.4
-LEFT, RIGHT = 0.46, 0.52          # beside a panel; right: the colour bar
+LEFT, RIGHT = 0.46, 0.58          # beside a panel; right: the colour bar
+NARROW, RIGHT_OF_NARROW = 4.5, 0.74   # a figure whose colour bars have labels of two lines
 ABOVE, XLABEL, GAP = 0.20, 0.36, 0.10
 LEGEND_LINE = 0.145
 PROFILE_SHARE = 0.24              # height of the profile of sediment over a panel's width
+LEAST_PROFILE, LEAST_TIME = 0.85, 1.1   # heights that hold the labels of their axes
 THIN = 0.6                        # of the lines of a page, which are for twice the width
 DEFAULT = ("strata", "strain")
 
@@ -35,9 +36,9 @@ def letters(count: int) -> list[str]:
 
 def sizes(frame: Frame, names: Sequence[str], width: float) -> list[tuple[float, float]]:
     """Width and height of panels."""
-    across = width - LEFT - RIGHT
-    free = {"sediment": PROFILE_SHARE, "seismic": 0.4}
-    return [(across, across * free.get(name, frame.rise / frame.span)) for name in names]
+    across = width - LEFT - (RIGHT_OF_NARROW if width < NARROW else RIGHT)
+    own = {"sediment": max(PROFILE_SHARE * across, LEAST_PROFILE), "seismic": max(0.4 * across, LEAST_TIME)}
+    return [(across, own.get(name, across * frame.rise / frame.span)) for name in names]
 
 
 def exaggeration(ax, width: float, height: float) -> float:
@@ -72,7 +73,7 @@ def legend_rows(entries: dict, width: float) -> list[list[str]]:
     """Labels in lines that fit into a width, by about how wide their letters are."""
     rows, room = [], 0.0
     for label in entries:
-        needed = 0.42 + 0.062 * len(label)
+        needed = 0.36 + 0.053 * len(label)
         if not rows or room + needed > width:
             rows.append([])
             room = 0.0
@@ -108,8 +109,8 @@ def draw_print(frame: Frame, names: Sequence[str], order: Order) -> tuple[Figure
     figure = new_figure(width, total, order.dpi or PRINT_DPI)
     across, up = figure.get_size_inches()
     for line, text in enumerate(headline):
-        figure.text(0.03 / across, 1 - (0.03 + 0.155 * line) / up, text, fontsize=10, weight="bold" if line == 0 else "normal",
-                    va="top")
+        figure.text(0.03 / across, 1 - (0.03 + 0.155 * line) / up, text, fontsize=10,
+                    weight="bold" if line + 1 < len(headline) else "normal", va="top")
     said, y = [], total - top
     for index, (name, (wide, high), (title, entries)) in enumerate(zip(names, panel_sizes, legends)):
         y -= ABOVE + high
@@ -119,6 +120,8 @@ def draw_print(frame: Frame, names: Sequence[str], order: Order) -> tuple[Figure
         panel_of(name)(ax, cax, frame)
         frame.legends = None
         fit_axes(ax, cax, name)
+        for axis in (ax.yaxis, cax.yaxis):
+            axis.set_label_text(wrapped(axis.get_label_text(), high))
         lowest = index + 1 == len(names)
         name_distance(ax, lowest)
         figure.text(0.03 / across, (y + high + 0.05) / up, letters(len(names))[index], fontsize=10, weight="bold", va="bottom")
@@ -157,9 +160,15 @@ def fit_axes(ax, cax, name: str) -> None:
         ax.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
 
 
+def wrapped(text: str, height: float) -> str:
+    """A label in two lines where its letters are longer than an axis."""
+    if len(text) * 0.066 <= height:
+        return text
+    return textwrap.fill(text, max(int(height / 0.066), len(text) // 2 + 1), break_long_words=False)
+
+
 def headline_lines(frame: Frame, width: float) -> list[str]:
     """Description, in lines, and the moment."""
-    import textwrap
     title = str(frame.meta.get("title") or frame.meta["scene"])
     return textwrap.wrap(title, max(int(width / 0.072), 10)) + [moment_text(frame)]
 

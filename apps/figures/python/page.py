@@ -30,18 +30,25 @@ def extension_text(frame: Frame) -> str:
     return str(frame.meta.get("extension_km", plain))
 
 
-def headline(frame: Frame) -> str:
-    """What the scene's description says, in at most a line, and the moment."""
+LONGEST_TITLE = 72        # letters that fit beside the moment
+
+
+def title_of(frame: Frame) -> str:
+    """The scene's description, in at most a line; a scene without one has its name."""
     title = str(frame.meta.get("title") or frame.meta["scene"].upper())
-    return (f"{textwrap.shorten(title, 72, placeholder=' …')}: {extension_text(frame)} km, "
-            f"{frame.meta['time_a'] / 1e6:.2f} Myr")
+    return title if len(title) <= LONGEST_TITLE else title[:LONGEST_TITLE - 1].rstrip() + "…"
+
+
+def headline(frame: Frame) -> str:
+    """Description and moment."""
+    return f"{title_of(frame)}: {extension_text(frame)} km, {frame.meta['time_a'] / 1e6:.2f} Myr"
 
 
 def footer(frame: Frame) -> list[str]:
     """Provenance of the run, as wrapped lines of small print."""
     meta, parts = frame.meta, []
     parts.append(f"scene {meta['scene']}")
-    if len(str(meta.get("title", ""))) > 72:   # the headline has its beginning
+    if len(str(meta.get("title", ""))) > LONGEST_TITLE:   # the headline has its beginning
         parts.append(str(meta["title"]))
     radius = meta.get("mean_radius_m", frame.radius.mean() * 1000)
     parts.append(f"{len(frame.x):,} discs, mean radius {radius:.3g} m")

@@ -130,7 +130,7 @@ def strata_bar(cax, colours: np.ndarray, frame: Frame) -> None:
     known = isinstance(ages, list) and len(ages) == count
     colour_bar = bar(cax, ListedColormap(colours), norm, "Laid down at (Myr)" if known else "Stratum (1 is the oldest)",
                      spacing="proportional", drawedges=False)
-    ticks = stratum_ticks(count)
+    ticks = [t for t in stratum_ticks(count) if not known or t > 1 or count == 1]
     colour_bar.set_ticks(ticks, labels=[f"{ages[t - 1] / 1e6:.2f}" if known else str(t) for t in ticks])
     colour_bar.ax.minorticks_off()
 
@@ -226,8 +226,9 @@ def sediment_panel(ax, cax, frame: Frame) -> None:
     shown = -np.where(known, thickness, np.nan)
     deepest = max(np.nanmax(-shown, initial=0.0), np.nanmax(-top, initial=0.0), 0.5)
     highest = max(np.nanmax(top, initial=0.0), 0.0)
-    ax.set_ylim(-1.32 * deepest, highest + 0.10 * deepest)
-    depth_axis(ax, "Thickness, depth (km)")
+    # Room for the numbers of depocentres; a small panel has less of it.
+    ax.set_ylim(-(1.32 if frame.legends is None else 1.6) * deepest, highest + 0.10 * deepest)
+    depth_axis(ax, "Thickness, depth (km)" if frame.legends is None else "Depth (km)")
     if frame.legends is None:                   # a page
         share = (PROFILE_HEIGHT / (highest + 1.42 * deepest)) / (PANEL_WIDTH / frame.span)
         ax.text(0.99, 0.04, f"heights × {share:.1f}", transform=ax.transAxes, ha="right", va="bottom", fontsize=9,
@@ -242,19 +243,22 @@ def sediment_panel(ax, cax, frame: Frame) -> None:
         (Patch(facecolor=SEDIMENT, edgecolor=SEDIMENT_EDGE, linewidth=1.2), "sediment thickness"),
         (stroke(INK, 1.1, dashes=(3, 1.5)), "depth of pre-rift top")]
     if frame.depocentres is not None and len(frame.depocentres):
-        draw_depocentres(ax, frame.depocentres)
+        draw_depocentres(ax, frame.depocentres, is_small=frame.legends is not None)
         handles.append((Line2D([], [], color=WEAK, marker="^", markersize=7,
-                               linestyle="none"), "depocentre: thickness, prominence (km)"))
+                               linestyle="none"),
+                        "depocentre: thickness, prominence (km)" if frame.legends is None else "depocentre: thickness (km)"))
     describe(ax, frame, "Sediment thickness and pre-rift top", handles)
 
 
-def draw_depocentres(ax, depocentres: np.ndarray) -> None:
-    """Mark depocentres below the curve; labels of the most prominent ones."""
+def draw_depocentres(ax, depocentres: np.ndarray, is_small: bool) -> None:
+    """Mark depocentres below the curve; labels of the most prominent ones, shorter on a small panel."""
     points = depocentres[np.argsort(-depocentres[:, 2], kind="stable")]
     xmin, xmax = ax.get_xlim()
     ymin, ymax = ax.get_ylim()
     inches_x, inches_y = PANEL_WIDTH / (xmax - xmin), PROFILE_HEIGHT / (ymax - ymin)
-    half, height = 0.37 / inches_x, 0.17 / inches_y
+    if is_small:                            # as if in the inches of a page
+        inches_x, inches_y = 0.4 * inches_x, 0.4 * inches_y
+    half, height = (0.15 if is_small else 0.37) / inches_x, 0.17 / inches_y
     placed = []
     for index, (x, thickness, prominence) in enumerate(points):
         ax.plot(x, -thickness - 0.05 / inches_y, marker="^", markersize=7, color=WEAK,
@@ -266,7 +270,7 @@ def draw_depocentres(ax, depocentres: np.ndarray) -> None:
         if cy < ymin + 0.4 * height:        # no room left: marker only
             continue
         placed.append((cx, cy))
-        ax.text(cx, cy, f"{thickness:.1f}, {prominence:.1f}", fontsize=9, ha="center",
+        ax.text(cx, cy, f"{thickness:.1f}" if is_small else f"{thickness:.1f}, {prominence:.1f}", fontsize=9, ha="center",
                 va="center", zorder=7, bbox={"facecolor": "white", "alpha": 0.75,
                                              "linewidth": 0, "pad": 0.6})
 
@@ -376,9 +380,16 @@ def seismic_depth_panel(ax, cax, frame: Frame) -> None:
 
 
 def draw_wiggles(ax, traces: np.ndarray, left: float, right: float, top: float, bottom: float) -> None:
-    """Amplitudes as greys, white to black, clipped where 99 of 100 samples of reflections are."""
+    """Amplitudes as greys, white to black, clipped where 97 of 100 samples of reflections are. Of several
+    samples in a pixel the mean is drawn, and clipped."""
+    box = ax.get_window_extent()
+    across, down = (max(int(n // max(pixels, 1)), 1) for n, pixels in zip(traces.shape, (box.width, box.height)))
+    wide, high = traces.shape[0] // across * across, traces.shape[1] // down * down
+    right = left + (right - left) * wide / traces.shape[0]
+    bottom = top + (bottom - top) * high / traces.shape[1]
+    traces = traces[:wide, :high].reshape(wide // across, across, high // down, down).mean(axis=(1, 3))
     sizes = np.abs(traces[traces != 0.0])
-    end = float(np.quantile(sizes, 0.99)) if len(sizes) else 1.0
+    end = float(np.quantile(sizes, 0.97)) if len(sizes) else 1.0
     greys = ListedColormap(palette(VOCABULARY["layers"]["seismic"]["palette"]))
     ax.imshow(traces.T, extent=(left, right, bottom, top), cmap=greys, vmin=-end, vmax=end, aspect="auto",
               interpolation="antialiased", zorder=1.5)

@@ -59,7 +59,9 @@ function placedLegend(items, width, widthOf) {
 function legendText({label, from, to}) { return from === undefined ? label : `${label}: ${from} to ${to}`; }
 
 /** The section with all that a picture needs to stand alone, as a canvas on white. */
-function pictureOf(section) {
+async function pictureOf(section) {
+  section.numbersOutside = true;
+  await draw();
   const canvas = document.createElement("canvas"), ratio = section.ratio, {width, height} = section.discCanvas;
   const context = canvas.getContext("2d"), words = wordsAround(section), p = paper;
   const set = (size, weight = "") => { context.font = `${weight} ${size * ratio}px "DejaVu Sans", sans-serif`; };
@@ -78,6 +80,8 @@ function pictureOf(section) {
   context.fillText(words.moment, left, 40 * ratio, room);
   context.drawImage(section.discCanvas, left, top);
   context.drawImage(section.lineCanvas, left, top);
+  section.numbersOutside = false;
+  draw().catch(trouble);
   context.strokeStyle = "#1a1a1a";
   context.lineWidth = ratio;
   context.strokeRect(left, top, width, height);

@@ -90,9 +90,11 @@ function drawLegend() {
   const host = $("legend");
   host.textContent = "";
   for (const {label, colour, colours, from, to} of legendItems()) {
+    const entry = host.appendChild(document.createElement("span"));
+    entry.className = "entry";
     if (!colours) {
-      addSwatch(host, colour);
-      host.append(label);
+      addSwatch(entry, colour);
+      entry.append(label);
       continue;
     }
     const canvas = document.createElement("canvas");
@@ -102,7 +104,7 @@ function drawLegend() {
       context.fillStyle = one;
       context.fillRect(n * 160 / colours.length, 0, 160 / colours.length + 1, 14);
     });
-    host.append(`${label} ${from} `, canvas, ` ${to} `);
+    entry.append(`${label} ${from} `, canvas, ` ${to}`);
   }
 }
 
@@ -427,7 +429,7 @@ function addSaves(on) {
   on("save_faults", "click", lines("faults"));
   on("save_horizons", "click", lines("horizons"));
   on("save_history", "click", () => save(`${page.runs[0].head.scene}-history.csv`, page.runs[0].head.history, "text/csv"));
-  on("save_png", "click", () => pictureOf(section).toBlob(blob => save(name("section.png"), blob)));
+  on("save_png", "click", async () => (await pictureOf(section)).toBlob(blob => save(name("section.png"), blob)));
   on("save_svg", "click", async () => save(name("section.svg"), svgOf(section, page.view, await page.runs[0].loadLines(page.t)), "image/svg+xml"));
   on("copy", "click", async () => {
     writeAddress();
@@ -510,7 +512,7 @@ function followFile() {
     takeNewer(event.data).catch(() => {}).then(() => { if (page.data.live) setTimeout(look, page.lookAfter); });
   });
   page.lookAfter = 5000;
-  const look = () => {
+  const look = page.look = () => {
     frame.src = `${location.href.split("#")[0]}#feed`;
     document.body.append(frame);
   };

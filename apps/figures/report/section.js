@@ -115,7 +115,6 @@ class Section {
     if (shown.has("seismic") && lines.seismic) this.drawSeismic(view, lines.seismic);
     for (const [name, {ink}] of shownLayers(this.run, "band", shown)) this.drawBand(view, lines.layers[name], ink);
     if (shown.has("bonds") && this.run.has("bonds_left")) this.drawBonds(k, view);
-    this.drawAxes(view);
     const surfaces = name => lines.surfaces.filter(line => line.name === name);
     if (shown.has("horizons"))
       for (const line of lines.horizons || [])
@@ -139,6 +138,7 @@ class Section {
         this.line(view, line.points, inkOf("picks"), 2, [2, 3]);
     for (const [name, {ink}] of shownLayers(this.run, "line", shown))
       this.line(view, rowsOf(lines.layers[name], 2).map(([x, height]) => [x, -height]), ink, 1.6);
+    this.drawAxes(view);
     if (shown.has("faults")) this.drawFaults(view, lines.faults, picked);
     if (shown.has("faults") && other)
       for (const fault of other.faults) this.line(view, fault.points, otherInk, 1.6, [7, 4]);
@@ -250,13 +250,20 @@ class Section {
       pen.moveTo(at, 0);
       pen.lineTo(at, 5 * ratio);
       const words = `${text} km`, room = pen.measureText(words).width + 3 * ratio;
-      if (at > 30 * ratio && at + room < width) pen.fillText(words, at + 3 * ratio, 11 * ratio);
+      if (!this.numbersOutside && at > 30 * ratio && at + room < width) pen.fillText(words, at + 3 * ratio, 11 * ratio);
     }
     down.forEach(({at, text}, n) => {
       pen.moveTo(0, at);
       pen.lineTo(5 * ratio, at);
-      pen.fillText(n ? text : `${text} km deep`, 7 * ratio, at + 4 * ratio);
+      if (this.numbersOutside) return;
+      const words = n ? text : `${text} km`;
+      pen.lineWidth = 3 * ratio;
+      pen.strokeStyle = "#fff";
+      pen.strokeText(words, 7 * ratio, at + 4 * ratio);
+      pen.fillText(words, 7 * ratio, at + 4 * ratio);
     });
+    pen.lineWidth = ratio;
+    pen.strokeStyle = "#595959";
     pen.stroke();
   }
 

@@ -170,6 +170,8 @@ function drawWheeler(host, run, k) {
   const end = (run.head.length_m + run.moments[k].extension_m) / 1000;
   const axes = new Axes(host, "time over the section", {label: "x (km)", low: 0, high: end},
     {label: "time (Myr)", low: Math.max(ages[0] - step, 0), high: ages.at(-1)});
+  axes.pen.fillStyle = "#fff"; // paper, in the dark, too: dark is thick
+  axes.pen.fillRect(axes.box.left, axes.box.top, axes.box.right - axes.box.left, axes.box.bottom - axes.box.top);
   const least = 0.1 * width / 2; // of a disc's diameter: less is no layer
   numbers.forEach((n, row) => strata[n].thickness.forEach((value, column) => {
     if (value < least) return;

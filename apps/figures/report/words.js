@@ -40,7 +40,7 @@ function valueOf(value, unit, radius) {
   if (unit === "Pa") return Math.abs(value) >= 1e4 ? [digits(value / 1e6, 3), "MPa"] : [digits(value, 3), "Pa"];
   if (unit === "mm/a") return [digits(value, 2), "mm/a"];
   if (unit === "diameters") return [value.toFixed(1), "discs"];
-  if (Number.isInteger(value)) return [String(value), unit === "1" ? "" : unit || ""];
+  if (Number.isInteger(value)) return [String(value), ["1", "index"].includes(unit) ? "" : unit || ""];
   return [digits(value, 3), unit === "1" ? "" : unit || ""];
 }
 
