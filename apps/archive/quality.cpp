@@ -65,8 +65,8 @@ void add_volume(std::vector<QualityCheck>& all, const JsonObject& summary) {
                    fmt::format("error {:.2g} %", 100.0 * *error),
                    fmt::format("below {:g} %", 100.0 * most_volume_error), verdict_of(good),
                    good ? "Fault zones keep their volume when they weaken."
-                        : "Weak zones change their volume: smaller "
-                          "fault_weakening.update_interval_a."});
+                        : "Weak zones change their volume: let property updates follow each "
+                          "other faster."});
 }
 
 void add_balance(std::vector<QualityCheck>& all, const JsonObject& summary,

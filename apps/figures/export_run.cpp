@@ -146,7 +146,8 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
                                                          run.parts.base, moment.state, history)
                                          : measures::FaultReport()};
         if (!kind.table) {
-            const auto more = export_seismic(at, path.stem().string(), folder, request);
+            const auto more =
+                export_seismic(at, path.stem().string(), folder, request.formats, request.seismic);
             files.insert(files.end(), more.begin(), more.end());
             continue;
         }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the section is, a line each of at most 76 letters.
+/// Lines of at most 76 letters on how the section was made.
 std::vector<std::string> words_of(const archive::ExportedMoment& at,
                                   const SeismicSection& section) {
     const SeismicOptions& o = section.options;
@@ -70,10 +70,11 @@ void write_rows(const fs::path& file, const std::vector<T>& values, const Seismi
 } // namespace
 
 std::vector<fs::path> export_seismic(const archive::ExportedMoment& at, const std::string& name,
-                                     const fs::path& folder, const ExportRequest& request) {
-    SeismicOptions options = request.seismic;
+                                     const fs::path& folder,
+                                     const std::vector<std::string>& formats,
+                                     SeismicOptions options) {
     const auto wants = [&](const char* format) {
-        return std::ranges::find(request.formats, format) != request.formats.end();
+        return std::ranges::find(formats, format) != formats.end();
     };
     options.has_labels = wants("npy");
     const SeismicSection section =

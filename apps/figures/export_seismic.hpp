@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/archive/exports.hpp"
-#include "apps/figures/export_run.hpp"
+#include "apps/figures/seismic_section.hpp"
 
 #include <filesystem>
 #include <string>
@@ -13,9 +13,11 @@ namespace listric {
 /// trace the image, the faults and the shear strain at its samples (seismic-NAME-image.npy,
 /// -faults.npy, -strain.npy) and what their rows and columns are (seismic-NAME.json). Returns the
 /// files. Throws StorageError, UsageError.
+/// @param formats  "segy", "npy" or both
 std::vector<std::filesystem::path> export_seismic(const archive::ExportedMoment& at,
                                                   const std::string& name,
                                                   const std::filesystem::path& folder,
-                                                  const ExportRequest& request);
+                                                  const std::vector<std::string>& formats,
+                                                  SeismicOptions options);
 
 } // namespace listric

@@ -148,8 +148,8 @@ json faults_of(const ExportedMoment& at, bool followed) {
     return faults;
 }
 
-/// Of each fault, by stratum, the heights of its top above the fault and below it, as depths, m,
-/// and whether the stratum is thick enough for a throw.
+/// Cutoffs of each fault, by stratum: depth of its top above the fault and below it, m, and whether
+/// the stratum is thick enough for a throw.
 json cutoffs_of(const FaultReport& report, double steps) {
     json list = json::array();
     for (const Fault& fault : report.faults) {

@@ -87,8 +87,7 @@ public:
         : law_(law), horizons_(horizons.begin(), horizons.end()),
           room_(archive::make_setting(now.scene, now.parts), now.parts.base, now.state),
           map_(now.state, room_, spacing), porosity_(sediment_porosity(now, map_)),
-          rock_(rocks(now.state)), is_under_water_(has_effect(now.scene, "basin_water")),
-          layer_(vocabulary().at("pre_rift").at("layer_m").get<double>()) {
+          rock_(rocks(now.state)), layer_(vocabulary().at("pre_rift").at("layer_m").get<double>()) {
         std::ranges::sort(horizons_, {}, &Horizon::stratum);
         for (const Horizon& horizon : horizons_)
             for (const Polyline& line : horizon.top)
@@ -110,10 +109,8 @@ public:
             tops.push_back(std::max(height_of(horizon.top, x).value_or(floor),
                                     tops.empty() ? floor : tops.back()));
         const double surface = tops.empty() ? floor : tops.back();
-        if (is_under_water_ && surface < datum_)
-            layers.push_back({datum_ - surface, {law_.fluid_velocity, law_.fluid_density}});
         const std::size_t column = column_of(x);
-        double top = is_under_water_ ? surface : datum_; // dry: the top rock begins at the datum
+        double top = datum_; // where the topmost rock begins
         bool is_weak = false;
         for (std::size_t n = horizons_.size(); n-- > 0;) {
             const double bottom = n > 0 ? tops[n - 1] : floor;
@@ -170,7 +167,6 @@ private:
     OwnerMap map_;
     std::vector<double> porosity_;
     std::vector<std::uint32_t> rock_;
-    bool is_under_water_;
     double layer_; ///< thickness of the layers of pre-rift rock, m
     double datum_ = 0.0;
 };

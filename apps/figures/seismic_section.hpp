@@ -28,8 +28,8 @@ struct SeismicOptions {
 inline constexpr double pre_rift_porosity = 0.1, porosity_decay_per_m = 4e-4;
 
 /// Traces side by side, from the breakaway to the right wall. Samples begin at the datum: the
-/// original surface, or the highest rock above it. Above dry land the topmost rock begins there,
-/// which reflects nothing; above a basin under water there is water.
+/// original surface, or the highest rock above it. The topmost rock begins there: neither
+/// its surface nor water above it reflects.
 struct SeismicSection {
     SeismicOptions options = {}; ///< with spacing and interval as they are
     std::size_t traces = 0, samples = 0;

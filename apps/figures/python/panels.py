@@ -380,8 +380,8 @@ def seismic_depth_panel(ax, cax, frame: Frame) -> None:
 
 
 def draw_wiggles(ax, traces: np.ndarray, left: float, right: float, top: float, bottom: float) -> None:
-    """Amplitudes as greys, white to black, clipped where 97 of 100 samples of reflections are. Of several
-    samples in a pixel the mean is drawn, and clipped."""
+    """Amplitudes as greys, white to black, clipped where 97 of 100 samples of reflections are. A pixel
+    has the mean of its samples."""
     box = ax.get_window_extent()
     across, down = (max(int(n // max(pixels, 1)), 1) for n, pixels in zip(traces.shape, (box.width, box.height)))
     wide, high = traces.shape[0] // across * across, traces.shape[1] // down * down
