@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace listric::archive {
@@ -24,6 +25,14 @@ Verdict verdict_of(bool good) { return good ? Verdict::good : Verdict::doubtful;
 std::string small_text(double value) {
     return value == 0.0 || value >= 1e-4 ? fmt::format("{:.2g}", value)
                                          : fmt::format("{:.0e}", value);
+}
+
+/// Two digits: "1.9 km", "930 m", "0.028 m".
+std::string length_words(double metres) {
+    if (metres >= 995.0)
+        return fmt::format("{:.2g} km", metres / 1e3);
+    return metres >= 99.5 ? fmt::format("{:.0f} m", 10.0 * std::round(metres / 10.0))
+                          : fmt::format("{:.2g} m", metres);
 }
 
 void add_quasi_static(std::vector<QualityCheck>& all, const JsonObject& summary) {
@@ -112,9 +121,8 @@ void add_discs_per_fault(std::vector<QualityCheck>& all, const JsonObject& summa
                                        : fmt::format("{:.1f} to {:.1f}", least, most),
                    fmt::format("{:g} to interpret", fewest_discs_across), Verdict::note,
                    fmt::format("The width of faults is the grain's. Do not interpret what is "
-                               "narrower than {:g} discs, {:.2g} {}.",
-                               fewest_discs_across, narrowest < 1e3 ? narrowest : narrowest / 1e3,
-                               narrowest < 1e3 ? "m" : "km")});
+                               "narrower than {:g} discs, {}.",
+                               fewest_discs_across, length_words(narrowest))});
 }
 
 void add_sediment(std::vector<QualityCheck>& all, const JsonObject& summary) {

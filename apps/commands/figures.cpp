@@ -73,15 +73,14 @@ void require_sense(const FiguresCall& call) {
 Command add_figures(CLI::App& program) {
     const auto call = std::make_shared<FiguresCall>();
     FiguresRequest& request = call->request;
-    CLI::App* command = add_call(
-        program,
-        {"Look",
-         "figures",
-         "draw the figures of a run",
-         "docs/figures.md",
-         {{{"figures out/lis1 --format pdf,svg", "figures for print"},
-           {"figures out/lis1 --width 85mm --at 5km --only strata,strain", "one for a column"},
-           {"figures out/lis1 --animation", "a film of all snapshots"}}}});
+    CLI::App* command =
+        add_call(program, {"Look",
+                           "figures",
+                           "draw the figures of a run",
+                           "docs/figures.md",
+                           {{{"figures out/lis1 --format pdf,svg", "figures for print"},
+                             {"figures out/lis1 --width 85mm --at 5km", "one for a column"},
+                             {"figures out/lis1 --animation", "a film of all snapshots"}}}});
     command->add_option("DIR", request.output, "folder of a run")->type_name("DIR")->required();
     command->add_flag("--animation", call->animation,
                       "make a film of all snapshots instead of the figures");
@@ -125,8 +124,8 @@ Command add_figures(CLI::App& program) {
                 if (!call->width.empty())
                     wanted.order.width_mm = parse_width(call->width);
                 wanted.order.caption = true;
-                const auto files = call->animation ? animate_run(wanted.output, call->formats)
-                                                   : draw_run(wanted);
+                const auto files =
+                    call->animation ? animate_run(wanted.output, call->formats) : draw_run(wanted);
                 for (const auto& file : files)
                     std::cout << file.string() << '\n';
                 return ExitCode::done;

@@ -79,7 +79,7 @@ TEST(Quality, AreasAreNotJudgedWhereTheirBoundsDoNotHold) {
 
 TEST(Quality, SaysWhatIsTooNarrowAndLeavesOutWhatARunHasNot) {
     EXPECT_THAT(check_named(checks_of(good_run()), "width_diameters").words,
-                testing::HasSubstr("5 discs, 0.93 km"));
+                testing::HasSubstr("5 discs, 930 m."));
     EXPECT_TRUE(checks_of({}).empty());
     EXPECT_TRUE(checks_of(JsonObject()).empty());
     EXPECT_TRUE(checks_of({{"faults", 3}, {"quasi_static", "yes"}, {"area_balance", "x"}}).empty());
