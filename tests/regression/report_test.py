@@ -634,7 +634,7 @@ class Report(unittest.TestCase):
     def test_14b_a_live_page_takes_over_what_is_new_without_reloading(self):
         folder = self.folder / "followed"
         process = subprocess.Popen(
-            [PROGRAM, "run", "lis1", "--accuracy", "draft", "--live", "--set", "extension.distance_m=2000", "--output", folder, "--quiet"],
+            [PROGRAM, "run", "lis1", "--accuracy", "draft", "--live", "--set", "extension.distance_m=1500", "--output", folder, "--quiet"],
             cwd=SOURCES, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)

@@ -74,7 +74,7 @@ function legendItems() {
     if (strata) items.push({label: `sediment laid down (Myr), ${strata} strata`, from: 0, to: digits(last, 2),
       colours: bar(share => stratumColour(Math.min(1 + Math.floor(share * strata), strata), strata, table))});
     vocabulary.pre_rift.colours.forEach((colour, n) =>
-      items.push({colour, label: n ? `pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km` : ""}));
+      items.push({colour, label: n ? "by turns" : `pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km`}));
   } else items.push({label: modes[page.mode].label, from: 0, to: `${plain(top / (unit || 1))} or more`,
     colours: bar(share => table[Math.round(255 * share)])});
   for (const name of ["faults", "horizons", "picks", "target", "predictions"])
