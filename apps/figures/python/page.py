@@ -30,7 +30,7 @@ def extension_text(frame: Frame) -> str:
     return str(frame.meta.get("extension_km", plain))
 
 
-LONGEST_TITLE = 72        # letters that fit beside the moment
+LONGEST_TITLE = 80        # letters that fit beside the moment
 
 
 def title_of(frame: Frame) -> str:
@@ -72,7 +72,7 @@ def add_axes(figure: Figure, x: float, y: float, width: float, height: float):
 def write_around(figure: Figure, headline: str, lines: list[str]) -> None:
     """The headline and the small print at the foot."""
     across, up = figure.get_size_inches()
-    figure.text(LEFT / across, 1 - 0.13 / up, headline, fontsize=14, weight="bold", va="top")
+    figure.text(LEFT / across, 1 - 0.13 / up, headline, fontsize=12.5, weight="bold", va="top")
     for index, line in enumerate(reversed(lines)):
         figure.text(LEFT / across, (0.09 + FOOTER_LINE * index) / up, line, fontsize=7.5,
                     color=FAINT, va="bottom")

@@ -130,7 +130,7 @@ def strata_bar(cax, colours: np.ndarray, frame: Frame) -> None:
     known = isinstance(ages, list) and len(ages) == count
     colour_bar = bar(cax, ListedColormap(colours), norm, "Laid down at (Myr)" if known else "Stratum (1 is the oldest)",
                      spacing="proportional", drawedges=False)
-    ticks = [t for t in stratum_ticks(count) if not known or t > 1 or count == 1]
+    ticks = [t for t in stratum_ticks(count) if not known or t > 1 or count <= 8]
     colour_bar.set_ticks(ticks, labels=[f"{ages[t - 1] / 1e6:.2f}" if known else str(t) for t in ticks])
     colour_bar.ax.minorticks_off()
 
