@@ -83,11 +83,17 @@ Line fault_line(const ExportedMoment& at, std::size_t k, const std::set<int>& st
 
 } // namespace
 
-LineTable horizons_table(const ExportedMoment& at) {
+std::vector<Horizon> horizons_of(const ExportedMoment& at) {
+    return trace_horizons(setting_of(at), at.now.parts.base, at.now.state, at.faults.faults,
+                          HorizonOptions());
+}
+
+LineTable horizons_table(const ExportedMoment& at) { return horizons_table(at, horizons_of(at)); }
+
+LineTable horizons_table(const ExportedMoment& at, std::span<const Horizon> horizons) {
     LineTable table{"horizons", "stratum", {"name", "stratum", "deposited_at_a", "start_depth_m"}};
     const HorizonOptions options;
-    for (const Horizon& h : trace_horizons(setting_of(at), at.now.parts.base, at.now.state,
-                                           at.faults.faults, options)) {
+    for (const Horizon& h : horizons) {
         const double start_depth = h.stratum > 0 ? none : -h.stratum * options.pre_rift_layer;
         const std::string name = h.stratum > 0    ? fmt::format("stratum {}", h.stratum)
                                  : h.stratum == 0 ? "pre-rift top"

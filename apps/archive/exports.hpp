@@ -2,8 +2,10 @@
 
 #include "apps/archive/line_table.hpp"
 #include "apps/measures/fault.hpp"
+#include "apps/measures/horizons.hpp"
 #include "apps/scene/effect.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,10 @@ struct ExportedMoment {
 
 /// Tops of the strata, cut at faults.
 LineTable horizons_table(const ExportedMoment& at);
+
+/// These tops, and the table of them.
+std::vector<measures::Horizon> horizons_of(const ExportedMoment& at);
+LineTable horizons_table(const ExportedMoment& at, std::span<const measures::Horizon> horizons);
 
 /// Traced faults with the numbers of summary.json.
 LineTable faults_table(const ExportedMoment& at);

@@ -41,14 +41,16 @@ constexpr TopFile top_files[] = {
 };
 
 constexpr std::string_view section_pictures[] = {
-    "strata",     "bonds",    "behaviour", "strain",     "sediment",
-    "kinematics", "overview", "underlay",  "experiment", "well"};
+    "strata",   "bonds",    "behaviour",  "strain",  "sediment",      "kinematics",
+    "overview", "underlay", "experiment", "seismic", "seismic-depth", "well"};
 constexpr std::string_view layer_picture = "layer-"; ///< and the name of an effect's layer
 constexpr std::string_view base_pictures[] = {"base", "footwall", "flexure"};
 constexpr std::string_view picture_endings[] = {".png", ".pdf", ".svg"};
-constexpr std::string_view film_endings[] = {".mp4", ".gif"};
+constexpr std::string_view film_endings[] = {".mp4", ".gif", ".webp"};
 constexpr std::string_view line_exports[] = {"horizons", "faults", "surfaces", "base", "well"};
 constexpr std::string_view line_endings[] = {".csv", ".geojson", ".gmt"};
+constexpr std::string_view seismic_endings[] = {".segy", "-image.npy", "-faults.npy", "-strain.npy",
+                                                ".json"};
 constexpr std::string_view series_parts[] = {"discs", "contacts", "base"};
 
 /// Middle of a text between a beginning and an end; none if it lacks them.
@@ -74,10 +76,36 @@ bool is_export(std::string_view name) {
             between(name, fmt::format("{}-extension-", kind), fmt::format("m{}", ending)));
     };
     return name == "discs.gsd" || is_of("discs", ".csv") ||
+           std::ranges::any_of(seismic_endings,
+                               [&](std::string_view ending) { return is_of("seismic", ending); }) ||
            std::ranges::any_of(line_exports, [&](std::string_view kind) {
                return std::ranges::any_of(
                    line_endings, [&](std::string_view ending) { return is_of(kind, ending); });
            });
+}
+
+/// Whether a text is names of panels with a dash after each: "strata-strain-".
+bool is_panels(std::string_view text) {
+    if (text.empty())
+        return true;
+    return std::ranges::any_of(section_pictures, [&](std::string_view kind) {
+        return text.starts_with(fmt::format("{}-", kind)) &&
+               is_panels(text.substr(kind.size() + 1));
+    });
+}
+
+/// Whether a file is a figure for print: strata-strain-5.0km-85mm.png.
+bool is_print(std::string_view name) {
+    return std::ranges::any_of(picture_endings, [&](std::string_view ending) {
+        const auto stem = between(name, "", fmt::format("mm{}", ending));
+        const std::size_t dash = stem ? stem->rfind("km-") : std::string_view::npos;
+        if (dash == std::string_view::npos || dash + 3 == stem->size() ||
+            stem->substr(dash + 3).find_first_not_of("0123456789.") != stem->npos)
+            return false;
+        const std::size_t last = stem->substr(0, dash).rfind('-');
+        return last != std::string_view::npos && is_panels(stem->substr(0, last + 1)) &&
+               is_kilometres(stem->substr(last + 1, dash - last - 1));
+    });
 }
 
 /// Whether a file is the picture of a section at a moment.
@@ -90,7 +118,7 @@ bool is_section_picture(std::string_view name) {
         return std::ranges::any_of(picture_endings,
                                    [&](std::string_view ending) { return is_of(kind, ending); });
     };
-    return std::ranges::any_of(section_pictures, has_kind) ||
+    return std::ranges::any_of(section_pictures, has_kind) || is_print(name) ||
            (name.starts_with(layer_picture) && has_kind(name.substr(0, name.rfind('-')))) ||
            std::ranges::any_of(film_endings,
                                [&](std::string_view ending) { return is_of("animation", ending); });
@@ -184,6 +212,12 @@ std::vector<fs::path> run_files(const fs::path& output) {
         output / "figures",
         [&](std::string_view name) {
             return is_base_picture(name) && holds(output / "figures" / name, "Listric ", 1 << 24);
+        },
+        files);
+    collect(
+        output / "figures",
+        [&](std::string_view name) {
+            return name == "caption.txt" && holds(output / "figures" / name, "Listric ", 1 << 12);
         },
         files);
     for (const TopFile& top : top_files)

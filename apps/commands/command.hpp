@@ -55,6 +55,9 @@ void require_call(const CLI::App& program, const std::string& name);
 
 // Options that several calls share. Each shows the value that it has as its default.
 
+/// "5km", "5000m" or "5000" in metres. Throws UsageError.
+double parse_length(const std::string& option, const std::string& text);
+
 /// Cores that this process may use.
 int all_threads();
 
@@ -83,6 +86,10 @@ CLI::Option* add_number(CLI::App& command, const char* option, std::optional<dou
 
 /// An option of numbers, separated by commas or given several times.
 CLI::Option* add_numbers(CLI::App& command, const char* option, std::vector<double>& numbers,
+                         const std::string& what);
+
+/// Lengths with commas between, such as 5km or 500m; plain numbers are metres.
+CLI::Option* add_lengths(CLI::App& command, const char* option, std::vector<double>& metres,
                          const std::string& what);
 
 /// An option that may be given several times, with one word each time.

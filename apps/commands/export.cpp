@@ -26,17 +26,26 @@ Command add_export(CLI::App& program) {
     command->add_option("DIR", request->output, "folder of a run")->type_name("DIR")->required();
     command
         ->add_option("--format", request->formats,
-                     "csv, geojson or gmt; for discs csv or gsd; several with commas")
+                     "csv, geojson or gmt; for discs csv or gsd; for seismic segy or npy; several "
+                     "with commas")
         ->type_name("FORMAT")
-        ->default_str("csv")
+        ->default_str("csv, segy")
         ->delimiter(',')
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    add_numbers(*command, "--at", request->extensions,
-                "extension of a snapshot, m, or several with commas")
+    add_lengths(*command, "--at", request->extensions,
+                "extension of a snapshot, such as 5km, or several with commas")
         ->default_str("all snapshots");
     add_numbers(*command, "--x", request->wells,
                 "of well: distance from the breakaway, m, or several with commas")
         ->default_str("the depocentre and its flank");
+    add_number(*command, "--frequency", request->seismic.frequency,
+               "seismic: frequency of the wavelet (Ricker's), Hz")
+        ->check(CLI::Range(1.0, 1000.0).description(""));
+    add_number(*command, "--lateral", request->seismic.lateral,
+               "seismic: width of the point-spread function along x, m; 0: none")
+        ->check(CLI::Range(0.0, 1e5).description(""));
+    command->add_flag("--depth", request->seismic.in_depth,
+                      "seismic: samples by depth instead of two-way time");
     return {command, [request] {
                 for (const std::filesystem::path& file : export_run(*request))
                     std::cout << file.string() << '\n';

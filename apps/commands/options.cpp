@@ -3,14 +3,18 @@
 #include "apps/commands/command.hpp"
 #include "apps/scene/accuracy.hpp"
 #include "apps/support/cores.hpp"
+#include "apps/support/error.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/number.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <cmath>
 #include <string>
+#include <string_view>
 
 namespace listric {
 
@@ -45,6 +49,20 @@ CLI::Option* add_threads(CLI::App& command, int& threads) {
         ->default_str("all")
         ->check(CLI::Range(1, most_threads).description(""))
         ->transform(no_more_than_cores);
+}
+
+double parse_length(const std::string& option, const std::string& text) {
+    const double unit = text.ends_with("km") ? 1e3 : 1.0;
+    const std::size_t letters = unit > 1.0 ? 2 : text.ends_with('m') ? 1 : 0;
+    const std::string_view number = std::string_view(text).substr(0, text.size() - letters);
+    const auto value = parse_number(number);
+    const double metres = unit * value.value_or(NAN);
+    if (!(metres >= 0.0 && metres <= 1e7)) {
+        const std::string what = value ? "" : number_objection(number);
+        throw UsageError(fmt::format("{} {}: a length of at least 0, such as 5km or 500m{}", option,
+                                     shown_start(text), what.empty() ? "" : "; this is " + what));
+    }
+    return metres;
 }
 
 namespace {
@@ -90,6 +108,25 @@ CLI::Option* add_numbers(CLI::App& command, const char* option, std::vector<doub
         ->type_name("NUMBERS")
         ->delimiter(',')
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+CLI::Option* add_lengths(CLI::App& command, const char* option, std::vector<double>& metres,
+                         const std::string& what) {
+    const CLI::Validator length(
+        [option](std::string& word) {
+            try {
+                word = fmt::format("{}", parse_length(option, word));
+            } catch (const UsageError& error) {
+                return std::string(error.what());
+            }
+            return std::string();
+        },
+        "");
+    return command.add_option(option, metres, what)
+        ->type_name("LENGTHS")
+        ->delimiter(',')
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->transform(length);
 }
 
 void add_words(CLI::App& command, const char* option, const char* kind,

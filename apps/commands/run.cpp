@@ -41,21 +41,6 @@ struct RunCall {
     bool no_report = false;
 };
 
-/// "5km", "5000m" or "5000" in metres.
-double parse_length(const std::string& text) {
-    const double unit = text.ends_with("km") ? 1e3 : 1.0;
-    const std::size_t letters = unit > 1.0 ? 2 : text.ends_with('m') ? 1 : 0;
-    const std::string_view number = std::string_view(text).substr(0, text.size() - letters);
-    const auto value = parse_number(number);
-    const double metres = unit * value.value_or(NAN);
-    if (!(metres >= 0.0 && metres <= 1e7)) {
-        const std::string what = value ? "" : number_objection(number);
-        throw UsageError(fmt::format("--until {}: a length of at least 0, such as 5km or 500m{}",
-                                     shown_start(text), what.empty() ? "" : "; this is " + what));
-    }
-    return metres;
-}
-
 /// A number of processes; none for "all", as many as were started together, and where there is
 /// none.
 std::optional<int> parse_ranks(const std::string& text) {
@@ -165,7 +150,7 @@ ExitCode run_alone(const RunCall& call) {
 
 ExitCode run(RunCall& call) {
     if (call.until)
-        call.options.until = parse_length(*call.until);
+        call.options.until = parse_length("--until", *call.until);
     call.options.stop = stop_on_signals();
     const std::optional<int> asked = parse_ranks(call.ranks);
     if (asked == 1) // whatever the environment says

@@ -9,13 +9,19 @@
 #include "apps/figures/base_figure.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/figures/flexure_figure.hpp"
+#include "apps/figures/seismic_section.hpp"
 #include "apps/figures/well_figure.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace listric {
@@ -42,6 +48,50 @@ std::vector<fs::path> chosen_snapshots(const RunFolder& run) {
     return paths;
 }
 
+/// Files of a folder that a call writes.
+class WrittenFiles {
+public:
+    explicit WrittenFiles(const fs::path& folder) : folder_(folder), before_(times()) {}
+
+    /// Those that are new, or newer than before, by name.
+    std::vector<fs::path> since() const {
+        std::vector<fs::path> files;
+        for (const auto& [file, time] : times())
+            if (const auto old = before_.find(file); old == before_.end() || old->second != time)
+                files.push_back(file);
+        return files;
+    }
+
+private:
+    std::map<fs::path, fs::file_time_type> times() const {
+        std::map<fs::path, fs::file_time_type> all;
+        std::error_code error;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error))
+            if (entry.is_regular_file(error))
+                all[entry.path()] = entry.last_write_time(error);
+        return all;
+    }
+
+    fs::path folder_;
+    std::map<fs::path, fs::file_time_type> before_;
+};
+
+/// Throws UsageError if a run has no panel of such a name.
+void require_panels(const RunFolder& run, const std::vector<std::string>& wanted) {
+    std::vector<std::string> layers;
+    for (const FigureLayer& layer : figure_layers(run.scene))
+        if (layer.kind == LayerKind::discs)
+            layers.push_back(fmt::format("layer-{}", layer.name));
+    std::vector<std::string_view> known(std::begin(panel_names), std::end(panel_names));
+    known.insert(known.end(), layers.begin(), layers.end());
+    for (const std::string& panel : wanted) {
+        if (std::ranges::find(known, panel) == known.end())
+            throw UsageError(fmt::format("--only: no panel {}; {}", panel, advice(panel, known)));
+        if (panel.starts_with("seismic") && !has_seismics(run.scene))
+            throw UsageError(fmt::format("--only {}: needs a hanging wall of 1 km or more", panel));
+    }
+}
+
 void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
                const RunHistory& history) {
     frames.add(
@@ -51,25 +101,32 @@ void add_frame(FigureFrames& frames, const RunFolder& run, const Moment& moment,
 
 } // namespace
 
-void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
-              const std::vector<std::string>& formats, const std::vector<double>& extensions,
-              const std::vector<double>& wells) {
+std::vector<fs::path> draw_run(const FiguresRequest& request) {
+    const fs::path& output = request.output;
+    const WrittenFiles written(output / "figures");
     std::error_code error;
-    if (fs::exists(output / "deflection.csv", error))
-        return draw_flexure(output,
-                            {formats, object_at(object_in(output / "summary.json"), "provenance")});
+    if (fs::exists(output / "deflection.csv", error)) {
+        PictureOrder order = request.order;
+        order.provenance = object_at(object_in(output / "summary.json"), "provenance");
+        draw_flexure(output, order);
+        return written.since();
+    }
     const RunFolder run = open_run(output);
-    const PictureOrder order{formats, provenance_of_run(output, run.scene)};
+    require_panels(run, request.order.only);
+    PictureOrder order = request.order;
+    order.provenance = provenance_of_run(output, run.scene);
     const std::vector<fs::path> chosen =
-        extensions.empty() ? chosen_snapshots(run) : run.snapshots_at(extensions);
-    const bool has_wells = draw_wells(run, chosen, wells, order);
-    if (!wells.empty()) {
+        request.extensions.empty() ? chosen_snapshots(run) : run.snapshots_at(request.extensions);
+    const bool sections_alone = !order.only.empty() || order.width_mm > 0.0;
+    const bool has_wells = (!request.wells.empty() || !sections_alone) &&
+                           draw_wells(run, chosen, request.wells, order);
+    if (!request.wells.empty()) {
         if (!has_wells)
             throw UsageError(fmt::format("--well {}: no pore water under pressure there",
-                                         fmt::join(wells, ",")));
-        return;
+                                         fmt::join(request.wells, ",")));
+        return written.since();
     }
-    FigureFrames frames(output / "figures", underlay, order, run.names);
+    FigureFrames frames(output / "figures", request.underlay, order, run.names);
     const RunHistory history(run);
     bool base_moves = false;
     for (const fs::path& path : chosen) {
@@ -78,12 +135,13 @@ void draw_run(const fs::path& output, const std::optional<Underlay>& underlay,
         add_frame(frames, run, moment, history);
     }
     frames.draw("sections");
-    if (!extensions.empty())
-        return;
-    if (chosen.size() > 1)
-        frames.draw("experiment");
-    if (base_moves)
-        draw_base(run, order);
+    if (request.extensions.empty() && !sections_alone) {
+        if (chosen.size() > 1)
+            frames.draw("experiment");
+        if (base_moves)
+            draw_base(run, order);
+    }
+    return written.since();
 }
 
 void draw_experiment(const RunFolder& run, const RunHistory& history) {
@@ -97,9 +155,10 @@ void draw_experiment(const RunFolder& run, const RunHistory& history) {
     frames.draw("experiment");
 }
 
-void animate_run(const fs::path& output) {
+std::vector<fs::path> animate_run(const fs::path& output, const std::vector<std::string>& formats) {
+    const WrittenFiles written(output / "figures");
     const RunFolder run = open_run(output);
-    FigureFrames frames(output / "figures", std::nullopt, {}, run.names);
+    FigureFrames frames(output / "figures", std::nullopt, {.formats = formats}, run.names);
     // The window before shows where the faults are; their history is not drawn.
     RunHistory window;
     for (const fs::path& path : run.snapshots) {
@@ -109,6 +168,7 @@ void animate_run(const fs::path& output) {
         window.add(measures::DiscPlaces(moment.state));
     }
     frames.draw("animation");
+    return written.since();
 }
 
 } // namespace listric

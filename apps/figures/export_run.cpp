@@ -5,6 +5,7 @@
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
+#include "apps/figures/export_seismic.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
@@ -44,6 +45,7 @@ const std::vector<Kind>& kinds() {
         {"horizons", horizons_table, true, of_lines},  {"faults", faults_table, true, of_lines},
         {"surfaces", surfaces_table, false, of_lines}, {"base", base_table, false, of_lines},
         {"discs", discs_table, false, {"csv", "gsd"}}, {"well", wells_table, false, of_lines},
+        {"seismic", nullptr, true, {"segy", "npy"}},
     };
     return all;
 }
@@ -135,8 +137,11 @@ std::vector<std::string_view> export_kinds() {
     return names;
 }
 
-std::vector<fs::path> export_run(const ExportRequest& request) {
+std::vector<fs::path> export_run(const ExportRequest& wanted) {
+    ExportRequest request = wanted;
     const Kind& kind = kind_named(request.kind);
+    if (request.formats.empty())
+        request.formats = {std::string(kind.formats.front())};
     require_formats(kind, request.formats);
     if (!request.wells.empty() && kind.name != "well")
         throw UsageError(fmt::format("--x: is of export well; export {} has no places", kind.name));
@@ -144,6 +149,9 @@ std::vector<fs::path> export_run(const ExportRequest& request) {
         throw UsageError(request.output.string() +
                          ": no snapshots to export; is this a run's folder?");
     const RunFolder run(request.output);
+    if (!kind.table && !has_seismics(run.scene))
+        throw UsageError(request.output.string() +
+                         ": seismics need a hanging wall of 1 km or more");
     const std::vector<fs::path> moments = run.snapshots_at(request.extensions);
     const RunHistory history = kind.needs_faults ? RunHistory(run) : RunHistory();
     const fs::path folder = request.output / "export";
@@ -161,6 +169,12 @@ std::vector<fs::path> export_run(const ExportRequest& request) {
                                                     run.parts.base, moment.state, history)
                                     : measures::FaultReport(),
                                 request.wells};
+        if (!kind.table) {
+            const auto more =
+                export_seismic(at, path.stem().string(), folder, request.formats, request.seismic);
+            files.insert(files.end(), more.begin(), more.end());
+            continue;
+        }
         if (trajectory)
             trajectory->add(at);
         if (trajectory && request.formats.size() == 1)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "apps/figures/seismic_section.hpp"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -9,11 +11,12 @@ namespace listric {
 
 /// Request of an export of a finished run.
 struct ExportRequest {
-    std::string kind;                           ///< one of export_kinds()
-    std::filesystem::path output;               ///< the run's folder
-    std::vector<std::string> formats = {"csv"}; ///< that the kind has
-    std::vector<double> extensions = {};        ///< of the nearest snapshots, m; empty: all
-    std::vector<double> wells = {};             ///< x, m, of kind well; empty: the effect's places
+    std::string kind;                      ///< one of export_kinds()
+    std::filesystem::path output;          ///< the run's folder
+    std::vector<std::string> formats = {}; ///< that the kind has; empty: its first
+    std::vector<double> extensions = {};   ///< of the nearest snapshots, m; empty: all
+    std::vector<double> wells = {};        ///< x, m, of kind well; empty: the effect's places
+    SeismicOptions seismic = {};
 };
 
 std::vector<std::string_view> export_kinds();

@@ -2,13 +2,19 @@
 
 #include "apps/archive/provenance.hpp"
 #include "apps/figures/frame.hpp"
+#include "apps/figures/seismic_section.hpp"
+#include "apps/support/npy.hpp"
 #include "apps/support/python.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <memory>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace listric {
 
@@ -16,13 +22,36 @@ using namespace measures;
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Arrays of a seismic section for a frame: amplitude, a row per trace, and the numbers of its
+/// axes.
+void write_seismic(const Observation& now, const fs::path& folder, const std::string& panel) {
+    const SeismicSection section =
+        seismic_section(now, {}, seismic_horizons(now), {.in_depth = panel != "seismic"});
+    const SeismicOptions& o = section.options;
+    std::string name = panel;
+    std::ranges::replace(name, '-', '_');
+    write_npy<float>(folder / (name + ".npy"), std::span<const float>(section.amplitude),
+                     section.samples);
+    const std::vector<double> axes{section.first_x, o.trace_spacing,   section.datum,
+                                   o.frequency,     o.sample_interval, o.lateral};
+    write_npy<double>(folder / (name + "_axes.npy"), std::span<const double>(axes));
+}
+
+} // namespace
+
 FigureFrames::FigureFrames(const fs::path& folder, std::optional<Underlay> underlay,
                            PictureOrder order, std::optional<MomentNames> names)
     : folder_(folder), underlay_(std::move(underlay)), order_(std::move(order)),
       names_(std::move(names)), data_(folder) {}
 
 void FigureFrames::add(const Observation& now, const FaultReport& faults) {
-    write_frame(now, faults, data_.path / fmt::format("{:06d}", frames_++), underlay_, names_);
+    const fs::path folder = data_.path / fmt::format("{:06d}", frames_++);
+    write_frame(now, faults, folder, underlay_, names_);
+    for (const char* panel : {"seismic", "seismic-depth"})
+        if (order_.wants(panel))
+            write_seismic(now, folder, panel);
 }
 
 void FigureFrames::draw(const std::string& kind) const {

@@ -22,6 +22,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -206,6 +207,13 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         for (const Measure<Measures>& measure : table.measures)
             if (const auto value = measure.value(m))
                 frame[measure.name] = *value;
+    std::map<int, double> laid_down; // strata by their numbers, if none is gone, a
+    for (std::size_t i = 0; i < d.stratum.size(); ++i)
+        if (d.stratum[i] > 0)
+            laid_down[d.stratum[i]] = d.start_extension[i] / scene.extension.rate;
+    if (!laid_down.empty() && laid_down.rbegin()->first == static_cast<int>(laid_down.size()))
+        for (const auto& [stratum, age] : laid_down)
+            frame["strata_a"].push_back(age);
     if (now.parts.sediment)
         frame["level_m"] = now.parts.sediment->level;
     return frame;

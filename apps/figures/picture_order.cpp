@@ -8,7 +8,12 @@ namespace listric {
 std::string PictureOrder::text() const {
     return to_text(nlohmann::ordered_json{{"formats", formats},
                                           {"software", "Listric " + std::string(version)},
-                                          {"provenance", provenance}});
+                                          {"provenance", provenance},
+                                          {"width_mm", width_mm},
+                                          {"only", only},
+                                          {"plain", plain},
+                                          {"dpi", dpi},
+                                          {"caption", caption}});
 }
 
 } // namespace listric

@@ -4,9 +4,11 @@
 #include "apps/archive/fault_fields.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/figures/predicted_tops.hpp"
+#include "apps/figures/seismic_section.hpp"
 #include "apps/figures/vocabulary.hpp"
 #include "apps/figures/window_strain.hpp"
 #include "apps/measures/cohesion.hpp"
+#include "apps/measures/horizons.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/measures/rock_behaviour.hpp"
@@ -146,6 +148,49 @@ json faults_of(const ExportedMoment& at, bool followed) {
     return faults;
 }
 
+/// Cutoffs of each fault, by stratum: depth of its top above the fault and below it, m, and whether
+/// the stratum is thick enough for a throw.
+json cutoffs_of(const FaultReport& report, double steps) {
+    json list = json::array();
+    for (const Fault& fault : report.faults) {
+        json cutoffs = json::array();
+        for (const auto& [stratum, at] : fault.cutoffs)
+            cutoffs.push_back({stratum, short_number(0.0 - at.hanging, steps),
+                               short_number(0.0 - at.footwall, steps), at.is_resolved});
+        list.push_back(std::move(cutoffs));
+    }
+    return list;
+}
+
+/// The section as seismics would see it, in depth: amplitudes from -127 to 127 trace by trace, in
+/// base64, at a trace per 150th and a sample per 750th of the hanging wall's thickness.
+json seismic_of(const Observation& now, std::span<const Horizon> horizons) {
+    const double thickness = now.scene.hanging_wall.thickness;
+    const SeismicSection section = seismic_section(now, {}, horizons,
+                                                   {.in_depth = true,
+                                                    .trace_spacing = thickness / 150.0,
+                                                    .sample_interval = thickness / 750.0});
+    std::vector<double> sizes;
+    for (const float value : section.amplitude)
+        if (value != 0.0f)
+            sizes.push_back(std::abs(static_cast<double>(value)));
+    const double end = scale_end(std::move(sizes));
+    std::vector<unsigned char> bytes;
+    bytes.reserve(section.amplitude.size());
+    for (const float value : section.amplitude)
+        bytes.push_back(static_cast<unsigned char>(
+            std::lround(127.0 * std::clamp(static_cast<double>(value) / end, -1.0, 1.0)) & 255));
+    return {{"traces", section.traces},
+            {"samples", section.samples},
+            {"left_m", section.first_x - 0.5 * section.options.trace_spacing},
+            {"top_m", 0.0 - section.datum - 0.5 * section.options.sample_interval},
+            {"across_m", section.options.trace_spacing},
+            {"down_m", section.options.sample_interval},
+            {"frequency_hz", section.options.frequency},
+            {"end", end},
+            {"values", base64(bytes)}};
+}
+
 json predictions_of(const Observation& now) {
     const auto tops = predict_tops(
         now, measure(make_setting(now.scene, now.parts), now.state, now.parts.base, now.events));
@@ -184,8 +229,12 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
                {"surfaces", lines_of(reference_surfaces_table(at), steps_of(now))},
                {"base", lines_of(base_table(at), steps_of(now))}};
     if (followed) {
-        lines["horizons"] = lines_of(horizons_table(at), steps_of(now));
+        const std::vector<Horizon> horizons = horizons_of(at);
+        lines["horizons"] = lines_of(horizons_table(at, horizons), steps_of(now));
         lines["predictions"] = predictions_of(now);
+        lines["cutoffs"] = cutoffs_of(faults, steps_of(now));
+        if (has_seismics(now.scene))
+            lines["seismic"] = seismic_of(now, horizons);
     }
     if (!footwall.empty())
         lines["footwall"] = footwall_of(footwall, now.right_end());

@@ -2,10 +2,13 @@
 
 #include "apps/archive/dictionary.hpp"
 #include "apps/archive/fault_fields.hpp"
+#include "apps/archive/headline.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/quality.hpp"
 #include "apps/figures/page_parts.hpp"
 #include "apps/figures/vocabulary.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/scene/differences.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/scene/rock_line.hpp"
 #include "apps/support/base64.hpp"
@@ -59,6 +62,29 @@ std::string rock_of(Scene scene) {
     return rock_line(scene);
 }
 
+/// Answers to "Is this run good?" by the summary; none before the run has ended.
+json quality_of(const ReportPage::Run& run) {
+    json list = json::array();
+    for (const archive::QualityCheck& check :
+         archive::quality_checks(parse_json(run.summary),
+                                 {.base_moves = run.base_moves, .mean_radius = run.mean_radius}))
+        list.push_back({{"key", check.key},
+                        {"label", check.label},
+                        {"value", check.value},
+                        {"bound", check.bound},
+                        {"verdict", archive::name_of(check.verdict)},
+                        {"words", check.words}});
+    return list;
+}
+
+/// Parameters in which two runs differ, as `listric diff` has them.
+json differences_of(const Scene& first, const Scene& second, EffectList effects) {
+    json list = json::array();
+    for (const SceneDifference& one : scene_differences(first, second, effects))
+        list.push_back({one.path, one.first, one.second, one.unit});
+    return list;
+}
+
 /// All of a run but its moments.
 json head_of(const ReportPage::Run& run) {
     const Scene& scene = run.scene;
@@ -75,7 +101,8 @@ json head_of(const ReportPage::Run& run) {
               {"mean_radius_m", run.mean_radius},
               {"scales", json::parse(report_scales(run.mean_radius))},
               {"history", run.history},
-              {"summary", object_or_null(run.summary)}};
+              {"summary", object_or_null(run.summary)},
+              {"quality", quality_of(run)}};
     if (scene.observed)
         head["picks"] = {{"horizons", picks_of(scene.observed->horizons)},
                          {"faults", picks_of(scene.observed->faults)}};
@@ -111,8 +138,16 @@ std::string data_of(const ReportPage& page) {
               {"left_out", page.left_out},
               {"lacks", lacks_of(page)},
               {"live", page.live}};
-    for (const archive::DictionaryEntry& entry : archive::dictionary(effects_of(page)))
-        head["definitions"].emplace(entry.quantity.name, entry.quantity.doc);
+    const std::vector<const Effect*> effects = effects_of(page);
+    for (const archive::DictionaryEntry& entry : archive::dictionary(effects)) {
+        const Quantity& quantity = entry.quantity;
+        head["definitions"].emplace(quantity.name, quantity.doc);
+        head["measures"].emplace(quantity.name, json{entry.table, quantity.unit, quantity.usual});
+    }
+    for (const archive::Headline& one : archive::headline_of({}))
+        head["headline"].push_back({one.key, one.name});
+    if (page.runs.size() == 2)
+        head["differences"] = differences_of(page.runs[0].scene, page.runs[1].scene, effects);
     for (const archive::FaultField* field : archive::exported_fault_fields())
         if (!field->label.empty())
             head["fault_columns"].push_back(
@@ -151,7 +186,7 @@ std::string report_html(const ReportPage& page) {
     const fs::path folder = resource_folder() / "figures/report";
     std::string scripts;
     for (const char* name : {"data.js", "colours.js", "painter.js", "section.js", "charts.js",
-                             "tables.js", "files.js", "page.js"})
+                             "strata.js", "tables.js", "files.js", "words.js", "page.js"})
         scripts += read_text(folder / name);
     const std::map<std::string, std::string> parts{
         {"style", read_text(folder / "report.css")},
@@ -159,6 +194,7 @@ std::string report_html(const ReportPage& page) {
         {"charts", as_script(read_text_if_there(charts_folder() / "dygraph.min.js"))},
         {"vocabulary", as_data(to_text(vocabulary()))},
         {"data", data_of(page)},
+        {"frames", page.live ? "; frame-src file: 'self'" : ""},
         {"scripts", as_script(scripts)}};
     return filled_page(read_text(folder / "report.html"), parts);
 }

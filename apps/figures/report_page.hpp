@@ -21,10 +21,11 @@ struct ReportPage {
         std::string summary = {}; ///< as summary.json; empty: the run has not ended
         std::string folder = {};  ///< with a separator, for messages
         bool has_summary = false; ///< the file is there, be it empty
+        bool base_moves = false;  ///< the detachment deforms
     };
     std::vector<Run> runs;
     std::string left_out = {}; ///< parts left out so that the file is smaller
-    bool live = false;         ///< the page reloads itself
+    bool live = false;         ///< the page looks for newer moments in its file
     std::optional<Underlay> underlay = std::nullopt;
 };
 

@@ -66,10 +66,10 @@ ReportPage page_of(const std::vector<ReadRun>& runs, const Reduction& reduction,
     std::error_code error;
     for (const ReadRun& run : runs) {
         const fs::path& folder = run.folder.output;
-        page.runs.push_back({run.folder.scene, run.moments, run.mean_radius,
-                             to_csv(run.folder.moments.history),
-                             read_text_if_there(folder / "summary.json"), (folder / "").string(),
-                             fs::exists(folder / "summary.json", error)});
+        page.runs.push_back(
+            {run.folder.scene, run.moments, run.mean_radius, to_csv(run.folder.moments.history),
+             read_text_if_there(folder / "summary.json"), (folder / "").string(),
+             fs::exists(folder / "summary.json", error), run.folder.parts.base_moves});
     }
     return page;
 }

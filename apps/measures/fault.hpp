@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/measures/fault_throw.hpp"
 #include "apps/measures/fault_trace.hpp"
 
 #include <map>
@@ -29,6 +30,7 @@ struct Fault {
     dem::Point foot;            ///< lower end, extended to the detachment if that is close, m
     /// By stratum, 0: pre-rift top, m; > 0: normal. None of a fault whose birth is not known.
     std::map<int, double> throws;
+    std::map<int, Cutoffs> cutoffs;       ///< by stratum, which the throws are of
     double throw_error = 0.0;             ///< of each of them: a mean disc's diameter, m
     std::optional<double> pre_rift_throw; ///< of the layers below it, median, m
 };

@@ -334,7 +334,8 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
         if (older.size() > 1 || older.front().extension <= 0.0)
             for_each_shared(traces.size(), [&](std::size_t k) {
                 Fault& fault = report.faults[k];
-                fault.throws = fault_throws(now, fault.trace.points, fault.born_at);
+                fault.cutoffs = fault_cutoffs(now, fault.trace.points, fault.born_at);
+                fault.throws = throws_of(fault.cutoffs);
             });
     }
     summarise(report, detachment, diameter);

@@ -249,7 +249,7 @@ std::vector<Layer> layers_beside(const State& state, const Cells& cells, const P
 
 } // namespace
 
-std::map<int, double> fault_throws(const State& state, const Polyline& trace, double born_at) {
+std::map<int, Cutoffs> fault_cutoffs(const State& state, const Polyline& trace, double born_at) {
     assert(trace.size() > 1);
     const double diameter = 2.0 * state.mean_radius;
     const Polyline line = extended_upward(trace, extended * diameter);
@@ -260,16 +260,30 @@ std::map<int, double> fault_throws(const State& state, const Polyline& trace, do
     for (const auto& [stratum, laid_down_at] : strata)
         if (auto tops = tops_beside(discs, line, stratum, diameter))
             all.push_back(*tops);
-    std::map<int, double> throws;
+    std::map<int, Cutoffs> cutoffs;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const Tops& tops = all[k];
-        if (tops.stratum > 0 && !is_resolved(tops.left, tops.right, diameter))
-            continue;
         const double tilt = tilt_around(all, k);
-        const double step = tops.height_on_right(tilt) - tops.height_on_left(tilt);
-        throws[tops.stratum] = falls_right(line) ? step : -step;
+        const double left = tops.height_on_left(tilt), right = tops.height_on_right(tilt);
+        // The left of the downward direction is above a fault that falls right.
+        cutoffs[tops.stratum] = {.hanging = falls_right(line) ? left : right,
+                                 .footwall = falls_right(line) ? right : left,
+                                 .is_resolved = tops.stratum == 0 ||
+                                                is_resolved(tops.left, tops.right, diameter)};
     }
+    return cutoffs;
+}
+
+std::map<int, double> throws_of(const std::map<int, Cutoffs>& cutoffs) {
+    std::map<int, double> throws;
+    for (const auto& [stratum, cutoff] : cutoffs)
+        if (cutoff.is_resolved)
+            throws[stratum] = cutoff.offset();
     return throws;
+}
+
+std::map<int, double> fault_throws(const State& state, const Polyline& trace, double born_at) {
+    return throws_of(fault_cutoffs(state, trace, born_at));
 }
 
 std::optional<double> pre_rift_throw(const State& state, const Polyline& trace) {

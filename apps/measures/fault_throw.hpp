@@ -21,6 +21,23 @@ namespace listric::measures {
 /// @param born_at  extension at which the fault formed, m
 std::map<int, double> fault_throws(const dem::State& state, const Polyline& trace, double born_at);
 
+/// Where a stratum's top meets a fault, on both sides.
+struct Cutoffs {
+    double hanging = 0.0;     ///< height on the side above the fault, m
+    double footwall = 0.0;    ///< height on the side below it, m
+    bool is_resolved = false; ///< the stratum is thick enough for a throw
+
+    double offset() const { return footwall - hanging; } ///< the throw, m
+};
+
+/// Cutoffs by which fault_throws() tells throws, also of strata that are too thin for one: between
+/// two in succession is the thickness of the upper stratum on both sides.
+std::map<int, Cutoffs> fault_cutoffs(const dem::State& state, const Polyline& trace,
+                                     double born_at);
+
+/// Throws by stratum of those cutoffs that have one, m.
+std::map<int, double> throws_of(const std::map<int, Cutoffs>& cutoffs);
+
 /// Throw of the pre-rift layers, m: median over the layers that the trace cuts on both sides. Where
 /// a layer meets the trace follows from the rigid motion since the start of the discs 3 to 9
 /// diameters beside it. Unlike the throw of the pre-rift top it is there however far the two sides

@@ -9,6 +9,7 @@ namespace listric::effects {
 
 inline constexpr const char* weak_fraction = "weak_fraction";
 inline constexpr std::string_view volume_error_fraction = "volume_error_fraction";
+inline constexpr const char* sediment_stress_ratio = "sediment_stress_ratio";
 
 // Names of the elastic base's measures.
 inline constexpr const char* footwall_uplift = "footwall_uplift_m";

@@ -1,5 +1,7 @@
 #include "apps/run/results.hpp"
 
+#include "apps/archive/quality.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -69,17 +71,15 @@ std::string main_faults(const FaultReport& report) {
 
 /// Whether the balance of areas is as it should be; none: it has no bounds in this run.
 std::optional<bool> balances(const Results& r) {
-    constexpr double least = 0.95, most = 1.03, from = 5e3; // docs/trust.md
     const std::optional<double> balance = r.measures.area_balance;
-    if (!balance || r.base_moves || r.extension < from)
+    if (!balance || r.base_moves || r.extension < archive::area_balance_from)
         return std::nullopt;
-    return least <= *balance && *balance <= most;
+    return archive::least_area_balance <= *balance && *balance <= archive::most_area_balance;
 }
 
 /// Whether the run is good, with the numbers that show it.
 std::string quality(const Results& r) {
-    constexpr double most_mass = 1e-12, most_volume = 1e-3; // docs/trust.md
-    bool good = r.measures.mass_error_fraction < most_mass;
+    bool good = r.measures.mass_error_fraction < archive::most_mass_error;
     std::vector<std::string> parts;
     if (r.measures.quasi_static) {
         good = good && *r.measures.quasi_static;
@@ -87,7 +87,7 @@ std::string quality(const Results& r) {
     }
     parts.push_back(fmt::format("mass error {:.0e}", r.measures.mass_error_fraction));
     if (r.volume_error_fraction) {
-        good = good && *r.volume_error_fraction < most_volume;
+        good = good && *r.volume_error_fraction < archive::most_volume_error;
         parts.push_back(fmt::format("volume error {:.2g} %", 100.0 * *r.volume_error_fraction));
     }
     if (const auto balanced = balances(r)) {

@@ -81,24 +81,44 @@ class Figures(unittest.TestCase):
                    "LC_ALL": "de_DE.UTF-8", "HOME": "/nowhere"}
         ended = self.listric("figures", "../out", "--underlay", "../grey.png", "--corners",
                              "0,0,6000,2000", "--format", "svg", place=place, **hostile)
-        self.assertEqual((ended.returncode, ended.stdout), (0, ""))
         figures = self.folder / "out/figures"
+        self.assertEqual((ended.returncode, ended.stdout),   # what it wrote, and no warning
+                         (0, "".join(f"../out/figures/{name}\n" for name in sorted(os.listdir(figures)))))
         self.assertIn(DESCRIPTION, (figures / "strata-0.1km.svg").read_text())
         self.assertTrue((figures / "underlay-0.1km.svg").is_file())
 
     def test_a_moment_of_ones_own(self):
         folder = self.copy("moment")
-        self.assertEqual(self.listric("figures", folder, "--at", "50").stdout, "")
-        made = {file.name for file in (folder / "figures").iterdir()}
+        said = self.listric("figures", folder, "--at", "0.05km").stdout
+        self.assertEqual(said.split(), [str(file) for file in sorted((folder / "figures").iterdir())])
+        made = {file.name for file in (folder / "figures").iterdir()} - {"caption.txt"}
         self.assertEqual({name.rpartition("-")[2] for name in made}, {"0.05km.png"})
         self.assertIn("strain-0.05km.png", made)
         far = self.listric("figures", folder, "--at", "300")
         self.assertEqual(far.returncode, 2)
         self.assertIn("--at 300: no snapshot there; there are some from 0 to 100", far.stdout)
 
+    def test_a_figure_for_print_has_its_width(self):
+        folder = self.copy("print")
+        ended = self.listric("figures", folder, "--at", "100m", "--width", "85mm", "--only", "strata,seismic-depth", "--dpi", "254")
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        self.assertEqual([Path(line).name for line in ended.stdout.splitlines()], ["caption.txt", "strata-seismic-depth-0.1km-85mm.png"])
+        with Image.open(folder / "figures/strata-seismic-depth-0.1km-85mm.png") as picture:
+            self.assertEqual(picture.width, 850)
+        self.assertIn("(b) synthetic seismic image in depth", (folder / "figures/caption.txt").read_text())
+        for words, said in ((("--width", "8mm"), "--width 8mm: a width from 40mm to 500mm"),
+                            (("--only", "strat"), "--only: no panel strat; did you mean strata"),
+                            (("--at", "5 miles"), "--at 5 miles: a length of at least 0"),
+                            (("--animation", "--width", "85mm"), "--animation: has no --width"),
+                            (("--animation", "--format", "png"), "--format: no format png")):
+            ended = self.listric("figures", folder, *words)
+            self.assertEqual(ended.returncode, 2, ended.stdout)
+            self.assertIn(said, ended.stdout)
+
     def test_an_animation_is_made_whatever_its_folder_is_called(self):
         ended = self.listric("figures", self.copy("slip-50% 'a' é"), "--animation")
-        self.assertEqual((ended.returncode, ended.stdout), (0, ""))
+        [said] = ended.stdout.splitlines()
+        self.assertEqual((ended.returncode, Path(said).exists()), (0, True))
         made = [file.suffix for file in (self.folder / "slip-50% 'a' é/figures").iterdir()]
         self.assertIn(made, ([".mp4"], [".gif"]))
 

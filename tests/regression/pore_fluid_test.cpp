@@ -164,9 +164,9 @@ TEST_F(PoreFluidRun, ExportsWells) {
     const auto one = columns_of(export_run({.kind = "well", .output = run, .wells = {x}}).back());
     EXPECT_EQ(one.at("pressure_pa")[0], of["pressure_pa"][0]);
     EXPECT_THROW(export_run({.kind = "well", .output = run, .wells = {1e6}}), UsageError);
-    draw_run(run, std::nullopt, {"png"}, {}, {x});
+    draw_run({.output = run, .wells = {x}});
     EXPECT_THAT(std::distance(fs::directory_iterator(run / "figures"), {}), 1);
-    EXPECT_THROW(draw_run(run, std::nullopt, {"png"}, {}, {1e6}), UsageError);
+    EXPECT_THROW(draw_run({.output = run, .wells = {1e6}}), UsageError);
     EXPECT_THROW(export_run({.kind = "faults", .output = run, .wells = {x}}), UsageError);
 }
 

@@ -3,6 +3,7 @@
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest report_test
 """
 
+import base64
 import csv
 import json
 import os
@@ -13,10 +14,12 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.etree.ElementTree
 from pathlib import Path
 
 import h5py
 import numpy as np
+from PIL import Image
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
@@ -346,17 +349,148 @@ class Report(unittest.TestCase):
             self.assertEqual(ended.returncode, 0, ended.stdout)
             self.assertEqual(self.open(pair), "true")
             rows = self.script("return [...$('measures').querySelectorAll('tbody tr')].map(row =>"
-                               "[...row.cells].map(cell => cell.textContent));")
+                               "[row.dataset.key, row.cells[0].title, row.cells[3].textContent]);")
             a, b = (json.loads((self.folder / name / "summary.json").read_text()) for name in ("a", other))
             self.assertGreater(len(rows), 40)
-            for name, of_a, of_b, difference in rows:
+            for name, title, difference in rows:
                 if other == "a":
-                    self.assertIn(difference, ("0", "equal"), name)
+                    self.assertRegex(difference, r"^(0|equal|-?0[.0]*( [a-z]+|°)?)", name)
                 elif isinstance(a.get(name), float) and isinstance(b.get(name), float):
+                    of_a, of_b = title.removeprefix(f"{name} = ").split(": ")[0].split(" and ")
                     self.assertAlmostEqual(float(of_a), a[name], delta=1e-3 * abs(a[name]))
                     self.assertAlmostEqual(float(of_b), b[name], delta=1e-3 * abs(b[name]))
-                    self.assertAlmostEqual(float(difference), b[name] - a[name],
-                                           delta=1e-3 * abs(b[name] - a[name]) + 1e-12)
+
+    def test_07b_two_runs_say_what_differs(self):
+        pair = self.folder / "differing.html"
+        ended = listric("report", self.run_folder, self.folder / "b", "--output", pair)
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        self.assertEqual(self.open(pair), "true")
+        self.assertTrue(self.driver.find_element("id", "title").text.endswith(": seed 1 and 2"))
+        self.assertEqual([name.text for name in self.driver.find_elements("class name", "name")],
+                         ["A: lis1, seed 1", "B: lis1, seed 2"])
+        self.assertIn("A: lis1, seed 1, draft; B: lis1, seed 2, draft", self.driver.find_element("id", "subtitle").text)
+        rows = [[cell.text for cell in row.find_elements("tag name", "td")]
+                for row in self.driver.find_elements("css selector", "#differences tbody tr")]
+        self.assertEqual(rows, [["seed", "1", "2", ""]])
+        self.open()
+        self.assertFalse(self.driver.find_element("id", "differences_part").is_displayed())
+
+    def test_07c_is_this_run_good_stands_first(self):
+        self.open()
+        self.assertEqual(self.script("return document.querySelector('main').firstElementChild.id;"), "quality_part")
+        cards = {card.get_attribute("data-key"): card for card in self.driver.find_elements("class name", "check")}
+        self.assertEqual(list(cards), [key for key in ("quasi_static", "mass_error_fraction", "volume_error_fraction",
+                                       "area_balance", "width_diameters", "sediment_stress_ratio") if key in cards])
+        self.assertGreater(len(cards), 4)
+        summary = json.loads((self.run_folder / "summary.json").read_text())
+        self.assertIn(f"{summary['area_balance']:.3f} (0.95 to 1.03)", cards["area_balance"].text)
+        self.assertIn("Not judged before 5 km", cards["area_balance"].text)
+        self.assertIn("good", cards["quasi_static"].get_attribute("class"))
+
+    def test_07d_measures_have_words_units_and_few_digits(self):
+        self.open()
+        summary = json.loads((self.run_folder / "summary.json").read_text())
+        rows = {row[0]: row[1:] for row in self.script(
+            "return [...$('measures').querySelectorAll('tbody tr')].map(row => [row.dataset.key, row.cells[0].textContent,"
+            "row.cells[1].textContent, row.closest('details') ? 'folded' : row.closest('section').firstChild.textContent]);")}
+        self.assertEqual(rows["basin_area_m2"], ["Basin area", f"{summary['basin_area_m2'] / 1e6:.1f} km²", "Basin and block"])
+        self.assertEqual(rows["rollover_tilt_deg"][1], f"{summary['rollover_tilt_deg']:.1f}°")
+        self.assertEqual(rows["cutoff_z_m"][:2], ["Cutoff, depth", f"{summary['cutoff_z_m'] / 1e3:.2f} km"])
+        for name in ("wall_s", "threads", "discs", "time_by_part_s.cycle"):
+            self.assertEqual(rows[name][2], "folded", name)
+        for name, (words, value, _) in rows.items():
+            self.assertNotIn("_", words)
+            mantissa = re.sub(r"e-?\d+$", "", value.split()[0].rstrip("°")) if value else ""
+            if "." in mantissa and name != "state_hash":
+                self.assertLessEqual(len(mantissa.replace(".", "").replace("-", "").lstrip("0")), 5, (name, value))
+
+    def test_07e_throws_are_points_and_thin_strata_have_none(self):
+        self.open()
+        cutoffs = [[0, 3000, 2500, True], [1, 1800, 1400, True], [2, 1500, 1250, False], [3, 100, 100, True]]
+        throws = self.script("return throwPoints(a[0]);", cutoffs)   # stratum, depth above and below the fault
+        self.assertEqual([(p["stratum"], p["throw"], p["depth"]) for p in throws],
+                         [(0, 500, 2750), (1, 400, 1600), (3, 0, 100)])
+        diameter = 300.0
+        growth = self.script("return expansionPoints(a[0], a[1]);", cutoffs, diameter)
+        # 1200 m above the fault and 1100 m below it; stratum 2 has 300 and 150 m; 3 has 1400 and 1150 m.
+        self.assertEqual([p["stratum"] for p in growth], [1, 3])
+        self.assertAlmostEqual(growth[0]["index"], 1200 / 1100)
+        self.assertAlmostEqual(growth[0]["error"], 1200 / 1100 * np.hypot(diameter / 1200, diameter / 1100))
+        self.script("drawThrows($('throws'), page.runs[0], {throw_error_m: 300}, a[0], 3); return 0;", cutoffs)
+        self.assertEqual(len(self.driver.find_elements("css selector", "#throws canvas")), 1)
+        self.script("drawThrows($('throws'), page.runs[0], {}, [], 3); return 0;")
+        self.assertIn("three discs (1,117 m)", self.driver.find_element("id", "throws").text)
+
+    def test_07f_time_over_the_section_holds_all_sediment(self):
+        self.open()
+        discs = self.discs(self.snapshots()[-1])
+        width = 1000.0
+        strata = self.script("const [run] = page.runs; const s = thicknessOf(run, page.t, a[0]);"
+                             "return Object.entries(s).map(([n, one]) => [Number(n), one.extension, [...one.thickness]]);", width)
+        for number, extension, thickness in strata:
+            mine = discs["stratum"] == number
+            self.assertAlmostEqual(sum(thickness) * width * 0.83, (np.pi * discs["radius"][mine] ** 2).sum(),
+                                   delta=0.01 * sum(thickness) * width)
+            self.assertAlmostEqual(extension, discs["start_extension"][mine][0], delta=1.0)
+        self.assertEqual(len(strata), len(set(discs["stratum"])) - 1)
+        self.assertEqual(len(self.driver.find_elements("css selector", "#wheeler canvas")), 1)
+
+    def test_07g_the_pointer_reads_out(self):
+        self.open(words="#colour=strata&shown=")
+        places = self.script(
+            "const s = page.sections[0], run = page.runs[0], d = s.discs(page.t); return Array.from(d.present, (there, id) => there ?"
+            "[run.codes[page.t].stratum[id], ...s.toPixel(page.view, d.x[id], d.depth[id])] : null).filter(Boolean);")
+        for stratum, column, row in random.Random(2).sample(places, 20):
+            text = self.script(
+                "const c = page.sections[0].lineCanvas, b = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointermove',"
+                "{clientX: b.left + a[0] * b.width / c.width, clientY: b.top + a[1] * b.height / c.height}));"
+                "return page.sections[0].readout.hidden ? '' : page.sections[0].readout.textContent;", column, row)
+            self.assertRegex(text, r"^x \d+\.\d\d km, -?\d+\.\d\d km deep; " + (f"stratum {stratum}$" if stratum else "pre-rift, from"))
+
+    def test_07h_the_seismic_image_is_a_layer(self):
+        self.open(words="#shown=seismic")
+        self.assertIn("seismic image", self.driver.find_element("id", "layers").text)
+        traces, samples, inked = self.script(
+            "const lines = await page.runs[0].loadLines(page.t), {traces, samples, canvas} = lines.seismic;"
+            "const pixels = new Uint8Array(canvas.getContext('2d').getImageData(0, 0, traces, samples).data.buffer);"
+            "return [traces, samples, new Set(pixels.filter((_, k) => k % 4 === 0)).size];")
+        self.assertGreater(traces * samples, 100_000)
+        self.assertGreater(inked, 100)
+
+    def test_07i_it_prints_on_one_page_of_everything(self):
+        self.open()
+        printed = base64.b64decode(self.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})["data"])
+        self.assertEqual(len(re.findall(rb"/Type\s*/Page\b", printed)), 1)
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        try:
+            for shown in ("sections", "legend", "moment", "faults", "main_measures", "footer", "quality"):
+                self.assertTrue(self.driver.find_element("id", shown).is_displayed(), shown)
+            for hidden in ("charts", "measures_part", "slider", "layers", "files"):
+                self.assertFalse(self.driver.find_element("id", hidden).is_displayed(), hidden)
+            rows = len(self.driver.find_elements("css selector", "#main_measures tbody tr"))
+            self.assertTrue(8 <= rows <= 10, rows)
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+    def test_07j_dark_and_on_a_phone(self):
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+        try:
+            self.open()
+            ground, ink, paper = self.script("return [getComputedStyle(document.body).backgroundColor, getComputedStyle(document.body).color,"
+                                             "getComputedStyle(page.sections[0].host).backgroundColor];")
+            brightness = [np.mean([int(n) for n in re.findall(r"\d+", colour)[:3]]) for colour in (ground, ink, paper)]
+            self.assertLess(brightness[0], 60)
+            self.assertGreater(brightness[1], 180)
+            self.assertEqual(brightness[2], 255)   # its colours are of print
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                    {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        try:
+            self.open()
+            self.assertLessEqual(self.script("return document.documentElement.scrollWidth;"), 390)
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def test_08_saved_tables_say_the_same(self):
         self.open()
@@ -375,8 +509,22 @@ class Report(unittest.TestCase):
         self.assertEqual(list(dips.values()), [fault["dip_deg"] for fault in summary["faults"]])
         self.assertEqual(self.saved("save_history").read_text().strip(),
                          (self.run_folder / "history.csv").read_text().strip())
-        self.assertTrue(self.saved("save_png").read_bytes().startswith(b"\x89PNG"))
-        self.assertIn("<polyline", self.saved("save_svg").read_text())
+        with Image.open(self.saved("save_png")) as picture:
+            width, height = self.script("const c = page.sections[0].discCanvas; return [c.width, c.height];")
+            self.assertGreater(picture.width, width + 50)    # axes beside it, words around it
+            self.assertGreater(picture.height, height + 100)
+            dark = np.asarray(picture.convert("L")) < 100
+            for part in (dark[:25], dark[30:45], dark[50:64], dark[-45:-22], dark[-18:]):   # title, moment, axis, legend, origin
+                self.assertGreater(part.sum(), 20)
+        tree = xml.etree.ElementTree.parse(self.saved("save_svg"))
+        said = ["".join(node.itertext()) for node in tree.iter("{http://www.w3.org/2000/svg}text")]
+        self.assertIn("depth (km)", said)
+        self.assertIn("10", said)
+        self.assertIn("pre-rift, layers of 1 km", said)
+        for words in ("90-degree listric detachment", "1.50 km, 0.150 Myr", "no vertical exaggeration", "seed 1", summary["state_hash"],
+                      "listric "):
+            self.assertIn(words, " ".join(said))
+        self.assertGreater(len(list(tree.iter("{http://www.w3.org/2000/svg}polyline"))), 5)
 
     def test_09_a_hostile_description_is_text(self):
         scene = self.folder / "hostile.toml"
@@ -482,6 +630,30 @@ class Report(unittest.TestCase):
                       "extension.distance_m=1500", "--output", self.folder / "d", "--quiet")
         self.assertEqual(run.returncode, 0, run.stdout)
         self.assertEqual(self.open(self.folder / "d/report.html"), "true")
+
+    def test_14b_a_live_page_takes_over_what_is_new_without_reloading(self):
+        folder = self.folder / "followed"
+        process = subprocess.Popen(
+            [PROGRAM, "run", "lis1", "--accuracy", "draft", "--live", "--set", "extension.distance_m=1500", "--output", folder, "--quiet"],
+            cwd=SOURCES, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        for _ in range(600):
+            if (folder / "report.html").exists():
+                break
+            time.sleep(0.05)
+        self.assertEqual(self.open(folder / "report.html"), "true")
+        live, moments = self.script("window.stayed = true; page.lookAfter = 200; page.look(); return [page.data.live, page.runs[0].moments.length];")
+        self.assertTrue(live, "the run was over before its page was open")
+        self.script("$('palette').value = 'greys'; $('palette').dispatchEvent(new Event('change')); return 0;")
+        self.assertEqual(process.wait(120), 0)
+        for _ in range(100):
+            if not self.script("return page.data.live;"):
+                break
+            time.sleep(0.1)
+        self.assertEqual(self.script("return [window.stayed, page.data.live, page.runs[0].moments.length > a[0], page.t + 1 === page.runs[0].moments.length,"
+                                     "page.palette, $('quality').textContent.startsWith('Yes')];", moments), [True, False, True, True, "greys", True])
+        self.assertEqual([entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"], [])
 
 
 if __name__ == "__main__":

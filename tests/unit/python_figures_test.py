@@ -25,12 +25,14 @@ from PIL import Image
 import animation
 import axes
 import base
+import caption
 import discs
 import effects
 import figures
 import footwall
 import frame as frames
 import isostasy
+import journal
 import laboratory
 import page
 import panels
@@ -416,7 +418,7 @@ class Drawing(Folder):
     def test_the_footer_says_what_was_computed(self):
         frame = self.frame({"accuracy": "draft", "seed": 3, "effects": ["one", "two"],
                             "mean_radius_m": 186.2})
-        self.assertEqual(page.footer(frame), ["a title  ·  4 discs, mean radius 186 m  ·  "
+        self.assertEqual(page.footer(frame), ["scene lis1  ·  4 discs, mean radius 186 m  ·  "
                                               "accuracy draft  ·  seed 3  ·  effects: one, two"])
         self.assertIn("effects: none", page.footer(self.frame({"effects": []}))[0])
 
@@ -476,7 +478,7 @@ class Drawing(Folder):
         for arrays in ({}, much):
             meta = {"layers": [WATER, SHORE, MARKED] if arrays else []}
             frame = self.frame(meta, **arrays)
-            known = [name for name in panels.PANELS if name != "underlay"]
+            known = [name for name in panels.PANELS if name not in ("underlay", "seismic", "seismic-depth")]
             self.assertEqual(len(sections.draw_figure(frame, known, 20).axes), 12)
             rows = 4 if arrays else 2
             self.assertEqual(len(sheet.draw_sheet([frame, self.frame(meta, **arrays)]).axes), 4 * rows)
@@ -535,22 +537,191 @@ class Drawing(Folder):
         self.assertFalse([label for label in labels if "$" in label])
 
 
+PRINTED = {"profile": [[1000.0, -200.0, np.nan], [2000.0, -400.0, 400.0], [3000.0, -300.0, 300.0]],
+           "depocentres": [[2000.0, 400.0, 300.0]],
+           "discs_behaviour": np.array([0, 2, 1, 3], dtype=np.int32),
+           "bonded": [[500.0, -500.0, 1500.0, -500.0, 0.0]],
+           "predicted_shear": [[0.0, 0.0], [4000.0, -300.0]],
+           "predicted_normals": [[0.0, 0.0], [300.0, -300.0]],
+           "faults": [[0.0, 1000.0, -500.0, 2.0], [0.0, 1500.0, -900.0, 2.0]],
+           "seismic": np.outer(np.ones(40), np.sin(np.linspace(0, 20, 50))), "seismic_axes": [50.0, 100.0, 0.0, 25.0, 0.02, 0.0],
+           "seismic_depth": np.outer(np.ones(40), np.sin(np.linspace(0, 20, 50))),
+           "seismic_depth_axes": [50.0, 100.0, 0.0, 25.0, 20.0, 0.0]}
+ALL_PANELS = ("strata", "bonds", "behaviour", "strain", "sediment", "kinematics", "seismic", "seismic-depth")
+
+
+def texts(figure):
+    """Texts that are seen, with their boxes in pixels."""
+    figure.canvas.draw()
+    renderer = figure.canvas.get_renderer()
+    shown = [text for text in figure.findobj(plot.matplotlib.text.Text) if text.get_visible() and text.get_text().strip()]
+    off = [label for ax in figure.axes if not ax.axison for label in ax.findobj(plot.matplotlib.text.Text)]
+    off += [label for ax in figure.axes if ax.axison for axis in (ax.xaxis, ax.yaxis) for tick in axis.get_major_ticks() + axis.get_minor_ticks()
+            for label in (tick.label1, tick.label2) if not axis.get_view_interval().min() - 1e-9 <= tick.get_loc() <= axis.get_view_interval().max() + 1e-9]
+    return [(text, text.get_window_extent(renderer)) for text in shown if text not in off and text.get_window_extent(renderer).width > 0]
+
+
+class Print(Folder):
+    def order(self, width, **words):
+        return plot.Order(width_mm=width, dpi=200, provenance='{"commit": "abc", "scene_hash": "123"}', software="Listric 9", **words)
+
+    def wide(self, **meta):
+        """A frame of the shape of the shipped sections, which are three times as long as deep."""
+        return self.frame({"right_wall_x_m": 40000.0, "strata_a": [50000.0, 100000.0], "mean_radius_m": 93.1, "seed": 1, "accuracy": "standard",
+                           "title": "LIS1: 90-degree listric detachment, 10 km of extension", **meta}, **{
+                               **PRINTED, "detachment": [[0.0, 0.0], [4000.0, -11000.0], [15000.0, -15000.0], [40000.0, -15000.0]]})
+
+    def test_text_has_six_points_or_more_and_lies_on_the_page(self):
+        with plot.matplotlib.rc_context(plot.STYLE):
+            for width in (85.0, 180.0):
+                for plain in (False, True) if width < 100.0 else (False,):
+                    figure, said = journal.draw_print(self.wide(), ALL_PANELS, self.order(width, plain=plain))
+                    self.assertAlmostEqual(25.4 * figure.get_size_inches()[0], width, 6)
+                    self.assertEqual(len(said), len(ALL_PANELS))
+                    seen, page_box = texts(figure), figure.bbox
+                    self.assertGreater(len(seen), 60)
+                    for text, box in seen:
+                        self.assertGreaterEqual(text.get_fontsize(), 6.0, text.get_text())
+                        self.assertLessEqual(text.get_fontsize(), 8.0, text.get_text())
+                        for inner, outer in ((page_box.x0, box.x0), (page_box.y0, box.y0), (box.x1, page_box.x1), (box.y1, page_box.y1)):
+                            self.assertLessEqual(inner, outer + 2.0, (width, text.get_text()))   # of 670 pixels
+                    words = [text.get_text() for text, _ in seen]
+                    self.assertLessEqual(set("abcdefgh"), set(words))
+                    self.assertEqual("LIS1" in " ".join(words), not plain)
+
+    def test_what_is_not_at_equal_scales_says_so(self):
+        figure, said = journal.draw_print(self.wide(), ("strata", "sediment"), self.order(85.0))
+        self.assertIn("(no vertical exaggeration)", said[0])
+        [told] = [text.get_text() for text, _ in texts(figure) if text.get_text().startswith("heights × ")]
+        [ax] = [ax for ax in figure.axes if ax.axison and len(ax.lines) > 2 and ax.get_ylim()[0] > -5.0]
+        (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+        box = ax.get_window_extent()
+        true = box.height / (high - low) / (box.width / (right - left))
+        self.assertAlmostEqual(float(told.split()[-1]), true, delta=0.051)
+        self.assertIn(told, said[1])
+        page_figure = sections.draw_figure(self.wide(), ["sediment"], 50)
+        self.assertIn("heights × ", " ".join(text.get_text() for text, _ in texts(page_figure)))
+
+    def test_fonts_of_a_pdf_are_embedded(self):
+        sections.save_sections([self.wide()], self.folder, self.order(85.0, formats=("pdf",), only=("strata", "strain")))
+        [name] = [name for name in os.listdir(self.folder) if name.endswith(".pdf")]
+        self.assertEqual(name, "strata-strain-2.0km-85mm.pdf")
+        text = Path(self.path(name)).read_bytes()
+        self.assertEqual(text.count(b"/Type /FontDescriptor"), text.count(b"/FontFile2"))
+        self.assertGreater(text.count(b"/FontFile2"), 0)
+        self.assertNotIn(b"/Type3", text)
+
+    def test_captions_tell_what_is_shown_and_how_it_was_made(self):
+        order = self.order(0.0, only=("strata", "seismic"), caption=True)
+        sections.save_sections([self.wide()], self.folder, order)
+        text = Path(self.path("caption.txt")).read_text(encoding="utf-8")
+        for words in ("strata-2.0km\n", "seismic-2.0km\n", "LIS1: 90-degree listric detachment", "0.20 Myr", "1 cm/yr", "4 discs", "93.1 m",
+                      "seed 1", "commit abc", "scene hash 123", "Listric 9", "25 Hz", "neither migration nor noise", "Wyllie"):
+            self.assertIn(words, text)
+        self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith(".png")),
+                         ["seismic-2.0km.png", "strata-2.0km.png"])
+        with self.assertRaisesRegex(plot.InputError, "none of kinematics; it has strata"):
+            sections.save_sections([self.frame()], self.folder, self.order(0.0, only=("kinematics",)))
+
+    def test_harder_rock_below_is_dark_in_the_seismic_image(self):
+        image = np.zeros((40, 50))
+        image[:, 20], image[:, 35] = 1.0, -1.0
+        frame = self.frame(seismic=image, seismic_axes=[50.0, 100.0, 0.0, 25.0, 0.02, 0.0])
+        figure = sections.draw_figure(frame, ["seismic"], dpi=150)
+        figure.canvas.draw()
+        pixels = np.asarray(figure.canvas.buffer_rgba())[:, :, :3].mean(axis=2)
+        grey = []
+        for sample in (20, 28, 35):
+            across, up = figure.axes[0].transData.transform((2.0, 0.02 * sample))
+            grey.append(pixels[pixels.shape[0] - 1 - int(up), int(across)])
+        self.assertLess(grey[0], 60)
+        self.assertTrue(100 < grey[1] < 160, grey)
+        self.assertGreater(grey[2], 215)
+
+
+# Linear sRGB as somebody sees it who lacks one kind of cones (Machado, Oliveira & Fernandes 2009).
+SEEN_BY = {
+    "everybody": np.eye(3),
+    "protanope": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+    "deuteranope": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+    "tritanope": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+}
+
+
+def seen(colours, eye):
+    """CIE L*a*b* of sRGB colours (n x 3, to 1)."""
+    colours = np.atleast_2d(colours)
+    linear = np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
+    linear = np.clip(linear @ np.array(SEEN_BY[eye]).T, 0.0, 1.0)
+    xyz = linear @ np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]).T
+    ratio = xyz / np.array([0.9505, 1.0, 1.089])
+    f = np.where(ratio > 0.008856, np.cbrt(ratio), 7.787 * ratio + 16 / 116)
+    return np.stack([116 * f[:, 1] - 16, 500 * (f[:, 0] - f[:, 1]), 200 * (f[:, 1] - f[:, 2])], axis=1)
+
+
+def least_difference(colours, eye):
+    """Least colour difference (CIE 1976) of any two; 2.3 is just noticeable."""
+    places = [seen(colour, eye)[0] for colour in colours]
+    return min(np.linalg.norm(a - b) for n, a in enumerate(places) for b in places[:n])
+
+
+class ColourBlind(unittest.TestCase):
+    def test_order_of_every_palette_shows_in_lightness(self):
+        for name in vocabulary.VOCABULARY["palettes"]:
+            for eye in SEEN_BY:
+                lightness = seen(vocabulary.palette(name), eye)[:, 0]
+                steps = np.diff(lightness[::8])   # of 32 steps
+                self.assertTrue((steps > 0.4).all() or (steps < -0.4).all(), (name, eye))
+                self.assertGreater(abs(lightness[-1] - lightness[0]), 65.0, (name, eye))
+
+    def test_classes_and_neighbours_differ(self):
+        to_rgb = plot.matplotlib.colors.to_rgb
+        for eye in SEEN_BY:
+            self.assertGreater(least_difference([to_rgb(rock["colour"]) for rock in vocabulary.ROCK_CLASSES], eye), 20.0)
+            self.assertGreater(least_difference([to_rgb(colour) for colour in vocabulary.LAYER_COLOURS], eye), 15.0)
+            for strata in (5, 10, 20):
+                places = seen(vocabulary.stratum_colours(strata), eye)
+                self.assertGreater(np.linalg.norm(np.diff(places, axis=0), axis=1).min(), 2.3, (eye, strata))
+            # Lines that are read against each other: the model's, and what was picked.
+            self.assertGreater(least_difference([to_rgb(vocabulary.INKS[name]) for name in ("faults", "horizons", "picks")], eye), 35.0)
+
+
 class Animation(Folder):
-    def film(self, name):
+    def film(self, name, formats=("png",), frames=1):
         os.mkdir(self.path(name))
         with mock.patch.object(animation, "ANIMATION_DPI", 10), \
                 mock.patch.object(animation, "SHOWN", ("strain",)):
-            animation.save_animation([self.frame()], self.path(name), plot.Order())
-        return os.listdir(self.path(name))
+            animation.save_animation([self.frame({"extension_m": 1000.0 * (n + 1)}) for n in range(frames)], self.path(name), plot.Order(formats))
+        return sorted(os.listdir(self.path(name)))
+
+    def test_a_gif_has_one_palette_and_dots_of_no_other_colour(self):
+        self.assertEqual(self.film("gif", ("gif",), 3), ["animation-3.0km.gif"])
+        with Image.open(self.path("gif/animation-3.0km.gif")) as film:
+            self.assertEqual(film.n_frames, 3)
+            footwall = []
+            for n in range(film.n_frames):
+                film.seek(n)
+                pixels = np.asarray(film.convert("RGB"))
+                corner = pixels[-40:-25, 20:60]   # footwall below the section, of one colour
+                footwall.append(set(map(tuple, corner.reshape(-1, 3))))
+        self.assertEqual(footwall[0], footwall[1])
+        self.assertEqual(footwall[1], footwall[2])
+
+    def test_a_webp_holds_every_frame(self):
+        self.assertEqual(self.film("webp", ("webp",), 3), ["animation-3.0km.webp"])
+        with Image.open(self.path("webp/animation-3.0km.webp")) as film:
+            self.assertEqual(film.n_frames, 3)
 
     @unittest.skipUnless(animation.shutil.which("ffmpeg"), "no ffmpeg")
     def test_the_name_of_a_folder_is_no_pattern(self):
         for name in ("slip-50%", "-y", "%d 'a\"\n:é"):
-            self.assertEqual(self.film(name), ["animation-2.0km.mp4"], name)
+            self.assertEqual(self.film(name), ["animation-1.0km.mp4"], name)
 
     def test_without_ffmpeg_it_is_a_gif_and_one_that_fails_is_named(self):
         with mock.patch.object(animation.shutil, "which", lambda _: None):
-            self.assertEqual(self.film("gif"), ["animation-2.0km.gif"])
+            self.assertEqual(self.film("alone"), ["animation-1.0km.gif"])
+            with self.assertRaisesRegex(plot.InputError, "--format mp4: needs ffmpeg"):
+                self.film("film", ("mp4",))
         Path(self.path("ffmpeg")).write_text("#!/bin/sh\necho no encoder >&2\nexit 3\n")
         os.chmod(self.path("ffmpeg"), 0o755)
         with mock.patch.dict(os.environ, {"PATH": f"{self.folder}:{os.environ['PATH']}"}), \

@@ -50,17 +50,37 @@ TEST_F(RunFiles, HaveNamesAsTheProgramMakesThem) {
         "figures/strata-0.0km.png",
         "figures/experiment-10.0km.svg",
         "figures/animation-2.5km.mp4",
+        "figures/animation-2.5km.webp",
+        "figures/strata-seismic-depth-strain-5.0km-85mm.pdf",
+        "figures/seismic-depth-5.0km.png",
+        "export/seismic-extension-00100.02m.segy",
+        "export/seismic-extension-00100.02m-image.npy",
         "export/horizons-extension-00100.02m.geojson",
         "export/discs-extension-00100.02m.csv",
         "export/discs.gsd",
     };
     write(ours);
-    write({"snapshots/._extension-00000.00m.h5", "snapshots/extension-0m.h5",
-           "snapshots/extension-00000.00m.h5.bak", "snapshots/extension-000000.00m.h5",
-           "snapshots/mine.h5", "paraview/discs-00100m.vtp", "paraview/discs-00100.02m.vtu",
-           "figures/strata-25km.png", "figures/my-1.5km.png", "figures/strata-1.5km.gif",
-           "figures/base.png", "export/discs-extension-00100.02m.gmt", "export/wells-m.geojson",
-           "extension-00000.00m.h5", "base.csv", "scene.toml", "history.csv"});
+    write({"snapshots/._extension-00000.00m.h5",
+           "snapshots/extension-0m.h5",
+           "snapshots/extension-00000.00m.h5.bak",
+           "snapshots/extension-000000.00m.h5",
+           "snapshots/mine.h5",
+           "paraview/discs-00100m.vtp",
+           "paraview/discs-00100.02m.vtu",
+           "figures/strata-map-5.0km-85mm.png",
+           "figures/strata-5.0km-85mm.txt",
+           "figures/strata-5.0km-widemm.png",
+           "figures/5.0km-85mm.png",
+           "figures/strata-25km.png",
+           "figures/my-1.5km.png",
+           "figures/strata-1.5km.gif",
+           "figures/base.png",
+           "export/discs-extension-00100.02m.gmt",
+           "export/wells-m.geojson",
+           "extension-00000.00m.h5",
+           "base.csv",
+           "scene.toml",
+           "history.csv"});
     fs::create_directories(folder / "snapshots/extension-00200.00m.h5");
     EXPECT_THAT(names(run_files(folder)), UnorderedElementsAreArray(ours));
 }

@@ -69,5 +69,29 @@ TEST(GrowthFaults, ThrowByStratumIsExactToADiameter) {
                 }
 }
 
+// Between the cutoffs of strata in succession lies a stratum's thickness. Below the fault nothing
+// moves: it is that laid down there; above it, the fault's growth is added. A thickness is the
+// difference of two tops on one side, each known to 0.35 diameters.
+TEST(GrowthFaults, CutoffsTellThicknessOnBothSides) {
+    for (const double thickness : {4.0 * d, 6.0 * d})
+        for (const bool falls_right : {true, false}) {
+            const GrowthFault made(60.0, thickness, 55.0 * d, falls_right);
+            const std::map<int, Cutoffs> cutoffs = fault_cutoffs(made.state, made.trace, 0.0);
+            int found = 0;
+            for (const auto& [stratum, at] : cutoffs) {
+                EXPECT_EQ(at.is_resolved, throws_of(cutoffs).contains(stratum));
+                const auto below = cutoffs.find(stratum - 1);
+                if (below == cutoffs.end() || stratum > strata)
+                    continue;
+                ++found;
+                EXPECT_NEAR(at.footwall - below->second.footwall, thickness, d) << stratum;
+                EXPECT_NEAR(at.hanging - below->second.hanging, thickness + slip / strata, d)
+                    << stratum;
+                EXPECT_DOUBLE_EQ(at.offset(), at.footwall - at.hanging);
+            }
+            EXPECT_GE(found, 3);
+        }
+}
+
 } // namespace
 } // namespace listric::fault_throw_test

@@ -12,15 +12,20 @@ from scales import share_scales
 from sections import draw_figure
 
 SHOWN = ("strata", "strain")
+FILMS = ("mp4", "gif", "webp")
 ANIMATION_DPI = 80
 FRAME_MS, LAST_FRAME_MS = 250, 2000
 
 
-def save_animation(frames: Sequence[Frame], folder: str, _: Order) -> None:
-    """animation-<extension>km.mp4 with ffmpeg, else .gif"""
+def save_animation(frames: Sequence[Frame], folder: str, order: Order) -> None:
+    """animation-<extension>km in the order's format; in none: .mp4 with ffmpeg, else .gif"""
+    films = [kind for kind in order.formats if kind in FILMS]
+    wanted = films[0] if films else "mp4" if shutil.which("ffmpeg") else "gif"
+    if wanted == "mp4" and not shutil.which("ffmpeg"):
+        raise InputError("--format mp4: needs ffmpeg, which is not installed; gif and webp need Pillow alone")
     with tempfile.TemporaryDirectory(dir=folder, prefix=".listric-") as temporary:
         pictures = draw_pictures(frames, temporary)
-        path = make_mp4(temporary) if shutil.which("ffmpeg") else make_gif(pictures, temporary)
+        path = make_mp4(temporary) if wanted == "mp4" else make_film(pictures, temporary, wanted)
         name = f"animation-{extension_text(frames[-1])}km" + os.path.splitext(path)[1]
         os.replace(path, os.path.join(folder, name))
 
@@ -53,20 +58,24 @@ def make_mp4(folder: str) -> str:
     return os.path.join(folder, "animation.mp4")
 
 
-def make_gif(pictures: Sequence[str], folder: str) -> str:
+def make_film(pictures: Sequence[str], folder: str, kind: str) -> str:
+    """GIF of one palette without dithering, so that a colour is the same in every frame, or WebP without loss."""
     try:
-        from PIL import Image
+        from PIL import Image, features
     except ImportError as failure:
         raise InputError("an animation needs ffmpeg or Pillow (python3-pil)") from failure
-    # One palette, so that a colour means the same in every frame; the last has them all.
-    with Image.open(pictures[-1]) as image:
-        palette = image.convert("RGB").quantize(256, method=Image.Quantize.MAXCOVERAGE)
+    if kind == "webp" and not features.check("webp_anim"):
+        raise InputError("--format webp: this Pillow writes no animated WebP; take gif or mp4")
     images = []
     for picture in pictures:
         with Image.open(picture) as image:
-            images.append(image.convert("RGB").quantize(palette=palette,
-                                                        dither=Image.Dither.NONE))
-    path = os.path.join(folder, "animation.gif")
-    images[0].save(path, save_all=True, append_images=images[1:], loop=0, optimize=False,
-                   duration=[FRAME_MS] * (len(images) - 1) + [LAST_FRAME_MS])
+            images.append(image.convert("RGB"))
+    path = os.path.join(folder, f"animation.{kind}")
+    durations = [FRAME_MS] * (len(images) - 1) + [LAST_FRAME_MS]
+    if kind == "webp":
+        images[0].save(path, save_all=True, append_images=images[1:], loop=0, duration=durations, lossless=True, method=4)
+        return path
+    palette = images[-1].quantize(256, method=Image.Quantize.MAXCOVERAGE)   # the last has all colours
+    images = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    images[0].save(path, save_all=True, append_images=images[1:], loop=0, optimize=False, duration=durations)
     return path

@@ -18,6 +18,10 @@ origin), n discs:
     horizons                         all tops of the model, likewise; only with an underlay
     compared_horizons                the model's tops that they are compared with, likewise
     predicted_shear, predicted_normals  x, y of the pre-rift top by kinematic constructions
+    seismic, seismic_depth           amplitudes, a row per trace; only where they are asked for
+    seismic_axes, seismic_depth_axes x of the first trace, distance of traces, height of the first
+                                     sample (m), frequency (Hz), distance of samples (s or m),
+                                     width of the point-spread function (m)
 
     layer_NAME                       of an effect, which frame.json declares: of a band x, bottom, top,
                                      of a line x, y, of discs the share of ink from 0 to 1
@@ -81,6 +85,10 @@ class Frame:
     horizons: np.ndarray | None = None
     predicted_shear: np.ndarray | None = None
     predicted_normals: np.ndarray | None = None
+    seismic: np.ndarray | None = None          # these four in SI units
+    seismic_axes: np.ndarray | None = None
+    seismic_depth: np.ndarray | None = None
+    seismic_depth_axes: np.ndarray | None = None
     level: float | None = None                 # that sediment is filled up to
     view: tuple = ()                           # xmin, xmax, ymin, ymax
     owner: np.ndarray | None = None            # disc of each cell of an image, -1: none
@@ -157,6 +165,15 @@ def load_array(folder: str, name: str, columns: int | None = None, optional: boo
     if finite and not np.all(np.isfinite(array)):
         raise InputError(f"{path}: holds values that are not finite")
     return array
+
+
+def load_image(folder: str, name: str) -> np.ndarray | None:
+    """Amplitudes, a row per trace; none if the frame has no such image."""
+    path = os.path.join(folder, name + ".npy")
+    if not os.path.exists(path):
+        return None
+    columns = np.load(path, mmap_mode="r", allow_pickle=False).shape[-1]
+    return load_array(folder, name, columns=columns)
 
 
 def load_discs(folder: str) -> dict[str, np.ndarray | None]:
@@ -236,6 +253,8 @@ def load_frame(folder: str) -> Frame:
            for name in ("picked_horizons", "picked_faults", "compared_horizons", "horizons")},
         predicted_shear=km(table("predicted_shear", 2)),
         predicted_normals=km(table("predicted_normals", 2)),
+        **{name: load_image(folder, name) for name in ("seismic", "seismic_depth")},
+        **{name: load_array(folder, name, optional=True) for name in ("seismic_axes", "seismic_depth_axes")},
         level=None if level is None else level / 1000.0)
     frame.view = view_of(frame)
     return frame

@@ -30,10 +30,25 @@ def extension_text(frame: Frame) -> str:
     return str(frame.meta.get("extension_km", plain))
 
 
+LONGEST_TITLE = 80        # letters that fit beside the moment
+
+
+def title_of(frame: Frame) -> str:
+    """The scene's description, in at most a line; a scene without one has its name."""
+    title = str(frame.meta.get("title") or frame.meta["scene"].upper())
+    return title if len(title) <= LONGEST_TITLE else title[:LONGEST_TITLE - 1].rstrip() + "…"
+
+
+def headline(frame: Frame) -> str:
+    """Description and moment."""
+    return f"{title_of(frame)}: {extension_text(frame)} km, {frame.meta['time_a'] / 1e6:.2f} Myr"
+
+
 def footer(frame: Frame) -> list[str]:
     """Provenance of the run, as wrapped lines of small print."""
     meta, parts = frame.meta, []
-    if meta.get("title"):
+    parts.append(f"scene {meta['scene']}")
+    if len(str(meta.get("title", ""))) > LONGEST_TITLE:   # the headline has its beginning
         parts.append(str(meta["title"]))
     radius = meta.get("mean_radius_m", frame.radius.mean() * 1000)
     parts.append(f"{len(frame.x):,} discs, mean radius {radius:.3g} m")
@@ -57,7 +72,7 @@ def add_axes(figure: Figure, x: float, y: float, width: float, height: float):
 def write_around(figure: Figure, headline: str, lines: list[str]) -> None:
     """The headline and the small print at the foot."""
     across, up = figure.get_size_inches()
-    figure.text(LEFT / across, 1 - 0.13 / up, headline, fontsize=14, weight="bold", va="top")
+    figure.text(LEFT / across, 1 - 0.13 / up, headline, fontsize=12.5, weight="bold", va="top")
     for index, line in enumerate(reversed(lines)):
         figure.text(LEFT / across, (0.09 + FOOTER_LINE * index) / up, line, fontsize=7.5,
                     color=FAINT, va="bottom")

@@ -12,8 +12,8 @@ from frame import Frame
 from page import PANEL_WIDTH, PROFILE_HEIGHT
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
-from vocabulary import (INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, layer_colours,
-                        stratum_colours)
+from vocabulary import (INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
+                        palette, stratum_colours)
 
 import numpy as np
 from matplotlib import image as plt_image
@@ -40,7 +40,7 @@ def strata_panel(ax, cax, frame: Frame) -> None:
     if sediment.any():
         colours = stratum_colours(frame.strata)
         rgb[sediment] = colours[frame.stratum[sediment] - 1]
-        strata_bar(cax, colours)
+        strata_bar(cax, colours, frame)
     else:
         cax.set_axis_off()
     draw_discs(ax, frame, rgb)
@@ -122,13 +122,16 @@ def draw_observed(ax, frame: Frame) -> list:
     return handles
 
 
-def strata_bar(cax, colours: np.ndarray) -> None:
+def strata_bar(cax, colours: np.ndarray, frame: Frame) -> None:
+    """Scale of the strata: when they were laid down, or their numbers where that is not known."""
     count = len(colours)
     norm = BoundaryNorm(np.arange(count + 1) + 0.5, count)
-    colour_bar = bar(cax, ListedColormap(colours), norm, "Stratum (1 is the oldest)",
+    ages = frame.meta.get("strata_a")
+    known = isinstance(ages, list) and len(ages) == count
+    colour_bar = bar(cax, ListedColormap(colours), norm, "Laid down at (Myr)" if known else "Stratum (1 is the oldest)",
                      spacing="proportional", drawedges=False)
-    ticks = stratum_ticks(count)
-    colour_bar.set_ticks(ticks, labels=[str(t) for t in ticks])
+    ticks = [t for t in stratum_ticks(count) if not known or t > 1 or count <= 8]
+    colour_bar.set_ticks(ticks, labels=[f"{ages[t - 1] / 1e6:.2f}" if known else str(t) for t in ticks])
     colour_bar.ax.minorticks_off()
 
 
@@ -223,8 +226,13 @@ def sediment_panel(ax, cax, frame: Frame) -> None:
     shown = -np.where(known, thickness, np.nan)
     deepest = max(np.nanmax(-shown, initial=0.0), np.nanmax(-top, initial=0.0), 0.5)
     highest = max(np.nanmax(top, initial=0.0), 0.0)
-    ax.set_ylim(-1.32 * deepest, highest + 0.10 * deepest)
-    depth_axis(ax, "Thickness, depth (km)")
+    # Room for the numbers of depocentres; a small panel has less of it.
+    ax.set_ylim(-(1.32 if frame.legends is None else 1.6) * deepest, highest + 0.10 * deepest)
+    depth_axis(ax, "Thickness, depth (km)" if frame.legends is None else "Depth (km)")
+    if frame.legends is None:                   # a page
+        share = (PROFILE_HEIGHT / (highest + 1.42 * deepest)) / (PANEL_WIDTH / frame.span)
+        ax.text(0.99, 0.04, f"heights × {share:.1f}", transform=ax.transAxes, ha="right", va="bottom", fontsize=9,
+                color=FAINT, zorder=8)
     ax.grid(axis="y", color="#dddddd", linewidth=0.6, zorder=0)
     ax.set_axisbelow(True)
     ax.fill_between(x, 0.0, shown, where=known, color=SEDIMENT, linewidth=0, zorder=1)
@@ -235,19 +243,22 @@ def sediment_panel(ax, cax, frame: Frame) -> None:
         (Patch(facecolor=SEDIMENT, edgecolor=SEDIMENT_EDGE, linewidth=1.2), "sediment thickness"),
         (stroke(INK, 1.1, dashes=(3, 1.5)), "depth of pre-rift top")]
     if frame.depocentres is not None and len(frame.depocentres):
-        draw_depocentres(ax, frame.depocentres)
+        draw_depocentres(ax, frame.depocentres, is_small=frame.legends is not None)
         handles.append((Line2D([], [], color=WEAK, marker="^", markersize=7,
-                               linestyle="none"), "depocentre: thickness, prominence (km)"))
+                               linestyle="none"),
+                        "depocentre: thickness, prominence (km)" if frame.legends is None else "depocentre: thickness (km)"))
     describe(ax, frame, "Sediment thickness and pre-rift top", handles)
 
 
-def draw_depocentres(ax, depocentres: np.ndarray) -> None:
-    """Mark depocentres below the curve; labels of the most prominent ones."""
+def draw_depocentres(ax, depocentres: np.ndarray, is_small: bool) -> None:
+    """Mark depocentres below the curve; labels of the most prominent ones, shorter on a small panel."""
     points = depocentres[np.argsort(-depocentres[:, 2], kind="stable")]
     xmin, xmax = ax.get_xlim()
     ymin, ymax = ax.get_ylim()
     inches_x, inches_y = PANEL_WIDTH / (xmax - xmin), PROFILE_HEIGHT / (ymax - ymin)
-    half, height = 0.37 / inches_x, 0.17 / inches_y
+    if is_small:                            # as if in the inches of a page
+        inches_x, inches_y = 0.4 * inches_x, 0.4 * inches_y
+    half, height = (0.15 if is_small else 0.37) / inches_x, 0.17 / inches_y
     placed = []
     for index, (x, thickness, prominence) in enumerate(points):
         ax.plot(x, -thickness - 0.05 / inches_y, marker="^", markersize=7, color=WEAK,
@@ -259,7 +270,7 @@ def draw_depocentres(ax, depocentres: np.ndarray) -> None:
         if cy < ymin + 0.4 * height:        # no room left: marker only
             continue
         placed.append((cx, cy))
-        ax.text(cx, cy, f"{thickness:.1f}, {prominence:.1f}", fontsize=9, ha="center",
+        ax.text(cx, cy, f"{thickness:.1f}" if is_small else f"{thickness:.1f}, {prominence:.1f}", fontsize=9, ha="center",
                 va="center", zorder=7, bbox={"facecolor": "white", "alpha": 0.75,
                                              "linewidth": 0, "pad": 0.6})
 
@@ -341,6 +352,54 @@ def layer_panel(name: str):
     return panel
 
 
+def seismic_panel(ax, cax, frame: Frame) -> None:
+    """Synthetic seismic image in two-way time; dark where the rock below is harder."""
+    cax.set_axis_off()
+    x, spacing, _, frequency, interval, _ = frame.seismic_axes
+    traces, samples = frame.seismic.shape
+    draw_wiggles(ax, frame.seismic, (x - spacing / 2) / 1000, (x + (traces - 0.5) * spacing) / 1000,
+                 -interval / 2, (samples - 0.5) * interval)
+    ax.set_xlim(*frame.view[:2])
+    ax.set_ylim((samples - 1) * interval, 0.0)
+    ax.set_ylabel("Two-way time (s)")
+    distance_axis(ax, frame)
+    describe(ax, frame, f"Synthetic seismic image, {frequency:g} Hz")
+
+
+def seismic_depth_panel(ax, cax, frame: Frame) -> None:
+    """Synthetic seismic image in depth, at equal scales, with the active faults."""
+    section_axes(ax, frame)
+    cax.set_axis_off()
+    x, spacing, datum, frequency, interval, _ = frame.seismic_depth_axes
+    traces, samples = frame.seismic_depth.shape
+    limits = ax.axis()
+    draw_wiggles(ax, frame.seismic_depth, (x - spacing / 2) / 1000, (x + (traces - 0.5) * spacing) / 1000,
+                 (datum + interval / 2) / 1000, (datum - (samples - 0.5) * interval) / 1000)
+    ax.axis(limits)
+    describe(ax, frame, f"Synthetic seismic image in depth, {frequency:g} Hz", draw_faults(ax, frame.faults))
+
+
+def draw_wiggles(ax, traces: np.ndarray, left: float, right: float, top: float, bottom: float) -> None:
+    """Amplitudes as greys, white to black, clipped where 97 of 100 samples of reflections are. A pixel
+    has the mean of its samples."""
+    box = ax.get_window_extent()
+    across, down = (max(int(n // max(pixels, 1)), 1) for n, pixels in zip(traces.shape, (box.width, box.height)))
+    wide, high = traces.shape[0] // across * across, traces.shape[1] // down * down
+    right = left + (right - left) * wide / traces.shape[0]
+    bottom = top + (bottom - top) * high / traces.shape[1]
+    traces = traces[:wide, :high].reshape(wide // across, across, high // down, down).mean(axis=(1, 3))
+    sizes = np.abs(traces[traces != 0.0])
+    end = float(np.quantile(sizes, 0.97)) if len(sizes) else 1.0
+    greys = ListedColormap(palette(VOCABULARY["layers"]["seismic"]["palette"]))
+    ax.imshow(traces.T, extent=(left, right, bottom, top), cmap=greys, vmin=-end, vmax=end, aspect="auto",
+              interpolation="antialiased", zorder=1.5)
+
+
 PANELS = {"strata": strata_panel, "bonds": bonds_panel, "behaviour": behaviour_panel,
           "strain": strain_panel, "sediment": sediment_panel, "kinematics": kinematics_panel,
-          "underlay": underlay_panel}
+          "underlay": underlay_panel, "seismic": seismic_panel, "seismic-depth": seismic_depth_panel}
+
+
+def panel_of(name: str):
+    """The panel of a name, or of an effect's layer: layer-NAME."""
+    return PANELS.get(name) or layer_panel(name.removeprefix("layer-"))

@@ -58,6 +58,11 @@ class Order:
     formats: tuple[str, ...] = ("png",)
     software: str = "Listric"
     provenance: str = ""   # JSON; empty: of no single run
+    width_mm: float = 0.0  # of a figure for print; 0: pages for a screen
+    only: tuple[str, ...] = ()   # panels; none: all that are drawn unasked
+    plain: bool = False    # without headline and small print
+    dpi: float = 0.0       # of pictures; 0: as usual
+    caption: bool = False  # write caption.txt, too
 
     def metadata(self, file_format: str) -> dict:
         """For savefig: no date, so that equal figures are equal files."""
@@ -73,7 +78,9 @@ def read_order(text: str) -> Order:
     try:
         words = json.loads(text)
         provenance = words["provenance"]
-        return Order(tuple(words["formats"]), words["software"], json.dumps(provenance) if provenance else "")
+        more = {key: words[key] for key in ("width_mm", "plain", "dpi", "caption") if key in words}
+        return Order(tuple(words["formats"]), words["software"], json.dumps(provenance) if provenance else "",
+                     only=tuple(words.get("only", ())), **more)
     except (ValueError, TypeError, KeyError, RecursionError) as failure:
         raise InputError(f"not an order of figures ({failure!r}): {text}") from failure
 

@@ -1,50 +1,79 @@
 """Figures of one frame: panels above each other on one x axis."""
 from collections.abc import Sequence
+from dataclasses import replace
 
 from frame import Frame
 from page import (DPI, GAP, LEFT, PROFILE_HEIGHT, ROW_ABOVE, TITLE, WIDTH, add_axes, below,
-                  extension_text, footer, name_distance, panel_size, set_ticks, write_around)
-from panels import PANELS, layer_panel
-from plot import Figure, Order, new_figure, save
+                  extension_text, footer, headline, name_distance, panel_size, set_ticks, write_around)
+from caption import caption, write_captions
+from journal import DEFAULT, save_print
+from panels import PANELS, panel_of
+from plot import Figure, InputError, Order, new_figure, save
 
 
 LAYER_PICTURE = "layer-"   # and the layer's name
 
 
-def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI) -> Figure:
-    """Figure with the panels of these names."""
+def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI, plain: bool = False) -> Figure:
+    """Figure with the panels of these names; a plain one has neither headline nor small print."""
     width, section_height = panel_size(frame)
     heights = [PROFILE_HEIGHT if name == "sediment" else section_height for name in names]
-    lines = footer(frame)
-    total = TITLE + below(lines) + sum(heights) + ROW_ABOVE * len(names) + GAP * (len(names) - 1)
+    lines = [] if plain else footer(frame)
+    title = 0.0 if plain else TITLE
+    total = title + below(lines) + sum(heights) + ROW_ABOVE * len(names) + GAP * (len(names) - 1)
     figure = new_figure(WIDTH, total, dpi)
-    write_around(figure, f"{frame.meta['scene'].upper()}, {extension_text(frame)} km of extension "
-                         f"({frame.meta['time_a'] / 1e6:.2f} Myr)", lines)
-    y = total - TITLE
+    if not plain:
+        write_around(figure, headline(frame), lines)
+    y = total - title
     for index, (name, height) in enumerate(zip(names, heights)):
         y -= ROW_ABOVE + height
         ax = add_axes(figure, LEFT, y, width, height)
         cax = add_axes(figure, LEFT + width + 0.16, y, 0.17, height)
-        panel = PANELS.get(name) or layer_panel(name.removeprefix(LAYER_PICTURE))
-        panel(ax, cax, frame)
+        panel_of(name)(ax, cax, frame)
         set_ticks(ax)
         name_distance(ax, lowest=index + 1 == len(names))
         y -= GAP
     return figure
 
 
+ON_DEMAND = ("kinematics", "underlay", "seismic", "seismic-depth")   # not on the overview
+
+
 def figures_of(frame: Frame) -> dict[str, list[str]]:
     """The figures that a frame gets, by name: their panels."""
-    overview = [name for name in PANELS if name not in ("kinematics", "underlay")]
-    known = (overview + (["kinematics"] if frame.predicted_shear is not None else [])
-             + (["underlay"] if frame.horizons is not None else []))
+    overview = [name for name in PANELS if name not in ON_DEMAND]
+    there = {"kinematics": frame.predicted_shear, "underlay": frame.horizons, "seismic": frame.seismic,
+             "seismic-depth": frame.seismic_depth}
+    known = overview + [name for name in ON_DEMAND if there[name] is not None]
     known += [LAYER_PICTURE + layer.name for layer in frame.layers if layer.is_graded]
     return {**{name: [name] for name in known}, "overview": overview}
 
 
 def save_sections(frames: Sequence[Frame], folder: str, order: Order) -> None:
-    """Every panel of every frame, and the overview of all: NAME-<extension>km."""
+    """Every panel of every frame, and the overview of all: NAME-<extension>km; for print the panels in
+    one figure. Captions of all in caption.txt, where the order wants them."""
+    captions = {}
     for frame in frames:
-        for name, panels in figures_of(frame).items():
-            save(draw_figure(frame, panels), folder, f"{name}-{extension_text(frame)}km",
-                 order)
+        if order.width_mm:
+            wanted = require_panels(frame, order.only)
+            name, figure, said = save_print(frame, replace(order, only=wanted))
+            save(figure, folder, name, order)
+            captions[name] = caption(wanted or DEFAULT, said, frame, order)
+            continue
+        figures = figures_of(frame)
+        chosen = {name: [name] for name in require_panels(frame, order.only)} or figures
+        for kind, panels in chosen.items():
+            name = f"{kind}-{extension_text(frame)}km"
+            save(draw_figure(frame, panels, order.dpi or DPI, order.plain), folder, name, order)
+            captions[name] = caption([kind], None, frame, order)
+    if order.caption:
+        write_captions(captions, folder)
+
+
+def require_panels(frame: Frame, names: Sequence[str]) -> tuple[str, ...]:
+    """Those of these panels that the frame has; there has to be one where any are wanted."""
+    known = figures_of(frame)
+    found = tuple(name for name in names if name in known)
+    if names and not found:
+        raise InputError(f"--only: this moment has none of {', '.join(names)}; it has {', '.join(known)}")
+    return found

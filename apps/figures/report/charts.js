@@ -34,13 +34,13 @@ class HistoryChart {
   draw(names) {
     if (typeof Dygraph === "undefined") return withoutCharts(this.host);
     const of = r => this.runs.length > 1 ? `, ${"AB"[r]}` : "";
-    const labels = names.flatMap((name, n) => this.runs.map((_, r) => `${name}${of(r)}${n && name === names[0] ? " " : ""}`));
+    const labels = names.flatMap((name, n) => this.runs.map((_, r) => `${wordsOf(name)}${page.data.measures[name]?.[1]?.length > 1 ? ` (${page.data.measures[name][1]})` : ""}${of(r)}${n && name === names[0] ? " " : ""}`));
     const series = {};
     labels.slice(this.runs.length).forEach(label => { series[label] = {axis: "y2"}; });
     this.chart?.destroy();
     this.chart = new Dygraph(this.host, this.rows(names), {
       labels: ["extension (km)", ...labels], series, connectSeparatedPoints: true, drawPoints: true, pointSize: 2,
-      strokeWidth: 1.6, colors: ["#0b3d5c", "#b35900", "#5f8fb0", "#d9a066"], xlabel: "extension (km)",
+      strokeWidth: 1.6, colors: ["#1f77a8", "#c96a00", "#5f9fc4", "#d9a066"], axisLineColor: "#8a8a8a", gridLineColor: "#8a8a8a55", xlabel: "extension (km)",
       labelsUTC: true, digitsAfterDecimal: 3, axes: {y2: {drawGrid: false, independentTicks: true}},
       underlayCallback: (context, area, chart) => {
         const column = chart.toDomXCoord(this.at / 1000);
@@ -63,7 +63,7 @@ function drawPlain(host, rows, labels, options) {
   host.textContent = "";
   if (rows.length === 0) return void (host.textContent = "Nothing to draw.");
   new Dygraph(host, rows, {labels, connectSeparatedPoints: true, drawPoints: true, pointSize: 2.5,
-    strokeWidth: 1.6, colors: ["#0b3d5c", "#b35900", "#5f8fb0"], digitsAfterDecimal: 1, ...options});
+    strokeWidth: 1.6, colors: ["#1f77a8", "#c96a00", "#5f9fc4"], axisLineColor: "#8a8a8a", gridLineColor: "#8a8a8a55", digitsAfterDecimal: 1, ...options});
 }
 
 function throwsOf(fault) {

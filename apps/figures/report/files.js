@@ -31,26 +31,123 @@ function linesCsv(lines) {
     line.points.map(([x, depth]) => [index, ...names.map(name => line[name]), x, depth])));
 }
 
-/** Discs and lines of a section as one canvas, on white. */
-function pictureOf(section) {
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [section.discCanvas.width, section.discCanvas.height];
-  const context = canvas.getContext("2d");
+// Pictures: a title and the moment above the section, axes around it, legend and provenance below.
+
+const paper = {margin: 46, above: 48, line: 17, font: 12};
+
+/** Texts around a picture of a section. */
+function wordsAround(section) {
+  const run = section.run, {summary, scene, accuracy, seed} = run.head, {state_hash: hash, provenance} = summary || {};
+  return {title: run.head.description || scene, moment: `${momentText(run)}; ${page.runs.length > 1 ? labelOf(run) : scene}, ${accuracy}, seed ${seed}` +
+    (page.view.height > 1 ? `; heights × ${page.view.height}` : "; no vertical exaggeration"),
+    foot: [page.data.program, provenance?.commit && `commit ${provenance.commit}`, hash && `state ${hash}`].filter(Boolean).join(", ")};
+}
+
+/** Places of legend entries in lines of a width: [item, x, line], by the width of texts. */
+function placedLegend(items, width, widthOf) {
+  let [x, line] = [0, 0];
+  return items.map(item => {
+    const room = (item.colours ? 130 : 18) + widthOf(legendText(item)) + 14;
+    if (x > 0 && x + room > width) [x, line] = [0, line + 1];
+    const place = [item, x, line];
+    x += room;
+    return place;
+  });
+}
+
+/** Text of a legend entry beside its colours. */
+function legendText({label, from, to}) { return from === undefined ? label : `${label}: ${from} to ${to}`; }
+
+/** The section with all that a picture needs to stand alone, as a canvas on white. */
+async function pictureOf(section) {
+  section.numbersOutside = true;
+  await draw();
+  const canvas = document.createElement("canvas"), ratio = section.ratio, {width, height} = section.discCanvas;
+  const context = canvas.getContext("2d"), words = wordsAround(section), p = paper;
+  const set = (size, weight = "") => { context.font = `${weight} ${size * ratio}px "DejaVu Sans", sans-serif`; };
+  set(p.font);
+  const legend = placedLegend(legendItems(), width / ratio, text => context.measureText(text).width / ratio);
+  const below = 26 + p.line * (2 + Math.max(...legend.map(([, , line]) => line), 0));
+  [canvas.width, canvas.height] = [width + 2 * p.margin * ratio, height + (p.above + 22 + below) * ratio];
   context.fillStyle = "#fff";
   context.fillRect(0, 0, canvas.width, canvas.height);
-  context.drawImage(section.discCanvas, 0, 0);
-  context.drawImage(section.lineCanvas, 0, 0);
+  context.fillStyle = "#1a1a1a";
+  const left = p.margin * ratio, top = (p.above + 18) * ratio;
+  const room = canvas.width - 2 * left;
+  set(15, "bold");
+  context.fillText(words.title, left, 20 * ratio, room);
+  set(p.font);
+  context.fillText(words.moment, left, 40 * ratio, room);
+  context.drawImage(section.discCanvas, left, top);
+  context.drawImage(section.lineCanvas, left, top);
+  section.numbersOutside = false;
+  draw().catch(trouble);
+  context.strokeStyle = "#1a1a1a";
+  context.lineWidth = ratio;
+  context.strokeRect(left, top, width, height);
+  const {across, down} = section.marks(page.view);
+  context.textAlign = "center";
+  for (const {at, text} of across) if (at >= 0) context.fillText(text, left + at, top - 5 * ratio);
+  context.textAlign = "right";
+  for (const {at, text} of down) context.fillText(text, left - 5 * ratio, top + at + 4 * ratio);
+  context.save();
+  context.translate(12 * ratio, top + height / 2);
+  context.rotate(-Math.PI / 2);
+  context.textAlign = "center";
+  context.fillText("depth (km)", 0, 0);
+  context.restore();
+  context.textAlign = "left";
+  for (const [item, x, line] of legend) {
+    const row = top + height + (22 + p.line * line) * ratio;
+    let column = left + x * ratio;
+    (item.colours || [item.colour]).forEach((colour, n, all) => {
+      context.fillStyle = colour;
+      context.fillRect(column + n * (item.colours ? 120 / all.length : 0) * ratio, row - 10 * ratio, (item.colours ? 120 / all.length + 0.5 : 12) * ratio, 12 * ratio);
+    });
+    context.fillStyle = "#1a1a1a";
+    column += (item.colours ? 126 : 16) * ratio;
+    context.fillText(legendText(item), column, row);
+  }
+  context.fillStyle = "#595959";
+  set(10);
+  context.fillText(words.foot, left, canvas.height - 8 * ratio, room);
   return canvas;
 }
 
-/** Discs as a picture, lines and faults as lines. */
+function escaped(text) { return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;"); }
+
+/** Discs as an image; axes, lines, faults with their numbers, legend and words as text and lines. */
 function svgOf(section, view, lines) {
-  const {width, height} = section.discCanvas;
-  const path = (points, ink, thick) => `<polyline fill="none" stroke="${ink}" stroke-width="${thick}" points="` +
-    points.map(([x, depth]) => section.toPixel(view, x, depth).map(v => v.toFixed(1)).join(",")).join(" ") + `"/>`;
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}">\n` +
-    `<image width="${width}" height="${height}" href="${section.discCanvas.toDataURL()}"/>\n` +
-    [...lines.surfaces.map(line => path(line.points, inkOf("detachment"), 1.5)),
-      ...(lines.horizons || []).map(line => path(line.points, inkOf("horizons"), 1)),
-      ...lines.faults.map(line => path(line.points, inkOf("faults"), 2))].join("\n") + "\n</svg>\n";
+  const {width, height} = section.discCanvas, ratio = section.ratio, words = wordsAround(section), p = paper;
+  const [w, h] = [width / ratio, height / ratio], left = p.margin, top = p.above + 18;
+  const place = (x, depth) => section.toPixel(view, x, depth).map(v => v / ratio);
+  const path = (points, ink, thick, dash = "") => `<polyline fill="none" stroke="${ink}" stroke-width="${thick}"${dash} points="` +
+    points.map(([x, depth]) => place(x, depth).map(v => v.toFixed(1)).join(",")).join(" ") + `"/>`;
+  const text = (x, y, said, more = "") => `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" ${more}>${escaped(said)}</text>`;
+  const shown = (name, list) => page.shown.has(name) ? list : [];
+  const measure = document.createElement("canvas").getContext("2d");
+  measure.font = `${p.font}px "DejaVu Sans", sans-serif`;
+  const legend = placedLegend(legendItems(), w, said => measure.measureText(said).width);
+  const total = h + top + 26 + p.line * (2 + Math.max(...legend.map(([, , line]) => line), 0));
+  const {across, down} = section.marks(view);
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${w + 2 * left}" height="${total}" viewBox="0 0 ${w + 2 * left} ${total}" ` +
+    `font-family="DejaVu Sans, sans-serif" font-size="${p.font}" fill="#1a1a1a">\n<title>${escaped(words.title)}</title>\n` +
+    `<desc>${escaped(words.foot)}</desc>\n<rect width="100%" height="100%" fill="#fff"/>\n` +
+    text(left, 20, words.title, 'font-size="15" font-weight="bold"') + text(left, 40, words.moment) +
+    `\n<clipPath id="frame"><rect width="${w}" height="${h}"/></clipPath>\n<g transform="translate(${left},${top})">\n<g clip-path="url(#frame)">\n` +
+    `<image width="${w}" height="${h}" href="${section.discCanvas.toDataURL()}"/>\n` +
+    [...shown("detachment", lines.surfaces.filter(line => line.name !== "target line")).map(line => path(line.points, inkOf("detachment"), 1.5)),
+      ...shown("target", lines.surfaces.filter(line => line.name === "target line")).map(line => path(line.points, inkOf("target"), 1.4, ' stroke-dasharray="8 4"')),
+      ...shown("horizons", lines.horizons || []).map(line => path(line.points, inkOf("horizons"), line.stratum === 0 ? 2 : 1)),
+      ...shown("faults", lines.faults).map((line, n) => path(line.points, "#fff", 4) + path(line.points, inkOf("faults"), 2) +
+        text(place(...line.points[0])[0] + 4, place(...line.points[0])[1] - 4, n))].join("\n") +
+    `\n</g>\n<rect width="${w}" height="${h}" fill="none" stroke="#1a1a1a"/>\n` +
+    across.filter(({at}) => at >= 0).map(({at, text: said}) => text(at / ratio, -5, said, 'text-anchor="middle"')).join("") +
+    down.map(({at, text: said}) => text(-5, at / ratio + 4, said, 'text-anchor="end"')).join("") +
+    text(0, 0, "depth (km)", `text-anchor="middle" transform="translate(-34,${h / 2}) rotate(-90)"`) + "\n</g>\n" +
+    legend.map(([item, x, line]) => {
+      const row = top + h + 22 + p.line * line, all = item.colours || [item.colour], each = item.colours ? 120 / all.length : 12;
+      return all.map((colour, n) => `<rect x="${(left + x + n * each).toFixed(2)}" y="${row - 10}" width="${(each + (item.colours ? 0.3 : 0)).toFixed(2)}" height="12" fill="${colour}"/>`).join("") +
+        text(left + x + (item.colours ? 126 : 16), row, legendText(item));
+    }).join("\n") + "\n" + text(left, total - 8, words.foot, 'font-size="10" fill="#595959"') + "\n</svg>\n";
 }

@@ -21,7 +21,8 @@ function layOut() {
     const [below, beside] = hasFootwall() ? [11000, 21000] : [3000, 2000];
     const height = Math.round(Math.max(Math.min(width * page.view.height * (depth + below) / (length + extension + beside),
       window.innerHeight * 0.75), 140));
-    section.host.style.height = `${height}px`;
+    section.host.style.aspectRatio = `${width} / ${height}`;
+    section.host.style.setProperty("--ratio", width / height);
     section.resize(Math.round(width * ratio), Math.round(height * ratio));
   }
 }
@@ -56,34 +57,55 @@ async function draw() {
     section.painter.paint(page.view, section.discs(k), inkDiscs(colours, section.run, k, inked(section.run)));
     await section.draw(k, page.view, page.shown, page.picked, section.run === page.runs[0] ? others : null);
   }
-  drawLegend(top, strata);
+  page.scale = {top, strata};
+  drawLegend();
   await addFootwallLegend();
   tell();
   writeAddress();
 }
 
-function drawLegend(top, strata) {
+/** Entries of the legend of what is shown: a colour, or colours from one number to another, and a label. */
+function legendItems() {
+  const {top, strata} = page.scale, {unit} = modes[page.mode], table = paletteOf(page.mode, page.palette), items = [];
+  const bar = colour => Array.from({length: 60}, (_, n) => cssColour(colour(n / 59)));
+  if (page.mode === "rock") items.push(...vocabulary.rock_classes.map(({label, colour}) => ({label, colour})));
+  else if (page.mode === "strata") {
+    const rate = page.runs[0].head.rate_m_per_a * 1e6, last = page.runs[0].moments.at(-1).extension_m / rate;
+    if (strata) items.push({label: `sediment laid down (Myr), ${strata} strata`, from: 0, to: digits(last, 2),
+      colours: bar(share => stratumColour(Math.min(1 + Math.floor(share * strata), strata), strata, table))});
+    vocabulary.pre_rift.colours.forEach((colour, n) =>
+      items.push({colour, label: n ? "by turns" : `pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km`}));
+  } else items.push({label: modes[page.mode].label, from: 0, to: `${plain(top / (unit || 1))} or more`,
+    colours: bar(share => table[Math.round(255 * share)])});
+  for (const name of ["faults", "horizons", "picks", "target", "predictions"])
+    if (page.shown.has(name) && name in page.layers) items.push({label: page.layers[name].label, colour: page.layers[name].ink});
+  for (const [name, layer] of Object.entries(page.layers))
+    if (layer.kind && page.shown.has(name)) items.push({label: layer.label, colour: layer.ink});
+  if (page.shown.has("seismic") && page.layers.seismic)
+    items.push({label: "seismic image in depth: dark where rock below is harder", colour: "#6e6e6e"});
+  return items;
+}
+
+function drawLegend() {
   const host = $("legend");
   host.textContent = "";
-  if (page.mode === "rock") {
-    for (const {label, colour} of vocabulary.rock_classes) {
-      addSwatch(host, colour);
-      host.append(label);
+  for (const {label, colour, colours, from, to} of legendItems()) {
+    const entry = host.appendChild(document.createElement("span"));
+    entry.className = "entry";
+    if (!colours) {
+      addSwatch(entry, colour);
+      entry.append(label);
+      continue;
     }
-    return;
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [160, 14];
+    const context = canvas.getContext("2d");
+    colours.forEach((one, n) => {
+      context.fillStyle = one;
+      context.fillRect(n * 160 / colours.length, 0, 160 / colours.length + 1, 14);
+    });
+    entry.append(`${label} ${from} `, canvas, ` ${to}`);
   }
-  const canvas = document.createElement("canvas"), {unit} = modes[page.mode], table = paletteOf(page.mode, page.palette);
-  [canvas.width, canvas.height] = [160, 14];
-  const context = canvas.getContext("2d");
-  for (let column = 0; column < 160; ++column) {
-    context.fillStyle = cssColour(page.mode !== "strata" ? table[Math.round(255 * column / 159)]
-      : stratumColour(1 + Math.floor(column * strata / 160), strata, table));
-    context.fillRect(column, 0, 1, 14);
-  }
-  if (page.mode !== "strata") return void host.append("0 ", canvas, ` ${plain(top / (unit || 1))} or more`);
-  if (strata) host.append("oldest sediment ", canvas, ` youngest (${strata})`);
-  for (const colour of vocabulary.pre_rift.colours) addSwatch(host, colour);
-  host.append(`pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km`);
 }
 
 function addSwatch(host, colour) {
@@ -100,25 +122,32 @@ async function addFootwallLegend() {
   else if (lines) $("legend").append("; the footwall's stress is there at the figures' moments and at the end");
 }
 
+/** "5.00 km, 0.500 Myr" */
+function momentText(run) {
+  const {extension_m: extension} = run.moments[momentOf(run)];
+  return `${(extension / 1000).toFixed(2)} km, ${(extension / run.head.rate_m_per_a / 1e6).toFixed(3)} Myr`;
+}
+
 function tell() {
-  const run = page.runs[0], moment = run.moments[page.t], {rate_m_per_a: rate} = run.head;
+  const run = page.runs[0], moment = run.moments[page.t];
   $("slider").value = page.t;
   $("slider").setAttribute("aria-valuetext", `${(moment.extension_m / 1000).toFixed(2)} km`);
-  $("moment").textContent = `${(moment.extension_m / 1000).toFixed(2)} km, ${(moment.extension_m / rate / 1e6).toFixed(3)} Myr, ` +
-    `${lengths.format(moment.discs)} discs`;
+  $("moment").textContent = `${momentText(run)}, ${lengths.format(moment.discs)} discs`;
   page.chart.moveTo(moment.extension_m);
   drawFaults();
 }
 
 async function drawFaults() {
-  const run = page.picked?.run || page.runs[0], {faults} = await run.loadLines(momentOf(run));
+  const run = page.picked?.run || page.runs[0], lines = await run.loadLines(momentOf(run)), {faults} = lines;
   const chosen = page.picked?.kind === "fault" ? page.picked.index : -1;
-  drawFaultTable($("faults"), faults, chosen, index => pick({kind: "fault", run, index}));
-  const fault = faults[chosen] || faults[0];
-  $("throws_title").textContent = fault ? `Throw by stratum, fault ${Math.max(chosen, 0)}` : "Throw by stratum";
-  drawPlain($("throws"), fault ? throwsOf(fault).map(([stratum, metres]) => [stratum, [metres, fault.throw_error_m]]) : [],
-    ["stratum", "throw (m)"],
-    {xlabel: "stratum, the oldest first (0: pre-rift top)", ylabel: "throw (m)", errorBars: true, sigma: 1});
+  drawFaultTable($("faults"), faults, chosen, index => pick({kind: "fault", run, index}), run.head.mean_radius_m);
+  const index = Math.max(chosen, 0), fault = faults[index], cutoffs = lines.cutoffs?.[index];
+  $("throws_title").textContent = fault ? `Throw by stratum, fault ${index}` : "Throw by stratum";
+  $("expansion_title").textContent = fault ? `Growth of strata, fault ${index}` : "Growth of strata";
+  await run.load(["start_extension_m"]);
+  drawThrows($("throws"), run, fault, cutoffs, page.scale.strata);
+  drawExpansion($("expansion"), run, fault, cutoffs, page.scale.strata);
+  drawWheeler($("wheeler"), run, momentOf(run));
   await drawUplift(run);
   await describe();
 }
@@ -150,7 +179,7 @@ async function describe() {
   } else if (picked.kind === "fault") {
     const fault = (await run.loadLines(k)).faults[picked.index];
     $("picked").textContent = fault ? `${which}fault ${picked.index}: ${fault.attitude}, ${fault.sense}, dip ` +
-      `${fault.dip_deg.toFixed(1)}°, ${plain(fault.rate_mm_per_a)} mm/a, ${lengths.format(fault.length_m)} m long` +
+      `${fault.dip_deg.toFixed(1)}°, ${digits(fault.rate_mm_per_a, 2)} mm/a, ${valueText(fault.length_m, "m", run.head.mean_radius_m)} long` +
       (fault.born_at_m === null ? "; its birth is known at the figures' moments and at the end"
         : `; born at ${lengths.format(fault.born_at_m)} m of extension`) +
       (fault.pre_rift_throw_m === null ? "" : `; pre-rift throw ${lengths.format(fault.pre_rift_throw_m)} m`) +
@@ -236,7 +265,7 @@ function listenTo(section) {
     canvas.setPointerCapture(event.pointerId);
   });
   canvas.addEventListener("pointermove", event => {
-    if (!from) return;
+    if (!from) return readOut(section, ...at(event));
     const [column, row] = at(event), {view} = page;
     if (Math.hypot(column - from[0], row - from[1]) < 4 && !moved) return;
     moved = true;
@@ -255,11 +284,34 @@ function listenTo(section) {
     const id = section.painter.ownerAt(...place);
     pick(index >= 0 && !event.shiftKey ? {kind: "fault", run, index} : id !== nobody ? {kind: "disc", run, id} : null);
   });
+  canvas.addEventListener("pointerleave", () => { section.readout.hidden = true; });
   canvas.addEventListener("dblclick", whole);
   canvas.addEventListener("wheel", event => {
     event.preventDefault();
     zoom(event.deltaY < 0 ? 1.25 : 0.8, ...at(event));
   }, {passive: false});
+}
+
+/** Says beside the pointer where it is and what is there. */
+function readOut(section, column, row) {
+  const {run, readout} = section, k = momentOf(run), [x, depth] = section.toMetres(page.view, column, row);
+  const id = section.painter.ownerAt(column, row), mode = modes[page.mode], words = [`x ${(x / 1000).toFixed(2)} km, ${(depth / 1000).toFixed(2)} km deep`];
+  if (id !== nobody) {
+    const stratum = run.codes[k].stratum[id];
+    const from = !stratum && run.codes[k].start_depth_m ? `, from ${(run.values(k, "start_depth_m")[id] / 1000).toFixed(1)} km` : "";
+    words.push(stratum ? stratumName(stratum) : `pre-rift${from}`);
+    if (page.mode === "rock") words.push(vocabulary.rock_classes[run.codes[k].behaviour[id]].label);
+    else if (mode.end && mode.needs.every(name => run.codes[k][name])) {
+      const value = page.mode === "displacement" ? displacement(run, k)[id] : run.values(k, mode.needs[0])[id];
+      words.push(`${mode.label.replace(/ \(.*/, "")} ${digits(value / (mode.unit || 1), 2)}${mode.unit ? " MPa" : page.mode === "displacement" ? " m" : ""}`);
+    }
+  }
+  readout.textContent = words.join("; ");
+  readout.hidden = false;
+  const place = column / section.ratio, width = section.host.clientWidth;
+  readout.style.left = place < width / 2 ? `${place + 14}px` : "auto";
+  readout.style.right = place < width / 2 ? "auto" : `${width - place + 14}px`;
+  readout.style.top = `${Math.min(row / section.ratio + 14, section.host.clientHeight - 30)}px`;
 }
 
 /** Length and dip of a line that is dragged. */
@@ -329,8 +381,8 @@ function addControls() {
   addOptions($("palette"), [["figures", "as in the figures"], ...Object.keys(palettes).map(name => [name, name])], page.palette);
   $("height").value = page.view.height;
   const measures = Object.keys(run.history).filter(name => name !== "extension_m" && run.history[name].some(Number.isFinite));
-  addOptions($("column"), measures.map(name => [name, name]), measures.includes("rollover_tilt_deg") ? "rollover_tilt_deg" : measures[0]);
-  addOptions($("second"), [["", "nothing else"], ...measures.map(name => [name, name])], "");
+  addOptions($("column"), measures.map(name => [name, wordsOf(name)]), measures.includes("rollover_tilt_deg") ? "rollover_tilt_deg" : measures[0]);
+  addOptions($("second"), [["", "nothing else"], ...measures.map(name => [name, wordsOf(name)])], "");
   $("slider").max = run.moments.length - 1;
   const on = (id, event, call) => $(id).addEventListener(event, call);
   on("slider", "input", () => show(Number($("slider").value)));
@@ -345,29 +397,40 @@ function addControls() {
   on("colour", "change", () => { page.mode = $("colour").value; draw().catch(trouble); });
   on("palette", "change", () => { page.palette = $("palette").value; draw().catch(trouble); });
   on("height", "change", () => { page.view.height = Number($("height").value); layOut(); whole(); });
-  const charted = () => page.chart.draw([$("column").value, $("second").value].filter(Boolean));
-  on("column", "change", charted);
-  on("second", "change", charted);
+  on("column", "change", drawCharted);
+  on("second", "change", drawCharted);
   addSaves(on);
   document.addEventListener("keydown", onKey);
   window.addEventListener("resize", () => { layOut(); draw().catch(trouble); });
-  page.chart = new HistoryChart($("history"), page.runs, extension => show(run.nearest(extension)));
-  if (measures.length) charted();
+  page.chart = new HistoryChart($("history"), page.runs, extension => show(page.runs[0].nearest(extension)));
+  if (measures.length) drawCharted();
+}
+
+function drawCharted() { page.chart.draw([$("column").value, $("second").value].filter(Boolean)); }
+
+/** Tables that do not follow the slider. */
+function drawTables() {
+  drawQuality($("quality"), page.runs);
+  drawDifferences($("differences"));
+  $("differences_part").hidden = page.runs.length < 2;
+  drawMeasures($("measures"), page.runs);
+  drawMainMeasures($("main_measures"), page.runs);
 }
 
 function addSaves(on) {
-  const [run] = page.runs, [section] = page.sections;
-  const name = kind => `${run.head.scene}-${run.moments[page.t].extension_m.toFixed(0)}m-${kind}`;
+  const [section] = page.sections;
+  const name = kind => `${page.runs[0].head.scene}-${page.runs[0].moments[page.t].extension_m.toFixed(0)}m-${kind}`;
   on("save_discs", "click", async () => {
+    const [run] = page.runs;
     await run.load(Object.keys(run.head.scales).concat("bonds", "behaviour"));
     save(name("discs.csv"), discsCsv(run, page.t), "text/csv");
   });
-  const lines = kind => async () => save(name(`${kind}.csv`), linesCsv((await run.loadLines(page.t))[kind] || []), "text/csv");
+  const lines = kind => async () => save(name(`${kind}.csv`), linesCsv((await page.runs[0].loadLines(page.t))[kind] || []), "text/csv");
   on("save_faults", "click", lines("faults"));
   on("save_horizons", "click", lines("horizons"));
-  on("save_history", "click", () => save(`${run.head.scene}-history.csv`, run.head.history, "text/csv"));
-  on("save_png", "click", () => pictureOf(section).toBlob(blob => save(name("section.png"), blob)));
-  on("save_svg", "click", async () => save(name("section.svg"), svgOf(section, page.view, await run.loadLines(page.t)), "image/svg+xml"));
+  on("save_history", "click", () => save(`${page.runs[0].head.scene}-history.csv`, page.runs[0].head.history, "text/csv"));
+  on("save_png", "click", async () => (await pictureOf(section)).toBlob(blob => save(name("section.png"), blob)));
+  on("save_svg", "click", async () => save(name("section.svg"), svgOf(section, page.view, await page.runs[0].loadLines(page.t)), "image/svg+xml"));
   on("copy", "click", async () => {
     writeAddress();
     try { await navigator.clipboard.writeText(location.href); $("copy").textContent = "copied"; }
@@ -378,9 +441,10 @@ function addSaves(on) {
 function addWords() {
   const titles = page.runs.map(run => run.head.description || run.head.scene);
   document.title = `${page.runs[0].head.scene}: Listric`;
-  $("title").textContent = [...new Set(titles)].join(" beside ");
-  $("subtitle").textContent = page.runs.map((run, r) => `${page.runs.length > 1 ? `${"AB"[r]}: ` : ""}${run.head.scene}, ` +
-    `${run.head.accuracy}, seed ${run.head.seed}`).join("; ") + (page.data.live ? "; the run goes on" : "") +
+  const differ = differenceWords();
+  $("title").textContent = [...new Set(titles)].join(" beside ") + (differ && new Set(titles).size < 2 ? `: ${differ}` : "");
+  $("subtitle").textContent = page.runs.map(run => page.runs.length > 1 ? `${labelOf(run)}, ${run.head.accuracy}`
+    : `${run.head.scene}, ${run.head.accuracy}, seed ${run.head.seed}`).join("; ") + (page.data.live ? "; the run goes on" : "") +
     (page.data.left_out ? `; left out so that the file is smaller: ${page.data.left_out}` : "");
   const rocks = [...new Set(page.runs.map(run => run.head.rock))];
   $("rock").textContent = rocks.map((rock, r) => rocks.length > 1 ? `${"AB"[r]}: ${rock}` : rock).join(". ");
@@ -404,14 +468,14 @@ async function start() {
   await Promise.all(page.runs.map(run => run.loadKnown()));
   page.layers = layersOf(page.runs);
   const view = readAddress();
-  page.sections = page.runs.map((run, r) => {
+  page.sections = page.runs.map(run => {
     const host = $("sections").appendChild(document.createElement("div"));
     host.className = "section";
     const section = new Section(run, host);
     if (page.runs.length > 1) {
       const name = host.appendChild(document.createElement("div"));
       name.className = "name";
-      name.textContent = `${"AB"[r]}: ${run.head.scene}, seed ${run.head.seed}`;
+      name.textContent = labelOf(run);
     }
     listenTo(section);
     return section;
@@ -433,9 +497,45 @@ async function start() {
   addControls();
   await draw();
   page.firstFrame = performance.now();
-  drawMeasures($("measures"), page.runs, page.data.definitions);
+  drawTables();
   document.documentElement.dataset.ready = "true";
-  if (page.data.live) setTimeout(() => location.reload(), 10000);
+  if (page.data.live) followFile();
 }
 
-if (page.data && vocabulary) start().catch(trouble);
+/** Looks for newer moments every few seconds: a hidden copy of this file hands over its data. */
+function followFile() {
+  const frame = document.createElement("iframe");
+  frame.hidden = true;
+  window.addEventListener("message", event => {
+    if (event.source !== frame.contentWindow || typeof event.data !== "string") return;
+    frame.remove();
+    takeNewer(event.data).catch(() => {}).then(() => { if (page.data.live) setTimeout(look, page.lookAfter); });
+  });
+  page.lookAfter = 5000;
+  const look = page.look = () => {
+    frame.src = `${location.href.split("#")[0]}#feed`;
+    document.body.append(frame);
+  };
+  setTimeout(look, page.lookAfter);
+}
+
+/** Takes over data of the same run, if they have more; view, colours and what is picked stay. */
+async function takeNewer(text) {
+  const data = JSON.parse(text), before = page.runs[0].moments.length, atEnd = page.t === before - 1;
+  const more = data.runs[0].moments.length;
+  if (data.runs[0].scene !== page.runs[0].head.scene || more < before || (more === before && data.live)) return;
+  const runs = data.runs.map(head => new Run(head));
+  await Promise.all(runs.map(run => Promise.all([run.loadKnown(), run.load(["present", "x_m", "depth_m", "radius_m", "stratum", "rock"])])));
+  if (page.picked) page.picked.run = runs[page.runs.indexOf(page.picked.run)];
+  [page.data, page.runs] = [data, runs];
+  page.sections.forEach((section, r) => { section.run = runs[r]; });
+  page.chart.runs = runs;
+  $("slider").max = more - 1;
+  addWords();
+  drawCharted();
+  drawTables();
+  await show(atEnd ? more - 1 : page.t);
+}
+
+if (location.hash === "#feed" && window.parent !== window) window.parent.postMessage($("data").textContent, "*");
+else if (page.data && vocabulary) start().catch(trouble);

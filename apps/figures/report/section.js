@@ -7,6 +7,7 @@ const isIn = {
   footwall: run => Boolean(run.known.footwall),
   target: run => run.known.surfaces.some(line => line.name === "target line"),
   predictions: run => run.has("start_x_m"),
+  seismic: run => Boolean(run.known.seismic),
   picks: run => Boolean(run.head.picks),
   underlay: () => Boolean(page.data.underlay),
 };
@@ -31,6 +32,20 @@ function rowsOf(numbers, columns) {
   return Array.from({length: numbers.length / columns}, (_, k) => numbers.slice(columns * k, columns * (k + 1)));
 }
 
+/** Amplitudes of a moment as a picture; nothing where there is no reflection. */
+function seismicCanvas({traces, samples, values}) {
+  const letters = atob(values), table = palettes[vocabulary.layers.seismic.palette];
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [traces, samples];
+  const context = canvas.getContext("2d"), image = context.createImageData(traces, samples);
+  const pixels = new Uint32Array(image.data.buffer);
+  for (let trace = 0; trace < traces; ++trace)
+    for (let k = 0; k < samples; ++k)
+      pixels[k * traces + trace] = table[(letters.charCodeAt(trace * samples + k) + 128) & 255];
+  context.putImageData(image, 0, 0);
+  return canvas;
+}
+
 class Section {
   constructor(run, host) {
     this.run = run;
@@ -41,6 +56,9 @@ class Section {
     this.lineCanvas.setAttribute("role", "img");
     this.painter = new Painter(this.discCanvas);
     this.pen = this.lineCanvas.getContext("2d");
+    this.readout = host.appendChild(document.createElement("div"));
+    this.readout.className = "readout";
+    this.readout.hidden = true;
   }
 
   get ratio() { return this.discCanvas.width / this.host.clientWidth; }
@@ -94,9 +112,9 @@ class Section {
     pen.clearRect(0, 0, this.lineCanvas.width, this.lineCanvas.height);
     if (shown.has("footwall") && lines.footwall) this.drawFootwall(view, lines.footwall);
     if (shown.has("underlay") && page.underlay) this.drawUnderlay(view);
+    if (shown.has("seismic") && lines.seismic) this.drawSeismic(view, lines.seismic);
     for (const [name, {ink}] of shownLayers(this.run, "band", shown)) this.drawBand(view, lines.layers[name], ink);
     if (shown.has("bonds") && this.run.has("bonds_left")) this.drawBonds(k, view);
-    this.drawAxes(view);
     const surfaces = name => lines.surfaces.filter(line => line.name === name);
     if (shown.has("horizons"))
       for (const line of lines.horizons || [])
@@ -120,6 +138,7 @@ class Section {
         this.line(view, line.points, inkOf("picks"), 2, [2, 3]);
     for (const [name, {ink}] of shownLayers(this.run, "line", shown))
       this.line(view, rowsOf(lines.layers[name], 2).map(([x, height]) => [x, -height]), ink, 1.6);
+    this.drawAxes(view);
     if (shown.has("faults")) this.drawFaults(view, lines.faults, picked);
     if (shown.has("faults") && other)
       for (const fault of other.faults) this.line(view, fault.points, otherInk, 1.6, [7, 4]);
@@ -205,34 +224,55 @@ class Section {
     this.pen.globalAlpha = 1;
   }
 
-  /** Marks along the upper and left edge at plain numbers of kilometres. */
-  drawAxes(view) {
-    const pen = this.pen, {width, height} = this.lineCanvas, ratio = this.ratio;
+  /** Marks along the upper and left edge at plain numbers of kilometres: place in pixels and text. */
+  marks(view) {
+    const {width, height} = this.lineCanvas, ratio = this.ratio;
     const step = pixelsPerKilometre => [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].find(s => s * pixelsPerKilometre > 55 * ratio) || 100;
     const across = step(1000 * view.scale), down = step(1000 * view.scale * view.height);
+    const number = (value, by) => (Math.abs(value) < 1e-9 ? 0 : value).toFixed(by < 1 ? 1 : 0);
+    const list = (first, by, end, place) => {
+      const marks = [];
+      for (let value = Math.ceil(first / 1000 / by) * by; place(1000 * value) <= end; value += by)
+        marks.push({at: place(1000 * value), text: number(value, by)});
+      return marks;
+    };
+    return {across: list(view.left, across, width, x => this.toPixel(view, x, 0)[0]),
+      down: list(view.top, down, height, depth => this.toPixel(view, 0, depth)[1]).filter(({at}) => at > 24 * ratio)};
+  }
+
+  drawAxes(view) {
+    const pen = this.pen, {width} = this.lineCanvas, ratio = this.ratio, {across, down} = this.marks(view);
     pen.fillStyle = pen.strokeStyle = "#595959";
     pen.font = `${11 * ratio}px "DejaVu Sans", sans-serif`;
     pen.lineWidth = ratio;
     pen.beginPath();
-    const number = (value, by) => value.toFixed(by < 1 ? 1 : 0);
-    for (let x = Math.ceil(view.left / 1000 / across) * across; ; x += across) {
-      const [column] = this.toPixel(view, 1000 * x, 0);
-      if (column > width) break;
-      pen.moveTo(column, 0);
-      pen.lineTo(column, 5 * ratio);
-      const text = `${number(x, across)} km`, room = pen.measureText(text).width + 3 * ratio;
-      const fits = column + room < width;  // else left of its mark, unless the label before is there
-      if (column > 30 * ratio && (fits || 1000 * view.scale * across > 2.2 * room))
-        pen.fillText(text, fits ? column + 3 * ratio : column - room, 11 * ratio);
+    for (const {at, text} of across) {
+      pen.moveTo(at, 0);
+      pen.lineTo(at, 5 * ratio);
+      const words = `${text} km`, room = pen.measureText(words).width + 3 * ratio;
+      if (!this.numbersOutside && at > 30 * ratio && at + room < width) pen.fillText(words, at + 3 * ratio, 11 * ratio);
     }
-    for (let z = Math.ceil(view.top / 1000 / down) * down; ; z += down) {
-      const [, row] = this.toPixel(view, 0, 1000 * z);
-      if (row > height) break;
-      pen.moveTo(0, row);
-      pen.lineTo(5 * ratio, row);
-      if (row > 20 * ratio) pen.fillText(number(z, down), 7 * ratio, row + 4 * ratio);
-    }
+    down.forEach(({at, text}, n) => {
+      pen.moveTo(0, at);
+      pen.lineTo(5 * ratio, at);
+      if (this.numbersOutside) return;
+      const words = n ? text : `${text} km`;
+      pen.lineWidth = 3 * ratio;
+      pen.strokeStyle = "#fff";
+      pen.strokeText(words, 7 * ratio, at + 4 * ratio);
+      pen.fillText(words, 7 * ratio, at + 4 * ratio);
+    });
+    pen.lineWidth = ratio;
+    pen.strokeStyle = "#595959";
     pen.stroke();
+  }
+
+  /** The seismic image in depth over the discs: dark where rock below is harder. */
+  drawSeismic(view, image) {
+    const {traces, samples} = image, [x0, y0] = this.toPixel(view, image.left_m, image.top_m);
+    const [x1, y1] = this.toPixel(view, image.left_m + traces * image.across_m, image.top_m + samples * image.down_m);
+    this.pen.imageSmoothingEnabled = true;
+    this.pen.drawImage(image.canvas ??= seismicCanvas(image), x0, y0, x1 - x0, y1 - y0);
   }
 
   /** Index of the fault within `reach` pixels, or -1. */

@@ -23,7 +23,16 @@ function plain(value) {
     ? value.toExponential(3) : String(Number(value.toPrecision(5)));
 }
 
-function drawFaultTable(table, faults, chosen, choose) {
+/** What a column of faults holds, in the digits that it deserves; its unit stands in its head. */
+function faultText(value, name, radius) {
+  if (typeof value !== "number") return plain(value);
+  if (name.endsWith("_deg")) return value.toFixed(name.startsWith("footwall") ? 1 : 0);
+  if (name.endsWith("_m")) return String(Math.round(value / lengthStep(radius)) * lengthStep(radius));
+  if (name.endsWith("_diameters")) return value.toFixed(1);
+  return Number.isInteger(value) ? String(value) : digits(value, 2);
+}
+
+function drawFaultTable(table, faults, chosen, choose, radius) {
   table.textContent = "";
   const columns = page.data.fault_columns;
   head(table, columns.map(column => column.label), Object.fromEntries(columns.map(column => [column.label, column.doc])));
@@ -32,7 +41,7 @@ function drawFaultTable(table, faults, chosen, choose) {
     const row = body.appendChild(document.createElement("tr"));
     row.tabIndex = 0;
     row.classList.toggle("chosen", index === chosen);
-    for (const {name} of columns) cell(row, plain(fault[name]));
+    for (const {name} of columns) cell(row, faultText(fault[name], name, radius));
     row.addEventListener("click", () => choose(index));
     row.addEventListener("keydown", event => { if (event.key === "Enter") choose(index); });
   });
@@ -49,20 +58,97 @@ function numbersOf(summary, before = "") {
   return numbers;
 }
 
-function drawMeasures(table, runs, definitions) {
-  table.textContent = "";
+/** Measures in groups of words, the machine's folded away. A row's title has key, exact values and definition. */
+function drawMeasures(host, runs) {
+  host.textContent = "";
   const numbers = runs.map(run => numbersOf(run.head.summary));
   const names = [...new Set(numbers.flatMap(Object.keys))];
-  if (names.length === 0) return void (table.textContent = page.data.lacks.length ? "They are missing: see above." : "The run has not ended yet.");
+  if (names.length === 0) return void (host.textContent = page.data.lacks.length ? "They are missing: see above." : "The run has not ended yet.");
+  const tableOfName = name => page.data.measures[name]?.[0] || page.data.measures[name.split(".")[0]]?.[0] || "run";
+  const known = vocabulary.measure_groups.flatMap(group => group.tables);
+  const own = [...new Set(names.map(tableOfName))].filter(table => !known.includes(table))
+    .map(table => ({label: wordsOf(table), tables: [table]}));
+  const groups = [...vocabulary.measure_groups.filter(group => !group.folded), ...own, ...vocabulary.measure_groups.filter(group => group.folded)];
+  for (const {label, tables, folded} of groups) {
+    const rows = names.filter(name => tables.includes(tableOfName(name)));
+    if (rows.length === 0) continue;
+    const part = host.appendChild(document.createElement(folded ? "details" : "section"));
+    part.appendChild(document.createElement(folded ? "summary" : "h3")).textContent = label;
+    drawMeasureRows(part.appendChild(document.createElement("table")), rows, runs, numbers);
+  }
+}
+
+function drawMeasureRows(table, names, runs, numbers) {
   head(table, runs.length > 1 ? ["measure", "A", "B", "B − A"] : ["measure", "value"]);
   const body = table.appendChild(document.createElement("tbody"));
   for (const name of names) {
-    const row = body.appendChild(document.createElement("tr"));
-    cell(row, name, definitions[name] || definitions[name.split(".")[0]]);
-    for (const values of numbers) cell(row, plain(values[name]));
+    const row = body.appendChild(document.createElement("tr")), parent = name.split(".")[0];
+    const [, unit] = page.data.measures[name] || page.data.measures[parent] || [];
+    const doc = page.data.definitions[name] || page.data.definitions[parent] || "";
+    const radius = Math.max(...runs.map(run => run.head.mean_radius_m));
+    row.dataset.key = name;
+    cell(row, wordsOf(name), `${name} = ${numbers.map(values => plain(values[name])).join(" and ")}: ${doc}`);
+    for (const values of numbers) cell(row, valueText(values[name], unit, radius));
     if (runs.length > 1) {
       const [a, b] = numbers.map(values => values[name]);
-      cell(row, typeof a === "number" && typeof b === "number" ? plain(b - a) : a === b ? "equal" : "");
+      cell(row, typeof a === "number" && typeof b === "number" ? valueText(b - a, unit, radius) : a === b ? "equal" : "");
     }
+  }
+}
+
+/** At most ten results, for print: those by which runs are told apart, and the cutoff. */
+function drawMainMeasures(table, runs) {
+  table.textContent = "";
+  const numbers = runs.map(run => mainNumbers(run));
+  const names = [...new Set(numbers.flatMap(Object.keys))].slice(0, 10);
+  if (names.length) drawMeasureRows(table, names, runs, numbers);
+}
+
+function mainNumbers({head: {summary}}) {
+  const numbers = {};
+  for (const name of [...page.data.headline.map(([key]) => key), "cutoff_x_m", "cutoff_z_m"]) {
+    const list = name.startsWith("number of ") ? summary?.[name.slice(10)] : undefined;
+    const value = Array.isArray(list) ? list.length : summary?.[name];
+    if (typeof value === "number") numbers[name] = value;
+  }
+  return numbers;
+}
+
+/** "Is this run good?": every question with number, bound and words. */
+function drawQuality(host, runs) {
+  host.textContent = "";
+  runs.forEach(run => {
+    const checks = run.head.quality || [], bad = checks.filter(({verdict}) => verdict === "doubtful");
+    const part = host.appendChild(document.createElement("div"));
+    part.className = "verdict";
+    const says = part.appendChild(document.createElement("p"));
+    const words = checks.length === 0 ? "It is judged when it has ended." : bad.length ? `Doubtful: ${bad.map(({label}) => label.toLowerCase()).join(", ")}.` : "Yes, as far as its own numbers tell. Another seed tells more.";
+    says.className = checks.length ? (bad.length ? "doubtful" : "good") : "";
+    says.textContent = `${runs.length > 1 ? `${labelOf(run)}. ` : ""}${words}`;
+    const list = part.appendChild(document.createElement("div"));
+    list.className = "checks";
+    for (const check of checks) {
+      const card = list.appendChild(document.createElement("div"));
+      card.className = `check ${check.verdict}`;
+      card.dataset.key = check.key;
+      const line = (kind, text) => { const made = card.appendChild(document.createElement(kind)); made.textContent = text; return made; };
+      line("b", `${{good: "✓", doubtful: "!", note: "·"}[check.verdict]} ${check.label}`);
+      line("span", `${check.value} (${check.bound})`).title = page.data.definitions[check.key] || "";
+      line("small", check.words);
+    }
+  });
+}
+
+/** Parameters of two runs that differ. */
+function drawDifferences(table) {
+  table.textContent = "";
+  const differences = page.data.differences || [];
+  if (differences.length === 0) return;
+  head(table, ["parameter", "A", "B", "unit"]);
+  const body = table.appendChild(document.createElement("tbody"));
+  for (const [path, a, b, unit] of differences) {
+    const row = body.appendChild(document.createElement("tr"));
+    for (const text of [path, a, b]) cell(row, text.length > 60 ? `${text.slice(0, 57)}...` : text, text.length > 60 ? text : undefined);
+    cell(row, unit === "1" ? "" : unit);
   }
 }

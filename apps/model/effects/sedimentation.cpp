@@ -2,6 +2,7 @@
 #include "dem/events/sediment_stress.hpp"
 
 #include "apps/model/effect_list.hpp"
+#include "apps/model/measure_names.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
 #include "dem/genesis/genesis.hpp"
@@ -167,7 +168,7 @@ std::vector<Measure<Observation>> measures() {
              [](const Observation& now) -> std::optional<double> {
                  return now.state.ledger.removed / now.state.ledger.initial;
              }},
-            {"sediment_stress_ratio", "1",
+            {sediment_stress_ratio, "1",
              "vertical contact stress in the sediment over the weight above, time mean of the last "
              "window: mean over the layers of `sediment_stress_profile`. 1: sediment carries its "
              "weight",

@@ -99,9 +99,13 @@ private:
                 report_run({.outputs = {output}});
             return;
         }
-        const ReportPage page{
-            .runs = {{run.scene, moments_, mean_radius_, to_csv(run.record.history), run.summary}},
-            .live = live};
+        const ReportPage page{.runs = {{.scene = run.scene,
+                                        .moments = moments_,
+                                        .mean_radius = mean_radius_,
+                                        .history = to_csv(run.record.history),
+                                        .summary = run.summary,
+                                        .base_moves = run.parts.base_moves}},
+                              .live = live};
         const std::string html = report_html(page);
         if (live || static_cast<double>(html.size()) <= 1e6 * ReportRequest{}.most_mb)
             return write_text(output / "report.html", html);

@@ -1,0 +1,162 @@
+#include "apps/archive/quality.hpp"
+
+#include "apps/archive/fault_fields.hpp"
+#include "apps/measures/dictionary.hpp"
+#include "apps/measures/measures.hpp"
+#include "apps/model/measure_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace listric::archive {
+
+using namespace measures;
+
+namespace {
+
+using M = Measures;
+
+Verdict verdict_of(bool good) { return good ? Verdict::good : Verdict::doubtful; }
+
+/// 1e-16, 0.0003
+std::string small_text(double value) {
+    return value == 0.0 || value >= 1e-4 ? fmt::format("{:.2g}", value)
+                                         : fmt::format("{:.0e}", value);
+}
+
+/// Two digits: "1.9 km", "930 m", "0.028 m".
+std::string length_words(double metres) {
+    if (metres >= 995.0)
+        return fmt::format("{:.2g} km", metres / 1e3);
+    return metres >= 99.5 ? fmt::format("{:.0f} m", 10.0 * std::round(metres / 10.0))
+                          : fmt::format("{:.2g} m", metres);
+}
+
+void add_quasi_static(std::vector<QualityCheck>& all, const JsonObject& summary) {
+    const auto found = summary.find(quasi_static.name);
+    if (found == summary.end() || !found->is_boolean())
+        return;
+    const bool good = found->get<bool>();
+    std::string value = good ? "yes" : "no";
+    if (const auto ratio =
+            number_at(summary, measures::name_of<&M::unbalanced_ratio_mean>().c_str()))
+        value += fmt::format(": unbalanced {:.2g}", *ratio);
+    if (const auto inertia = number_at(summary, measures::name_of<&M::inertial_number>().c_str()))
+        value += fmt::format(", inertial {:.2g}", *inertia);
+    all.push_back(
+        {std::string(quasi_static.name), "Quasi-static", value,
+         fmt::format("at most {:g}, {:g}", greatest_unbalanced_ratio, greatest_inertial_number),
+         verdict_of(good),
+         good ? "Inertia is small enough: the run is not too fast."
+              : "The run is too fast: halve extension.speed_m_per_s."});
+}
+
+void add_mass(std::vector<QualityCheck>& all, const JsonObject& summary) {
+    const std::string key = measures::name_of<&M::mass_error_fraction>();
+    const auto error = number_at(summary, key.c_str());
+    if (!error)
+        return;
+    const bool good = *error < most_mass_error;
+    all.push_back({key, "Mass", "error " + small_text(*error),
+                   "below " + small_text(most_mass_error), verdict_of(good),
+                   good ? "All rock is accounted for." : "Mass is lost: please report it."});
+}
+
+void add_volume(std::vector<QualityCheck>& all, const JsonObject& summary) {
+    const auto error = number_at(summary, std::string(effects::volume_error_fraction).c_str());
+    if (!error)
+        return;
+    const bool good = *error < most_volume_error;
+    all.push_back({std::string(effects::volume_error_fraction), "Volume",
+                   fmt::format("error {:.2g} %", 100.0 * *error),
+                   fmt::format("below {:g} %", 100.0 * most_volume_error), verdict_of(good),
+                   good ? "Fault zones keep their volume when they weaken."
+                        : "Weak zones change their volume: let property updates follow each "
+                          "other faster."});
+}
+
+void add_balance(std::vector<QualityCheck>& all, const JsonObject& summary,
+                 const QualityContext& context) {
+    const std::string key = measures::name_of<&M::area_balance>();
+    const auto balance = number_at(summary, key.c_str());
+    if (!balance)
+        return;
+    QualityCheck check{key, "Balance of areas", fmt::format("{:.3f}", *balance),
+                       fmt::format("{:g} to {:g}", least_area_balance, most_area_balance)};
+    if (context.base_moves) {
+        check.words = "Not judged: the base moves, so that the basin has another area.";
+    } else if (number_at(summary, "extension_m").value_or(0.0) < area_balance_from) {
+        check.words =
+            fmt::format("Not judged before {:g} km of extension.", area_balance_from / 1e3);
+    } else {
+        const bool good = least_area_balance <= *balance && *balance <= most_area_balance;
+        check.verdict = verdict_of(good);
+        check.words = good ? "The basin is as large as extension × thickness."
+                           : "The basin is not as large as extension × thickness: rock dilates, "
+                             "or was eroded (rock_dilation_fraction).";
+    }
+    all.push_back(std::move(check));
+}
+
+/// How wide faults are in discs, and so what may be interpreted.
+void add_discs_per_fault(std::vector<QualityCheck>& all, const JsonObject& summary,
+                         const QualityContext& context) {
+    const auto faults = summary.find("faults");
+    if (faults == summary.end() || !faults->is_array() || faults->empty())
+        return;
+    double least = 0.0, most = 0.0;
+    for (const JsonObject& fault : *faults)
+        if (const auto width = number_at(fault, std::string(field_width).c_str())) {
+            least = least == 0.0 ? *width : std::min(least, *width);
+            most = std::max(most, *width);
+        }
+    if (most == 0.0)
+        return;
+    const double narrowest = fewest_discs_across * 2.0 * context.mean_radius;
+    all.push_back({std::string(field_width), "Discs across a fault",
+                   most - least < 0.05 ? fmt::format("{:.1f}", most)
+                                       : fmt::format("{:.1f} to {:.1f}", least, most),
+                   fmt::format("{:g} to interpret", fewest_discs_across), Verdict::note,
+                   fmt::format("The width of faults is the grain's. Do not interpret what is "
+                               "narrower than {:g} discs, {}.",
+                               fewest_discs_across, length_words(narrowest))});
+}
+
+void add_sediment(std::vector<QualityCheck>& all, const JsonObject& summary) {
+    constexpr double least = 0.96, most = 1.12; // lis1 at standard (docs/measures.md)
+    const auto ratio = number_at(summary, effects::sediment_stress_ratio);
+    if (!ratio)
+        return;
+    const bool usual = least <= *ratio && *ratio <= most;
+    all.push_back({effects::sediment_stress_ratio, "Weight of the sediment",
+                   fmt::format("{:.2f}", *ratio), fmt::format("lis1: {:g} to {:g}", least, most),
+                   usual ? Verdict::good : Verdict::note,
+                   usual ? "The sediment carries its own weight."
+                         : "Stress in the sediment over the weight above: 1 if it carries its own "
+                           "weight. The range is that of lis1 at standard."});
+}
+
+} // namespace
+
+std::vector<QualityCheck> quality_checks(const JsonObject& summary, const QualityContext& context) {
+    std::vector<QualityCheck> all;
+    if (!summary.is_object())
+        return all;
+    add_quasi_static(all, summary);
+    add_mass(all, summary);
+    add_volume(all, summary);
+    add_balance(all, summary, context);
+    add_discs_per_fault(all, summary, context);
+    add_sediment(all, summary);
+    return all;
+}
+
+const char* name_of(Verdict verdict) {
+    constexpr const char* names[] = {"good", "doubtful", "note"};
+    return names[static_cast<int>(verdict)];
+}
+
+} // namespace listric::archive

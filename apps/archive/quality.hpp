@@ -1,0 +1,46 @@
+#pragma once
+
+#include "apps/archive/json_file.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace listric::archive {
+
+// Bounds of a good run (docs/trust.md).
+inline constexpr double most_mass_error = 1e-12, most_volume_error = 1e-3;
+inline constexpr double least_area_balance = 0.95, most_area_balance = 1.03;
+inline constexpr double area_balance_from = 5e3; ///< m of extension
+inline constexpr double fewest_discs_across = 5; ///< of what is interpreted
+
+enum class Verdict {
+    good,
+    doubtful,
+    note ///< has no bound in this run, or tells what may be interpreted
+};
+
+/// One question of "Is this run good?", with its answer.
+struct QualityCheck {
+    std::string key;   ///< in summary.json
+    std::string label; ///< a noun: "balance of areas"
+    std::string value; ///< for people: "0.976", "yes"
+    std::string bound; ///< for people: "0.95 to 1.03"
+    Verdict verdict = Verdict::note;
+    std::string words = {}; ///< a sentence on the meaning, and on the cure where it is doubtful
+};
+
+/// Facts of a run that its summary does not hold.
+struct QualityContext {
+    bool base_moves = false;
+    double mean_radius = 0.0; ///< m
+};
+
+/// Questions that a finished run's summary.json answers, in the order of docs/trust.md; none of an
+/// empty object.
+std::vector<QualityCheck> quality_checks(const JsonObject& summary, const QualityContext& context);
+
+/// "good", "doubtful" or "note".
+const char* name_of(Verdict verdict);
+
+} // namespace listric::archive

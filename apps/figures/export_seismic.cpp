@@ -1,0 +1,112 @@
+#include "apps/figures/export_seismic.hpp"
+
+#include "apps/archive/json_file.hpp"
+#include "apps/figures/segy.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/npy.hpp"
+#include "apps/support/version.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace listric {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Lines of at most 76 letters on how the section was made.
+std::vector<std::string> words_of(const archive::ExportedMoment& at,
+                                  const SeismicSection& section) {
+    const SeismicOptions& o = section.options;
+    const measures::SeismicLaw& law = o.law;
+    return {
+        fmt::format("LISTRIC {}: SYNTHETIC SEISMIC SECTION OF A MODEL", version),
+        fmt::format("SCENE {}, SEED {}, {} DISCS", at.now.scene.name, at.now.scene.seed,
+                    at.now.state.discs.rows()),
+        fmt::format("EXTENSION {:.2f} M", at.now.state.clock.extension),
+        fmt::format("RICKER WAVELET, ZERO PHASE, {:g} HZ", o.frequency),
+        o.in_depth
+            ? fmt::format("SAMPLES BY DEPTH, {:g} M; HEADERS HAVE MILLIMETRES", o.sample_interval)
+            : fmt::format("SAMPLES BY TWO-WAY TIME, {:g} MS", 1e3 * o.sample_interval),
+        fmt::format("POINT-SPREAD FUNCTION ALONG X: {:g} M", o.lateral),
+        fmt::format("DATUM {:.0f} M ABOVE THE ORIGINAL SURFACE", section.datum),
+        "POSITIVE AMPLITUDE: THE ROCK BELOW IS HARDER",
+        "VELOCITY: WYLLIE'S TIME AVERAGE (GEOPHYSICS 21, 41, 1956)",
+        fmt::format("MATRIX {:g} M/S, {:g} KG/M3; FLUID {:g} M/S, {:g} KG/M3", law.matrix_velocity,
+                    law.grain_density, law.fluid_velocity, law.fluid_density),
+        fmt::format("WEAKENED ROCK: VELOCITY TIMES {:g}", law.weak_factor),
+        fmt::format("LAYERS BY TURNS FASTER AND SLOWER BY {:g} PERCENT (ASSUMED)",
+                    100.0 * law.contrast),
+        "CONVOLUTION OF REFLECTIVITY: NO MIGRATION, NO DIFFRACTION, NO MULTIPLES,",
+        "NO NOISE, NO ATTENUATION",
+    };
+}
+
+/// SEG-Y counts samples and intervals in 16 bits. Throws UsageError.
+void require_room(const SeismicSection& section) {
+    const SeismicOptions& o = section.options;
+    constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int16_t>::max());
+    if (section.samples > most)
+        throw UsageError(fmt::format("export seismic: {} samples per trace, of which SEG-Y allows "
+                                     "{}: lower --frequency {:g}",
+                                     section.samples, most, o.frequency));
+    // One of 16 bits, of which a depth in millimetres needs more below 2.3 Hz.
+    const double interval = (o.in_depth ? 1e3 : 1e6) * o.sample_interval;
+    if (interval > static_cast<double>(most))
+        throw UsageError(fmt::format("export seismic: samples are too far apart for SEG-Y: raise "
+                                     "--frequency {:g}",
+                                     o.frequency));
+}
+
+template <class T>
+void write_rows(const fs::path& file, const std::vector<T>& values, const SeismicSection& section) {
+    write_npy<T>(file, std::span<const T>(values), section.samples);
+}
+
+} // namespace
+
+std::vector<fs::path> export_seismic(const archive::ExportedMoment& at, const std::string& name,
+                                     const fs::path& folder,
+                                     const std::vector<std::string>& formats,
+                                     SeismicOptions options) {
+    const auto wants = [&](const char* format) {
+        return std::ranges::find(formats, format) != formats.end();
+    };
+    options.has_labels = wants("npy");
+    const SeismicSection section =
+        seismic_section(at.now, at.faults.faults, seismic_horizons(at.now), options);
+    const std::string stem = "seismic-" + name;
+    std::vector<fs::path> files;
+    if (wants("segy")) {
+        require_room(section);
+        files.push_back(folder / (stem + ".segy"));
+        write_segy(files.back(), section, words_of(at, section));
+    }
+    if (!wants("npy"))
+        return files;
+    const auto file = [&](const char* end) {
+        files.push_back(folder / (stem + end));
+        return files.back();
+    };
+    write_rows(file("-image.npy"), section.amplitude, section);
+    write_rows(file("-faults.npy"), section.fault, section);
+    write_rows(file("-strain.npy"), section.strain, section);
+    const SeismicOptions& o = section.options;
+    write_object(file(".json"),
+                 {{"rows", "traces"},
+                  {"columns", "samples"},
+                  {"first_x_m", section.first_x},
+                  {"trace_spacing_m", o.trace_spacing},
+                  {o.in_depth ? "sample_interval_m" : "sample_interval_s", o.sample_interval},
+                  {"datum_m", section.datum},
+                  {"frequency_hz", o.frequency},
+                  {"lateral_m", o.lateral},
+                  {"words", words_of(at, section)}});
+    return files;
+}
+
+} // namespace listric

@@ -1,0 +1,74 @@
+"""Captions: what a figure shows and how it was made."""
+import json
+import os
+from collections.abc import Sequence
+
+from frame import Frame
+from page import extension_text
+from plot import Order
+
+SHOWN = {
+    "strata": "syn-rift strata by age and pre-rift layers by depth at the start",
+    "bonds": "intact bonds between discs",
+    "behaviour": "rock behaviour by the share of broken bonds",
+    "strain": "maximum shear strain of the last {window:g} m of extension",
+    "sediment": "thickness of the sediment and depth of the pre-rift top",
+    "kinematics": "pre-rift top beside kinematic predictions",
+    "seismic": "synthetic seismic image in two-way time",
+    "seismic-depth": "synthetic seismic image in depth",
+    "underlay": "the model's horizons and faults over a picture of a section",
+    "overview": "strata, bonds, rock behaviour, strain and sediment",
+}
+SEISMIC = ("The seismic image is reflectivity convolved with a Ricker wavelet of {frequency:g} Hz: velocity by porosity "
+           "(Wyllie et al. 1956), weakened rock slower by 15 %, layers faster and slower by turns (5 %, assumed); "
+           "neither migration nor noise.")
+FAULTS = ("strata", "strain", "behaviour", "overview", "underlay")
+
+
+def shown_text(name: str, frame: Frame) -> str:
+    for layer in frame.layers:
+        if name == f"layer-{layer.name}":
+            return layer.label
+    return SHOWN.get(name, name).format(window=frame.meta["strain_window_m"])
+
+
+def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, order: Order) -> str:
+    """A paragraph on the panels of these names of one frame."""
+    meta = frame.meta
+    texts = [shown_text(name, frame) for name in names]
+    if said:  # with what the figure itself says of its scale
+        texts = [text + (f" ({words[words.index('(') + 1:]}" if "(" in words else "") for text, words in zip(texts, said)]
+    panels = "; ".join(f"({chr(ord('a') + n)}) {text}" for n, text in enumerate(texts)) if len(texts) > 1 else texts[0]
+    rate = meta["extension_m"] / meta["time_a"] if meta["time_a"] else 0.0
+    at = f" at {100 * rate:.3g} cm/yr" if rate else ""
+    parts = [f"{order.software} model: {meta.get('title') or meta['scene']}.",
+             f"After {extension_text(frame)} km of extension{at} ({meta['time_a'] / 1e6:.2f} Myr): {panels}."]
+    if any(name in FAULTS for name in names) and frame.faults is not None and len(frame.faults):
+        parts.append(f"Black lines: faults active in the last {meta['strain_window_m']:g} m, wider where they slip faster.")
+    for name, axes in (("seismic", frame.seismic_axes), ("seismic-depth", frame.seismic_depth_axes)):
+        if name in names and axes is not None:
+            parts.append(SEISMIC.format(frequency=axes[3]))
+            break
+    parts.append(f"{len(frame.x):,} discs, mean radius {meta.get('mean_radius_m', 1000 * frame.radius.mean()):.3g} m, "
+                 f"accuracy {meta.get('accuracy', 'custom')}, seed {meta.get('seed', '?')}.")
+    if not said and all(name not in ("sediment", "overview", "seismic") for name in names):
+        parts.append("No vertical exaggeration.")
+    origin = provenance_text(order)
+    return " ".join(parts + ([origin] if origin else []))
+
+
+def provenance_text(order: Order) -> str:
+    if not order.provenance:
+        return ""
+    words = json.loads(order.provenance)
+    known = [f"{key.replace('_', ' ')} {words[key]}" for key in ("commit", "scene_hash") if words.get(key)]
+    return f"Made by {', '.join(known)}." if known else ""
+
+
+def write_captions(captions: dict[str, str], folder: str) -> None:
+    """caption.txt: a paragraph per figure, by the names of their files."""
+    path = os.path.join(folder, "caption.txt")
+    temporary = f"{path}.{os.getpid()}.tmp"
+    with open(temporary, "w", encoding="utf-8") as file:
+        file.write("\n".join(f"{name}\n{text}\n" for name, text in captions.items()))
+    os.replace(temporary, path)

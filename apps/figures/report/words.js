@@ -1,0 +1,74 @@
+// Names, units and digits for people.
+
+const unitSuffix = /_(m2|m|deg|pa|s|a|mm_per_a|j_per_m|n_per_m|diameters|fraction)$/;
+
+/** "cutoff_x_m" as "Cutoff, x"; names of the headline results are the program's. */
+function wordsOf(name) {
+  const known = page.data.headline.find(([key]) => key === name);
+  const plainName = name.replace(/^.*\./, "").replace(unitSuffix, "").replace(/_x$/, ", x").replace(/_z$/, ", depth")
+    .replaceAll("_", " ");
+  const text = known ? known[1] : plainName;
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** A number with so many significant digits, without an exponent where that is short. */
+function digits(value, count) {
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size < 1e-3 || size >= 1e7) return value.toExponential(count > 2 ? 1 : 0).replace("e+", "e");
+  const decimals = Math.max(count - 1 - Math.floor(Math.log10(size)), 0);
+  return value.toFixed(Math.min(decimals, 6));
+}
+
+/** Lengths are known to a fraction of a disc: the power of ten below a fifth of its diameter, m. */
+function lengthStep(radius) { return 10 ** Math.floor(Math.log10(0.4 * radius)); }
+
+/** A value and its unit, with the digits that it deserves: ["9.31", "km"]. */
+function valueOf(value, unit, radius) {
+  if (value === undefined || value === null) return ["", ""];
+  if (typeof value === "boolean") return [value ? "yes" : "no", ""];
+  if (typeof value !== "number") return [String(value), ""];
+  if (!Number.isFinite(value)) return ["", ""];
+  if (unit === "m") {
+    const step = lengthStep(radius), rounded = Math.round(value / step) * step;
+    const decimals = Math.max(-Math.round(Math.log10(step)), 0);
+    return Math.abs(value) >= 1000 ? [(rounded / 1000).toFixed(Math.max(3 - Math.round(Math.log10(step)), 0)), "km"]
+      : [rounded.toFixed(decimals), "m"];
+  }
+  if (unit === "m2") return Math.abs(value) >= 1e5 ? [digits(value / 1e6, 3), "km²"] : [digits(value, 3), "m²"];
+  if (unit === "deg") return [value.toFixed(1), "°"];
+  if (unit === "Pa") return Math.abs(value) >= 1e4 ? [digits(value / 1e6, 3), "MPa"] : [digits(value, 3), "Pa"];
+  if (unit === "mm/a") return [digits(value, 2), "mm/a"];
+  if (unit === "diameters") return [value.toFixed(1), "discs"];
+  if (Number.isInteger(value)) return [String(value), ["1", "index"].includes(unit) ? "" : unit || ""];
+  return [digits(value, 3), unit === "1" ? "" : unit || ""];
+}
+
+/** Value and unit as one text: "9.31 km", "38.1°". */
+function valueText(value, unit, radius) {
+  const [text, own] = valueOf(value, unit, radius);
+  return own === "°" ? text + own : `${text} ${own}`.trim();
+}
+
+/** "detachment.friction" as "friction". */
+function keyWords(path) { return path.replace(/^.*\./, "").replace(unitSuffix, "").replaceAll("_", " "); }
+
+/** Letter and what is particular of one of two runs: "A: lis1, friction 0.1". */
+function labelOf(run) {
+  const r = page.runs.indexOf(run), {scene, seed} = run.head, differences = page.data.differences || [];
+  if (page.runs.length < 2) return scene;
+  const few = differences.length > 0 && differences.length <= 3;
+  const own = few ? differences.map(([path, a, b, unit]) => `${keyWords(path)} ${[a, b][r]}${unit && unit !== "1" ? ` ${unit}` : ""}`)
+    : [`seed ${seed}`];
+  return `${"AB"[r]}: ${[scene, ...own].join(", ")}`;
+}
+
+/** Parameters that differ, in a few words. */
+function differenceWords() {
+  const differences = page.data.differences || [];
+  if (page.runs.length < 2) return "";
+  if (differences.length === 0) return "equal scenes";
+  const shown = differences.slice(0, 3)
+    .map(([path, a, b, unit]) => `${keyWords(path)} ${a} and ${b}${unit && unit !== "1" ? ` ${unit}` : ""}`);
+  return shown.join(", ") + (differences.length > 3 ? ` and ${differences.length - 3} more` : "");
+}

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "apps/figures/seismic_section.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace listric {
+
+/// Writes a section as SEG-Y revision 1 (SEG Technical Standards Committee 2002), samples as IEEE
+/// numbers, big endian. A trace's header has its number, CDP, x in centimetres (scalar -100) and
+/// its samples' interval: microseconds, or millimetres of depth. Throws StorageError.
+/// @param words  lines of the text header, at most 39 of 76 letters each
+void write_segy(const std::filesystem::path& file, const SeismicSection& section,
+                const std::vector<std::string>& words);
+
+} // namespace listric

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "apps/measures/fault.hpp"
+#include "apps/measures/horizons.hpp"
+#include "apps/measures/seismic_trace.hpp"
+#include "apps/scene/effect.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace listric {
+
+/// How a section is made to look as seismics would see it.
+struct SeismicOptions {
+    double frequency = 25.0; ///< of the wavelet's strongest part, Hz
+    double lateral = 0.0;    ///< full width at half maximum of the point-spread function along x, m
+    bool in_depth = false;   ///< samples by depth, else by two-way time
+    double trace_spacing = 0.0;   ///< m; 0: that of the owner map, a quarter of a mean radius
+    double sample_interval = 0.0; ///< s, or m in depth; 0: a tenth of the wavelet
+    bool has_labels = false;      ///< strain and faults at every sample, too
+    measures::SeismicLaw law = {};
+};
+
+/// Pre-rift porosity at the surface, of rock that was buried before; it decays with depth as that
+/// of sediment does.
+inline constexpr double pre_rift_porosity = 0.1, porosity_decay_per_m = 4e-4;
+
+/// Traces side by side, from the breakaway to the right wall. Samples begin at the datum: the
+/// original surface, or the highest rock above it. The topmost rock begins there: neither
+/// its surface nor water above it reflects.
+struct SeismicSection {
+    SeismicOptions options = {}; ///< with spacing and interval as they are
+    std::size_t traces = 0, samples = 0;
+    double first_x = 0.0;                 ///< m
+    double datum = 0.0;                   ///< m, y up
+    std::vector<float> amplitude = {};    ///< trace by trace
+    std::vector<float> strain = {};       ///< shear strain of the last window; NaN outside rock
+    std::vector<std::uint8_t> fault = {}; ///< 1 within a mean diameter of an active fault
+
+    double x(std::size_t trace) const {
+        return first_x + options.trace_spacing * static_cast<double>(trace);
+    }
+    /// s, or m below the datum.
+    double sample(std::size_t k) const { return options.sample_interval * static_cast<double>(k); }
+};
+
+/// Reflectivity of the section by velocity and density of its rock, convolved with Ricker's
+/// wavelet: no migration, no noise. Layers are those between the horizons; they are faster and
+/// slower by turns, as the model gives them no rock of their own. Porosity of sediment is that of
+/// its discs, averaged over a disc's surroundings; of pre-rift rock it falls with the depth of the
+/// layer at the start. Weakened discs are slower, each by itself.
+/// @param faults    for labels
+/// @param horizons  of trace_horizons()
+SeismicSection seismic_section(const Observation& now, std::span<const measures::Fault> faults,
+                               std::span<const measures::Horizon> horizons,
+                               const SeismicOptions& options);
+
+/// Horizons that a section needs: tops of strata and of pre-rift layers.
+std::vector<measures::Horizon> seismic_horizons(const Observation& now);
+
+/// Whether seismics make sense of a model: it is a kilometre thick or more.
+bool has_seismics(const Scene& scene);
+
+} // namespace listric

@@ -1,0 +1,93 @@
+#include "apps/archive/quality.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace listric::quality_test {
+
+using namespace archive;
+namespace {
+
+JsonObject good_run() {
+    return {{"extension_m", 10000.0},
+            {"quasi_static", true},
+            {"unbalanced_ratio_mean", 9.6e-4},
+            {"inertial_number", 6e-4},
+            {"mass_error_fraction", 8.9e-15},
+            {"volume_error_fraction", 5.8e-4},
+            {"area_balance", 0.981},
+            {"sediment_stress_ratio", 1.0},
+            {"faults", {{{"width_diameters", 2.4}}, {{"width_diameters", 3.1}}}}};
+}
+
+std::vector<QualityCheck> checks_of(const JsonObject& summary, bool base_moves = false) {
+    return quality_checks(summary, {.base_moves = base_moves, .mean_radius = 93.1});
+}
+
+QualityCheck check_named(const std::vector<QualityCheck>& checks, const std::string& key) {
+    const auto found = std::ranges::find(checks, key, &QualityCheck::key);
+    return found == checks.end() ? QualityCheck() : *found;
+}
+
+TEST(Quality, AsksEveryQuestionOfAGoodRun) {
+    const auto checks = checks_of(good_run());
+    std::vector<std::string> keys, values, bounds;
+    for (const QualityCheck& check : checks) {
+        keys.push_back(check.key);
+        values.push_back(check.value);
+        bounds.push_back(check.bound);
+        EXPECT_NE(check.verdict, Verdict::doubtful) << check.key;
+        EXPECT_THAT(check.words, testing::EndsWith(".")) << check.key;
+    }
+    EXPECT_THAT(keys,
+                testing::ElementsAre("quasi_static", "mass_error_fraction", "volume_error_fraction",
+                                     "area_balance", "width_diameters", "sediment_stress_ratio"));
+    EXPECT_THAT(values,
+                testing::ElementsAre("yes: unbalanced 0.00096, inertial 0.0006", "error 9e-15",
+                                     "error 0.058 %", "0.981", "2.4 to 3.1", "1.00"));
+    EXPECT_THAT(bounds,
+                testing::ElementsAre("at most 0.01, 0.002", "below 1e-12", "below 0.1 %",
+                                     "0.95 to 1.03", "5 to interpret", "lis1: 0.96 to 1.12"));
+}
+
+TEST(Quality, EveryBoundCanBeMissed) {
+    const std::pair<const char*, JsonObject> bad[] = {{"quasi_static", false},
+                                                      {"mass_error_fraction", 1e-12},
+                                                      {"volume_error_fraction", 1e-3},
+                                                      {"area_balance", 0.949},
+                                                      {"area_balance", 1.031}};
+    for (const auto& [key, value] : bad) {
+        JsonObject summary = good_run();
+        summary[key] = value;
+        for (const QualityCheck& check : checks_of(summary))
+            EXPECT_EQ(check.verdict == Verdict::doubtful, check.key == key) << key << check.key;
+    }
+}
+
+TEST(Quality, AreasAreNotJudgedWhereTheirBoundsDoNotHold) {
+    JsonObject summary = good_run();
+    summary["area_balance"] = 0.6;
+    EXPECT_EQ(check_named(checks_of(summary, true), "area_balance").verdict, Verdict::note);
+    summary["extension_m"] = 4999.0;
+    EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, Verdict::note);
+    summary["extension_m"] = 5000.0;
+    EXPECT_EQ(check_named(checks_of(summary), "area_balance").verdict, Verdict::doubtful);
+}
+
+TEST(Quality, SaysWhatIsTooNarrowAndLeavesOutWhatARunHasNot) {
+    EXPECT_THAT(check_named(checks_of(good_run()), "width_diameters").words,
+                testing::HasSubstr("5 discs, 930 m."));
+    EXPECT_TRUE(checks_of({}).empty());
+    EXPECT_TRUE(checks_of(JsonObject()).empty());
+    EXPECT_TRUE(checks_of({{"faults", 3}, {"quasi_static", "yes"}, {"area_balance", "x"}}).empty());
+    JsonObject dry = good_run();
+    dry.erase("sediment_stress_ratio");
+    dry["faults"] = JsonObject::array();
+    EXPECT_EQ(checks_of(dry).size(), 4u);
+}
+
+} // namespace
+} // namespace listric::quality_test
