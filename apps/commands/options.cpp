@@ -117,7 +117,7 @@ CLI::Option* add_lengths(CLI::App& command, const char* option, std::vector<doub
             try {
                 word = fmt::format("{}", parse_length(option, word));
             } catch (const UsageError& error) {
-                return std::string(error.what());
+                return std::string(error.what()).substr(std::string_view(option).size() + 1);
             }
             return std::string();
         },

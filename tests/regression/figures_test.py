@@ -108,7 +108,7 @@ class Figures(unittest.TestCase):
         self.assertIn("(b) synthetic seismic image in depth", (folder / "figures/caption.txt").read_text())
         for words, said in ((("--width", "8mm"), "--width 8mm: a width from 40mm to 500mm"),
                             (("--only", "strat"), "--only: no panel strat; did you mean strata"),
-                            (("--at", "5 miles"), "--at 5 miles: a length of at least 0"),
+                            (("--at", "5 miles"), "--at: 5 miles: a length of at least 0"),
                             (("--animation", "--width", "85mm"), "--animation: has no --width"),
                             (("--animation", "--format", "png"), "--format: no format png")):
             ended = self.listric("figures", folder, *words)
