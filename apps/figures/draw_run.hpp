@@ -14,13 +14,13 @@ namespace listric {
 
 /// Request of a call of `listric figures`.
 struct FiguresRequest {
-    std::filesystem::path output;        ///< the run's folder
-    std::optional<Underlay> underlay;    ///< that sections are drawn over
-    std::vector<double> extensions = {}; ///< of the snapshots, m, whose sections alone are drawn;
-                                         ///< none: the scene's
-    std::vector<double> wells = {};      ///< x, m, of wells whose figure alone is drawn; none:
-                                         ///< where the effect has them
-    PictureOrder order = {};             ///< all but the provenance
+    std::filesystem::path output;          ///< the run's folder
+    std::optional<Underlay> underlay = {}; ///< that sections are drawn over
+    std::vector<double> extensions = {};   ///< of the snapshots, m, whose sections alone are drawn;
+                                           ///< none: the scene's
+    std::vector<double> wells = {};        ///< x, m, of wells whose figure alone is drawn; none:
+                                           ///< where the effect has them
+    PictureOrder order = {};               ///< all but the provenance
 };
 
 /// Draws the figures of all snapshots of a run's folder at the scene's figure extensions and of
