@@ -25,7 +25,6 @@ from PIL import Image
 import animation
 import axes
 import base
-import caption
 import discs
 import effects
 import figures

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from frame import Frame
 from page import add_axes, extension_text, name_distance
 from panels import panel_of
-from plot import FAINT, Figure, Order, new_figure, save
+from plot import FAINT, Figure, Order, new_figure
 
 from matplotlib.collections import LineCollection
 from matplotlib.legend_handler import HandlerTuple
