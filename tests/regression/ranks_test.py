@@ -24,6 +24,7 @@ ENVIRONMENT |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM":
 MPIRUN = ["/usr/bin/mpirun", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
 LONGEST = 60.0  # s, until a run that something has ended is gone
 LONG = "4km"  # takes seconds on any machine, so that what ends a run comes before its end
+RESUMED = "1km"  # beyond the place where a run has been ended
 needs_finite_elements = unittest.skipIf(os.environ.get("LISTRIC_FEM") == "0",
                                         "a build without finite elements")
 
@@ -172,24 +173,24 @@ class Ends(Ranks):
         self.assertEndsWith(ended.returncode, ended.stdout, 3, "below the whole hanging wall")
 
     def test_a_request_to_stop(self):
-        whole = self.summary(0, "whole", "lis1", "--until", LONG)
+        whole = self.summary(0, "whole", "lis1", "--until", RESUMED)
         run = self.begin(2, "run", "lis1", "--until", LONG)
         run.send_signal(signal.SIGUSR1)  # which mpirun hands on
         run.communicate(timeout=LONGEST)
         self.assertEqual(run.returncode, 130)
         self.assertEqual(processes_of(self.folder / "run"), [])
         self.assertEqual(json.loads((self.folder / "run/status.json").read_text())["phase"], "stopped")
-        self.assertEqual(self.summary(0, "run", "lis1", "--until", LONG, "--resume")["state_hash"],
+        self.assertEqual(self.summary(0, "run", "lis1", "--until", RESUMED, "--resume")["state_hash"],
                          whole["state_hash"])
 
     def test_ctrl_c_where_the_program_starts_mpirun(self):
-        whole = self.summary(0, "whole", "lis1", "--until", LONG)
+        whole = self.summary(0, "whole", "lis1", "--until", RESUMED)
         run = self.begin(0, "run", "lis1", "--until", LONG, "--ranks=2")
         os.killpg(run.pid, signal.SIGINT)  # as a terminal does
         run.communicate(timeout=LONGEST)
         self.assertEqual(run.returncode, 130)
         self.assertEqual(processes_of(self.folder / "run"), [])
-        last = self.summary(0, "run", "lis1", "--until", LONG, "--resume", "--ranks=2")
+        last = self.summary(0, "run", "lis1", "--until", RESUMED, "--resume", "--ranks=2")
         self.assertEqual((last["ranks"], last["state_hash"]), (2, whole["state_hash"]))
 
     def test_more_ranks_than_mpirun_starts(self):
@@ -297,7 +298,7 @@ class Ends(Ranks):
         self.assertEqual(run.returncode, 0, said)
 
     def test_a_rank_that_is_killed(self):
-        whole = self.summary(0, "whole", "lis1", "--until", LONG)
+        whole = self.summary(0, "whole", "lis1", "--until", RESUMED)
         run = self.begin(3, "run", "lis1", "--until", LONG)
         os.kill(processes_of(self.folder / "run")[-1], signal.SIGKILL)
         begun = time.monotonic()
@@ -306,7 +307,7 @@ class Ends(Ranks):
         while processes_of(self.folder / "run") and time.monotonic() < begun + 5.0:
             time.sleep(0.05)
         self.assertEqual(processes_of(self.folder / "run"), [])
-        self.assertEqual(self.summary(2, "run", "lis1", "--until", LONG, "--resume")["state_hash"],
+        self.assertEqual(self.summary(2, "run", "lis1", "--until", RESUMED, "--resume")["state_hash"],
                          whole["state_hash"])
 
 
