@@ -198,12 +198,14 @@ TEST_F(InterruptionTest, MemoryThatDoesNotSufficeSaysHowMuchIsNeeded) {
          {Shortage{400'000'000,
                    {"run", "small", "--set", "hanging_wall.mean_radius_m=1", "--output", out}},
           Shortage{400'000'000, {"bench", "--discs", "3000000", "--threads", "2"}},
-          Shortage{150'000'000,
+          Shortage{90'000'000,
                    {"laboratory", "uniaxial", "mat18-b", "--discs", "100000", "--seeds", "4",
                     "--threads", "4", "--output", out + "-uniaxial"}}}) {
         const auto limit = [most = most] {
-            const rlimit both{most, most};
-            setrlimit(RLIMIT_AS, &both);
+            const rlimit memory{most, most};
+            const rlimit seconds{60, 60}; // should memory suffice
+            setrlimit(RLIMIT_AS, &memory);
+            setrlimit(RLIMIT_CPU, &seconds);
         };
         const Ended ended = Program(folder, words, limit).wait();
         EXPECT_EQ(ended.code, 4) << words[0] << ": " << ended.err;
