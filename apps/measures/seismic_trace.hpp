@@ -66,7 +66,8 @@ void add_reflections(std::span<float> trace, double interval,
 /// @param last  velocity below the last boundary, m/s
 double time_at(std::span<const Reflection> reflections, double depth, double last);
 
-/// Likewise for samples `interval` m of depth apart, each at its two-way time.
+/// Adds every reflection's wavelet to a trace whose samples are `interval` m of depth apart, each
+/// at its two-way time.
 void add_reflections_in_depth(std::span<float> trace, double interval,
                               std::span<const Reflection> reflections, double last,
                               double frequency);

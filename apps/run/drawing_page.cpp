@@ -123,28 +123,22 @@ Json schema_of(EffectList effects) {
     return schema;
 }
 
-Json rocks_on_shelf() {
-    Json rocks = Json::object();
-    for (const std::string& name : materials.names()) {
-        const RockMaterial rock = load_material(name);
-        rocks[name] = {{"description", rock.description},
-                       {"normal_stiffness_pa", rock.material.normal_stiffness},
-                       {"shear_stiffness_pa", rock.material.shear_stiffness},
-                       {"friction", rock.material.friction}};
-    }
-    return rocks;
-}
-
-/// Rocks of the scene that are on no shelf, by the path that its text has.
-void add_own_rocks(Json& rocks, const Scene& scene) {
-    for (const auto& [key, file] : scene.rocks) {
-        const RockMaterial rock = read_material(file);
-        rocks[fs::absolute(file).lexically_normal().string()] = {
-            {"description", rock.description},
+Json rock_json(const RockMaterial& rock) {
+    return {{"description", rock.description},
             {"normal_stiffness_pa", rock.material.normal_stiffness},
             {"shear_stiffness_pa", rock.material.shear_stiffness},
             {"friction", rock.material.friction}};
-    }
+}
+
+/// Rocks of the shelf by name, and those of the scene that are on no shelf by the path that its
+/// text has.
+Json rocks_json(const Scene& scene) {
+    Json rocks = Json::object();
+    for (const std::string& name : materials.names())
+        rocks[name] = rock_json(load_material(name));
+    for (const auto& [key, file] : scene.rocks)
+        rocks[fs::absolute(file).lexically_normal().string()] = rock_json(read_material(file));
+    return rocks;
 }
 
 Json terms_json(const PriceTerms& terms) {
@@ -296,14 +290,12 @@ std::string drawing_html(const std::string& name, const std::optional<UnderPictu
                          int threads, EffectList effects) {
     const fs::path path = scenes.find(name);
     const Scene scene = load_scene({.scene = name}, effects);
-    Json rocks = rocks_on_shelf();
-    add_own_rocks(rocks, scene);
     Json data{{"program", "listric " + std::string(version)},
               {"scene", scene.name},
               {"on_shelf", !is_path(name)},
               {"toml", scene_text(scene, path, effects)},
               {"basement", basement_source.key},
-              {"rocks", rocks},
+              {"rocks", rocks_json(scene)},
               {"levels", levels_json()},
               {"effects", effects_json(effects)},
               {"prices", prices_json()},

@@ -70,6 +70,11 @@ struct RockSource {
     std::string (*remark)(const Scene&) = nullptr; ///< what matters most about the rock
 };
 
+/// The rock of sediment, for an effect that takes further defaults from its file.
+constexpr RockSource rock_of_sediment(void (*take)(Scene& scene, const RockMaterial& rock)) {
+    return {.key = "sediment", .file = "sediment", .doc = {}, .changes = {}, .take = take};
+}
+
 /// Sediment as effects describe it to each other and to measures.
 struct SedimentFacts {
     double level = 0.0;                   ///< m, y up

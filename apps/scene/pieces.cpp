@@ -2,6 +2,9 @@
 
 #include "apps/scene/sediment_pores.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace listric {
 
 const std::vector<Parameter>& segment_parameters(dem::DetachmentSegment::Kind kind) {
@@ -31,36 +34,12 @@ const std::vector<Parameter>& segment_parameters(dem::DetachmentSegment::Kind ki
 
 const std::vector<Parameter>& pore_parameters() {
     using S = SedimentPores;
-    using coupling::Permeability;
-    static const std::vector<Parameter> parameters{
-        {"surface_porosity", at<&S::surface_porosity>, "", between(0, 0.9), "Phi_ini",
-         "porosity of fresh sediment",
-         "Raising it makes fresh sediment lighter, and lets it compact more."},
-        {"coefficient_per_km",
-         at<&S::coefficient>,
-         "1/km",
-         between(0, 10),
-         "c",
-         "decay of porosity with depth",
-         "Raising it compacts sediment more, so that the basin takes more of it.",
-         {},
-         1e3},
-        {"permeability_m2",
-         at<&S::permeability, &Permeability::at_fifth>,
-         "m2",
-         {.from = 1e-22, .to = 1e-12, .reason = "1e-18 is mud, 1e-15 silt; 1 darcy is 1e-12"},
-         "",
-         "permeability at a porosity of 0.2; of law mudstone not used",
-         "Lowering it keeps water in the pores: pressure rises, sediment stays porous and light.",
-         between(1e-20, 1e-13)},
-        {"permeability_law",
-         one_of<&S::permeability, &Permeability::law>({"kozeny_carman", "constant", "mudstone"}),
-         "", ranges::any, "", "how permeability falls with porosity",
-         "\"constant\" lets fresh mud drain too slowly: pressure is greatest near the ground."},
-        {"clay_fraction", at<&S::permeability, &Permeability::clay_fraction>, "",
-         between(0.12, 0.97), "", "clay of law mudstone: mass below 2 micrometres, over all",
-         "Raising it lowers permeability by some orders of magnitude."},
-    };
+    static const std::vector<Parameter> parameters = [] {
+        std::vector<Parameter> all{surface_porosity_parameter<&S::surface_porosity>(),
+                                   porosity_decay_parameter<&S::coefficient>()};
+        std::ranges::copy(permeability_parameters<&S::permeability>(), std::back_inserter(all));
+        return all;
+    }();
     return parameters;
 }
 

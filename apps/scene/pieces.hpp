@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/scene/parameter.hpp"
+#include "coupling/pore_law.hpp"
 #include "dem/material.hpp"
 
 // Parameters of what several tables have, or what stands inside a table.
@@ -60,6 +61,54 @@ template <auto... Path> std::vector<Parameter> bond_parameters() {
         {"strength_is", one_of<Path..., &BondStrength::reading>({"stress", "force"}), "",
          ranges::any, "", "strengths are stresses on the mean disc section, or forces in N",
          "With \"force\" and the paper's numbers bonds fail under the weight of the rock."},
+    };
+}
+
+/// Porosity of fresh sediment, at a path of members.
+template <auto... Path> Parameter surface_porosity_parameter() {
+    return {"surface_porosity",
+            at<Path...>,
+            "",
+            between(0, 0.9),
+            "Phi_ini",
+            "porosity of fresh sediment",
+            "Raising it makes fresh sediment lighter, and lets it compact more."};
+}
+
+/// Decay of porosity with depth, 1/m, at a path of members.
+template <auto... Path> Parameter porosity_decay_parameter() {
+    return {"coefficient_per_km",
+            at<Path...>,
+            "1/km",
+            between(0, 10),
+            "c",
+            "decay of porosity with depth",
+            "Raising it compacts sediment more, so that the basin takes more of it.",
+            {},
+            1e3};
+}
+
+/// How sediment lets water through, of the Permeability at a path of members.
+template <auto... Path> std::vector<Parameter> permeability_parameters() {
+    using coupling::Permeability;
+    return {
+        {"permeability_m2",
+         at<Path..., &Permeability::at_fifth>,
+         "m2",
+         {.from = 1e-22, .to = 1e-12, .reason = "1e-18 is mud, 1e-15 silt; 1 darcy is 1e-12"},
+         "",
+         "permeability of sediment at a porosity of 0.2; of law mudstone not used",
+         "Lowering it keeps water in the pores: pressure rises, sediment stays porous and light.",
+         between(1e-20, 1e-13)},
+        {"permeability_law",
+         one_of<Path..., &Permeability::law>({"kozeny_carman", "constant", "mudstone"}), "",
+         ranges::any, "",
+         "how permeability falls with porosity: kozeny_carman, constant, or mudstone [Yang and "
+         "Aplin 2010], which follows from the clay fraction",
+         "\"constant\" lets fresh mud drain too slowly: pressure is greatest near the ground."},
+        {"clay_fraction", at<Path..., &Permeability::clay_fraction>, "", between(0.12, 0.97), "",
+         "clay of law mudstone: mass below 2 micrometres, over all",
+         "Raising it lowers permeability by some orders of magnitude."},
     };
 }
 

@@ -20,11 +20,9 @@ import unittest
 from pathlib import Path
 
 import jsonschema
-from selenium import webdriver
-from selenium.webdriver.chrome.options import Options
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
+from browsed import Browsed, browser
 from program import PROGRAM, SOURCES
 
 CHAINS = os.environ.get("LISTRIC_CHAINS", "")
@@ -35,17 +33,6 @@ MOST_BYTES = 400_000
 
 def listric(*words, **options):
     return subprocess.run([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
-
-
-def browser(downloads):
-    options = Options()
-    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1200,1000"):
-        options.add_argument(word)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-    driver.execute_cdp_cmd("Page.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(downloads)})
-    driver.set_script_timeout(60)
-    return driver
 
 
 def picture_file(path, width=400, height=150):
@@ -87,7 +74,7 @@ return a[0].map(one => {
 });"""
 
 
-class Draw(unittest.TestCase):
+class Draw(Browsed):
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
@@ -98,27 +85,11 @@ class Draw(unittest.TestCase):
         ended = listric("draw", cwd=cls.folder)
         assert ended.returncode == 0 and ended.stdout == "lis1-drawing.html\n", ended.stdout
         cls.page = cls.folder / "lis1-drawing.html"
-        cls.driver = browser(cls.downloads)
+        cls.driver = browser(cls.downloads, 1200, 1000)
         cls.addClassCleanup(cls.driver.quit)
 
     def open(self, file=None):
-        self.driver.get("about:blank")
-        self.driver.get_log("browser")
-        self.driver.get_log("performance")
-        self.driver.get(f"file://{file or self.page}")
-        for _ in range(200):
-            if ready := self.driver.execute_script("return document.documentElement.dataset.ready"):
-                self.assertEqual(ready, "true", self.text("trouble"))
-                return
-            time.sleep(0.05)
-        self.fail("the page did not become ready")
-
-    def script(self, text, *arguments):
-        ended = self.driver.execute_async_script(
-            "const done = arguments[arguments.length - 1]; (async (...a) => {" + text +
-            "})(...arguments).then(value => done([value]), error => done(String(error.stack)));", *arguments)
-        self.assertIsInstance(ended, list, ended)
-        return ended[0]
+        self.assertEqual(self.visit(f"file://{file or self.page}"), "true", self.text("trouble"))
 
     def text(self, element):
         return self.driver.find_element("id", element).text

@@ -20,11 +20,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 from PIL import Image
-from selenium import webdriver
-from selenium.webdriver.chrome.options import Options
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
+from browsed import Browsed, browser
 from program import PROGRAM, SOURCES
 
 sys.path.insert(0, str(SOURCES / "apps/figures/python"))
@@ -41,19 +39,6 @@ HOSTILE = "</script><img src=x onerror=alert(1)>"
 def listric(*words, **options):
     return subprocess.run([PROGRAM, *words], cwd=SOURCES, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, **options)
-
-
-def browser(downloads, width=1600, height=1400):
-    options = Options()
-    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                 f"--window-size={width},{height}"):
-        options.add_argument(word)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-    driver.execute_cdp_cmd("Page.setDownloadBehavior",
-                           {"behavior": "allow", "downloadPath": str(downloads)})
-    driver.set_script_timeout(60)
-    return driver
 
 
 def lightness(colour, seen_by):
@@ -92,7 +77,7 @@ def counted(colours):
     return [colours.count(rock["colour"]) for rock in VOCABULARY["rock_classes"]]
 
 
-class Report(unittest.TestCase):
+class Report(Browsed):
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
@@ -109,24 +94,7 @@ class Report(unittest.TestCase):
         cls.addClassCleanup(cls.driver.quit)
 
     def open(self, file=None, words=""):
-        self.driver.get("about:blank")
-        self.driver.get_log("browser")
-        self.driver.get_log("performance")
-        self.driver.get(f"file://{file or self.run_folder / 'report.html'}{words}")
-        for _ in range(300):
-            if ready := self.driver.execute_script("return document.documentElement.dataset.ready"):
-                return ready
-            time.sleep(0.1)
-        self.fail("the page did not become ready")
-
-    def script(self, text, *arguments):
-        """What an asynchronous function with this body returns."""
-        ended = self.driver.execute_async_script(
-            "const done = arguments[arguments.length - 1]; (async (...a) => {" + text +
-            "})(...arguments).then(value => done([value]), error => done(String(error)));",
-            *arguments)
-        self.assertIsInstance(ended, list, ended)
-        return ended[0]
+        return self.visit(f"file://{file or self.run_folder / 'report.html'}{words}")
 
     def snapshots(self):
         return sorted((self.run_folder / "snapshots").glob("*.h5"))

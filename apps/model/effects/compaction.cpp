@@ -1,6 +1,7 @@
 #include "dem/events/compaction.hpp"
 
 #include "apps/model/effect_list.hpp"
+#include "apps/scene/pieces.hpp"
 
 namespace listric::effects::compaction {
 
@@ -18,25 +19,12 @@ const Effect& effect() {
                 {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_d",
                  "time between updates of the depth of burial; discs shrink in every cycle",
                  "Raising it lets porosity lag behind burial."},
-                {"coefficient_per_km",
-                 at<&P::coefficient>,
-                 "1/km",
-                 between(0, 10),
-                 "c",
-                 "decay of porosity with depth",
-                 "Raising it compacts sediment more, so that the basin takes more of it.",
-                 {},
-                 1e3},
+                porosity_decay_parameter<&P::coefficient>(),
             },
-        .rock = RockSource{.key = "sediment",
-                           .file = "sediment",
-                           .doc = "",
-                           .changes = "",
-                           .take =
-                               [](Scene& scene, const RockMaterial& rock) {
-                                   if (rock.pores)
-                                       scene.find<P>()->coefficient = rock.pores->coefficient;
-                               }},
+        .rock = rock_of_sediment([](Scene& scene, const RockMaterial& rock) {
+            if (rock.pores)
+                scene.find<P>()->coefficient = rock.pores->coefficient;
+        }),
         .needs = {"sedimentation"},
         .contribute =
             [](const Scene& scene, ModelParts& parts) {

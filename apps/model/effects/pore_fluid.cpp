@@ -7,6 +7,7 @@
 #include "coupling/pore_column.hpp"
 
 #include "apps/model/effect_list.hpp"
+#include "apps/scene/pieces.hpp"
 
 #include <fmt/format.h>
 
@@ -18,32 +19,14 @@ namespace {
 
 using P = coupling::PoreFluidParameters;
 using coupling::FaultFactors;
-using coupling::Permeability;
 
 std::vector<Parameter> parameters() {
-    return {
+    std::vector<Parameter> all{
         {"interval_a", at<&P::interval>, "a", ranges::years, "",
          "time between solutions for the pressure; a multiple of the time between updates of "
          "porosity",
          "Raising it above the default makes pressures less accurate: 0.3 % at 2,500 a.",
          between(500, 2500)},
-        {"permeability_m2",
-         at<&P::permeability, &Permeability::at_fifth>,
-         "m2",
-         {.from = 1e-22, .to = 1e-12, .reason = "1e-18 is mud, 1e-15 silt; 1 darcy is 1e-12"},
-         "",
-         "permeability of sediment at a porosity of 0.2; of law mudstone not used",
-         "Lowering it keeps water in the pores: pressure rises, sediment stays porous and light.",
-         between(1e-20, 1e-15)},
-        {"permeability_law",
-         one_of<&P::permeability, &Permeability::law>({"kozeny_carman", "constant", "mudstone"}),
-         "", ranges::any, "",
-         "how permeability falls with porosity: kozeny_carman, constant, or mudstone [Yang and "
-         "Aplin 2010], which follows from the clay fraction",
-         "\"constant\" lets fresh mud drain too slowly: pressure is greatest near the ground."},
-        {"clay_fraction", at<&P::permeability, &Permeability::clay_fraction>, "",
-         between(0.12, 0.97), "", "clay of law mudstone: mass below 2 micrometres, over all",
-         "Raising it lowers permeability by some orders of magnitude."},
         {"fluid_density_kg_per_m3", at<&P::density>, "kg/m3", ranges::density, "",
          "density of the water", "Raising it lets grains weigh less."},
         {"viscosity_pa_s", at<&P::viscosity>, "Pa s", between(1e-5, 1.0), "",
@@ -77,6 +60,9 @@ std::vector<Parameter> parameters() {
          "false keeps pores open by the same pressures, but lets contacts carry all weight: a "
          "control."},
     };
+    const auto permeability = permeability_parameters<&P::permeability>();
+    all.insert(all.begin() + 1, permeability.begin(), permeability.end());
+    return all;
 }
 
 coupling::WetSediment wet_sediment(const ModelParts& parts) {
@@ -196,15 +182,10 @@ const Effect& effect() {
         .defaults = make_defaults<P>,
         .address = address_of<P>,
         .parameters = parameters(),
-        .rock = RockSource{.key = "sediment",
-                           .file = "sediment",
-                           .doc = "",
-                           .changes = "",
-                           .take =
-                               [](Scene& scene, const RockMaterial& rock) {
-                                   if (rock.pores)
-                                       scene.find<P>()->permeability = rock.pores->permeability;
-                               }},
+        .rock = rock_of_sediment([](Scene& scene, const RockMaterial& rock) {
+            if (rock.pores)
+                scene.find<P>()->permeability = rock.pores->permeability;
+        }),
         .needs = {"gravity", "sedimentation", "compaction"},
         .in_genesis = true,
         .as_in_genesis = as_in_genesis,

@@ -3,6 +3,7 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/model/measure_names.hpp"
+#include "apps/scene/pieces.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
 #include "dem/genesis/genesis.hpp"
@@ -29,9 +30,7 @@ std::vector<Parameter> parameters() {
         {"target", at<&P::target>, "", ranges::height, "",
          "target line: points [x, y] in m, or stages {time_a, points}; fills below, erodes above",
          "Sets where sediment is laid down and where rock is eroded, also over time."},
-        {"surface_porosity", at<&P::surface_porosity>, "", between(0, 0.9), "Phi_ini",
-         "porosity of fresh sediment",
-         "Raising it makes fresh sediment lighter, and lets it compact more."},
+        surface_porosity_parameter<&P::surface_porosity>(),
         {"grain_density_kg_per_m3", at<&P::grain_density>, "kg/m3", ranges::density, "",
          "density of sediment at zero porosity",
          "Raising it makes sediment heavier in proportion; an elastic base sinks more."},
