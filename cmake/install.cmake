@@ -5,7 +5,8 @@ include(CMakePackageConfigHelpers)
 install(TARGETS listric RUNTIME COMPONENT program)
 set(share ${CMAKE_INSTALL_DATADIR}/listric)
 install(DIRECTORY apps/scenes apps/materials DESTINATION ${share} COMPONENT program)
-install(FILES apps/scene.schema.json apps/material.schema.json DESTINATION ${share}
+install(FILES apps/scene.schema.json apps/material.schema.json apps/sweep.schema.json
+  apps/validation.schema.json apps/flexure.schema.json DESTINATION ${share}
   COMPONENT program)
 install(DIRECTORY apps/studies/ DESTINATION ${share}/studies COMPONENT program
   FILES_MATCHING PATTERN *.toml)

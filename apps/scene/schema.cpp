@@ -2,6 +2,7 @@
 
 #include "apps/scene/file_names.hpp"
 #include "apps/scene/pieces.hpp"
+#include "apps/scene/schema_parts.hpp"
 #include "apps/scene/tables.hpp"
 #include "apps/scene/toml.hpp"
 #include "apps/support/json_text.hpp"
@@ -38,7 +39,9 @@ Json array_of(Json item, int least = 0) {
     return schema;
 }
 
-Json closed_table(std::string_view doc, Json properties, Json required = Json::array()) {
+} // namespace
+
+Json closed_table(std::string_view doc, Json properties, Json required) {
     Json schema{{"type", "object"}, {"additionalProperties", false}};
     if (!doc.empty())
         schema["description"] = doc;
@@ -48,8 +51,7 @@ Json closed_table(std::string_view doc, Json properties, Json required = Json::a
     return schema;
 }
 
-Json table_schema(std::string_view doc, const std::vector<Parameter>& parameters,
-                  const void* object);
+namespace {
 
 /// Schema of a value, one function for each type.
 struct Allowed {
@@ -161,6 +163,8 @@ Json parameter_schema(const Parameter& parameter, const void* object) {
     return schema;
 }
 
+} // namespace
+
 Json table_schema(std::string_view doc, const std::vector<Parameter>& parameters,
                   const void* object) {
     Json properties = Json::object(), required = Json::array();
@@ -171,6 +175,14 @@ Json table_schema(std::string_view doc, const std::vector<Parameter>& parameters
     }
     return closed_table(doc, std::move(properties), std::move(required));
 }
+
+std::string finished_schema(const char* title, const Json& schema) {
+    Json document{{"$schema", "http://json-schema.org/draft-04/schema#"}, {"title", title}};
+    document.update(schema);
+    return to_text(document, 1) + "\n";
+}
+
+namespace {
 
 Json needs(const std::vector<std::string_view>& tables) { return {{"required", tables}}; }
 
@@ -209,12 +221,6 @@ void allow_sources(Json& detachment) {
     detachment["dependencies"]["csv_delimiter"] = {"csv"};
 }
 
-std::string finished(const char* title, const Json& schema) {
-    Json document{{"$schema", "http://json-schema.org/draft-04/schema#"}, {"title", title}};
-    document.update(schema);
-    return to_text(document, 1) + "\n";
-}
-
 } // namespace
 
 std::string scene_schema(EffectList effects) {
@@ -242,16 +248,7 @@ std::string scene_schema(EffectList effects) {
     allow_sources(properties["detachment"]);
     schema["required"].push_back("hanging_wall");
     schema["dependencies"] = dependencies(effects);
-    return finished("A scene of Listric", schema);
-}
-
-std::string plan_schema(const char* title, std::span<const PlanTable> tables) {
-    const Heading heading;
-    Json schema = table_schema("", top_level(), &heading);
-    for (const PlanTable& table : tables)
-        schema["properties"][std::string(table.name)] =
-            table_schema(table.doc, table.parameters, table.object);
-    return finished(title, schema);
+    return finished_schema("A scene of Listric", schema);
 }
 
 std::string material_schema() {
@@ -277,7 +274,7 @@ std::string material_schema() {
          whole("strengths of contact bonds, of rock that is bonded", bond_parameters<>(), &bonds)},
         {"pores",
          whole("how sediment compacts and lets water through", pore_parameters(), &pores)}};
-    return finished("A material of Listric", closed_table("", properties, {"material"}));
+    return finished_schema("A material of Listric", closed_table("", properties, {"material"}));
 }
 
 } // namespace listric

@@ -2,7 +2,7 @@
 
 #include "apps/model/effects.hpp"
 #include "apps/scene/scene_checks.hpp"
-#include "apps/scene/schema.hpp"
+#include "apps/scene/schema_parts.hpp"
 #include "apps/scene/tables.hpp"
 #include "apps/support/spelling.hpp"
 
@@ -22,6 +22,12 @@ constexpr Shelf flexure_shelf{"flexure plan", "it needs [flexure]", "", "studies
 constexpr std::string_view flexure_doc = "a load on the base alone, without discs";
 
 /// A table of a plan, and the object whose parameters it has.
+struct PlanTable {
+    std::string_view name, doc;
+    std::vector<Parameter> parameters;
+    void* object;
+};
+
 std::vector<PlanTable> tables_of(FlexurePlan& plan) {
     const Effect& bender = *plan.base.effect;
     return {
@@ -164,7 +170,12 @@ std::string to_toml(const FlexurePlan& plan) {
 
 std::string flexure_schema() {
     FlexurePlan plan = default_plan();
-    return plan_schema("A plan of flexure of Listric", tables_of(plan));
+    const Heading heading;
+    auto schema = table_schema("", top_level(), &heading);
+    for (const PlanTable& table : tables_of(plan))
+        schema["properties"][std::string(table.name)] =
+            table_schema(table.doc, table.parameters, table.object);
+    return finished_schema("A plan of flexure of Listric", schema);
 }
 
 std::string flexure_reference() {

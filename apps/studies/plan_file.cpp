@@ -1,5 +1,7 @@
 #include "apps/studies/plan_file.hpp"
 
+#include "apps/archive/dictionary.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/scene/shelf.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
@@ -82,6 +84,25 @@ std::vector<Entry> tables(const Entry& parent, const char* key) {
     for (const toml::node& item : *node->as_array())
         all.push_back({item, fmt::format("{}[{}]", path, all.size())});
     return all;
+}
+
+nlohmann::ordered_json measure_schema(MeasuredAt place) {
+    using Json = nlohmann::ordered_json;
+    Json at_end = Json::array(), at_moments = Json::array();
+    std::string pattern;
+    for (const archive::DictionaryEntry& entry : archive::dictionary(program_effects())) {
+        if (entry.at_end)
+            at_end.push_back(entry.quantity.name);
+        if (entry.at_moments) {
+            at_moments.push_back(entry.quantity.name);
+            pattern += fmt::format("{}{}", pattern.empty() ? "" : "|", entry.quantity.name);
+        }
+    }
+    if (place == MeasuredAt::any_snapshot)
+        return {{"type", "string"}, {"enum", at_moments}};
+    return {
+        {"type", "string"},
+        {"anyOf", {{{"enum", at_end}}, {{"pattern", fmt::format("^({})@[0-9.eE+-]+$", pattern)}}}}};
 }
 
 } // namespace listric

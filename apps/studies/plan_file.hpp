@@ -2,6 +2,8 @@
 
 #include "apps/scene/toml.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,5 +34,10 @@ void need_name(const Entry& entry, const char* key, const std::string& name);
 
 /// The tables of the array `key`, if it is there, and their paths. Throws SceneError.
 std::vector<Entry> tables(const Entry& parent, const char* key);
+
+/// Schema of a measure's name, as the dictionary has it: of any snapshot, or of a run's end and, as
+/// NAME@METRES, of any snapshot.
+enum class MeasuredAt { any_snapshot, end_or_snapshot };
+nlohmann::ordered_json measure_schema(MeasuredAt place);
 
 } // namespace listric

@@ -3,6 +3,7 @@
 #include "apps/archive/dictionary.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/run/oversize.hpp"
+#include "apps/scene/schema_parts.hpp"
 #include "apps/scene/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/number.hpp"
@@ -62,6 +63,12 @@ const std::vector<Parameter>& plan_parameters() {
     return parameters;
 }
 
+const std::vector<Parameter>& varied_parameters() {
+    static const std::vector<Parameter> parameters{
+        {"parameter", at<&SweepParameter::name>, "", {}, "", "table.key of what varies"}};
+    return parameters;
+}
+
 SweepValue value_of(const Entry& entry) {
     if (const auto* word = entry.node.as_string()) {
         if (word->get().find_first_of(",\"") != std::string::npos ||
@@ -112,8 +119,7 @@ void try_value(const SweepPlan& plan, const Entry& entry, const SweepParameter& 
 
 SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     SweepParameter parameter;
-    read_table(entry, {{"parameter", at<&SweepParameter::name>, "", {}, "", "table.key"}},
-               &parameter, {"values", "range"});
+    read_table(entry, varied_parameters(), &parameter, {"values", "range"});
     need(entry, "parameter", !parameter.name.empty());
     const toml::table& table = *entry.node.as_table();
     const toml::node* const values = table.get("values");
@@ -318,6 +324,30 @@ Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed
     for (std::size_t k = 0; k < point.size(); ++k)
         request.set.push_back(plan.parameters[k].name + "=" + point[k].toml);
     return load_scene(request);
+}
+
+std::string sweep_schema() {
+    using Json = nlohmann::ordered_json;
+    const auto array_of = [](const char* doc, Json items, int least) {
+        return Json{{"type", "array"}, {"description", doc}, {"items", items}, {"minItems", least}};
+    };
+    const SweepParameter parameter;
+    Json varied = table_schema("", varied_parameters(), &parameter);
+    varied["properties"]["values"] =
+        array_of("values to try", {{"type", {"number", "string", "boolean"}}}, 1);
+    varied["properties"]["range"] =
+        array_of("least and greatest, for a Latin hypercube", {{"type", "number"}}, 2);
+    varied["properties"]["range"]["maxItems"] = 2;
+    varied["required"] = {"parameter"};
+    varied["oneOf"] = Json::array({{{"required", {"values"}}}, {{"required", {"range"}}}});
+
+    const PlanText text;
+    Json schema = table_schema("", plan_parameters(), &text);
+    schema["properties"]["measures"] =
+        array_of("measures of every run", measure_schema(MeasuredAt::end_or_snapshot), 0);
+    schema["properties"]["vary"] = array_of("parameters that vary", varied, 1);
+    schema["required"] = {"scene", "measures", "vary"};
+    return finished_schema("A sweep plan of Listric", schema);
 }
 
 } // namespace listric

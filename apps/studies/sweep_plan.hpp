@@ -61,4 +61,7 @@ std::vector<SweepPoint> sweep_points(const SweepPlan& plan);
 /// The scene of a point. Throws SceneError.
 Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed);
 
+/// JSON schema of a plan's file.
+std::string sweep_schema();
+
 } // namespace listric

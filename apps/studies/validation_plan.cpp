@@ -2,6 +2,7 @@
 
 #include "apps/archive/dictionary.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/scene/schema_parts.hpp"
 #include "apps/scene/shelf.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/support/spelling.hpp"
@@ -33,7 +34,7 @@ struct RunText {
     std::string set, without;
 };
 
-ValidationRun read_run(const Entry& entry) {
+const std::vector<Parameter>& run_parameters() {
     using T = RunText;
     using R = ValidationRun;
     static const std::vector<Parameter> parameters{
@@ -44,8 +45,12 @@ ValidationRun read_run(const Entry& entry) {
         {"seeds", at<&T::run, &R::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"},
         {"accuracy", at<&T::run, &R::accuracy>, "", {}, "", "if always the same"},
         {"at_m", at<&T::run, &R::at>, "m", {.from = 0, .to = 1e6}, "", "measured there"}};
+    return parameters;
+}
+
+ValidationRun read_run(const Entry& entry) {
     RunText text;
-    read_table(entry, parameters, &text);
+    read_table(entry, run_parameters(), &text);
     ValidationRun& run = text.run;
     run.set = words(text.set);
     run.without = words(text.without);
@@ -58,7 +63,7 @@ ValidationRun read_run(const Entry& entry) {
 const std::vector<Parameter>& expectation_parameters() {
     using E = Expectation;
     static const std::vector<Parameter> parameters{
-        {"kind", one_of<&E::kind>(kinds), "", {}, "", ""},
+        {"kind", one_of<&E::kind>(kinds), "", {}, "", "kind of the row"},
         {"measure", at<&E::measure>, "", {}, "", "name"},
         {"what", at<&E::what>, "", {}, "", "for people"},
         {"run", at<&E::run>, "", {}, "", "default: the first"},
@@ -67,10 +72,15 @@ const std::vector<Parameter>& expectation_parameters() {
         {"since_m", at<&E::since>, "m", {.from = 0, .to = 1e6}, "", "extension taken off"},
         {"unit", at<&E::unit>, "", {.above = 0}, "", "value over this is shown"},
         {"digits", at<&E::digits>, "", {.from = 0, .to = 9}, "", "after the point"},
-        {"expected", at<&E::expected>, "", {}, "", ""},
-        {"tolerance", at<&E::tolerance>, "", {.from = 0}, "", ""},
-        {"least", at<&E::least>, "", {}, "", ""},
-        {"most", at<&E::most>, "", {}, "", ""},
+        {"expected", at<&E::expected>, "", {}, "", "value of the source"},
+        {"tolerance",
+         at<&E::tolerance>,
+         "",
+         {.from = 0},
+         "",
+         "most that a value may differ from it"},
+        {"least", at<&E::least>, "", {}, "", "least value"},
+        {"most", at<&E::most>, "", {}, "", "greatest value"},
         {"words", at<&E::words>, "", {}, "", "quoted: what says so"},
         {"source", at<&E::source>, "", {}, "", "figure and moment, or formula"},
         {"reason", at<&E::reason>, "", {}, "", "why it has no verdict"}};
@@ -89,33 +99,45 @@ Expectation read_expectation(const Entry& entry) {
     return e;
 }
 
+const std::vector<Parameter>& picture_parameters() {
+    static const std::vector<Parameter> parameters{
+        {"name", at<&ValidationPicture::name>, "", {}, "", "name of the file"},
+        {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}};
+    return parameters;
+}
+
+const std::vector<Parameter>& picture_row_parameters() {
+    using Row = ValidationPicture::Row;
+    static const std::vector<Parameter> parameters{
+        {"run", at<&Row::run>, "", {}, "", "drawn"},
+        {"at_m", at<&Row::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
+        {"seeds", at<&Row::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"}};
+    return parameters;
+}
+
 ValidationPicture read_picture(const Entry& entry) {
     ValidationPicture picture;
-    read_table(entry,
-               {{"name", at<&ValidationPicture::name>, "", {}, "", "name of the file"},
-                {"caption", at<&ValidationPicture::caption>, "", {}, "", "below it"}},
-               &picture, {"rows"});
+    read_table(entry, picture_parameters(), &picture, {"rows"});
     need_name(entry, "name", picture.name);
     for (const Entry& item : tables(entry, "rows")) {
-        using Row = ValidationPicture::Row;
-        Row row;
-        read_table(item,
-                   {{"run", at<&Row::run>, "", {}, "", "drawn"},
-                    {"at_m", at<&Row::at>, "m", {.from = 0, .to = 1e6}, "", "extension"},
-                    {"seeds", at<&Row::seeds>, "", {.from = 0, .to = 1000}, "", "0: all"}},
-                   &row);
+        ValidationPicture::Row row;
+        read_table(item, picture_row_parameters(), &row);
         picture.rows.push_back(row);
     }
     return picture;
 }
 
+const std::vector<Parameter>& dropped_parameters() {
+    static const std::vector<Parameter> parameters{
+        {"what", at<&DroppedRow::what>, "", {}, "", "row that was"},
+        {"asked", at<&DroppedRow::asked>, "", {}, "", "expected once"},
+        {"reason", at<&DroppedRow::reason>, "", {}, "", "why it is no more"}};
+    return parameters;
+}
+
 DroppedRow read_dropped(const Entry& entry) {
     DroppedRow row;
-    read_table(entry,
-               {{"what", at<&DroppedRow::what>, "", {}, "", "row that was"},
-                {"asked", at<&DroppedRow::asked>, "", {}, "", "expected once"},
-                {"reason", at<&DroppedRow::reason>, "", {}, "", "why it is no more"}},
-               &row);
+    read_table(entry, dropped_parameters(), &row);
     need(entry, "what", !row.what.empty());
     need(entry, "reason", !row.reason.empty());
     return row;
@@ -136,6 +158,21 @@ struct ExperimentText {
     ValidationExperiment experiment;
     std::string runs, seen_of;
 };
+
+const std::vector<Parameter>& experiment_parameters() {
+    using T = ExperimentText;
+    using X = ValidationExperiment;
+    static const std::vector<Parameter> parameters{
+        {"name", at<&T::experiment, &X::name>, "", {}, "", "for --only"},
+        {"title", at<&T::experiment, &X::title>, "", {}, "", "heading"},
+        {"about", at<&T::experiment, &X::about>, "", {}, "", "before the table"},
+        {"seen", at<&T::experiment, &X::seen>, "", {}, "", "in the pictures"},
+        {"seen_of", at<&T::seen_of>, "", {}, "", "seeds of these pictures"},
+        {"runs", at<&T::runs>, "", {}, "", "names of runs; the first is judged"},
+        {"like", at<&T::experiment, &X::like>, "", {}, "", "has this one's expectations, too"},
+        {"compare", at<&T::experiment, &X::compare>, "", {}, "", "run whose values stand beside"}};
+    return parameters;
+}
 
 /// Expectations of an experiment for other runs in the places of its own. Without those that
 /// ask for more runs than there are: a control, say.
@@ -160,19 +197,8 @@ std::vector<Expectation> expectations_of(const ValidationExperiment& experiment,
 ValidationExperiment
 read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& before,
                 const std::function<void(const Entry&, const std::string&)>& check_measure) {
-    using T = ExperimentText;
-    using X = ValidationExperiment;
-    static const std::vector<Parameter> parameters{
-        {"name", at<&T::experiment, &X::name>, "", {}, "", "for --only"},
-        {"title", at<&T::experiment, &X::title>, "", {}, "", "heading"},
-        {"about", at<&T::experiment, &X::about>, "", {}, "", "before the table"},
-        {"seen", at<&T::experiment, &X::seen>, "", {}, "", "in the pictures"},
-        {"seen_of", at<&T::seen_of>, "", {}, "", "seeds of these pictures"},
-        {"runs", at<&T::runs>, "", {}, "", "names of runs; the first is judged"},
-        {"like", at<&T::experiment, &X::like>, "", {}, "", "has this one's expectations, too"},
-        {"compare", at<&T::experiment, &X::compare>, "", {}, "", "run whose values stand beside"}};
     ExperimentText text;
-    read_table(entry, parameters, &text, {"expect", "dropped", "picture"});
+    read_table(entry, experiment_parameters(), &text, {"expect", "dropped", "picture"});
     ValidationExperiment& x = text.experiment;
     x.runs = words(text.runs);
     x.seen_of = read_seeds(entry, "seen_of", text.seen_of);
@@ -210,19 +236,23 @@ std::vector<std::string> effects_of(const ValidationPlan& plan) {
 }
 
 /// A plan's own keys.
-struct PlanText {
+struct ValidationText {
     std::string extends, seeds;
 };
+
+const std::vector<Parameter>& validation_parameters() {
+    static const std::vector<Parameter> parameters{
+        {"extends", at<&ValidationText::extends>, "", {}, "", "a plan"},
+        {"seeds", at<&ValidationText::seeds>, "", {}, "", "of the record"}};
+    return parameters;
+}
 
 /// @param extended  by another: then it cannot extend a third, or itself
 ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
     const toml::table document = validation_shelf.read(file);
     const Entry top{document, ""};
-    PlanText text;
-    read_table(top,
-               {{"extends", at<&PlanText::extends>, "", {}, "", "a plan"},
-                {"seeds", at<&PlanText::seeds>, "", {}, "", "of the record"}},
-               &text, {"run", "experiment"});
+    ValidationText text;
+    read_table(top, validation_parameters(), &text, {"run", "experiment"});
     ValidationPlan plan;
     plan.seeds = read_seeds(top, "seeds", text.seeds);
     std::vector<ValidationExperiment> known; // that others can be like
@@ -284,6 +314,41 @@ const ValidationRun& ValidationPlan::run(const std::string& name) const {
 
 ValidationPlan load_validation_plan(const std::filesystem::path& file) {
     return read_plan(file, false);
+}
+
+std::string validation_schema() {
+    using Json = nlohmann::ordered_json;
+    const auto array_of = [](const char* doc, const std::vector<Parameter>& parameters,
+                             const void* object, Json required) {
+        Json items = table_schema("", parameters, object);
+        if (!required.empty())
+            items["required"] = std::move(required);
+        return Json{{"type", "array"}, {"description", doc}, {"items", items}};
+    };
+    const RunText run;
+    const Expectation expectation;
+    const ValidationPicture picture;
+    const ValidationPicture::Row row;
+    const DroppedRow dropped;
+    const ExperimentText experiment;
+    const ValidationText plan;
+    Json schema = table_schema("", validation_parameters(), &plan);
+    schema["properties"]["run"] =
+        array_of("runs, a folder for each seed", run_parameters(), &run, {"name", "scene", "at_m"});
+    Json experiments = array_of("what is expected of them", experiment_parameters(), &experiment,
+                                {"name", "runs"});
+    Json& parts = experiments["items"]["properties"];
+    parts["expect"] =
+        array_of("rows of the table", expectation_parameters(), &expectation, {"measure", "what"});
+    parts["expect"]["items"]["properties"]["measure"].update(
+        measure_schema(MeasuredAt::any_snapshot));
+    parts["dropped"] =
+        array_of("rows that are no more", dropped_parameters(), &dropped, {"what", "reason"});
+    parts["picture"] = array_of("pictures of states", picture_parameters(), &picture, {"name"});
+    parts["picture"]["items"]["properties"]["rows"] =
+        array_of("states below each other", picture_row_parameters(), &row, Json::array());
+    schema["properties"]["experiment"] = std::move(experiments);
+    return finished_schema("A validation plan of Listric", schema);
 }
 
 bool Expectation::meets(double value) const {

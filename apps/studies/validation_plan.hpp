@@ -87,6 +87,9 @@ struct ValidationPlan {
 /// the shelf or a path beside it, may have experiments that are like those. Throws SceneError.
 ValidationPlan load_validation_plan(const std::filesystem::path& file);
 
+/// JSON schema of a plan's file.
+std::string validation_schema();
+
 /// Verdict of the seeds on an expectation.
 ///
 /// A row of faults asks how often a packing does that: *shown* is more often than not, *not shown*

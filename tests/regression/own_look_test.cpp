@@ -1,6 +1,5 @@
 // Layers of an effect that the program does not have, from its description alone: they are in what
-// the figures' scripts read and in the report. How a layer is drawn by its kind is tested where
-// pictures are: python_figures_test.py, report_test.py.
+// the figures' scripts read, in their pictures and in the report.
 
 #include "apps/figures/frame.hpp"
 #include "tests/regression/speed_gauge.hpp"
@@ -40,7 +39,42 @@ std::string unpacked(const std::string& text, std::size_t place) {
     return whole.substr(0, size);
 }
 
+/// How many pixels of all pictures in a folder have the colour "#rrggbb".
+int pixels(const std::filesystem::path& pictures, const std::string& ink) {
+    constexpr const char* script = R"(import sys
+from pathlib import Path
+from matplotlib.colors import to_rgb
+from matplotlib.image import imread
+print(sum(int((abs(imread(file)[..., :3] - to_rgb(sys.argv[1])).max(axis=2) < 1 / 256).sum())
+          for file in Path(sys.argv[2]).glob('*.png'))))";
+    const std::string call =
+        fmt::format("/usr/bin/python3 -I -c \"{}\" '{}' '{}'", script, ink, pictures.string());
+    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(call.c_str(), "r"), pclose);
+    int found = -1;
+    EXPECT_EQ(std::fscanf(pipe.get(), "%d", &found), 1) << call;
+    return found;
+}
+
 class OwnLook : public SceneRuns {};
+
+// From one description to the picture: without the effect no pixel has its inks.
+TEST_F(OwnLook, LayersAreInThePictures) {
+    unsetenv("LISTRIC_PYTHON");
+    for (const bool is_on : {true, false}) {
+        const Scene scene = load_scene({.scene = test_scene("every-effect.toml"),
+                                        .set = is_on ? std::vector<std::string>{"speed_gauge={}"}
+                                                     : std::vector<std::string>{}},
+                                       effects_and_gauge());
+        RunOptions o = options(is_on ? "with" : "without");
+        o.until = 50.0;
+        run_scene(scene, o);
+        for (const char* ink : {"#8e24aa", "#00695c"})
+            if (is_on)
+                EXPECT_GT(pixels(o.output / "figures", ink), 100) << ink;
+            else
+                EXPECT_EQ(pixels(o.output / "figures", ink), 0) << ink;
+    }
+}
 
 TEST_F(OwnLook, LayersAreInFiguresAndReport) {
     const Scene scene = load_scene(
