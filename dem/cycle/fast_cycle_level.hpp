@@ -36,21 +36,9 @@ template <bool bonded, bool frictional>
 [[gnu::always_inline]] inline void compute(Block& block, const double* discs, Slot* slots) {
     constexpr bool shears = bonded || frictional;
     for (int start = 0; start < 8; start += lane_count) {
-        // A row a contact: from its first disc to its second, and what it needs of each.
         const std::uint32_t* const first = block.first + start;
         const std::uint32_t* const second = block.second + start;
-        Lanes near[4], rates[4];
-        for (int k = 0; k < 4; ++k) {
-            const Lanes place_i = load_rows(discs, first, k), place_j = load_rows(discs, second, k);
-            near[k] = first_and_second_half(place_j - place_i, odd_numbers(place_i, place_j));
-            if constexpr (shears) {
-                const Lanes motion_i = load_rows(discs + 4, first, k);
-                const Lanes motion_j = load_rows(discs + 4, second, k);
-                rates[k] =
-                    first_and_second_half(motion_j - motion_i, even_numbers(motion_i, motion_j));
-            }
-        }
-        const auto [dx, dy, radius_i, radius_j] = transpose({near[0], near[1], near[2], near[3]});
+        const auto [dx, dy, radius_i, radius_j] = pair_columns<3>(discs, first, second);
 
         const Lanes reach = radius_i + radius_j;
         const Lanes square = dx * dx + dy * dy;
@@ -67,8 +55,7 @@ template <bool bonded, bool frictional>
         Mask holds = {}; // the bond
         Lanes shear = zero;
         if constexpr (shears) {
-            const auto [dvx, dvy, spin_i, spin_j] =
-                transpose({rates[0], rates[1], rates[2], rates[3]});
+            const auto [dvx, dvy, spin_i, spin_j] = pair_columns<2>(discs + 4, first, second);
             const Lanes slip_rate = dvy * nx - dvx * ny - (arm_i * spin_i + arm_j * spin_j);
             const Lanes stuck = load(block.shear_force + start) -
                                 load(block.shear_stiffness_times_step + start) * slip_rate;
@@ -93,13 +80,9 @@ template <bool bonded, bool frictional>
         const Lanes normal = (holds | pressed) ? elastic : zero;
         store(block.shear_force + start, shear);
 
-        const auto [a, b, c, d] = transpose(
+        store_rows(
+            reinterpret_cast<double*>(slots + block.slot) + start,
             {normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear, -(arm_j * shear)});
-        double* const to = reinterpret_cast<double*>(slots + block.slot) + start; // by stored_row
-        store(to, a);
-        store(to + 8, b);
-        store(to + 16, c);
-        store(to + 24, d);
     }
 }
 

@@ -76,72 +76,127 @@ inline Double4 magnitude(Double4 v) {
                                      std::numeric_limits<std::int64_t>::max());
 }
 
-// Rows of four numbers, one row a lane, and columns of lanes. Where eight lanes are one register,
-// rows k and k + 4 share one, so that nothing moves between its halves; where four are, it holds
-// row k.
+struct Lanes4 {
+    Lanes a, b, c, d;
+};
+
+// Rows of four numbers, one row a lane, and columns of lanes. What moves between the halves of a
+// register takes as long as three operations within them, so rows are loaded to where their columns
+// are put together: by halves where four lanes are one register, the halves of rows k and k + 2 in
+// one; whole where eight are, rows k and k + 4 in one, as loads would be twice as many.
+
+/// (a0, b0, a2, b2) of every four numbers.
+inline Lanes even_numbers(Lanes a, Lanes b) {
+#if LISTRIC_LEVEL >= 4
+    return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+#else
+    return __builtin_shufflevector(a, b, 0, 4, 2, 6);
+#endif
+}
+
+/// (a1, b1, a3, b3)
+inline Lanes odd_numbers(Lanes a, Lanes b) {
+#if LISTRIC_LEVEL >= 4
+    return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+#else
+    return __builtin_shufflevector(a, b, 1, 5, 3, 7);
+#endif
+}
 
 #if LISTRIC_LEVEL >= 4
 
-/// Register k of the rows at numbers + places[lane]. The compiler would load two rows and shuffle.
+/// Rows k and k + 4 at numbers + places[lane]. The compiler would load two rows and shuffle.
 inline Double8 load_rows(const double* numbers, const std::uint32_t* places, int k) {
     return reinterpret_cast<Double8>(
         _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_loadu_pd(numbers + places[k])),
                                  _mm256_loadu_pd(numbers + places[k + 4]), 1));
 }
 
-/// (a0, b0, a2, b2) of every row.
-inline Double8 even_numbers(Double8 a, Double8 b) {
-    return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-}
-/// (a1, b1, a3, b3)
-inline Double8 odd_numbers(Double8 a, Double8 b) {
-    return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-}
-/// (a0, a1, b0, b1)
-inline Double8 first_halves(Double8 a, Double8 b) {
-    return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-}
-/// (a2, a3, b2, b3)
-inline Double8 second_halves(Double8 a, Double8 b) {
-    return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-}
-/// (a0, a1, b2, b3)
-inline Double8 first_and_second_half(Double8 a, Double8 b) {
-    return __builtin_shufflevector(a, b, 0, 1, 10, 11, 4, 5, 14, 15);
+/// From rows to columns, or from columns to rows.
+inline Lanes4 transpose(const Lanes (&r)[4]) {
+    const Lanes even_ab = even_numbers(r[0], r[1]), odd_ab = odd_numbers(r[0], r[1]);
+    const Lanes even_cd = even_numbers(r[2], r[3]), odd_cd = odd_numbers(r[2], r[3]);
+    const auto first_halves = [](Lanes a, Lanes b) {
+        return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+    };
+    const auto second_halves = [](Lanes a, Lanes b) {
+        return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+    };
+    return {first_halves(even_ab, even_cd), first_halves(odd_ab, odd_cd),
+            second_halves(even_ab, even_cd), second_halves(odd_ab, odd_cd)};
 }
 
 #else
 
-inline Double4 load_rows(const double* numbers, const std::uint32_t* places, int k) {
-    return load(numbers + places[k]);
+/// Half of rows k and k + 2 at numbers + places[lane].
+inline Double4 load_halves(const double* numbers, const std::uint32_t* places, int k) {
+#if LISTRIC_LEVEL >= 3
+    return reinterpret_cast<Double4>(
+        _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(numbers + places[k])),
+                             _mm_loadu_pd(numbers + places[k + 2]), 1));
+#else
+    Double4 both;
+    std::memcpy(&both, numbers + places[k], sizeof both / 2);
+    std::memcpy(reinterpret_cast<char*>(&both) + sizeof both / 2, numbers + places[k + 2],
+                sizeof both / 2);
+    return both;
+#endif
 }
 
-inline Double4 even_numbers(Double4 a, Double4 b) {
-    return __builtin_shufflevector(a, b, 0, 4, 2, 6);
-}
-inline Double4 odd_numbers(Double4 a, Double4 b) {
-    return __builtin_shufflevector(a, b, 1, 5, 3, 7);
-}
-inline Double4 first_halves(Double4 a, Double4 b) {
-    return __builtin_shufflevector(a, b, 0, 1, 4, 5);
-}
-inline Double4 second_halves(Double4 a, Double4 b) {
-    return __builtin_shufflevector(a, b, 2, 3, 6, 7);
-}
-inline Double4 first_and_second_half(Double4 a, Double4 b) {
-    return __builtin_shufflevector(a, b, 0, 1, 6, 7);
+/// Stores (a, b) of lanes 0 and 2, or 1 and 3, as halves of rows that are eight numbers apart.
+inline void store_halves(double* to, Double4 halves) {
+#if LISTRIC_LEVEL >= 3
+    const auto all = reinterpret_cast<__m256d>(halves);
+    _mm_storeu_pd(to, _mm256_castpd256_pd128(all));
+    _mm_storeu_pd(to + 16, _mm256_extractf128_pd(all, 1));
+#else
+    std::memcpy(to, &halves, sizeof halves / 2);
+    std::memcpy(to + 16, reinterpret_cast<const char*>(&halves) + sizeof halves / 2,
+                sizeof halves / 2);
+#endif
 }
 
 #endif
 
-struct Lanes4 {
-    Lanes a, b, c, d;
-};
+/// Of pairs of rows, first and second: the difference of their numbers 0 and 1, second less first,
+/// and the number `own` (2 or 3) of each.
+template <int own>
+[[gnu::always_inline]] inline Lanes4 pair_columns(const double* numbers, const std::uint32_t* first,
+                                                  const std::uint32_t* second) {
+    const auto of_own = [](Lanes a, Lanes b) {
+        return own == 2 ? even_numbers(a, b) : odd_numbers(a, b);
+    };
+#if LISTRIC_LEVEL >= 4
+    Lanes rows[4];
+    for (int k = 0; k < 4; ++k) {
+        const Lanes i = load_rows(numbers, first, k), j = load_rows(numbers, second, k);
+        rows[k] = __builtin_shufflevector(j - i, of_own(i, j), 0, 1, 10, 11, 4, 5, 14, 15);
+    }
+    return transpose(rows);
+#else
+    Lanes apart[2], own_i[2], own_j[2];
+    for (int k = 0; k < 2; ++k) {
+        apart[k] = load_halves(numbers, second, k) - load_halves(numbers, first, k);
+        own_i[k] = load_halves(numbers + 2, first, k);
+        own_j[k] = load_halves(numbers + 2, second, k);
+    }
+    return {even_numbers(apart[0], apart[1]), odd_numbers(apart[0], apart[1]),
+            of_own(own_i[0], own_i[1]), of_own(own_j[0], own_j[1])};
+#endif
+}
 
-/// From rows to columns, or from columns to rows.
-inline Lanes4 transpose(const Lanes4& r) {
-    const Lanes even_ab = even_numbers(r.a, r.b), odd_ab = odd_numbers(r.a, r.b);
-    const Lanes even_cd = even_numbers(r.c, r.d), odd_cd = odd_numbers(r.c, r.d);
-    return {first_halves(even_ab, even_cd), first_halves(odd_ab, odd_cd),
-            second_halves(even_ab, even_cd), second_halves(odd_ab, odd_cd)};
+/// Stores columns as rows of four numbers, eight numbers apart: by stored_row().
+inline void store_rows(double* to, const Lanes4& columns) {
+#if LISTRIC_LEVEL >= 4
+    const auto [a, b, c, d] = transpose({columns.a, columns.b, columns.c, columns.d});
+    store(to, a);
+    store(to + 8, b);
+    store(to + 16, c);
+    store(to + 24, d);
+#else
+    store_halves(to, even_numbers(columns.a, columns.b));
+    store_halves(to + 2, even_numbers(columns.c, columns.d));
+    store_halves(to + 8, odd_numbers(columns.a, columns.b));
+    store_halves(to + 10, odd_numbers(columns.c, columns.d));
+#endif
 }
