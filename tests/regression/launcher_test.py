@@ -35,6 +35,8 @@ project(listric NONE)
 set(LISTRIC_TESTS OFF CACHE BOOL "")
 file(WRITE ${CMAKE_BINARY_DIR}/listric "#!/bin/sh\nprintf 'program: '; printf '<%s>' \"$@\"\n")
 file(CHMOD ${CMAKE_BINARY_DIR}/listric PERMISSIONS OWNER_READ OWNER_EXECUTE WORLD_READ WORLD_EXECUTE)
+# The program names its plug-ins by their paths, whether they are built or not.
+add_custom_target(names COMMAND echo ${CMAKE_BINARY_DIR}/liblistric_fem.so)
 add_custom_target(listric)
 '''
 
@@ -210,6 +212,19 @@ class Launcher(unittest.TestCase):
             self.note("calls")
             self.call(*words)
             self.assertEqual(len(self.installs()), asked, words)
+
+    def test_a_plugin_is_built_once_it_can_be(self):
+        self.assertEqual(self.call("run", "elastic")[0], "program: <run><elastic>")  # without deal.II
+        with open(self.root / "CMakeLists.txt", "a") as project:
+            project.write("if(EXISTS ${CMAKE_SOURCE_DIR}/deal.II)\n"
+                          "  add_custom_command(OUTPUT liblistric_fem.so COMMAND touch liblistric_fem.so)\n"
+                          "  add_custom_target(listric_fem DEPENDS liblistric_fem.so)\nendif()\n")
+        self.call("scenes")
+        (self.root / "deal.II").touch()
+        self.call("scenes")
+        self.assertFalse((self.root / "build/native/liblistric_fem.so").exists())
+        self.call("run", "elastic")
+        self.assertTrue((self.root / "build/native/liblistric_fem.so").exists())
 
     def test_packages_that_the_system_does_not_have(self):
         self.note("missing", "gmsh", "petsc-dev", "chromium", "chromium-driver")
