@@ -1,5 +1,6 @@
 #include "apps/archive/summary.hpp"
 
+#include "apps/archive/known_errors.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/outputs.hpp"
@@ -44,7 +45,8 @@ void write_summary(RunView& run) {
                                          .observed = run.observed,
                                          .wall_seconds = run.wall_seconds(),
                                          .state_hash = run.simulation.hash(),
-                                         .provenance = archive::provenance(run.scene)});
+                                         .provenance = archive::provenance(run.scene),
+                                         .known_errors = archive::known_errors_json(run.scene)});
     write_text(run.options.output / "summary.json", run.summary);
 }
 
