@@ -137,8 +137,7 @@ std::map<std::string, std::string> compared_values(const Scene& scene) {
 
 const Quantity known_errors_quantity{
     "known_errors", "",
-    "what recorded runs tell of the errors of twelve headline measures at the run's resolution "
-    "and speed"};
+    "errors of twelve headline measures at the run's resolution and speed, by recorded runs"};
 
 std::span<const Quantity> error_fields() {
     static constexpr Quantity fields[] = {
@@ -185,7 +184,7 @@ std::string departs_from_record(const Scene& scene) {
     return difference ? difference->parameter : "";
 }
 
-nlohmann::ordered_json known_errors_json(const Scene& scene) {
+nlohmann::ordered_json known_errors_json(const Scene& scene, double extension) {
     std::vector<RecordedRun> runs;
     try {
         runs = recorded_runs();
@@ -196,7 +195,9 @@ nlohmann::ordered_json known_errors_json(const Scene& scene) {
         runs.clear();
     }
     JsonObject list = JsonObject::array();
-    for (const KnownError& known : known_errors(runs, error_question(scene))) {
+    ErrorQuestion question = error_question(scene);
+    question.extension = extension; // a run may end early
+    for (const KnownError& known : known_errors(runs, question)) {
         JsonObject& json = list.emplace_back(JsonObject{{"measure", known.key}});
         const auto add = [&](const std::string& name, const std::optional<ErrorPart>& part) {
             if (!part) {

@@ -22,7 +22,7 @@ struct ErrorPart {
     std::string against;      ///< "mean radius 18.62 m": what the runs are compared with
 };
 
-/// What recorded runs say of a measure at one resolution and speed; none: unknown.
+/// Errors of a measure at one resolution and speed by recorded runs; none: unknown.
 struct KnownError {
     std::string key;                     ///< of the measure in summary.json
     std::optional<ErrorPart> resolution; ///< mean less that of the finest runs
@@ -33,7 +33,7 @@ struct KnownError {
     double mean = 0.0;               ///< of the level's runs; 0: there is none
 };
 
-/// What a question on errors is about.
+/// Runs that a question on errors is about.
 struct ErrorQuestion {
     std::string scene;        ///< name of a shipped scene
     double mean_radius = 0.0; ///< m
@@ -56,9 +56,10 @@ ErrorQuestion error_question(const Scene& scene);
 /// Errors of a run of a scene for summary.json: a list of objects (`error_fields`), in which
 /// "unknown" stands for what no record tells. Never throws: a damaged record is one that is not
 /// there.
-nlohmann::ordered_json known_errors_json(const Scene& scene);
+/// @param extension  that the run has reached, m
+nlohmann::ordered_json known_errors_json(const Scene& scene, double extension);
 
-/// The list in summary.json, and what its objects have.
+/// The list in summary.json, and the fields of its objects.
 extern const Quantity known_errors_quantity;
 std::span<const Quantity> error_fields();
 

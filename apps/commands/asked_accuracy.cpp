@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ranges>
+#include <tuple>
 
 namespace listric {
 
@@ -27,7 +28,7 @@ namespace {
 
 constexpr int most_seeds = 10;
 constexpr double confidence = 0.9;
-/// What a percentage alone is asked of.
+/// Measures of which a percentage alone is asked.
 constexpr std::string_view geometry[] = {"tilt", "cutoff", "area"};
 constexpr std::string_view levels_asked[] = {"draft", "standard", "fine"};
 
@@ -151,7 +152,7 @@ std::string part_text(const std::string& key, const std::optional<archive::Error
 
 /// Errors of a choice, a line for each measure, and where they come from.
 std::string error_table(const AccuracyChoice& choice) {
-    std::string text = fmt::format("  {:<44} {:>10} {:>12} {:>12} {:>12}\n", "error of", "below",
+    std::string text = fmt::format("  {:<50} {:>9} {:>12} {:>12} {:>12}\n", "error of", "below",
                                    "resolution", "speed", "seeds, ±");
     std::vector<std::string> sources;
     const auto note = [&](const std::optional<archive::ErrorPart>& part) {
@@ -165,7 +166,7 @@ std::string error_table(const AccuracyChoice& choice) {
         const KnownError& error = error_of(choice, measure.key);
         const auto promised = promised_error(error, choice.seeds);
         text +=
-            fmt::format("  {:<44} {:>10} {:>12} {:>12} {:>12}\n", measure.name,
+            fmt::format("  {:<50} {:>9} {:>12} {:>12} {:>12}\n", measure.name,
                         promised ? archive::error_text(measure.key, *promised) : "unknown",
                         part_text(measure.key, error.resolution),
                         part_text(measure.key, error.speed), part_text(measure.key, error.spread));
@@ -204,12 +205,12 @@ std::string missed(const AccuracyChoice& choice, std::span<const ErrorTarget> ta
 }
 
 /// The choices of a call, or why there are none.
-struct Choices {
+struct RecordedWays {
     std::vector<AccuracyChoice> all;
     std::string objection;
 };
 
-Choices choices_of(const SceneRequest& request, int threads) {
+RecordedWays recorded_ways(const SceneRequest& request, int threads) {
     const Scene scene = load_scene(request);
     if (const std::string parameter = archive::departs_from_record(scene); parameter == "name")
         return {{}, fmt::format("runs of {} are not recorded", scene.name)};
@@ -222,14 +223,14 @@ Choices choices_of(const SceneRequest& request, int threads) {
         // A tenth of a second each: sizes differ by far more than what that misses.
         return predict(one, measure_speed(estimated_discs(one), threads, 0.1, accounted)).seconds;
     };
-    Choices choices{recorded_choices(archive::recorded_runs(), request, seconds), ""};
+    RecordedWays choices{recorded_choices(archive::recorded_runs(), request, seconds), ""};
     if (choices.all.empty())
         choices.objection = fmt::format("no run of {} to {:g} km of extension is recorded",
                                         scene.name, scene.extension.distance / 1e3);
     return choices;
 }
 
-std::string unsupported(const Choices& choices, std::span<const ErrorTarget> targets) {
+std::string unsupported(const RecordedWays& choices, std::span<const ErrorTarget> targets) {
     std::string text;
     for (const AccuracyChoice& choice : choices.all)
         text += fmt::format("  {}, {:g} m/s, up to {} seeds: {}\n", choice.level, choice.speed,
@@ -238,12 +239,12 @@ std::string unsupported(const Choices& choices, std::span<const ErrorTarget> tar
 }
 
 /// The choice that a call asks for; none, and why.
-struct Answer {
+struct AskedAnswer {
     std::optional<AccuracyChoice> choice;
     std::string objection;
 };
 
-Answer answer_to(const AskedAccuracy& asked, const Choices& choices, int seeds_of_time) {
+AskedAnswer answer_to(const AskedAccuracy& asked, const RecordedWays& choices, int seeds_of_time) {
     if (!choices.objection.empty())
         return {{}, choices.objection};
     const double time = asked.within.empty() ? 0.0 : parse_duration("--within", asked.within);
@@ -395,8 +396,11 @@ std::optional<AccuracyChoice> cheapest_choice(std::span<const AccuracyChoice> ch
 
 std::optional<AccuracyChoice> best_choice(std::span<const AccuracyChoice> choices, double seconds) {
     const auto rank = [](const AccuracyChoice& choice) {
-        return std::pair(std::ranges::find(levels_asked, choice.level) - std::begin(levels_asked),
-                         -choice.speed);
+        const bool promises = std::ranges::any_of(choice.errors, [](const KnownError& error) {
+            return promised_error(error, 1).has_value();
+        });
+        return std::tuple(std::ranges::find(levels_asked, choice.level) - std::begin(levels_asked),
+                          promises, -choice.speed);
     };
     const AccuracyChoice* best = nullptr;
     for (const AccuracyChoice& choice : choices)
@@ -414,8 +418,8 @@ std::string explain_asked(const AskedAccuracy& asked, const SceneRequest& reques
         parse_error_targets(asked.error);
     if (!asked.within.empty())
         parse_duration("--within", asked.within);
-    const Choices choices = choices_of(request, threads);
-    const Answer answer = answer_to(asked, choices, most_seeds);
+    const RecordedWays choices = recorded_ways(request, threads);
+    const AskedAnswer answer = answer_to(asked, choices, most_seeds);
     if (!answer.choice)
         return fmt::format("{} of {}: nothing recorded supports an answer: {}\n", asked_text(asked),
                            request.scene, answer.objection);
@@ -437,8 +441,8 @@ std::string explain_asked(const AskedAccuracy& asked, const SceneRequest& reques
 
 std::string apply_asked(const AskedAccuracy& asked, SceneRequest& request, int threads) {
     refuse_level(request);
-    const Choices choices = choices_of(request, threads);
-    const Answer answer = answer_to(asked, choices, 1);
+    const RecordedWays choices = recorded_ways(request, threads);
+    const AskedAnswer answer = answer_to(asked, choices, 1);
     if (!answer.choice)
         throw UsageError(fmt::format("{}: nothing recorded supports an answer: {}",
                                      asked_text(asked), one_line(answer.objection)));

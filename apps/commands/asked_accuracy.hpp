@@ -14,7 +14,7 @@
 
 namespace listric {
 
-/// What a call asks for in place of a level of accuracy.
+/// Wishes of a call in place of a level of accuracy.
 struct AskedAccuracy {
     std::string within; ///< a time: 10min; empty: not asked
     std::string error;  ///< tilt=0.1deg,cutoff=0.2km or 2%; empty: not asked
@@ -65,8 +65,8 @@ std::vector<AccuracyChoice> recorded_choices(std::span<const archive::RecordedRu
 std::optional<AccuracyChoice> cheapest_choice(std::span<const AccuracyChoice> choices,
                                               std::span<const ErrorTarget> targets);
 
-/// The finest level at its slowest recorded speed that fits into the time, with as many seeds as do
-/// (at most ten); none.
+/// The finest level that fits into the time, at its slowest recorded speed of which an error is
+/// promised, if there is one, with as many seeds as fit (at most ten); none.
 std::optional<AccuracyChoice> best_choice(std::span<const AccuracyChoice> choices, double seconds);
 
 /// The answer of `explain` in text.

@@ -49,9 +49,7 @@ Command add_explain(CLI::App& program) {
                            "print what a scene simulates and costs",
                            "docs/choosing.md",
                            {{{"explain lis1", "sizes, memory and expected time"},
-                             {"explain lis1 --accuracy fine", "the price of a higher resolution"},
                              {"explain lis1 --within 10min", "the best that this time buys"},
-                             {"explain lis1 --error cutoff=0.3km", "the least time for this error"},
                              {"explain --parameters", "every parameter of a scene"}}}});
     add_scene(*command, call->scene);
     command->get_option("SCENE")

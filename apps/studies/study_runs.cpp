@@ -134,7 +134,7 @@ Scene scene_of_run(const StudyRequest& request, const StudyRun& run, std::int64_
     return load_scene(scene);
 }
 
-/// What is recorded of a run; none of a scene that is not a shipped one.
+/// Row of a run in the record; none of a scene that is not a shipped one.
 std::optional<archive::RecordedRun> recorded(const StudyRequest& request, const SeededRun& made,
                                              const Json& summary) {
     const Scene scene = scene_of_run(request, made.run, made.seed);

@@ -23,6 +23,7 @@ FAULT = ("friction", "friction_rule")   # which no depth depends on
 SELDOM = ("stretching", "picked_fault", "observed", "materials")
 # Need finite elements, or a file: not in small runs.
 DEEP = ("elastic_base", "lower_crust_thinning", "basin_water", "footwall_erosion", "base_motion")
+FILES = ("wells_at_m", "target_csv", "target")   # names of files, or lists that seldom fit
 INTERVALS = ("interval_a", "update_interval_a")
 SEGMENTS = [
     [{"arc": {"radius_m": 1500.0, "end_dip_deg": 0.0}}, {"line": {"length_m": 6000.0}}],
@@ -116,7 +117,9 @@ def make_scene(chance, share_beyond=0.3, small=False):
     for _ in range(chance.choice([1, 2, 3, 6, 12])):
         table = chance.choice([t for t in scene if t])
         keys = [k for k in SCHEMA[table].get("properties", {})
-                if (table != "detachment" or k in FAULT or chance.random() < 0.02) and not (small and (k in BASE.get(table, ()) or k in INTERVALS or k in ("wells_at_m", "target_csv", "target")))]
+                if table != "detachment" or k in FAULT or chance.random() < 0.02]
+        if small:
+            keys = [k for k in keys if k not in BASE.get(table, ()) and k not in INTERVALS + FILES]
         if small and table in ("output", "hanging_wall", "extension", "cycle"):
             keys = [k for k in keys if k in ("radius_ratio", "porosity", "damping", "ramp_s", "rate_m_per_a", "skin")]
         if keys:

@@ -107,6 +107,12 @@ TEST(AskedAccuracy, FillsATimeWithTheFinestLevel) {
     EXPECT_EQ(best_choice(choices, 250.0)->level, "standard");
     EXPECT_EQ(best_choice(choices, 250.0)->seeds, 2);
     EXPECT_EQ(best_choice(choices, 1e9)->seeds, 10);
+    // A slower speed of which nothing can be promised comes after one with a promise.
+    std::vector<AccuracyChoice> slower{choices[0], choices[0]};
+    slower[1].speed = 0.5;
+    EXPECT_EQ(best_choice(slower, 10.0)->speed, 0.5);
+    slower[1].errors[0].speed = std::nullopt;
+    EXPECT_EQ(best_choice(slower, 10.0)->speed, 1.25);
 }
 
 TEST(AskedAccuracy, KnowsTheRecordedWaysOfAScene) {
