@@ -10,6 +10,8 @@ install(FILES apps/scene.schema.json apps/material.schema.json apps/sweep.schema
   COMPONENT program)
 install(DIRECTORY apps/studies/ DESTINATION ${share}/studies COMPONENT program
   FILES_MATCHING PATTERN *.toml)
+install(DIRECTORY docs/record/runs/ DESTINATION ${share}/record COMPONENT program
+  FILES_MATCHING PATTERN *.csv)
 # Made by the program from its own options: here, since what is built may be for another machine.
 set(own_names --unset=LISTRIC_SHARE --unset=LISTRIC_SCENES --unset=LISTRIC_MATERIALS)
 set(own "COMMAND \"${CMAKE_COMMAND}\" -E env ${own_names} \"$<TARGET_FILE:listric>\"")

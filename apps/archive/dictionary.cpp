@@ -1,6 +1,7 @@
 #include "apps/archive/dictionary.hpp"
 
 #include "apps/archive/fault_fields.hpp"
+#include "apps/archive/known_errors.hpp"
 #include "apps/archive/observed_misfit.hpp"
 #include "apps/archive/summary.hpp"
 #include "apps/measures/dictionary.hpp"
@@ -51,6 +52,7 @@ void add_general(std::vector<DictionaryEntry>& all) {
     add(depocentres, "structure", quantities(depocentre_measures()));
     add(old_sediment_bonded_profile, "material", quantities(bonded_layer_measures()));
     add(observed_horizons, "structure", quantities(observed_fields()));
+    add(known_errors_quantity, "quality", {error_fields().begin(), error_fields().end()});
     all.push_back({detachment_misfit, "structure", nullptr, true, false});
 }
 

@@ -2,6 +2,7 @@
 
 #include "apps/archive/fault_fields.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/known_errors.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/main_faults.hpp"
 #include "apps/support/fineness.hpp"
@@ -206,6 +207,8 @@ std::string summary_json(const SummaryContent& content) {
     if (!content.observed.empty())
         json[std::string(observed_horizons.name)] = observed_list(content.observed);
     add_faults(json, content.faults, fineness(content.state.mean_radius));
+    if (!content.known_errors.is_null())
+        json[std::string(known_errors_quantity.name)] = content.known_errors;
     return to_text(json, 2) + "\n";
 }
 

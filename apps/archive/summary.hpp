@@ -46,7 +46,8 @@ struct SummaryContent {
     std::vector<ObservedHorizon> observed = {}; ///< beside the model's
     double wall_seconds = 0.0;
     std::uint64_t state_hash = 0;
-    nlohmann::ordered_json provenance = {}; ///< provenance.hpp
+    nlohmann::ordered_json provenance = {};   ///< provenance.hpp
+    nlohmann::ordered_json known_errors = {}; ///< known_errors.hpp; null: it has none
 };
 
 /// Quantities of every run. One without a function is taken elsewhere.

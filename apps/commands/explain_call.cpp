@@ -1,3 +1,4 @@
+#include "apps/commands/asked_accuracy.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/commands/explain.hpp"
 #include "apps/model/effects.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 struct ExplainCall {
     SceneRequest scene;
+    AskedAccuracy asked;
     int threads = all_threads();
     bool parameters = false; ///< their reference, instead of a scene
 };
@@ -26,6 +28,8 @@ ExitCode explain(const ExplainCall& call) {
         throw UsageError("explain: a scene is needed, or --parameters");
     else if (is_flexure_plan(call.scene.scene))
         std::cout << shown_lines(explain(load_flexure_plan(call.scene)));
+    else if (call.asked.is_asked())
+        std::cout << shown_lines(explain_asked(call.asked, call.scene, call.threads));
     else {
         const Scene scene = load_scene(call.scene);
         std::cout << shown_lines(explain(scene, call.threads, program_effects()));
@@ -45,13 +49,14 @@ Command add_explain(CLI::App& program) {
                            "print what a scene simulates and costs",
                            "docs/choosing.md",
                            {{{"explain lis1", "sizes, memory and expected time"},
-                             {"explain lis1 --accuracy fine", "the price of a higher resolution"},
+                             {"explain lis1 --within 10min", "the best that this time buys"},
                              {"explain --parameters", "every parameter of a scene"}}}});
     add_scene(*command, call->scene);
     command->get_option("SCENE")
         ->required(false)
         ->description("name of a scene (listric scenes), or a file; --parameters needs none")
         ->default_str("none");
+    add_asked_accuracy(*command, call->asked);
     add_threads(*command, call->threads);
     command->add_flag("--parameters", call->parameters,
                       "print the reference of all parameters instead");

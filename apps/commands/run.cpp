@@ -1,5 +1,6 @@
 #include "apps/run/run.hpp"
 #include "apps/archive/scene_lines.hpp"
+#include "apps/commands/asked_accuracy.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/commands/signals.hpp"
 #include "apps/commands/start_ranks.hpp"
@@ -11,6 +12,7 @@
 #include "apps/scene/rock_line.hpp"
 #include "apps/studies/flexure.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/log.hpp"
 #include "apps/support/number.hpp"
 #include "apps/support/text.hpp"
 
@@ -33,6 +35,7 @@ namespace {
 struct RunCall {
     SceneRequest scene;
     RunOptions options;
+    AskedAccuracy asked;
     std::optional<std::string> until;
     std::string output;
     CLI::Option* threads = nullptr;
@@ -148,7 +151,24 @@ ExitCode run_alone(const RunCall& call) {
     return exit_code_of(run_scene(scene, options_of(call, scene, false)));
 }
 
+/// Takes level and speed from what was recorded. Processes that share a run must not each measure
+/// how fast the machine is; a run that goes on has what it began with.
+void choose_accuracy(RunCall& call) {
+    if (!call.ranks.empty() || read_launch().count > 1)
+        throw UsageError("--within and --error are for one process; listric explain tells the "
+                         "level for --accuracy");
+    if (call.options.resume)
+        throw UsageError("--within and --error choose how a run begins; leave them out with "
+                         "--resume");
+    if (is_flexure_plan(call.scene.scene))
+        throw UsageError("--within and --error: flexure has no discs and no levels of accuracy");
+    const std::string chosen = apply_asked(call.asked, call.scene, call.options.threads);
+    Log(call.options.quiet).say(chosen);
+}
+
 ExitCode run(RunCall& call) {
+    if (call.asked.is_asked())
+        choose_accuracy(call);
     if (call.until)
         call.options.until = parse_length("--until", *call.until);
     call.options.stop = stop_on_signals();
@@ -207,6 +227,7 @@ Command add_run(CLI::App& program) {
     command->add_flag("--live", call->options.live,
                       "write report.html after every window; an open page follows");
     command->add_flag("--no-report", call->no_report, "write no report.html");
+    add_asked_accuracy(*command, call->asked);
     add_quiet(*command, call->options.quiet);
     return {command, [call] { return run(*call); }};
 }

@@ -2,6 +2,7 @@
 
 #include "apps/archive/examine.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/known_errors.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
@@ -115,6 +116,7 @@ std::vector<fs::path> draw_run(const FiguresRequest& request) {
     require_panels(run, request.order.only);
     PictureOrder order = request.order;
     order.provenance = provenance_of_run(output, run.scene);
+    order.errors = error_sentence(object_in(output / "summary.json"));
     const std::vector<fs::path> chosen =
         request.extensions.empty() ? chosen_snapshots(run) : run.snapshots_at(request.extensions);
     const bool sections_alone = !order.only.empty() || order.width_mm > 0.0;

@@ -9,6 +9,7 @@ std::string PictureOrder::text() const {
     return to_text(nlohmann::ordered_json{{"formats", formats},
                                           {"software", "Listric " + std::string(version)},
                                           {"provenance", provenance},
+                                          {"errors", errors},
                                           {"width_mm", width_mm},
                                           {"only", only},
                                           {"plain", plain},

@@ -23,6 +23,7 @@ inline constexpr std::string_view panel_names[] = {
 struct PictureOrder {
     std::vector<std::string> formats{"png"};
     nlohmann::ordered_json provenance = nullptr; ///< none: of no single run
+    std::string errors = {};                     ///< of what is shown, a sentence for captions
     double width_mm = 0.0;                       ///< of a figure for print; 0: pages for a screen
     std::vector<std::string> only = {};          ///< panels; none: all that are drawn unasked
     bool plain = false;                          ///< without headline and small print

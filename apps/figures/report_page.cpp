@@ -4,6 +4,7 @@
 #include "apps/archive/fault_fields.hpp"
 #include "apps/archive/headline.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/known_errors.hpp"
 #include "apps/archive/quality.hpp"
 #include "apps/figures/page_parts.hpp"
 #include "apps/figures/vocabulary.hpp"
@@ -77,6 +78,14 @@ json quality_of(const ReportPage::Run& run) {
     return list;
 }
 
+/// Errors of the headline measures by recorded runs, in words; none before the run has ended.
+json errors_of(const ReportPage::Run& run) {
+    json list = json::array();
+    for (const archive::ErrorWords& row : archive::error_words(parse_json(run.summary)))
+        list.push_back({row.key, row.name, row.resolution, row.speed, row.spread});
+    return list;
+}
+
 /// Parameters in which two runs differ, as `listric diff` has them.
 json differences_of(const Scene& first, const Scene& second, EffectList effects) {
     json list = json::array();
@@ -102,7 +111,8 @@ json head_of(const ReportPage::Run& run) {
               {"scales", json::parse(report_scales(run.mean_radius))},
               {"history", run.history},
               {"summary", object_or_null(run.summary)},
-              {"quality", quality_of(run)}};
+              {"quality", quality_of(run)},
+              {"errors", errors_of(run)}};
     if (scene.observed)
         head["picks"] = {{"horizons", picks_of(scene.observed->horizons)},
                          {"faults", picks_of(scene.observed->faults)}};

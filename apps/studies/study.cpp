@@ -94,6 +94,8 @@ void run_study(StudyRequest request) {
     };
     write_text(request.output / "study.csv", to_csv(result));
     write_object(request.output / "study.json", json);
+    if (!result.runs.empty())
+        archive::write_run_records(request.output / "runs.csv", result.runs);
     print(result);
     draw_or_warn("study.py", {std::filesystem::absolute(request.output).string()});
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/archive/run_records.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/support/stop.hpp"
 
@@ -45,6 +46,7 @@ struct StudyResult {
     std::vector<StudyPoint> points;
     /// By quantity: spread between seeds, below which refinement buys nothing.
     std::map<std::string, double> floors;
+    std::vector<archive::RecordedRun> runs = {}; ///< of shipped scenes, for docs/record/runs
 };
 
 struct Study {
@@ -54,9 +56,9 @@ struct Study {
 
 std::span<const Study> studies();
 
-/// Makes a study; leaves study.csv, study.json and study.png in the output folder, and prints a
-/// table. Runs that are there already are not made again. Throws UsageError, SceneError,
-/// StorageError, Interrupted: the same call goes on from there.
+/// Makes a study; leaves study.csv, study.json, study.png and, of runs of a shipped scene, runs.csv
+/// in the output folder, and prints a table. Runs that are there already are not made again. Throws
+/// UsageError, SceneError, StorageError, Interrupted: the same call goes on from there.
 void run_study(StudyRequest request);
 
 // Studies made of runs.

@@ -3,6 +3,7 @@
 #include "apps/studies/study.hpp"
 
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/known_errors.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/main_faults.hpp"
 #include "apps/model/effects.hpp"
@@ -120,6 +121,44 @@ Scene scene_of(const StudyRequest& request) {
     return load_scene(wanted);
 }
 
+namespace {
+
+Scene scene_of_run(const StudyRequest& request, const StudyRun& run, std::int64_t seed) {
+    SceneRequest scene;
+    scene.scene = request.scene;
+    scene.set = run.set;
+    scene.set.insert(scene.set.end(), request.set.begin(), request.set.end());
+    scene.seed = seed;
+    scene.accuracy = run.accuracy;
+    scene.without = run.without;
+    return load_scene(scene);
+}
+
+/// Row of a run in the record; none of a scene that is not a shipped one.
+std::optional<archive::RecordedRun> recorded(const StudyRequest& request, const SeededRun& made,
+                                             const Json& summary) {
+    const Scene scene = scene_of_run(request, made.run, made.seed);
+    if (!archive::departs_from_record(scene).empty())
+        return std::nullopt;
+    const Json provenance = object_at(summary, "provenance");
+    archive::RecordedRun run{
+        .record = fmt::format("listric study {} --scene {}", request.name, scene.name),
+        .scene = scene.name,
+        .made_by =
+            fmt::format("{}+{}", text_at(provenance, "version"), text_at(provenance, "commit")),
+        .mean_radius = scene.hanging_wall.mean_radius,
+        .speed = scene.extension.speed,
+        .extension = scene.extension.distance,
+        .seed = static_cast<int>(made.seed),
+        .measures = {}};
+    for (const archive::HeadlineMeasure& measure : archive::headline_measures())
+        if (const auto value = number_at(summary, measure.key.c_str()))
+            run.measures[measure.key] = *value;
+    return run;
+}
+
+} // namespace
+
 std::filesystem::path folder_of_run(const StudyRequest& request, const StudyRun& run,
                                     std::int64_t seed) {
     return request.output / "runs" / fmt::format("{}-seed={}", run.parameter, seed);
@@ -129,21 +168,14 @@ std::vector<std::optional<Json>> summaries_of_runs(const StudyRequest& request,
                                                    std::span<const SeededRun> wanted) {
     std::vector<BatchRun> runs;
     for (const auto& [run, seed] : wanted) {
-        SceneRequest scene;
-        scene.scene = request.scene;
-        scene.set = run.set;
-        scene.set.insert(scene.set.end(), request.set.begin(), request.set.end());
-        scene.seed = seed;
-        scene.accuracy = run.accuracy;
-        scene.without = run.without;
         RunOptions options;
         options.stop = request.stop;
         options.output = folder_of_run(request, run, seed);
         options.threads = request.threads;
         options.quiet = request.quiet;
         options.report = false;
-        runs.push_back({fmt::format("{}, seed {}", run.parameter, seed), load_scene(scene),
-                        std::move(options)});
+        runs.push_back({fmt::format("{}, seed {}", run.parameter, seed),
+                        scene_of_run(request, run, seed), std::move(options)});
     }
     Log log(request.quiet);
     // One at a time: what a run takes is what is studied.
@@ -175,6 +207,9 @@ void sweep_runs(const StudyRequest& request, const std::string& method,
         for (int k = 0; k < std::min(request.seeds, run.most_seeds); ++k)
             seeded.push_back({run, request.seed + k});
     const auto all = summaries_of_runs(request, seeded);
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (auto run = all[k] ? recorded(request, seeded[k], *all[k]) : std::nullopt)
+            result.runs.push_back(std::move(*run));
     std::vector<std::vector<std::optional<Json>>> summaries;
     auto next = all.begin();
     for (const StudyRun& run : runs) {

@@ -29,4 +29,13 @@ fs::path resource_folder() {
     return is_installed() ? installed_folder() : fs::path(LISTRIC_SOURCE_DIR) / "apps";
 }
 
+fs::path record_folder() {
+    if (const char* other = std::getenv("LISTRIC_RECORDS"); other && *other)
+        return other;
+    std::error_code error;
+    const fs::path beside = resource_folder() / "record";
+    return fs::is_directory(beside, error) ? beside
+                                           : fs::path(LISTRIC_SOURCE_DIR) / "docs/record/runs";
+}
+
 } // namespace listric

@@ -9,6 +9,11 @@ namespace listric {
 /// it was built from.
 std::filesystem::path resource_folder();
 
+/// Where recorded runs are, by which errors are known: an installed program has them with its other
+/// files, one in its source tree in docs/record/runs. The environment's LISTRIC_RECORDS names
+/// another folder.
+std::filesystem::path record_folder();
+
 /// Whether the executable is an installed one, with its files beside it.
 bool is_installed();
 

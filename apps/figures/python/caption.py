@@ -53,8 +53,7 @@ def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, orde
                  f"accuracy {meta.get('accuracy', 'custom')}, seed {meta.get('seed', '?')}.")
     if not said and all(name not in ("sediment", "overview", "seismic") for name in names):
         parts.append("No vertical exaggeration.")
-    origin = provenance_text(order)
-    return " ".join(parts + ([origin] if origin else []))
+    return " ".join(filter(None, [*parts, order.errors, provenance_text(order)]))
 
 
 def provenance_text(order: Order) -> str:

@@ -58,6 +58,7 @@ class Order:
     formats: tuple[str, ...] = ("png",)
     software: str = "Listric"
     provenance: str = ""   # JSON; empty: of no single run
+    errors: str = ""       # of what is shown, a sentence for captions
     width_mm: float = 0.0  # of a figure for print; 0: pages for a screen
     only: tuple[str, ...] = ()   # panels; none: all that are drawn unasked
     plain: bool = False    # without headline and small print
@@ -78,7 +79,7 @@ def read_order(text: str) -> Order:
     try:
         words = json.loads(text)
         provenance = words["provenance"]
-        more = {key: words[key] for key in ("width_mm", "plain", "dpi", "caption") if key in words}
+        more = {key: words[key] for key in ("errors", "width_mm", "plain", "dpi", "caption") if key in words}
         return Order(tuple(words["formats"]), words["software"], json.dumps(provenance) if provenance else "",
                      only=tuple(words.get("only", ())), **more)
     except (ValueError, TypeError, KeyError, RecursionError) as failure:

@@ -415,6 +415,7 @@ function drawTables() {
   $("differences_part").hidden = page.runs.length < 2;
   drawMeasures($("measures"), page.runs);
   drawMainMeasures($("main_measures"), page.runs);
+  $("errors_part").hidden = !drawErrors($("errors"), page.runs);
 }
 
 function addSaves(on) {

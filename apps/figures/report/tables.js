@@ -139,6 +139,21 @@ function drawQuality(host, runs) {
   });
 }
 
+/** Errors of the headline results of the first run; whether there are any. */
+function drawErrors(table, [run]) {
+  table.textContent = "";
+  const rows = run.head.errors || [];
+  if (rows.length === 0) return false;
+  head(table, ["result", "resolution", "speed", "between seeds, ±"]);
+  const body = table.appendChild(document.createElement("tbody"));
+  for (const [key, name, ...errors] of rows) {
+    const row = body.appendChild(document.createElement("tr"));
+    cell(row, name, page.data.definitions[key]);
+    for (const text of errors) cell(row, text);
+  }
+  return true;
+}
+
 /** Parameters of two runs that differ. */
 function drawDifferences(table) {
   table.textContent = "";

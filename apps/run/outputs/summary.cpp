@@ -1,5 +1,6 @@
 #include "apps/archive/summary.hpp"
 
+#include "apps/archive/known_errors.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/outputs.hpp"
@@ -27,24 +28,26 @@ void write_summary(RunView& run) {
     const EffectMeasures of_effects = measure_effects(run.now());
     run.options.stop.check(); // all is kept: resumed, the run ends from here
     run.record.seconds_by_part.try_emplace(name(Part::figures)); // also where none are drawn
-    run.summary = archive::summary_json({.scene = run.scene.name,
-                                         .accuracy = run.scene.accuracy,
-                                         .seed = run.scene.seed,
-                                         .threads = run.options.threads,
-                                         .ranks = run.ranks(),
-                                         .cycle = std::string(name(run.options.execution().cycle)),
-                                         .state = run.state(),
-                                         .record = run.record,
-                                         .measures = measures,
-                                         .faults = faults,
-                                         .effects = effect_names(run.scene),
-                                         .numbers = numbers_of(run, of_effects.numbers),
-                                         .objects = of_effects.groups,
-                                         .lists = of_effects.lists,
-                                         .observed = run.observed,
-                                         .wall_seconds = run.wall_seconds(),
-                                         .state_hash = run.simulation.hash(),
-                                         .provenance = archive::provenance(run.scene)});
+    run.summary = archive::summary_json(
+        {.scene = run.scene.name,
+         .accuracy = run.scene.accuracy,
+         .seed = run.scene.seed,
+         .threads = run.options.threads,
+         .ranks = run.ranks(),
+         .cycle = std::string(name(run.options.execution().cycle)),
+         .state = run.state(),
+         .record = run.record,
+         .measures = measures,
+         .faults = faults,
+         .effects = effect_names(run.scene),
+         .numbers = numbers_of(run, of_effects.numbers),
+         .objects = of_effects.groups,
+         .lists = of_effects.lists,
+         .observed = run.observed,
+         .wall_seconds = run.wall_seconds(),
+         .state_hash = run.simulation.hash(),
+         .provenance = archive::provenance(run.scene),
+         .known_errors = archive::known_errors_json(run.scene, run.state().clock.extension)});
     write_text(run.options.output / "summary.json", run.summary);
 }
 

@@ -1,0 +1,458 @@
+#include "apps/commands/asked_accuracy.hpp"
+
+#include "apps/commands/explain.hpp"
+#include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
+#include "apps/scene/accuracy.hpp"
+#include "apps/studies/student.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/number.hpp"
+#include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+#include <tuple>
+
+namespace listric {
+
+using archive::HeadlineMeasure;
+using archive::KnownError;
+using archive::RecordedRun;
+
+namespace {
+
+constexpr int most_seeds = 10;
+constexpr double confidence = 0.9;
+/// Measures of which a percentage alone is asked.
+constexpr std::string_view geometry[] = {"tilt", "cutoff", "area"};
+constexpr std::string_view levels_asked[] = {"draft", "standard", "fine"};
+
+struct Unit {
+    std::string_view name;
+    double factor;
+};
+
+/// A number with its unit. Throws UsageError with what is allowed.
+double with_unit(const std::string& text, std::span<const Unit> units,
+                 const std::function<std::string()>& refusal) {
+    for (const Unit& unit : units)
+        if (text.size() > unit.name.size() && text.ends_with(unit.name))
+            if (const auto number =
+                    parse_number(std::string_view(text).substr(0, text.size() - unit.name.size()));
+                number && *number > 0.0 && *number * unit.factor < 1e15)
+                return *number * unit.factor;
+    throw UsageError(refusal());
+}
+
+/// Units in which a measure's error may be asked; the first that ends the text counts.
+std::vector<Unit> units_of(const std::string& key) {
+    if (key.ends_with("_deg"))
+        return {{"deg", 1.0}, {"°", 1.0}, {"", 1.0}};
+    if (key.ends_with("_m2"))
+        return {{"km2", 1e6}, {"m2", 1.0}};
+    if (key.ends_with("_m"))
+        return {{"km", 1e3}, {"m", 1.0}};
+    return {{"", 1.0}};
+}
+
+std::string allowed_units(const std::string& key) {
+    std::vector<std::string> names{"%"};
+    for (const Unit& unit : units_of(key))
+        names.push_back(unit.name.empty() ? "no unit" : std::string(unit.name));
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<std::string_view> words_of_measures() {
+    std::vector<std::string_view> words;
+    for (const HeadlineMeasure& measure : archive::headline_measures())
+        if (std::ranges::count(words, measure.word) == 0)
+            words.push_back(measure.word);
+    return words;
+}
+
+void add_targets(std::vector<ErrorTarget>& targets, const std::string& word,
+                 const std::string& bound) {
+    bool is_known = false;
+    for (const HeadlineMeasure& measure : archive::headline_measures()) {
+        if (measure.word != word && measure.key != word)
+            continue;
+        is_known = true;
+        const bool is_share = bound.ends_with('%');
+        const std::vector<Unit> units =
+            is_share ? std::vector<Unit>{{"%", 0.01}} : units_of(measure.key);
+        targets.push_back({measure.key,
+                           with_unit(bound, units,
+                                     [&] {
+                                         return fmt::format("--error {}={}: a number above 0 with "
+                                                            "one of these units: {}",
+                                                            shown_start(word), shown_start(bound),
+                                                            allowed_units(measure.key));
+                                     }),
+                           is_share});
+    }
+    if (is_known)
+        return;
+    const auto words = words_of_measures();
+    const auto meant = nearest(word, words);
+    throw UsageError(fmt::format("--error {}: no such measure; {}there are {}", shown_start(word),
+                                 meant ? fmt::format("did you mean {}? ", *meant) : "",
+                                 fmt::join(words, ", ")));
+}
+
+/// Target in the unit of the measure.
+std::optional<double> bound_of(const ErrorTarget& target, const KnownError& error) {
+    if (!target.is_share)
+        return target.most;
+    return error.mean == 0.0 ? std::nullopt : std::optional(target.most * std::abs(error.mean));
+}
+
+const KnownError& error_of(const AccuracyChoice& choice, const std::string& key) {
+    return *std::ranges::find(choice.errors, key, &KnownError::key);
+}
+
+bool meets(const AccuracyChoice& choice, std::span<const ErrorTarget> targets, int seeds) {
+    return std::ranges::all_of(targets, [&](const ErrorTarget& target) {
+        const KnownError& error = error_of(choice, target.key);
+        const auto promised = promised_error(error, seeds);
+        const auto bound = bound_of(target, error);
+        return promised && bound && *promised <= *bound;
+    });
+}
+
+AccuracyChoice with_seeds(AccuracyChoice choice, int seeds) {
+    choice.seconds *= static_cast<double>(seeds) / choice.seeds;
+    choice.seeds = seeds;
+    return choice;
+}
+
+std::string name_of(const AccuracyChoice& choice) {
+    return fmt::format("{}, {:g} m/s, {} seed{}: {}", choice.level, choice.speed, choice.seeds,
+                       choice.seeds == 1 ? "" : "s", duration(choice.seconds));
+}
+
+SceneRequest request_of(SceneRequest request, const std::string& level, double speed) {
+    request.accuracy = level;
+    request.set.push_back(fmt::format("extension.speed_m_per_s={:g}", speed));
+    return request;
+}
+
+std::string call_of(const AccuracyChoice& choice, const SceneRequest& request) {
+    return fmt::format("listric run {} --accuracy {} --set extension.speed_m_per_s={:g}",
+                       request.scene, choice.level, choice.speed);
+}
+
+std::string part_text(const std::string& key, const std::optional<archive::ErrorPart>& part) {
+    return part ? archive::error_text(key, part->value) : "unknown";
+}
+
+/// Errors of a choice, a line for each measure, and where they come from.
+std::string error_table(const AccuracyChoice& choice) {
+    std::string text = fmt::format("  {:<50} {:>9} {:>12} {:>12} {:>12}\n", "error of", "below",
+                                   "resolution", "speed", "seeds, ±");
+    std::vector<std::string> sources;
+    const auto note = [&](const std::optional<archive::ErrorPart>& part) {
+        if (!part)
+            return;
+        const std::string source = fmt::format("{}: {}", part->record, part->against);
+        if (std::ranges::count(sources, source) == 0)
+            sources.push_back(source);
+    };
+    for (const HeadlineMeasure& measure : archive::headline_measures()) {
+        const KnownError& error = error_of(choice, measure.key);
+        const auto promised = promised_error(error, choice.seeds);
+        text +=
+            fmt::format("  {:<50} {:>9} {:>12} {:>12} {:>12}\n", measure.name,
+                        promised ? archive::error_text(measure.key, *promised) : "unknown",
+                        part_text(measure.key, error.resolution),
+                        part_text(measure.key, error.speed), part_text(measure.key, error.spread));
+        note(error.resolution);
+        note(error.speed);
+        note(error.spread);
+    }
+    text += fmt::format("  below: with a probability of {:.0f} %, for the mean over the seeds\n",
+                        100.0 * confidence);
+    for (const std::string& source : sources)
+        text += fmt::format("  record: {}\n", source);
+    return text;
+}
+
+/// The targets that a choice with most seeds misses, each with what it may promise.
+std::string missed(const AccuracyChoice& choice, std::span<const ErrorTarget> targets) {
+    std::vector<std::string> parts;
+    for (const ErrorTarget& target : targets) {
+        const KnownError& error = error_of(choice, target.key);
+        const auto promised = promised_error(error, most_seeds);
+        const auto bound = bound_of(target, error);
+        if (promised && bound && *promised <= *bound)
+            continue;
+        std::vector<std::string> unknown;
+        for (const auto& [part, name] :
+             {std::pair(&error.resolution, "resolution"), std::pair(&error.speed, "speed"),
+              std::pair(&error.spread, "spread")})
+            if (!*part)
+                unknown.emplace_back(name);
+        parts.push_back(
+            promised
+                ? fmt::format("{} below {}", target.key, archive::error_text(target.key, *promised))
+                : fmt::format("{} unknown ({})", target.key, fmt::join(unknown, ", ")));
+    }
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// The choices of a call, or why there are none.
+struct RecordedWays {
+    std::vector<AccuracyChoice> all;
+    std::string objection;
+};
+
+RecordedWays recorded_ways(const SceneRequest& request, int threads) {
+    const Scene scene = load_scene(request);
+    if (const std::string parameter = archive::departs_from_record(scene); parameter == "name")
+        return {{}, fmt::format("runs of {} are not recorded", scene.name)};
+    else if (!parameter.empty())
+        return {
+            {},
+            fmt::format("its {} is not the one of the recorded runs of {}", parameter, scene.name)};
+    const bool accounted = make_parts(scene).accounts_energy;
+    const auto seconds = [&](const Scene& one) {
+        // A tenth of a second each: sizes differ by far more than what that misses.
+        return predict(one, measure_speed(estimated_discs(one), threads, 0.1, accounted)).seconds;
+    };
+    RecordedWays choices{recorded_choices(archive::recorded_runs(), request, seconds), ""};
+    if (choices.all.empty())
+        choices.objection = fmt::format("no run of {} to {:g} km of extension is recorded",
+                                        scene.name, scene.extension.distance / 1e3);
+    return choices;
+}
+
+std::string unsupported(const RecordedWays& choices, std::span<const ErrorTarget> targets) {
+    std::string text;
+    for (const AccuracyChoice& choice : choices.all)
+        text += fmt::format("  {}, {:g} m/s, up to {} seeds: {}\n", choice.level, choice.speed,
+                            most_seeds, missed(choice, targets));
+    return text;
+}
+
+/// The choice that a call asks for; none, and why.
+struct AskedAnswer {
+    std::optional<AccuracyChoice> choice;
+    std::string objection;
+};
+
+AskedAnswer answer_to(const AskedAccuracy& asked, const RecordedWays& choices, int seeds_of_time) {
+    if (!choices.objection.empty())
+        return {{}, choices.objection};
+    const double time = asked.within.empty() ? 0.0 : parse_duration("--within", asked.within);
+    if (asked.error.empty()) {
+        auto best = best_choice(choices.all, time);
+        if (!best)
+            return {{},
+                    fmt::format("the quickest recorded way takes {}",
+                                duration(choices.all.front().seconds))};
+        return {with_seeds(*best, std::min(best->seeds, seeds_of_time)), ""};
+    }
+    const std::vector<ErrorTarget> targets = parse_error_targets(asked.error);
+    auto cheapest = cheapest_choice(choices.all, targets);
+    if (!cheapest)
+        return {
+            {},
+            fmt::format("what is recorded stays short of it:\n{}", unsupported(choices, targets))};
+    if (time > 0.0 && cheapest->seconds > time)
+        return {{}, fmt::format("it takes {}", name_of(*cheapest))};
+    return {cheapest, ""};
+}
+
+void refuse_level(const SceneRequest& request) {
+    if (request.accuracy)
+        throw UsageError(fmt::format("--accuracy {}: --within and --error choose the level; leave "
+                                     "one of them out",
+                                     *request.accuracy));
+}
+
+/// Lines as one.
+std::string one_line(const std::string& text) {
+    std::string line;
+    for (const char letter : text)
+        if (letter != '\n')
+            line += letter;
+        else if (!line.empty())
+            line += ';';
+    while (line.ends_with(';'))
+        line.pop_back();
+    return line;
+}
+
+std::string asked_text(const AskedAccuracy& asked) {
+    return asked.within.empty()  ? "--error " + shown_start(asked.error)
+           : asked.error.empty() ? "--within " + shown_start(asked.within)
+                                 : fmt::format("--within {} --error {}", shown_start(asked.within),
+                                               shown_start(asked.error));
+}
+
+} // namespace
+
+void add_asked_accuracy(CLI::App& command, AskedAccuracy& asked) {
+    command
+        .add_option("--within", asked.within,
+                    "choose the level that recorded runs support and that ends within this time, "
+                    "such as 10min")
+        ->type_name("TIME")
+        ->default_str("none");
+    command
+        .add_option("--error", asked.error,
+                    fmt::format("choose the cheapest level whose recorded errors are below these: "
+                                "tilt=0.1deg,cutoff=0.2km, or a percentage, alone of {}; measures "
+                                "are {}",
+                                fmt::join(geometry, ", "), fmt::join(words_of_measures(), ", ")))
+        ->type_name("ERRORS")
+        ->default_str("none");
+}
+
+double parse_duration(const std::string& option, const std::string& text) {
+    static constexpr Unit units[] = {{"min", 60.0}, {"s", 1.0}, {"h", 3600.0}, {"d", 86400.0}};
+    return with_unit(text, units, [&] {
+        return fmt::format("{} {}: a time above 0 with its unit, such as 90s, 10min, 2h or 1d",
+                           option, shown_start(text));
+    });
+}
+
+std::vector<ErrorTarget> parse_error_targets(const std::string& text) {
+    std::vector<ErrorTarget> targets;
+    for (const auto part : std::views::split(text, ',')) {
+        const std::string item(part.begin(), part.end());
+        const std::size_t equals = item.find('=');
+        if (equals != item.npos) {
+            add_targets(targets, item.substr(0, equals), item.substr(equals + 1));
+            continue;
+        }
+        if (!item.ends_with('%'))
+            throw UsageError(fmt::format("--error {}: tilt=0.1deg,cutoff=0.2km, or a percentage "
+                                         "such as 2%",
+                                         shown_start(item)));
+        for (const std::string_view word : geometry)
+            add_targets(targets, std::string(word), item);
+    }
+    return targets;
+}
+
+std::optional<double> promised_error(const KnownError& error, int seeds) {
+    if (!error.resolution || !error.speed || !error.spread)
+        return std::nullopt;
+    const double recorded = error.spread->runs;
+    return std::abs(error.resolution->value) + std::abs(error.speed->value) +
+           student_quantile(confidence, recorded - 1.0) * error.spread->value *
+               std::sqrt(1.0 / seeds + 1.0 / recorded);
+}
+
+std::vector<AccuracyChoice> recorded_choices(std::span<const RecordedRun> runs,
+                                             const SceneRequest& request,
+                                             const std::function<double(const Scene&)>& seconds) {
+    std::vector<AccuracyChoice> choices;
+    const std::string name = scene_name(request);
+    for (const std::string_view level_name : levels_asked) {
+        const AccuracyLevel& level =
+            *std::ranges::find(accuracy_levels(), level_name, &AccuracyLevel::name);
+        std::vector<double> speeds;
+        for (const RecordedRun& run : runs)
+            if (run.scene == name && std::abs(run.mean_radius / level.mean_radius - 1.0) < 1e-3 &&
+                std::ranges::count(speeds, run.speed) == 0)
+                speeds.push_back(run.speed);
+        for (const double speed : speeds) {
+            const Scene scene = load_scene(request_of(request, std::string(level_name), speed));
+            AccuracyChoice choice{.level = std::string(level_name),
+                                  .speed = speed,
+                                  .errors =
+                                      archive::known_errors(runs, archive::error_question(scene))};
+            if (std::ranges::all_of(choice.errors,
+                                    [](const KnownError& error) { return error.mean == 0.0; }))
+                continue;
+            choice.seconds = seconds(scene);
+            choices.push_back(std::move(choice));
+        }
+    }
+    std::ranges::stable_sort(choices, {}, &AccuracyChoice::seconds);
+    return choices;
+}
+
+std::optional<AccuracyChoice> cheapest_choice(std::span<const AccuracyChoice> choices,
+                                              std::span<const ErrorTarget> targets) {
+    std::optional<AccuracyChoice> cheapest;
+    for (const AccuracyChoice& choice : choices)
+        for (int seeds = 1; seeds <= most_seeds; ++seeds) {
+            if (!meets(choice, targets, seeds))
+                continue;
+            AccuracyChoice met = with_seeds(choice, seeds);
+            if (!cheapest || met.seconds < cheapest->seconds)
+                cheapest = std::move(met);
+            break;
+        }
+    return cheapest;
+}
+
+std::optional<AccuracyChoice> best_choice(std::span<const AccuracyChoice> choices, double seconds) {
+    const auto rank = [](const AccuracyChoice& choice) {
+        const bool promises = std::ranges::any_of(choice.errors, [](const KnownError& error) {
+            return promised_error(error, 1).has_value();
+        });
+        return std::tuple(std::ranges::find(levels_asked, choice.level) - std::begin(levels_asked),
+                          promises, -choice.speed);
+    };
+    const AccuracyChoice* best = nullptr;
+    for (const AccuracyChoice& choice : choices)
+        if (choice.seconds <= seconds && (!best || rank(choice) > rank(*best)))
+            best = &choice;
+    if (!best)
+        return std::nullopt;
+    const int fit = static_cast<int>(std::min<double>(most_seeds, seconds / best->seconds));
+    return with_seeds(*best, std::max(1, fit));
+}
+
+std::string explain_asked(const AskedAccuracy& asked, const SceneRequest& request, int threads) {
+    refuse_level(request);
+    if (!asked.error.empty()) // whatever is recorded, a call that says nothing is refused
+        parse_error_targets(asked.error);
+    if (!asked.within.empty())
+        parse_duration("--within", asked.within);
+    const RecordedWays choices = recorded_ways(request, threads);
+    const AskedAnswer answer = answer_to(asked, choices, most_seeds);
+    if (!answer.choice)
+        return fmt::format("{} of {}: nothing recorded supports an answer: {}\n", asked_text(asked),
+                           request.scene, answer.objection);
+    std::string text = fmt::format(
+        "{} of {}, by recorded runs\n  {} on this machine, {} thread{}\n  {}\n{}",
+        asked_text(asked), request.scene, name_of(*answer.choice), threads, threads == 1 ? "" : "s",
+        call_of(*answer.choice, request), error_table(*answer.choice));
+    const double twice = 2.0 * (asked.error.empty() ? parse_duration("--within", asked.within)
+                                                    : answer.choice->seconds);
+    const auto more = best_choice(choices.all, twice);
+    text += fmt::format("\ntwice the time ({})", duration(twice));
+    if (more && (more->level != answer.choice->level || more->speed != answer.choice->speed ||
+                 more->seeds != answer.choice->seeds))
+        text += fmt::format(" buys\n  {}\n{}", name_of(*more), error_table(*more));
+    else
+        text += " buys nothing that is recorded\n";
+    return text;
+}
+
+std::string apply_asked(const AskedAccuracy& asked, SceneRequest& request, int threads) {
+    refuse_level(request);
+    const RecordedWays choices = recorded_ways(request, threads);
+    const AskedAnswer answer = answer_to(asked, choices, 1);
+    if (!answer.choice)
+        throw UsageError(fmt::format("{}: nothing recorded supports an answer: {}",
+                                     asked_text(asked), one_line(answer.objection)));
+    const AccuracyChoice& choice = *answer.choice;
+    std::string text = fmt::format("{}: {}", asked_text(asked), name_of(choice));
+    if (choice.seeds > 1)
+        text += fmt::format("; this run is one of them: {} --seed N -o DIR makes the others",
+                            call_of(choice, request));
+    request = request_of(std::move(request), choice.level, choice.speed);
+    return text;
+}
+
+} // namespace listric

@@ -1,0 +1,310 @@
+#!/usr/bin/env python3
+"""Looks for trouble until a time is over: crashes, reports of sanitizers, calls that do not end, exit codes
+that nobody declares, refusals without a word, numbers that are none, other bits after a resume.
+
+    python3 -B tests/fuzz/fuzz.py build/address/listric --seconds 600 --jobs 2
+
+Kinds of cases, in turn: `scenes` from the declared parameters inside, at and beyond their ranges, with any
+effects (check, explain); `runs` of small scenes; `damaged` inputs of all readers; `snapshots` with flipped
+bytes; `sequences` of calls on one folder. The seed is the day's unless --seed gives one; the first line of
+the log has it, and equal seeds make equal cases. What fails is shrunk and kept in --keep with its call.
+Exit code 1: something failed.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import datetime
+import json
+import math
+import random
+import shutil
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "stability"))
+import damaged_inputs  # noqa: E402
+import scenes  # noqa: E402
+import shrink  # noqa: E402
+
+# Kinds, and how many cases of each a round has: some take a hundred times as long as others.
+SHARES = {"scenes": 4, "runs": 2, "damaged": 8, "snapshots": 4, "sequences": 1}
+KINDS = tuple(SHARES)
+LONGEST = {"check": 20.0, "explain": 20.0, "run": 60.0}
+RUN = ["--threads", "1", "--quiet", "--no-report"]
+BATCH = 12   # scenes that one call checks
+
+
+def finite(one):
+    """Whether all numbers of JSON are numbers."""
+    if isinstance(one, dict):
+        return all(map(finite, one.values()))
+    if isinstance(one, list):
+        return all(map(finite, one))
+    return not isinstance(one, float) or math.isfinite(one)
+
+
+class Fuzzer:
+    def __init__(self, program, scratch, keep, seed):
+        self.runner = damaged_inputs.Runner(Path(program).resolve(), scratch, keep)
+        self.maker = damaged_inputs.Maker(scenes.SOURCES / "tests/scenes/every-effect-begun")
+        self.scratch, self.keep, self.seed = scratch, keep, seed
+        self.count, self.codes = collections.Counter(), collections.defaultdict(collections.Counter)
+        self.failures, self.hashes, self.lock = [], {}, threading.Lock()
+
+    # ------------------------------------------------------------------------------ calls
+
+    def call(self, words, folder):
+        """What is wrong with a call, and its exit code."""
+        why, code, said = self.runner.call(words, folder, LONGEST.get(words[0], 60.0))
+        if not why and code in (2, 3, 4) and not said.strip():
+            why = f"exit code {code} without a word"
+        return why, code, said
+
+    def checked(self, text, folder, words=("check",)):
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "a.toml").write_text(text, encoding="utf-8")
+        return self.call([*words, "@a.toml"], folder)
+
+    def run(self, text, folder):
+        """What is wrong with a run of a scene, and its exit code."""
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        (folder / "a.toml").write_text(text, encoding="utf-8")
+        why, code, said = self.call(["run", "@a.toml", "--output", "@out", *RUN], folder)
+        if not why and code == 0:
+            summary = json.loads((folder / "out/summary.json").read_text(encoding="utf-8"))
+            if not summary.get("finished") or not finite(summary):
+                why = "summary.json is not that of a finished run with numbers"
+        return why, code, said
+
+    # ------------------------------------------------------------------------------ kinds
+
+    def scenes(self, number, folder):
+        """Scenes, a dozen to a call of check; those that fail are checked alone, and one is explained."""
+        made = [scenes.make_scene(random.Random(f"{self.seed}:scenes:{number}:{k}")) for k in range(BATCH)]
+        for k, scene in enumerate(made):
+            (folder / f"{k}.toml").write_text(scenes.to_toml(scene), encoding="utf-8")
+        why, code, said = self.call(["check", *(f"@{k}.toml" for k in range(BATCH))], folder)
+        self.add("scenes", BATCH)
+        lines = said.decode("utf-8", "replace").splitlines()
+        valid = sum(1 for k in range(BATCH) if any(f"{k}.toml: " in line and ": correct" in line for line in lines))
+        self.add("valid scenes", valid)
+        self.tell("scenes", code)
+        if why or code not in (0, 2):
+            for scene in made:
+                self.shrunk_scene(scene, number, ("check",))
+        explained = made[number % BATCH]
+        why, code, said = self.checked(scenes.to_toml(explained), folder, ("explain",))
+        self.add("explained", 1)
+        self.tell("explained", code)
+        numberless = (b" nan", b" inf ", b" -nan")
+        if not why and code == 0 and any(word in said for word in numberless):
+            why = "explain tells a number that is none"
+        if why:
+            self.shrunk_scene(explained, number, ("explain",))
+
+    def shrunk_scene(self, scene, number, words):
+        folder = self.scratch / f"shrink-{words[0]}-{number}-{threading.get_ident()}"
+        first = self.checked(scenes.to_toml(scene), folder, words)
+        if not first[0]:
+            return
+        smallest = shrink.shrink_scene(scene, lambda s: self.checked(scenes.to_toml(s), folder, words)[0] == first[0],
+                                       scenes.BASE)
+        self.fail(f"{words[0]}-{number}", first, {"a.toml": scenes.to_toml(smallest).encode()}, [[*words, "a.toml"]])
+
+    def runs(self, number, folder):
+        chance = random.Random(f"{self.seed}:runs:{number}")
+        scene = scenes.make_scene(chance, share_beyond=0.0, small=True)
+        # What is refused, or would take minutes by its own forecast, is no run.
+        why, code, said = self.checked(scenes.to_toml(scene), folder)
+        self.add("runs", 1)
+        if code != 0 or self.is_long(folder):
+            self.add("not run", 1)
+            if why:
+                self.shrunk_scene(scene, number, ("check",))
+            return
+        why, code, said = self.run(scenes.to_toml(scene), folder / "run")
+        self.add("ran to the end", code == 0)
+        self.tell("runs", code)
+        if why:
+            smallest = shrink.shrink_scene(scene, lambda s: self.run(scenes.to_toml(s), folder / "run")[0] == why,
+                                           scenes.BASE, budget=40)
+            self.fail(f"run-{number}", (why, code, said), {"a.toml": scenes.to_toml(smallest).encode()},
+                      [["run", "a.toml", "--output", "out", *RUN]])
+
+    def is_long(self, folder):
+        """Whether `explain` says more than some seconds of this call."""
+        _, _, said = self.call(["explain", "@a.toml", "--threads", "1"], folder)
+        for line in said.decode("utf-8", "replace").splitlines():
+            words = line.split()
+            if words[:2] == ["this", "call:"]:
+                return words[3].rstrip(";") != "s" or float(words[2]) > 10.0
+        return True
+
+    def damaged(self, number, folder, readers=None):
+        names = readers or [r for r in damaged_inputs.SHARES if r not in ("explained", "snapshot", "underlay")]
+        chance = random.Random(f"{self.seed}:damaged:{number}")
+        reader = chance.choices(names, [damaged_inputs.SHARES[r] for r in names])[0]
+        files, calls = getattr(self.maker, reader)(chance)
+        damaged_inputs.write(folder, files)
+        self.add("snapshots" if readers else "damaged files", 1)
+        for words in calls:
+            result = self.call(words, folder)
+            self.tell("snapshots" if readers else "damaged files", result[1])
+            if result[0]:
+                self.shrunk_files(f"{reader}-{number}", files, words, result, folder)
+
+    def shrunk_files(self, name, files, words, first, folder):
+        """With the damaged text as short as it fails; snapshots stay whole."""
+        damaged = next((n for n in files if n.startswith("a.") and len(files[n]) < 100_000), None)
+        if damaged:
+            def fails(data):
+                (folder / damaged).write_bytes(data)
+                return self.call(words, folder)[0] == first[0]
+            files = files | {damaged: shrink.shrink_text(files[damaged], fails)}
+        self.fail(name, first, files, [words])
+
+    def snapshots(self, number, folder):
+        self.damaged(number, folder, ["snapshot"])
+
+    def sequences(self, number, folder):
+        """Calls on one folder in any order; a run that is resumed to its end has the bits of one in one go."""
+        chance = random.Random(f"{self.seed}:sequences:{number}")
+        text = damaged_inputs.SCENE.replace("distance_m = 200.0", "distance_m = 100.0").replace(
+            "seed = 3", f"seed = {chance.randrange(1, 4)}").replace("figures_at_m = [100.0]", "figures_at_m = []")
+        (folder / "a.toml").write_text(text, encoding="utf-8")
+        steps = [["run", "@a.toml", "--output", "@out", *RUN, *more] for more in (
+            ["--until", "25m"], ["--until", "50m", "--resume"], ["--resume"], ["--force", "--until", "10m"],
+            ["--resume", "--until", "75m"], [], ["--until", "0m", "--resume"])]
+        others = [["check", "@out/scene.toml"], ["export", "horizons", "@out"], ["export", "faults", "@out"],
+                  ["report", "@out", "--output", "@r.html"], ["diff", "@out", "@out"], ["cite", "@out"],
+                  ["explain", "@out/scene.toml", "--threads", "1"]]
+        calls = [chance.choice(steps if chance.random() < 0.6 else others) for _ in range(chance.randrange(2, 7))]
+        calls.append(steps[2])
+
+        def fails(kept):
+            shutil.rmtree(folder / "out", ignore_errors=True)
+            for words in kept:
+                result = self.call(words, folder)
+                self.tell("sequences", result[1])
+                if result[0]:
+                    return result
+            return None
+
+        result = fails(calls)
+        self.add("sequences", 1)
+        if not result:
+            result = self.other_bits(text, folder)
+        if result:
+            shorter = shrink.shrink_list(calls, lambda kept: (fails(kept) or [None])[0] == result[0], 20)
+            self.fail(f"sequence-{number}", result, {"a.toml": text.encode()}, shorter)
+
+    def other_bits(self, text, folder):
+        """What is wrong where the bits of the sequence's run are not those of a run in one go."""
+        if not (folder / "out/summary.json").exists():
+            return None
+        with self.lock:
+            known = self.hashes.get(text)
+        if known is None:
+            why, code, said = self.run(text, folder / "whole")
+            if why or code != 0:
+                return why or f"exit code {code}", code, said
+            known = self.hash_in(folder / "whole/out")
+            with self.lock:
+                self.hashes[text] = known
+        found = self.hash_in(folder / "out")
+        return (f"bits {found} after resumes, {known} in one go", 0, b"") if found != known else None
+
+    @staticmethod
+    def hash_in(output):
+        return json.loads((output / "summary.json").read_text(encoding="utf-8"))["state_hash"]
+
+    # ------------------------------------------------------------------------------ account
+
+    def add(self, what, number):
+        with self.lock:
+            self.count[what] += int(number)
+
+    def tell(self, what, code):
+        with self.lock:
+            self.codes[what][code] += 1
+
+    def fail(self, name, first, files, calls):
+        why, _, said = first
+        kept = self.keep / name
+        kept.mkdir(parents=True, exist_ok=True)
+        damaged_inputs.write(kept, files)
+        (kept / "call.txt").write_text("\n".join(" ".join(map(str, words)) for words in calls) + f"\n{why}\n",
+                                       encoding="utf-8")
+        (kept / "said.txt").write_bytes(said[-20_000:])
+        with self.lock:
+            self.failures.append((name, why))
+        print(f"{name}: {why}: {kept}", flush=True)
+
+    def case(self, kind, number):
+        folder = self.scratch / f"{kind}-{number}"
+        folder.mkdir(parents=True, exist_ok=True)
+        try:
+            getattr(self, kind)(number, folder)
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+
+    def carry_out(self, seconds, jobs, kinds, most=10 ** 9):
+        """Cases of all kinds in turn until the time is over, or there were so many turns."""
+        end = time.monotonic() + seconds
+
+        def work(first):
+            for turn in range(first, most, jobs):
+                for kind in kinds:
+                    for number in range(turn * SHARES[kind], (turn + 1) * SHARES[kind]):
+                        if time.monotonic() > end:
+                            return
+                        self.case(kind, number)
+
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            for done in [pool.submit(work, first) for first in range(jobs)]:
+                done.result()
+
+    def account(self):
+        lines = [", ".join(f"{what} {number}" for what, number in self.count.items())]
+        for what, codes in self.codes.items():
+            lines.append(f"{what}, calls by exit code: "
+                         + ", ".join(f"{code} {number}" for code, number in sorted(codes.items(), key=str)))
+        return "\n".join(lines + [f"{len(self.failures)} failures"])
+
+
+def seed_of_the_day():
+    return datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d")
+
+
+def fuzz(program, seconds, seed, jobs=1, kinds=KINDS, keep=None, most=10 ** 9):
+    """Returns the fuzzer, which has what failed."""
+    with tempfile.TemporaryDirectory(prefix="fuzz-") as scratch:
+        fuzzer = Fuzzer(program, Path(scratch), Path(keep or Path(scratch) / "kept").absolute(), seed)
+        fuzzer.carry_out(seconds, jobs, kinds, most)
+        return fuzzer
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("--seconds", type=float, default=600.0)
+    parser.add_argument("--seed", default=None, help="a word or a number; without it the day's")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--only", nargs="*", choices=KINDS)
+    parser.add_argument("--keep", default="fuzz-failures")
+    call = parser.parse_args()
+    seed = call.seed or seed_of_the_day()
+    print(f"fuzz: seed {seed}, {call.seconds:g} s, {call.jobs} at a time, {call.program}", flush=True)
+    begun = time.monotonic()
+    fuzzer = fuzz(call.program, call.seconds, seed, call.jobs, call.only or KINDS, call.keep)
+    print(f"{fuzzer.account()} in {time.monotonic() - begun:.0f} s")
+    return 1 if fuzzer.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

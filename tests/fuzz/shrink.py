@@ -1,0 +1,51 @@
+"""Makes what fails smaller while it fails in the same way."""
+
+
+def shrink_list(parts, fails, budget=200):
+    """The fewest parts of a list with which `fails(parts)` is still true (Zeller & Hildebrandt 2002, ddmin);
+    at most `budget` tries."""
+    size = max(1, len(parts) // 2)
+    tries = 0
+    while size >= 1 and tries < budget:
+        begin, shrunk = 0, False
+        while begin < len(parts) and tries < budget:
+            fewer = parts[:begin] + parts[begin + size:]
+            tries += 1
+            if fewer and fails(fewer):
+                parts, shrunk = fewer, True
+            else:
+                begin += size
+        if not shrunk:
+            size = size // 2
+    return parts
+
+
+def shrink_scene(scene, fails, base, budget=200):
+    """The fewest tables and keys of a scene, {table: {key: value}}, with which it fails; what `base` has
+    takes its value there where that fails, too."""
+    pairs = [(table, None) for table in scene if table not in base]
+    pairs += [(table, key) for table in scene for key in scene[table]
+              if base.get(table, {}).get(key) != scene[table][key]]
+
+    def with_changes(kept):
+        made = {table: dict(keys) for table, keys in base.items() if table in scene}
+        for table, key in kept:
+            made.setdefault(table, {})
+            if key is not None:
+                made[table][key] = scene[table][key]
+        return made
+
+    if not pairs or not fails(with_changes(pairs)):
+        return scene   # the base's own, or a table that is missing
+    if fails(with_changes([])):
+        return with_changes([])
+    return with_changes(shrink_list(pairs, lambda kept: fails(with_changes(kept)), budget))
+
+
+def shrink_text(data, fails, budget=200):
+    """The fewest lines, then bytes, of a file that fails."""
+    lines = shrink_list(data.splitlines(keepends=True), lambda kept: fails(b"".join(kept)), budget)
+    data = b"".join(lines)
+    if len(data) > 2000:
+        return data
+    return bytes(shrink_list(list(data), lambda kept: fails(bytes(kept)), budget))

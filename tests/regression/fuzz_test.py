@@ -1,0 +1,60 @@
+"""Some cases of tests/fuzz, always the same ones; and its shrinker.
+
+    LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest fuzz_test
+"""
+
+import random
+import sys
+import unittest
+
+from program import PROGRAM, SOURCES
+
+sys.path.insert(0, str(SOURCES / "tests/fuzz"))
+import fuzz  # noqa: E402
+import scenes  # noqa: E402
+import shrink  # noqa: E402
+
+
+class Fuzz(unittest.TestCase):
+    def test_cases_end_in_order(self):
+        fuzzer = fuzz.fuzz(PROGRAM, 120.0, "test", kinds=("scenes", "snapshots"), most=2)
+        self.assertEqual(fuzzer.failures, [])
+        self.assertEqual(fuzzer.count["scenes"], 2 * fuzz.SHARES["scenes"] * fuzz.BATCH)
+        self.assertGreater(fuzzer.count["valid scenes"], 10)   # else only refusals are tested
+        self.assertEqual(fuzzer.count["snapshots"], 2 * fuzz.SHARES["snapshots"])
+
+    def test_what_crashes_is_found_and_shrunk(self):
+        class Broken(fuzz.Fuzzer):
+            def checked(self, text, folder, words=("check",)):
+                return ("it crashed" if "friction" in text and "[bonds]" in text else None), 0, b""
+
+        found = []
+        broken = Broken.__new__(Broken)
+        broken.scratch = SOURCES
+        broken.fail = lambda name, first, files, calls: found.append(files["a.toml"].decode())
+        scene = {**scenes.BASE, "bonds": {"tensile_strength_pa": 1e6}, "gravity": {}, "compaction": {}}
+        scene["detachment"] = scene["detachment"] | {"friction": 0.2}
+        broken.shrunk_scene(scene, 1, ("check",))
+        self.assertEqual(len(found), 1)
+        self.assertIn("[bonds]", found[0])
+        self.assertNotIn("tensile", found[0])
+        self.assertNotIn("[gravity]", found[0])
+
+    def test_numbers_are_inside_or_beyond_their_range(self):
+        kind = {"type": "number", "minimum": 0.1, "maximum": 5.0, "default": 1.0}
+        chance = random.Random(1)
+        inside = [scenes.number(chance, kind, False) for _ in range(300)]
+        self.assertTrue(all(0.1 <= one <= 5.0 for one in inside))
+        self.assertIn(0.1, inside)
+        self.assertIn(5.0, inside)
+        beyond = [scenes.number(chance, kind, True) for _ in range(300)]
+        self.assertTrue(any(one < 0.1 for one in beyond) and any(one > 5.0 for one in beyond))
+
+    def test_lists_and_texts_shrink_to_what_fails(self):
+        self.assertEqual(shrink.shrink_list(list(range(40)), lambda kept: {3, 29} <= set(kept)), [3, 29])
+        text = b"one\ntwo\nthree bad\nfour\n"
+        self.assertEqual(shrink.shrink_text(text, lambda data: b"bad" in data), b"bad")
+
+
+if __name__ == "__main__":
+    unittest.main()
