@@ -14,7 +14,7 @@ Command add_fit(CLI::App& program) {
                            "fit",
                            "find the listric detachment below picked horizons",
                            "docs/fit.md",
-                           {{{"fit picks.csv --predict-only", "kinematics alone, within seconds"},
+                           {{{"fit picks.csv --predict-only", "kinematics alone, without a run"},
                              {"fit picks.csv --jobs 2", "then drafts, two at a time"},
                              {"fit picks.csv --scene my.toml --set extension.distance_m=6km",
                               "rock, sediment and rate of your own scene"}}}});

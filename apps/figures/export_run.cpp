@@ -109,9 +109,10 @@ void Trajectory::write(const fs::path& file) const {
 std::string no_well(const ExportRequest& request, const Observation& now) {
     const std::vector<WellPlace> places = well_places(now, {});
     if (places.empty())
-        return fmt::format("{}: no sediment to drill; wells need [sedimentation] and a moment at "
-                           "which there is some",
-                           request.output.string());
+        return fmt::format(
+            "{}: no sediment to drill; wells need a scene with sediment and a moment at "
+            "which there is some",
+            request.output.string());
     return fmt::format("--x {}: no sediment there; the {} is at {:.0f} m",
                        fmt::join(request.wells, ","), places.front().name, places.front().x);
 }

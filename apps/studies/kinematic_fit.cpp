@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstddef>
+#include <iterator>
 #include <span>
 
 namespace listric {
@@ -81,30 +82,28 @@ std::vector<double> even_values(double low, double high) {
     return values;
 }
 
+/// From the best to either side, each value's search from where that of its neighbour ended.
 FitProfile profile_of(const FitTask& task, const SimplexMinimum& best, std::size_t number) {
     const Numbers at = as_numbers(best), low = least_of(task), high = greatest_of(task);
     const bool is_depth = number == 1;
-    FitProfile profile;
-    for (const double value :
-         even_values(is_depth ? std::max(low[1], 0.6 * at[1]) : low[number],
-                     is_depth ? std::min(high[1], 1.6 * at[1]) : high[number])) {
-        Numbers start = at, step = steps_at(at);
-        start[number] = value;
-        step[number] = 0.0;
-        profile.values.push_back(value);
-        profile.misfit.push_back(descend(task, start, step, 100).value);
+    std::vector<double> values =
+        even_values(is_depth ? std::max(low[1], 0.6 * at[1]) : low[number],
+                    is_depth ? std::min(high[1], 1.6 * at[1]) : high[number]);
+    const auto place = values.insert(std::ranges::upper_bound(values, at[number]), at[number]);
+    const std::ptrdiff_t middle = place - values.begin(), end = std::ssize(values);
+    FitProfile profile{values, std::vector<double>(values.size(), best.value)};
+    for (const std::ptrdiff_t side : {-1, 1}) {
+        Numbers from = at;
+        for (std::ptrdiff_t k = middle + side; k >= 0 && k < end; k += side) {
+            Numbers step = steps_at(from);
+            from[number] = values[static_cast<std::size_t>(k)];
+            step[number] = 0.0;
+            const SimplexMinimum found = descend(task, from, step, 100);
+            from = as_numbers(found);
+            profile.misfit[static_cast<std::size_t>(k)] = found.value;
+        }
     }
-    profile.values.push_back(at[number]);
-    profile.misfit.push_back(best.value);
-    std::vector<std::size_t> order(profile.values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, {}, [&](std::size_t k) { return profile.values[k]; });
-    FitProfile sorted;
-    for (const std::size_t k : order) {
-        sorted.values.push_back(profile.values[k]);
-        sorted.misfit.push_back(profile.misfit[k]);
-    }
-    return sorted;
+    return profile;
 }
 
 } // namespace

@@ -15,7 +15,7 @@ struct FitHorizon {
     std::vector<double> x, depth; ///< m
 };
 
-/// What is fitted: horizons of a section after so much extension.
+/// Horizons of a section after so much extension, to which a detachment is fitted.
 struct FitTask {
     std::vector<FitHorizon> horizons;
     double extension = 0.0;                  ///< m

@@ -35,7 +35,8 @@ dem::DetachmentParameters detachment_of(const ListricShape& shape) {
 
 const std::array<ShapeNumber, 3>& shape_numbers() {
     static constexpr std::array<ShapeNumber, 3> numbers{{
-        {"dip_deg", "dip at the breakaway", "degrees", &ListricShape::dip, 1.0, 12.0, 5.0, false},
+        {"breakaway_dip_deg", "dip at the breakaway", "degrees", &ListricShape::dip, 1.0, 12.0, 5.0,
+         false},
         {"depth_m", "depth of the flat", "km", &ListricShape::depth, 1e-3, 0.1, 0.05, true},
         {"straight", "straight share", "", &ListricShape::straight, 1.0, 0.15, 0.1, false},
     }};

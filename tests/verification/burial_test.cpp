@@ -100,8 +100,9 @@ TEST_F(Burial, DecompactsToTheThicknessThatWasDeposited) {
             continue;
         ++strata[row.at("name")];
         EXPECT_NEAR(decompacted(row) / number(row, "deposited_thickness_m"), 1.0, 0.02);
-        if (number(row, "stratum") == 1.0) // which has lost a quarter of its thickness
+        if (number(row, "stratum") == 1.0) { // which has lost a quarter of its thickness
             EXPECT_LT(number(row, "thickness_m"), 0.8 * number(row, "deposited_thickness_m"));
+        }
     }
     EXPECT_THAT(strata,
                 testing::ElementsAre(testing::Pair("x 4500 m", 4), testing::Pair("x 5000 m", 4),
@@ -119,7 +120,7 @@ TEST_F(Burial, NeedsSediment) {
     };
     run(load(basin, {"extension.distance_m=1", "hanging_wall.mean_radius_m=100"}), "bare");
     EXPECT_THAT(refusal({.kind = "well", .output = folder / "bare"}),
-                AllOf(HasSubstr("bare"), HasSubstr("[sedimentation]")));
+                AllOf(HasSubstr("bare"), HasSubstr("a scene with sediment")));
 }
 
 } // namespace
