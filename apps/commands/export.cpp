@@ -19,7 +19,7 @@ Command add_export(CLI::App& program) {
          "docs/export.md",
          {{{"export horizons out/lis1", "tops of all strata as CSV"},
            {"export faults out/lis1 --format geojson", "faults for a GIS"},
-           {"export well out/lis1-mud --x 3750", "pressure and mud weight along a well"}}}});
+           {"export well out/lis1 --x 3.3km", "burial history of every stratum in a well"}}}});
     command->add_option("KIND", request->kind, fmt::format("{}", fmt::join(export_kinds(), ", ")))
         ->type_name("KIND")
         ->required();
@@ -35,8 +35,8 @@ Command add_export(CLI::App& program) {
     add_lengths(*command, "--at", request->extensions,
                 "extension of a snapshot, such as 5km, or several with commas")
         ->default_str("all snapshots");
-    add_numbers(*command, "--x", request->wells,
-                "of well: distance from the breakaway, m, or several with commas")
+    add_lengths(*command, "--x", request->wells,
+                "of well: distance from the breakaway, such as 3.3km, or several with commas")
         ->default_str("the depocentre and its flank");
     add_number(*command, "--frequency", request->seismic.frequency,
                "seismic: frequency of the wavelet (Ricker's), Hz")

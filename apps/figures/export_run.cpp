@@ -1,5 +1,6 @@
 #include "apps/figures/export_run.hpp"
 
+#include "apps/archive/burial_history.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/exports.hpp"
 #include "apps/archive/run_folder.hpp"
@@ -106,26 +107,31 @@ void Trajectory::write(const fs::path& file) const {
 
 /// Why there is no well.
 std::string no_well(const ExportRequest& request, const Observation& now) {
-    const MeasuredWell* const well = measured_well(now.scene);
-    if (!well || well->places(now).empty()) {
-        std::vector<std::string> tables;
-        for (const Effect* effect : program_effects())
-            if (effect->well)
-                tables.push_back(fmt::format("[{}]", effect->name));
+    const std::vector<WellPlace> places = well_places(now, {});
+    if (places.empty())
         return fmt::format(
-            "{}: no pressure of pore water to export; wells need {}, a pressure that "
-            "is not that of water at rest, and sediment",
-            request.output.string(), fmt::join(tables, " or "));
-    }
-    const WellPlace place = well->places(now).front();
+            "{}: no sediment to drill; wells need a scene with sediment and a moment at "
+            "which there is some",
+            request.output.string());
     return fmt::format("--x {}: no sediment there; the {} is at {:.0f} m",
-                       fmt::join(request.wells, ","), place.name, place.x);
+                       fmt::join(request.wells, ","), places.front().name, places.front().x);
 }
 
 std::string written(const LineTable& table, const std::string& format) {
     return format == "csv"       ? to_csv(table)
            : format == "geojson" ? to_geojson(table)
                                  : to_gmt(table);
+}
+
+/// Writes KIND-SNAPSHOT.FORMAT in every format of lines, and adds the files to those there are.
+void write_lines(LineTable table, std::string_view kind, const fs::path& snapshot,
+                 const ExportRequest& request, std::vector<fs::path>& files) {
+    table.name = fmt::format("{}-{}", kind, snapshot.stem().string());
+    for (const std::string& format : request.formats)
+        if (format != "gsd") {
+            files.push_back(request.output / "export" / (table.name + "." + format));
+            write_text(files.back(), written(table, format));
+        }
 }
 
 } // namespace
@@ -183,17 +189,15 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
         if (table.lines.empty() && kind.name == "base")
             throw UsageError(request.output.string() + ": the base of this run is rigid; there is "
                                                        "no deflection to export");
-        if (table.lines.empty() && kind.name == "well") { // at the start there is no sediment
-            if (path == moments.back())
+        const bool is_drilled = kind.name == "well" && path == moments.back();
+        if (is_drilled) {
+            const LineTable burial = burial_table(run, path, request.wells);
+            if (burial.lines.empty())
                 throw UsageError(no_well(request, now));
-            continue;
+            write_lines(burial, "burial", path, request, files);
         }
-        table.name = fmt::format("{}-{}", kind.name, path.stem().string());
-        for (const std::string& format : request.formats)
-            if (format != "gsd") {
-                files.push_back(folder / (table.name + "." + format));
-                write_text(files.back(), written(table, format));
-            }
+        if (!table.lines.empty() || kind.name != "well") // at the start there is no sediment
+            write_lines(std::move(table), kind.name, path, request, files);
     }
     if (trajectory) {
         files.push_back(folder / (request.kind + ".gsd"));

@@ -23,13 +23,13 @@ namespace {
 constexpr Shelf shelf{"sweep plan", "it needs scene, measures and [[vary]]", "", "studies"};
 
 /// Runs of a plan without its parameters and measures.
-struct PlanText {
+struct SweepPlanText {
     SweepPlan plan;
     std::string set, without;
 };
 
 const std::vector<Parameter>& plan_parameters() {
-    using T = PlanText;
+    using T = SweepPlanText;
     using P = SweepPlan;
     static const std::vector<Parameter> parameters{
         {"scene", at<&T::plan, &P::scene>, "", {}, "", "scene that is run"},
@@ -237,7 +237,7 @@ std::vector<std::size_t> shuffled(std::size_t samples, std::size_t parameter) {
 SweepPlan load_sweep_plan(const std::filesystem::path& file) {
     const toml::table document = shelf.read(file);
     const Entry top{document, ""};
-    PlanText text;
+    SweepPlanText text;
     read_table(top, plan_parameters(), &text, {"measures", "vary"});
     SweepPlan& plan = text.plan;
     plan.name = file.stem().string();

@@ -25,8 +25,10 @@ namespace fs = std::filesystem;
 using namespace support;
 using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 class PoreFluidRun : public SceneRuns {
 protected:
@@ -172,14 +174,12 @@ TEST_F(PoreFluidRun, ExportsWells) {
     EXPECT_THROW(export_run({.kind = "faults", .output = run, .wells = {x}}), UsageError);
 }
 
-TEST_F(PoreFluidRun, HasNoWellsWhereWaterIsAtRest) {
+TEST_F(PoreFluidRun, WellsHaveNoPressureWhereWaterIsAtRest) {
     run_with("rest", {"pore_fluid.hydrostatic=true"});
-    try {
-        export_run({.kind = "well", .output = folder / "rest"});
-        FAIL();
-    } catch (const UsageError& error) {
-        EXPECT_THAT(error.what(), AllOf(HasSubstr("rest"), HasSubstr("[pore_fluid]")));
-    }
+    std::vector<std::string> names;
+    for (const fs::path& file : export_run({.kind = "well", .output = folder / "rest"}))
+        names.push_back(file.filename().string());
+    EXPECT_THAT(names, ElementsAre(StartsWith("burial-")));
 }
 
 TEST_F(PoreFluidRun, TakesPoresFromTheRockOfSediment) {
