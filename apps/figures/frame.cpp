@@ -102,7 +102,7 @@ void write_behaviour(const FrameWriter& writer, const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const std::vector<double> unbonded = measures::unbonded_shares(state);
     std::vector<std::int32_t> classes;
-    for (const auto behaviour : measures::rock_behaviour(unbonded, d.stratum, d.material))
+    for (const auto behaviour : measures::rock_behaviour(unbonded, d.stratum, d.material, state.materials))
         classes.push_back(static_cast<std::int32_t>(behaviour));
     writer.array("discs_behaviour", std::span<const std::int32_t>(classes));
 }

@@ -353,7 +353,7 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
             });
     if (now.parts.bonds) {
         const auto classes =
-            rock_behaviour(measures::unbonded_shares(state), d.stratum, d.material);
+            rock_behaviour(measures::unbonded_shares(state), d.stratum, d.material, state.materials);
         const std::vector<std::int32_t> count = bonds_per_disc(state);
         add("behaviour", [classes](std::size_t i) { return static_cast<int>(classes[i]); });
         add("bonds", [count](std::size_t i) { return count[i]; });

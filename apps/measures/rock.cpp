@@ -65,7 +65,7 @@ std::vector<std::uint32_t> rocks(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     std::vector<std::uint32_t> rocks;
     for (std::size_t i = 0; i < d.x.size(); ++i)
-        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (d.material[i] == weak ? 1u : 0u));
+        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (is_weak(state.materials, d.material[i]) ? 1u : 0u));
     return rocks;
 }
 
@@ -76,7 +76,7 @@ NamedNumbers weak_shares(const State& state) {
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const std::size_t kind = d.stratum[i] == 0 ? 0 : 1;
         area[kind] += rock[i] * rock[i];
-        weak_area[kind] += d.material[i] == weak ? rock[i] * rock[i] : 0.0;
+        weak_area[kind] += is_weak(state.materials, d.material[i]) ? rock[i] * rock[i] : 0.0;
     }
     NamedNumbers shares;
     add(shares, basement_weak, weak_area[0] / area[0]);
@@ -93,7 +93,7 @@ std::optional<double> weak_off_faults(const State& state, std::span<const Fault>
             continue;
         const double area = d.radius[i] * d.radius[i];
         all += area;
-        if (d.material[i] == weak && std::ranges::none_of(faults, [&](const Fault& f) {
+        if (is_weak(state.materials, d.material[i]) && std::ranges::none_of(faults, [&](const Fault& f) {
                 return std::abs(place_on(f.trace.points, {d.x[i], d.y[i]}).distance) <= distance;
             }))
             off += area;

@@ -83,10 +83,7 @@ struct Allowed {
         return array_of(item, 1);
     }
     Json operator()(const Place<std::vector<dem::TargetStage>>&) const {
-        Json point = array_of(
-            Json::array({number_schema(ranges::target_x), number_schema(parameter.range)}), 2);
-        point["maxItems"] = 2;
-        const Json points = array_of(point, 1);
+        const Json points = points_schema();
         const Json stage =
             closed_table("", {{"time_a", number_schema(ranges::target_time)}, {"points", points}},
                          {"time_a", "points"});
@@ -104,6 +101,16 @@ struct Allowed {
     Json operator()(const Place<std::vector<fem::Layer>>&) const {
         const fem::Layer layer;
         return array_of(table_schema("", layer_parameters(), &layer));
+    }
+    Json operator()(const Place<std::vector<dem::Point>>&) const { return points_schema(); }
+
+private:
+    /// Points of an x and of a number that the parameter's range holds for.
+    Json points_schema() const {
+        Json point = array_of(
+            Json::array({number_schema(ranges::target_x), number_schema(parameter.range)}), 2);
+        point["maxItems"] = 2;
+        return array_of(point, 1);
     }
 };
 

@@ -4,10 +4,13 @@
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/weakened_discs.hpp"
 
+#include <optional>
+
 namespace listric::dem {
 
-/// Adjusts radius and density of weakened discs, which interpenetrate under load, such that the
-/// volume of the rock and its mass are conserved [paper, "Enhanced DE models"].
+/// Adjusts radius and density of discs of weakened rock and of soft layers, which interpenetrate
+/// under load, such that the volume of the rock and its mass are conserved [paper, "Enhanced DE
+/// models"].
 ///
 /// The radius follows the mean stress expected below what lies above the disc; what that leaves of
 /// a change of volume, measured by power cells around the disc, is taken back step by step.
@@ -24,5 +27,10 @@ private:
     FaultWeakeningParameters parameters_;
     double gravity_; ///< m/s^2
 };
+
+/// One update. Returns the error that it found, the change of the volume of all soft discs together
+/// over their volume when stiff; none if there are no such discs.
+std::optional<double> keep_volume(State& state, const RigidBase& base,
+                                  const FaultWeakeningParameters& parameters, double gravity);
 
 } // namespace listric::dem

@@ -13,23 +13,61 @@ std::vector<std::int32_t> weak_rows(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     std::vector<std::int32_t> rows;
     for (std::size_t i = 0; i < d.x.size(); ++i)
-        if (d.material[i] == weak)
+        if (is_weak(state.materials, d.material[i]))
             rows.push_back(static_cast<std::int32_t>(i));
     return rows;
 }
 
-void add_weakened_columns(State& state) {
-    state.discs.add_like<double>("scanned_x", "m", "x");
-    state.discs.add_like<double>("scanned_y", "m", "y");
+std::vector<std::int32_t> soft_rows(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::vector<std::int32_t> rows;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (is_soft(state.materials, d.material[i]))
+            rows.push_back(static_cast<std::int32_t>(i));
+    return rows;
+}
+
+void add_enlarged_columns(State& state) {
     state.discs.add<double>("rock_radius", "m", 0.0);
     state.discs.add<double>("rock_area", "m^2", 0.0);
     state.discs.add<double>("correction", "1", 1.0);
 }
 
-WeakenedColumns weakened_columns(State& state) {
+EnlargedColumns enlarged_columns(State& state) {
     Table& t = state.discs;
-    return {t.get<double>("scanned_x"), t.get<double>("scanned_y"), t.get<double>("rock_radius"),
-            t.get<double>("rock_area"), t.get<double>("correction")};
+    return {t.get<double>("rock_radius"), t.get<double>("rock_area"), t.get<double>("correction")};
+}
+
+void enlarge(State& state, const RigidBase& base, std::span<const std::int32_t> rows,
+             double mean_stress_ratio, double gravity) {
+    const DiscColumns d = disc_columns(state);
+    const EnlargedColumns e = enlarged_columns(state);
+    const std::vector<PowerCell> before = power_cells(state, base, rows);
+    const std::vector<double> weight = overburden(state, rows, gravity);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto i = static_cast<std::size_t>(rows[k]);
+        if (e.rock_radius[i] == 0.0) {
+            e.rock_radius[i] = d.radius[i];
+            e.rock_area[i] = before[k].closed ? before[k].area : 0.0;
+        }
+        d.radius[i] = e.rock_radius[i] * e.correction[i] *
+                      enlargement(mean_stress_ratio * weight[k], state.materials[d.material[i]]);
+    }
+}
+
+void weaken(State& state, const RigidBase& base, std::span<const std::int32_t> rows,
+            double mean_stress_ratio, double gravity) {
+    const DiscColumns d = disc_columns(state);
+    for (const std::int32_t row : rows) {
+        std::uint8_t& material = d.material[static_cast<std::size_t>(row)];
+        material = weakened(state.materials, material);
+    }
+    enlarge(state, base, rows, mean_stress_ratio, gravity);
+    const ContactColumns c = contact_columns(state);
+    for (std::size_t k = 0; k < c.first.size(); ++k)
+        if (is_weak(state.materials, d.material[static_cast<std::size_t>(c.first[k])]) ||
+            is_weak(state.materials, d.material[static_cast<std::size_t>(c.second[k])]))
+            c.bonded[k] = 0;
 }
 
 double enlargement(double mean_stress, const Material& weak_material) {

@@ -10,19 +10,31 @@
 
 namespace listric::dem {
 
-/// Columns that weakened discs need; they exist only while fault weakening is on.
-struct WeakenedColumns {
-    std::span<double> scanned_x, scanned_y; ///< where the last scan found the disc, m
-    std::span<double> rock_radius;          ///< radius without enlargement, m; 0: not weakened
-    std::span<double> rock_area;            ///< power cell before weakening, m^2; 0: unknown
-    std::span<double> correction;           ///< of the enlargement, from the volume error
+/// Columns that weakened and other soft discs need; they exist only where there can be some.
+struct EnlargedColumns {
+    std::span<double> rock_radius; ///< radius without enlargement, m; 0: not enlarged
+    std::span<double> rock_area;   ///< power cell before enlargement, m^2; 0: unknown
+    std::span<double> correction;  ///< of the enlargement, from the volume error
 };
 
 /// Rows of the discs that are weakened.
 std::vector<std::int32_t> weak_rows(const State& state);
 
-void add_weakened_columns(State& state);
-WeakenedColumns weakened_columns(State& state);
+/// Rows of the discs that are enlarged: of weakened rock and of soft layers.
+std::vector<std::int32_t> soft_rows(const State& state);
+
+void add_enlarged_columns(State& state);
+EnlargedColumns enlarged_columns(State& state);
+
+/// Enlarges discs of soft material for the first time, as much as what lies above them asks for:
+/// enlarged at once, a soft disc carries the load that the stiff one carried.
+void enlarge(State& state, const RigidBase& base, std::span<const std::int32_t> rows,
+             double mean_stress_ratio, double gravity);
+
+/// Makes discs weakened rock: soft, enlarged, without bonds.
+/// @param rows  ascending, of rock that can be weakened
+void weaken(State& state, const RigidBase& base, std::span<const std::int32_t> rows,
+            double mean_stress_ratio, double gravity);
 
 /// Enlargement of a weak disc's radius that leaves the spacing of discs as it was before weakening:
 /// 1 + q / (1 + 0.42 q), q = mean stress over contact stiffness (fit to confined shear zones).
