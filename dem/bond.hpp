@@ -33,8 +33,8 @@ inline void install_bond(State& state, std::size_t k, const BondStrength& streng
         return std::min(of(one), of(other));
     };
     c.bonded[k] = 1;
-    c.tensile_strength[k] = draw(Purpose::bond_tension, &BondStrength::tensile_mean,
-                                 &BondStrength::tensile_deviation);
+    c.tensile_strength[k] =
+        draw(Purpose::bond_tension, &BondStrength::tensile_mean, &BondStrength::tensile_deviation);
     c.shear_strength[k] =
         draw(Purpose::bond_shear, &BondStrength::shear_mean, &BondStrength::shear_deviation);
 }

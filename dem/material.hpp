@@ -35,8 +35,8 @@ struct Material {
     double shear_stiffness = 6.38e10; ///< k_s of one disc, N/m per metre of thickness
     double friction = 0.05;           ///< mu_d; a contact has the smaller of its two discs'
     bool bondable = true;             ///< whether contacts of this material may be bonded
-    bool is_soft = false;   ///< its discs are enlarged, such that they keep their volume under load
-    bool is_welded = true;  ///< bonds may join it to other rock
+    bool is_soft = false;  ///< its discs are enlarged, such that they keep their volume under load
+    bool is_welded = true; ///< bonds may join it to other rock
     std::uint8_t weak_of = no_material;     ///< of weakened rock: the rock that it was
     std::optional<BondStrength> bonds = {}; ///< none: as strong as the hanging wall's
 };

@@ -65,7 +65,8 @@ std::vector<std::uint32_t> rocks(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     std::vector<std::uint32_t> rocks;
     for (std::size_t i = 0; i < d.x.size(); ++i)
-        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (is_weak(state.materials, d.material[i]) ? 1u : 0u));
+        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) +
+                        (is_weak(state.materials, d.material[i]) ? 1u : 0u));
     return rocks;
 }
 
@@ -93,7 +94,8 @@ std::optional<double> weak_off_faults(const State& state, std::span<const Fault>
             continue;
         const double area = d.radius[i] * d.radius[i];
         all += area;
-        if (is_weak(state.materials, d.material[i]) && std::ranges::none_of(faults, [&](const Fault& f) {
+        if (is_weak(state.materials, d.material[i]) &&
+            std::ranges::none_of(faults, [&](const Fault& f) {
                 return std::abs(place_on(f.trace.points, {d.x[i], d.y[i]}).distance) <= distance;
             }))
             off += area;

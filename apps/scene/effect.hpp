@@ -8,6 +8,7 @@
 #include "dem/base/target_line.hpp"
 #include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "dem/units.hpp"
 
 #include <any>
@@ -51,6 +52,9 @@ struct FileParameter {
     /// In its place for an effect of several tables. @param item  number of the table
     void (*read_item)(Scene& scene, std::size_t item, const std::string& file,
                       const Refuse& refuse) = nullptr;
+    /// How the file is named: by its path; as a material, by name or path; or as that or "none",
+    /// which is then what is read.
+    enum Naming { path, material, material_or_none } naming = path;
 };
 
 /// A key that an effect had once; a scene that has it is refused.
@@ -90,6 +94,13 @@ struct SedimentFacts {
     double deposition_interval = 0.0;     ///< from stratum to stratum, a
 };
 
+/// A layer of rock as effects describe it to genesis and to measures.
+struct LayerFacts {
+    std::string name;
+    std::uint8_t material = 0; ///< of its sound rock
+    dem::RockLayer rock;       ///< its place before extension
+};
+
 /// Parts that effects put into a model besides events: each adds its share in the order of the
 /// list.
 struct ModelParts {
@@ -98,6 +109,7 @@ struct ModelParts {
     double gravity = 0.0; ///< of the planet, m/s^2; discs in water weigh less: see physics
     std::vector<dem::Material> materials; ///< by MaterialIndex
     std::optional<dem::BondStrength> bonds;
+    std::vector<LayerFacts> layers; ///< by the column `layer`, from 1
     std::optional<SedimentFacts> sediment;
     /// Sediment younger than this is too loose for a fault: it creeps all over, a.
     double youngest_sediment = 2.0e5;

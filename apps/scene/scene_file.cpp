@@ -166,6 +166,31 @@ std::vector<std::string_view> file_keys(const SceneTable& table) {
     return keys;
 }
 
+/// A file that exists. Throws SceneError.
+std::string existing(const Entry& entry, const std::string& name, const fs::path& folder) {
+    const std::string file = located(name, &entry.node, folder);
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+        fail(entry, fmt::format("{}: no such file", file));
+    return file;
+}
+
+constexpr std::string_view no_file = "none";
+
+/// The file that a parameter means. Throws SceneError if there is none.
+std::string named_file(const Entry& entry, const std::string& name, const fs::path& folder,
+                       FileParameter::Naming naming) {
+    if (naming == FileParameter::path || is_path(name))
+        return existing(entry, name, folder);
+    if (naming == FileParameter::material_or_none && name == no_file)
+        return name;
+    try {
+        return materials.find(name).string();
+    } catch (const SceneError& error) {
+        fail(entry, error.what());
+    }
+}
+
 /// Reads the files that a table's parameters name into what they stand for.
 void read_files(Scene& scene, const SceneTable& table, const toml::table& document,
                 const fs::path& folder) {
@@ -182,11 +207,9 @@ void read_files(Scene& scene, const SceneTable& table, const toml::table& docume
         const std::string& name = given.file;
         if (name.empty())
             return;
-        const std::string file = located(name, node, folder);
-        std::error_code error;
-        if (!fs::is_regular_file(file, error))
-            fail(entry, fmt::format("{}: no such file", file));
-        scene.files.emplace_back(file);
+        const std::string file = named_file(entry, name, folder, parameter.naming);
+        if (parameter.naming != FileParameter::material_or_none || file != no_file)
+            scene.files.emplace_back(file);
         const Refuse refuse = [&](const std::string& at, const std::string& message) {
             fail(entry_at(document, at), message);
         };
@@ -235,15 +258,6 @@ void read_source(const SceneTable& table, const toml::table& given, void* source
         if (const auto p = std::ranges::find(table.source, key.str(), &Parameter::key);
             p != table.source.end())
             read({value, fmt::format("{}.{}", table.name, key.str())}, *p, source);
-}
-
-/// A file that exists. Throws SceneError.
-std::string existing(const Entry& entry, const std::string& name, const fs::path& folder) {
-    const std::string file = located(name, &entry.node, folder);
-    std::error_code error;
-    if (!fs::is_regular_file(file, error))
-        fail(entry, fmt::format("{}: no such file", file));
-    return file;
 }
 
 /// Reads the picked lines that the document names. A section has one origin: picks are shifted as

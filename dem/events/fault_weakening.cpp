@@ -154,8 +154,8 @@ std::vector<Band> gaps(const std::vector<FaultSegment>& kept,
 /// Rows of the sound discs in a band; none where most of it is weak already: the slip is that of a
 /// fault known before, which would widen with every scan if the rest were weakened. Rock that is
 /// never weakened does not count.
-std::vector<std::int32_t> sound_discs(const Displacements& s, const State& state,
-                                      const Band& band, double width, double least_share) {
+std::vector<std::int32_t> sound_discs(const Displacements& s, const State& state, const Band& band,
+                                      double width, double least_share) {
     const auto material = disc_columns(state).material;
     const Point along = unit(band.to - band.from);
     const double length = norm(band.to - band.from);

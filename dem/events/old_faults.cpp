@@ -15,8 +15,7 @@ double distance_from(const std::vector<Point>& line, Point p) {
     for (std::size_t k = 1; k < line.size(); ++k) {
         const Point from = line[k - 1], along = line[k] - from;
         const double square = dot(along, along);
-        const double t =
-            square > 0.0 ? std::clamp(dot(p - from, along) / square, 0.0, 1.0) : 0.0;
+        const double t = square > 0.0 ? std::clamp(dot(p - from, along) / square, 0.0, 1.0) : 0.0;
         const Point off = p - (from + t * along);
         least = std::min(least, hypotenuse(off.x, off.y));
     }

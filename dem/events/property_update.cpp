@@ -58,9 +58,8 @@ std::optional<double> keep_volume(State& state, const RigidBase& base,
     in_pieces(rows.size(), 64, [&](std::size_t k, std::size_t end) {
         for (; k < end; ++k) {
             const auto i = static_cast<std::size_t>(rows[k]);
-            const double factor =
-                enlargement(parameters.mean_stress_ratio * weight[k],
-                            state.materials[d.material[i]]);
+            const double factor = enlargement(parameters.mean_stress_ratio * weight[k],
+                                              state.materials[d.material[i]]);
             double now = 0.0, before = 0.0;
             near.for_each_near(x[k], y[k], [&](std::int32_t other) {
                 const auto o = static_cast<std::size_t>(other);

@@ -85,8 +85,9 @@ void lay(State& state, const GenesisRequest& request) {
     const auto layer_of = state.discs.add<std::uint8_t>("layer", "1", 0);
     const DiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        const auto layer = std::ranges::find_if(
-            request.layers, [&](const RockLayer& l) { return l.contains({d.x[i], d.y[i]}); });
+        const auto layer = std::ranges::find_if(request.layers, [&](const RockLayer& l) {
+            return l.contains({d.x[i], d.y[i]});
+        });
         if (layer == request.layers.end())
             continue;
         layer_of[i] = static_cast<std::uint8_t>(layer - request.layers.begin() + 1);
