@@ -5,6 +5,7 @@
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/horizons.hpp"
 #include "apps/measures/rock.hpp"
+#include "apps/measures/rock_layers.hpp"
 #include "apps/support/fineness.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/monitor.hpp"
@@ -194,6 +195,24 @@ LineTable wells_table(const ExportedMoment& at) {
                 line.at_points.push_back(value);
         if (!line.points.empty())
             table.lines.push_back(std::move(line));
+    }
+    return table;
+}
+
+LineTable layers_table(const ExportedMoment& at) {
+    LineTable table{"layers", "", {"name", "area_m2"}, {"thickness_m"}};
+    const std::vector<LayerFacts>& layers = at.now.parts.layers;
+    if (layers.empty() || !at.now.state.discs.has("layer"))
+        return table;
+    const std::vector<LayerThickness> all =
+        layer_thickness(at.now.state, at.now.parts.base, layers.size());
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+        Line line{{"layer " + layers[n].name, all[n].area}};
+        for (std::size_t k = 0; k < all[n].x.size(); ++k) {
+            line.points.push_back(rounded(at, {all[n].x[k], -all[n].depth[k]}));
+            line.at_points.push_back(all[n].thickness[k]);
+        }
+        table.lines.push_back(std::move(line));
     }
     return table;
 }

@@ -45,7 +45,7 @@ const std::vector<Kind>& kinds() {
         {"horizons", horizons_table, true, of_lines},  {"faults", faults_table, true, of_lines},
         {"surfaces", surfaces_table, false, of_lines}, {"base", base_table, false, of_lines},
         {"discs", discs_table, false, {"csv", "gsd"}}, {"well", wells_table, false, of_lines},
-        {"seismic", nullptr, true, {"segy", "npy"}},
+        {"layers", layers_table, false, of_lines},     {"seismic", nullptr, true, {"segy", "npy"}},
     };
     return all;
 }
@@ -183,6 +183,9 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
         if (table.lines.empty() && kind.name == "base")
             throw UsageError(request.output.string() + ": the base of this run is rigid; there is "
                                                        "no deflection to export");
+        if (table.lines.empty() && kind.name == "layers")
+            throw UsageError(request.output.string() + ": this run's hanging wall is of one rock; "
+                                                       "layers need [[layer]]");
         if (table.lines.empty() && kind.name == "well") { // at the start there is no sediment
             if (path == moments.back())
                 throw UsageError(no_well(request, now));

@@ -82,7 +82,8 @@ void write_discs(const FrameWriter& writer, const State& state) {
     writer.array("discs_start_depth", depth);
     if (state.discs.has("layer")) {
         const auto layer = state.discs.get<std::uint8_t>("layer");
-        writer.array("discs_layer", std::vector<std::int32_t>(layer.begin(), layer.end()));
+        const std::vector<std::int32_t> numbers(layer.begin(), layer.end());
+        writer.array("discs_layer", std::span<const std::int32_t>(numbers));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "apps/measures/rock.hpp"
 
 #include "apps/measures/polyline.hpp"
+#include "apps/measures/rock_layers.hpp"
 #include "dem/base/ground_level.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
@@ -34,6 +35,15 @@ constexpr Quantity superposition_share{
 constexpr Quantity above_target{
     "discs_above_target", "1",
     "discs that lie wholly above the line that the surface is adapted to"};
+constexpr Quantity shear_in_layers{
+    "bedding_shear_in_layers", "1",
+    "mean shear along the bedding since the start in layers of rock, up to 3: tangent of the angle "
+    "by which a line across the bedding has turned against it, from the deformation gradient "
+    "within "
+    "1.5 mean diameters"};
+constexpr Quantity shear_between{
+    "bedding_shear_between_layers", "1",
+    "`bedding_shear_in_layers` in rock of no layer between the highest and the lowest one"};
 
 /// A layer compacts, and what is below it, in this extension after it was laid down, m: in four
 /// looks of Compaction (its `approach`). Until then it is left out, as it counts for no burial yet.
@@ -145,6 +155,10 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
     NamedNumbers numbers;
     if (setting.detection_circle)
         append(numbers, weak_shares(state));
+    if (const auto shear = bedding_shear(state)) {
+        add(numbers, shear_in_layers, shear->in_layers);
+        add(numbers, shear_between, shear->between);
+    }
     if (!setting.sediment)
         return numbers;
     const Sediment& sediment = *setting.sediment;
@@ -156,8 +170,9 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
 }
 
 std::span<const Quantity> rock_quantities() {
-    static constexpr Quantity all[] = {basement_weak, sediment_weak,       porosity_error,
-                                       porosity_off,  superposition_share, above_target};
+    static constexpr Quantity all[] = {basement_weak,   sediment_weak,       porosity_error,
+                                       porosity_off,    superposition_share, above_target,
+                                       shear_in_layers, shear_between};
     return all;
 }
 

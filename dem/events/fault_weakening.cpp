@@ -4,7 +4,7 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/events/measure_circle.hpp"
-#include "dem/events/weakened_discs.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"

@@ -1,6 +1,6 @@
 #include "dem/events/old_faults.hpp"
 
-#include "dem/events/weakened_discs.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <algorithm>

@@ -2,9 +2,6 @@
 
 #include "dem/event.hpp"
 #include "dem/events/fault_weakening.hpp"
-#include "dem/events/weakened_discs.hpp"
-
-#include <optional>
 
 namespace listric::dem {
 
@@ -27,10 +24,5 @@ private:
     FaultWeakeningParameters parameters_;
     double gravity_; ///< m/s^2
 };
-
-/// One update. Returns the error that it found, the change of the volume of all soft discs together
-/// over their volume when stiff; none if there are no such discs.
-std::optional<double> keep_volume(State& state, const RigidBase& base,
-                                  const FaultWeakeningParameters& parameters, double gravity);
 
 } // namespace listric::dem

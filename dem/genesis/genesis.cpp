@@ -2,7 +2,7 @@
 
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
-#include "dem/events/property_update.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/genesis/packing.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
@@ -114,7 +114,7 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
             const std::function<void(std::string_view, double)>& report) {
     constexpr int rounds = 40;
     constexpr double enough = 0.002; // of the volume
-    const FaultWeakeningParameters p;
+    const VolumeKeeping how{2.0 * state.mean_radius};
     const auto layer_of = state.discs.get<std::uint8_t>("layer");
     const DiscColumns d = disc_columns(state);
     std::vector<std::int32_t> rows;
@@ -128,13 +128,13 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
     if (rows.empty())
         return;
     add_enlarged_columns(state);
-    enlarge(state, base, rows, p.mean_stress_ratio, physics.gravity);
+    enlarge(state, base, rows, how.mean_stress_ratio, physics.gravity);
     for (int round = 0; round < rounds; ++round) {
         report("softening of layers", static_cast<double>(round) / rounds);
         find_contacts(state, base);
         execution.packed->forget();
         advance(state, base, physics, 4 * crossing, execution);
-        if (std::abs(*keep_volume(state, base, p, physics.gravity)) < enough && round > 4)
+        if (std::abs(*keep_volume(state, base, how, physics.gravity)) < enough && round > 4)
             break;
     }
     find_contacts(state, base);

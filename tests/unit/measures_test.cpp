@@ -8,7 +8,7 @@
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
-#include "dem/events/weakened_discs.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>

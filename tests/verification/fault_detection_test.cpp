@@ -15,7 +15,7 @@
 #include "dem/contacts/cells.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/measure_circle.hpp"
-#include "dem/events/weakened_discs.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "tests/verification/settled_packing.hpp"
 
 #include <gtest/gtest.h>

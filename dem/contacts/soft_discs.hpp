@@ -5,6 +5,7 @@
 #include "dem/state.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,19 @@ double enlargement(double mean_stress, const Material& weak_material);
 /// `excess_pressure`, where there is that column.
 std::vector<double> overburden(const State& state, std::span<const std::int32_t> rows,
                                double gravity);
+
+/// How the volume of soft discs is kept.
+struct VolumeKeeping {
+    double zone = 0.0;               ///< radius in which the error of a volume is taken, m
+    double mean_stress_ratio = 0.75; ///< mean stress over the weight above
+    double largest_change = 0.05;    ///< largest relative change of a radius at once
+};
+
+/// Adjusts the radii of soft discs once, see PropertyUpdate. Returns the error that it found, the
+/// change of the volume of all of them together over their volume when stiff; none if there are no
+/// such discs.
+std::optional<double> keep_volume(State& state, const RigidBase& base, const VolumeKeeping& how,
+                                  double gravity);
 
 /// Sum of power-cell areas of weakened discs less what it was before weakening, m^2.
 double weakened_volume_change(const State& state, const RigidBase& base);
