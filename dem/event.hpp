@@ -67,6 +67,10 @@ public:
     /// Adds the event's columns to a state in which extension has not begun.
     virtual void begin(State&) {}
 
+    /// Changes the state before the first cycle, once all events have added their columns and
+    /// contacts are known. True if neighbours must be searched again.
+    virtual bool start(State&, const RigidBase&) { return false; }
+
     /// Applies the event. True if neighbours must be searched again before the next cycle.
     virtual bool apply(State& state, const RigidBase& base) = 0;
 

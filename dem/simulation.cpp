@@ -54,6 +54,11 @@ void Simulation::begin(State state) {
     for (const auto& event : events_)
         event->begin(state_);
     find_contacts(state_, base_);
+    bool search_due = false;
+    for (const auto& event : events_)
+        search_due |= event->start(state_, base_);
+    if (search_due)
+        find_contacts(state_, base_);
     if (energy_)
         energy_->open(state_, base_);
     assert(is_valid(state_));

@@ -244,6 +244,19 @@ void mix(std::uint64_t& h, const Table& table) {
     }
 }
 
+/// What only materials of layers have.
+void mix_of_layer(std::uint64_t& h, const Material& m) {
+    for (const std::uint8_t value : {static_cast<std::uint8_t>(m.is_soft),
+                                     static_cast<std::uint8_t>(m.is_welded), m.weak_of,
+                                     static_cast<std::uint8_t>(m.bonds.has_value())})
+        mix(h, value);
+    const BondStrength b = m.bonds.value_or(BondStrength{});
+    for (const double value :
+         {b.tensile_mean, b.tensile_deviation, b.shear_mean, b.shear_deviation})
+        mix(h, value);
+    mix(h, static_cast<std::uint8_t>(b.reading));
+}
+
 } // namespace
 
 std::uint64_t hash(const Table& table) {
@@ -261,11 +274,14 @@ std::uint64_t hash(const State& state) {
         mix(h, state.base_nodes);
     for (const auto& [name, table] : state.base_memory)
         mix(h, table);
-    for (const Material& m : state.materials) {
+    for (std::size_t k = 0; k < state.materials.size(); ++k) {
+        const Material& m = state.materials[k];
         mix(h, m.normal_stiffness);
         mix(h, m.shear_stiffness);
         mix(h, m.friction);
         mix(h, static_cast<std::uint8_t>(m.bondable));
+        if (k > weak)
+            mix_of_layer(h, m);
     }
     mix(h, state.clock.cycle);
     for (double value : {state.clock.time_step, state.clock.extension, state.ledger.initial,

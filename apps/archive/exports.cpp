@@ -5,6 +5,7 @@
 #include "apps/measures/cohesion.hpp"
 #include "apps/measures/horizons.hpp"
 #include "apps/measures/rock.hpp"
+#include "apps/measures/rock_layers.hpp"
 #include "apps/support/fineness.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/monitor.hpp"
@@ -16,6 +17,9 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <span>
+#include <string>
+#include <tuple>
 #include <utility>
 
 namespace listric::archive {
@@ -93,11 +97,16 @@ LineTable horizons_table(const ExportedMoment& at) { return horizons_table(at, h
 LineTable horizons_table(const ExportedMoment& at, std::span<const Horizon> horizons) {
     LineTable table{"horizons", "stratum", {"name", "stratum", "deposited_at_a", "start_depth_m"}};
     const HorizonOptions options;
+    const std::vector<LayerBoundary> boundaries = setting_of(at).boundaries;
     for (const Horizon& h : horizons) {
-        const double start_depth = h.stratum > 0 ? none : -h.stratum * options.pre_rift_layer;
+        const bool is_of_layer = h.stratum < 0 && !boundaries.empty();
+        const double start_depth =
+            h.stratum > 0 || is_of_layer ? none : -h.stratum * options.pre_rift_layer;
         const std::string name = h.stratum > 0    ? fmt::format("stratum {}", h.stratum)
                                  : h.stratum == 0 ? "pre-rift top"
-                                                  : fmt::format("pre-rift {} m", start_depth);
+                                 : is_of_layer
+                                     ? boundaries[static_cast<std::size_t>(-h.stratum - 1)].name
+                                     : fmt::format("pre-rift {} m", start_depth);
         for (const Polyline& piece : h.pieces)
             table.lines.push_back(
                 {{name, static_cast<double>(h.stratum), h.deposited_at.value_or(none), start_depth},
@@ -190,6 +199,24 @@ LineTable wells_table(const ExportedMoment& at) {
     return table;
 }
 
+LineTable layers_table(const ExportedMoment& at) {
+    LineTable table{"layers", "", {"name", "area_m2"}, {"thickness_m"}};
+    const std::vector<LayerFacts>& layers = at.now.parts.layers;
+    if (layers.empty() || !at.now.state.discs.has("layer"))
+        return table;
+    const std::vector<LayerThickness> all =
+        layer_thickness(at.now.state, at.now.parts.base, layers.size());
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+        Line line{{"layer " + layers[n].name, all[n].area}};
+        for (std::size_t k = 0; k < all[n].x.size(); ++k) {
+            line.points.push_back(rounded(at, {all[n].x[k], -all[n].depth[k]}));
+            line.at_points.push_back(all[n].thickness[k]);
+        }
+        table.lines.push_back(std::move(line));
+    }
+    return table;
+}
+
 std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
     const State& state = at.now.state;
     const ConstDiscColumns d = disc_columns(state);
@@ -221,6 +248,8 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
         {"stress_yy_pa", component(&Stress::yy)},
         {"stress_xy_pa", component(&Stress::xy)},
     };
+    if (state.discs.has("layer"))
+        columns.push_back({"layer", numbers(state.discs.get<std::uint8_t>("layer"))});
     for (const char* name :
          {"window_strain", "total_strain", "porosity", "excess_pressure", "overpressure_ratio"})
         if (state.discs.has(name))
@@ -235,13 +264,25 @@ LineTable discs_table(const ExportedMoment& at) {
     LineTable table{"discs", "", {"rock"}};
     for (const DiscColumn& column : columns)
         table.point_columns.push_back(column.name);
+    const State& state = at.now.state;
+    const auto layers = state.discs.has("layer") ? state.discs.get<std::uint8_t>("layer")
+                                                 : std::span<const std::uint8_t>{};
+    const auto layer_of = [&](std::size_t i) { return layers.empty() ? 0 : layers[i]; };
+    const auto name_of = [&](std::size_t i) -> std::string {
+        const std::size_t layer = layer_of(i);
+        if (layer == 0 || layer > at.now.parts.layers.size())
+            return rock_names[rock[i]];
+        const bool is_weakened = is_weak(state.materials, d.material[i]);
+        return (is_weakened ? "weak layer " : "layer ") + at.now.parts.layers[layer - 1].name;
+    };
     std::vector<std::size_t> order(d.x.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(rock[i], d.id[i]); });
+    std::ranges::sort(order, {},
+                      [&](std::size_t i) { return std::tuple(layer_of(i), rock[i], d.id[i]); });
     for (const std::size_t i : order) {
-        if (table.lines.empty() ||
-            std::get<std::string>(table.lines.back().values.front()) != rock_names[rock[i]])
-            table.lines.push_back({{rock_names[rock[i]]}});
+        const std::string name = name_of(i);
+        if (table.lines.empty() || std::get<std::string>(table.lines.back().values.front()) != name)
+            table.lines.push_back({{name}});
         Line& line = table.lines.back();
         line.points.push_back(rounded(at, {d.x[i], d.y[i]}));
         for (const DiscColumn& column : columns)

@@ -45,6 +45,9 @@ LineTable discs_table(const ExportedMoment& at);
 /// Wells, a "line" each, from the ground down; none where no effect measures wells.
 LineTable wells_table(const ExportedMoment& at);
 
+/// Layers of rock, a "line" each along their middles, with their thickness; none without layers.
+LineTable layers_table(const ExportedMoment& at);
+
 /// A column of discs: its name and what it holds by row of the disc table.
 struct DiscColumn {
     std::string name;

@@ -2,7 +2,42 @@
 
 #include "dem/units.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
 namespace listric::archive {
+
+namespace {
+
+/// Tops and bottoms of the layers from the highest down; where one ends on another there is one.
+std::vector<measures::LayerBoundary> boundaries_of(const ModelParts& parts) {
+    constexpr double apart = 1.0; // m
+    std::vector<measures::LayerBoundary> all;
+    for (const LayerFacts& layer : parts.layers)
+        all.push_back({"layer " + layer.name, layer.rock.top});
+    const auto is_there = [&](const dem::TargetLine& line) {
+        return std::ranges::any_of(all, [&](const measures::LayerBoundary& other) {
+            return std::ranges::all_of(line.points(), [&](dem::Point p) {
+                return std::abs(other.line.height(p.x) - p.y) < apart;
+            });
+        });
+    };
+    std::vector<measures::LayerBoundary> bottoms;
+    for (const LayerFacts& layer : parts.layers)
+        if (!is_there(layer.rock.bottom))
+            bottoms.push_back({"base of layer " + layer.name, layer.rock.bottom});
+    all.insert(all.end(), bottoms.begin(), bottoms.end());
+    std::ranges::stable_sort(all, std::ranges::greater{}, [](const auto& boundary) {
+        double sum = 0.0;
+        for (const dem::Point& p : boundary.line.points())
+            sum += p.y;
+        return sum / static_cast<double>(boundary.line.points().size());
+    });
+    return all;
+}
+
+} // namespace
 
 measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
     measures::Setting setting;
@@ -19,6 +54,7 @@ measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
     if (const auto& s = parts.sediment)
         setting.sediment = {s->level, s->surface, s->surface_porosity, s->disc_density,
                             s->porosity_decay};
+    setting.boundaries = boundaries_of(parts);
     return setting;
 }
 

@@ -25,8 +25,9 @@ namespace fs = std::filesystem;
 
 // Raised when a file can no longer be read by a program of before, or no longer has all that a
 // state needs. 6: the scene is a text of its own; as an attribute of format 5 it had room for 64
-// kB.
-constexpr int format = 6;
+// kB. 7: materials of layers have more properties; a state without layers stays in format 6.
+constexpr int format = 7;
+constexpr int format_without_layers = 6;
 constexpr int oldest_format = 5; // that is read, too
 constexpr std::string_view kind = "listric snapshot ";
 
@@ -55,6 +56,22 @@ template <class AnyMaterial, class Visit> void for_each_property(AnyMaterial& m,
     visit("shear_stiffness", m.shear_stiffness);
     visit("friction", m.friction);
     visit("bondable", m.bondable);
+}
+
+/// What only materials of layers have.
+template <class AnyMaterial, class Visit>
+void for_each_property_of_layer(AnyMaterial& m, Visit&& visit) {
+    visit("is_soft", m.is_soft);
+    visit("is_welded", m.is_welded);
+    visit("weak_of", m.weak_of);
+}
+
+/// Strength of a layer's bonds, for reading and for writing.
+template <class AnyStrength, class Visit> void for_each_strength(AnyStrength& s, Visit&& visit) {
+    visit("tensile_mean", s.tensile_mean);
+    visit("tensile_deviation", s.tensile_deviation);
+    visit("shear_mean", s.shear_mean);
+    visit("shear_deviation", s.shear_deviation);
 }
 
 /// The tables that every state has.
@@ -155,9 +172,19 @@ void write_state(hid_t file, const State& state) {
             write_table(create_group(base_memory, name), table);
     }
     const Handle materials = create_group(file, "materials");
-    for (std::size_t k = 0; k < state.materials.size(); ++k)
-        for_each_property(state.materials[k],
-                          writes_numbers(create_group(materials, std::to_string(k))));
+    for (std::size_t k = 0; k < state.materials.size(); ++k) {
+        const Material& m = state.materials[k];
+        const Handle group = create_group(materials, std::to_string(k));
+        for_each_property(m, writes_numbers(group));
+        if (k <= weak)
+            continue;
+        for_each_property_of_layer(m, writes_numbers(group));
+        if (m.bonds) {
+            for_each_strength(*m.bonds, writes_numbers(group));
+            write_number(group, "strength_is_force",
+                         std::int64_t{m.bonds->reading == StrengthReading::force});
+        }
+    }
 }
 
 State read_state(hid_t file) {
@@ -172,9 +199,21 @@ State read_state(hid_t file) {
     }
     const Handle materials = open_group(file, "materials");
     state.materials.resize(names_in(materials).size());
-    for (std::size_t k = 0; k < state.materials.size(); ++k)
-        for_each_property(state.materials[k],
-                          reads_numbers(open_group(materials, std::to_string(k))));
+    for (std::size_t k = 0; k < state.materials.size(); ++k) {
+        Material& m = state.materials[k];
+        const Handle group = open_group(materials, std::to_string(k));
+        for_each_property(m, reads_numbers(group));
+        if (k <= weak)
+            continue;
+        for_each_property_of_layer(m, reads_numbers(group));
+        if (H5Aexists(group, "tensile_mean") > 0) {
+            m.bonds.emplace();
+            for_each_strength(*m.bonds, reads_numbers(group));
+            m.bonds->reading = read_number<std::int64_t>(group, "strength_is_force") != 0
+                                   ? StrengthReading::force
+                                   : StrengthReading::stress;
+        }
+    }
     return state;
 }
 
@@ -228,7 +267,8 @@ std::vector<std::byte> file_image(const State& state,
     const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
     check(H5Pset_fapl_core(in_memory, 1 << 20, false), what);
     const Handle file(H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose, what);
-    write_text_attribute(file, "format", std::string(kind) + std::to_string(format));
+    const int written = state.materials.size() > weak + 1 ? format : format_without_layers;
+    write_text_attribute(file, "format", std::string(kind) + std::to_string(written));
     write_text_attribute(file, "version", std::string(version));
     write_state(file, state);
     write_memories(file, events);
@@ -254,7 +294,7 @@ void check_format(const std::string& found, const std::string& writer) {
         throw StorageError("is not a snapshot");
     if (number < oldest_format || number > format)
         throw UsageError(fmt::format("is of format {}, written by version {}, and this program "
-                                     "({}) reads formats {} and {}; go on with {}",
+                                     "({}) reads formats {} to {}; go on with {}",
                                      number, writer, version, oldest_format, format,
                                      number > format ? "a newer program" : "that version"));
 }

@@ -46,7 +46,7 @@ const std::vector<Kind>& kinds() {
         {"horizons", horizons_table, true, of_lines},  {"faults", faults_table, true, of_lines},
         {"surfaces", surfaces_table, false, of_lines}, {"base", base_table, false, of_lines},
         {"discs", discs_table, false, {"csv", "gsd"}}, {"well", wells_table, false, of_lines},
-        {"seismic", nullptr, true, {"segy", "npy"}},
+        {"layers", layers_table, false, of_lines},     {"seismic", nullptr, true, {"segy", "npy"}},
     };
     return all;
 }
@@ -189,6 +189,9 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
         if (table.lines.empty() && kind.name == "base")
             throw UsageError(request.output.string() + ": the base of this run is rigid; there is "
                                                        "no deflection to export");
+        if (table.lines.empty() && kind.name == "layers")
+            throw UsageError(request.output.string() + ": this run's hanging wall is of one rock; "
+                                                       "layers need [[layer]]");
         const bool is_drilled = kind.name == "well" && path == moments.back();
         if (is_drilled) {
             const LineTable burial = burial_table(run, path, request.wells);

@@ -80,6 +80,11 @@ void write_discs(const FrameWriter& writer, const State& state) {
     for (const double y : d.start_y)
         depth.push_back(-y);
     writer.array("discs_start_depth", depth);
+    if (state.discs.has("layer")) {
+        const auto layer = state.discs.get<std::uint8_t>("layer");
+        const std::vector<std::int32_t> numbers(layer.begin(), layer.end());
+        writer.array("discs_layer", std::span<const std::int32_t>(numbers));
+    }
 }
 
 /// Bonded contacts as lines: x and y of both discs, and 1 where both are sediment.
@@ -102,7 +107,8 @@ void write_behaviour(const FrameWriter& writer, const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const std::vector<double> unbonded = measures::unbonded_shares(state);
     std::vector<std::int32_t> classes;
-    for (const auto behaviour : measures::rock_behaviour(unbonded, d.stratum, d.material))
+    for (const auto behaviour :
+         measures::rock_behaviour(unbonded, d.stratum, d.material, state.materials))
         classes.push_back(static_cast<std::int32_t>(behaviour));
     writer.array("discs_behaviour", std::span<const std::int32_t>(classes));
 }
@@ -214,6 +220,8 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
     if (!laid_down.empty() && laid_down.rbegin()->first == static_cast<int>(laid_down.size()))
         for (const auto& [stratum, age] : laid_down)
             frame["strata_a"].push_back(age);
+    for (const LayerFacts& layer : now.parts.layers)
+        frame["rock_layers"].push_back(layer.name);
     if (now.parts.sediment)
         frame["level_m"] = now.parts.sediment->level;
     return frame;

@@ -342,6 +342,10 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
     ends["displacement_m"] = scale_end(by_disc(
         [d](std::size_t i) { return hypotenuse(d.x[i] - d.start_x[i], d.y[i] - d.start_y[i]); }));
     add_scaled("window_strain", window_strain(now));
+    if (state.discs.has("layer")) {
+        const auto layer = state.discs.get<std::uint8_t>("layer");
+        add("layer", [layer](std::size_t i) { return layer[i]; });
+    }
     if (state.discs.has("total_strain")) {
         const auto total = state.discs.get<double>("total_strain");
         add_scaled("total_strain", {total.begin(), total.end()});
@@ -352,8 +356,8 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
                 return 255.0 * std::clamp(shares[i], 0.0, 1.0);
             });
     if (now.parts.bonds) {
-        const auto classes =
-            rock_behaviour(measures::unbonded_shares(state), d.stratum, d.material);
+        const auto classes = rock_behaviour(measures::unbonded_shares(state), d.stratum, d.material,
+                                            state.materials);
         const std::vector<std::int32_t> count = bonds_per_disc(state);
         add("behaviour", [classes](std::size_t i) { return static_cast<int>(classes[i]); });
         add("bonds", [count](std::size_t i) { return count[i]; });

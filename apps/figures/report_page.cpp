@@ -12,6 +12,7 @@
 #include "apps/scene/differences.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/scene/rock_line.hpp"
+#include "apps/scene/scene_layer.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
@@ -113,6 +114,9 @@ json head_of(const ReportPage::Run& run) {
               {"summary", object_or_null(run.summary)},
               {"quality", quality_of(run)},
               {"errors", errors_of(run)}};
+    if (const auto* layers = scene.find<SceneLayers>())
+        for (const SceneLayer& layer : *layers)
+            head["rock_layers"].push_back(layer.name);
     if (scene.observed)
         head["picks"] = {{"horizons", picks_of(scene.observed->horizons)},
                          {"faults", picks_of(scene.observed->faults)}};

@@ -305,8 +305,9 @@ SeismicSection seismic_section(const Observation& now, std::span<const Fault> fa
 }
 
 std::vector<Horizon> seismic_horizons(const Observation& now) {
-    return trace_horizons(archive::make_setting(now.scene, now.parts), now.parts.base, now.state,
-                          {});
+    Setting setting = archive::make_setting(now.scene, now.parts);
+    setting.boundaries.clear(); // rock's velocity is by its depth at the start, whatever its layer
+    return trace_horizons(setting, now.parts.base, now.state, {});
 }
 
 bool has_seismics(const Scene& scene) { return scene.hanging_wall.thickness >= 1e3; }

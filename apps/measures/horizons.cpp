@@ -25,12 +25,20 @@ constexpr double shortest = 3.0;       ///< piece or gap that is drawn
 /// Share of a stratum around its top, below which it is absent: a twentieth of a disc's thickness.
 constexpr double least_share = 0.02;
 
-/// By disc: its stratum, or of pre-rift rock less the layers above it at the start.
-std::vector<int> strata_of(const State& state, double layer) {
+/// By disc: its stratum, or of pre-rift rock less the boundaries, or else the layers, above it at
+/// the start.
+std::vector<int> strata_of(const State& state, double layer,
+                           std::span<const LayerBoundary> boundaries = {}) {
     const ConstDiscColumns d = disc_columns(state);
     std::vector<int> strata(d.stratum.begin(), d.stratum.end());
     for (std::size_t i = 0; i < strata.size(); ++i)
-        if (strata[i] == 0 && layer > 0.0 && d.start_y[i] < 0.0)
+        if (strata[i] == 0 && !boundaries.empty())
+            strata[i] = -static_cast<int>(
+                std::ranges::count_if(boundaries, [&](const LayerBoundary& boundary) {
+                    const double height = boundary.line.height(d.start_x[i]);
+                    return height < 0.0 && d.start_y[i] < height;
+                }));
+        else if (strata[i] == 0 && layer > 0.0 && d.start_y[i] < 0.0)
             strata[i] = static_cast<int>(d.start_y[i] / layer);
     return strata;
 }
@@ -280,7 +288,7 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
                                     const HorizonOptions& options) {
     const ConstDiscColumns d = disc_columns(state);
     const double diameter = 2.0 * state.mean_radius;
-    const std::vector<int> strata = strata_of(state, options.pre_rift_layer);
+    const std::vector<int> strata = strata_of(state, options.pre_rift_layer, setting.boundaries);
     std::map<int, double> extension; // of the first disc, m
     for (std::size_t i = 0; i < strata.size(); ++i)
         extension.emplace(strata[i], d.start_extension[i]);

@@ -15,7 +15,8 @@ namespace listric::measures {
 /// The top of a stratum.
 struct Horizon {
     int stratum = 0; ///< 0: pre-rift top; n: the n-th layer of sediment; -n: pre-rift
-                     ///< rock that was n layers deep or deeper at the start
+                     ///< rock that was n layers deep or deeper at the start, or below the n-th
+                     ///< boundary of the setting, if that has any
     std::optional<double> deposited_at; ///< a since extension began; none before the rift
     /// The horizon from left to right, m, y up: cut at faults, absent where the stratum is.
     std::vector<Polyline> pieces;
@@ -28,7 +29,7 @@ struct HorizonOptions {
     double pre_rift_layer = 1000.0; ///< thickness of the layers of pre-rift rock, m; 0: no layers
 };
 
-/// Tops of all strata, the oldest first.
+/// Tops of all strata, the oldest first; of rock in layers their boundaries, if there are layers.
 ///
 /// A stratum's share of the rock around a place is a mean, over its power cells, with the weights
 /// of a normal distribution whose standard deviation is one mean diameter; the top of a stratum and

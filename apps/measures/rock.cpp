@@ -1,6 +1,7 @@
 #include "apps/measures/rock.hpp"
 
 #include "apps/measures/polyline.hpp"
+#include "apps/measures/rock_layers.hpp"
 #include "dem/base/ground_level.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
@@ -34,6 +35,15 @@ constexpr Quantity superposition_share{
 constexpr Quantity above_target{
     "discs_above_target", "1",
     "discs that lie wholly above the line that the surface is adapted to"};
+constexpr Quantity shear_in_layers{
+    "bedding_shear_in_layers", "1",
+    "mean shear along the bedding since the start in layers of rock, up to 3: tangent of the angle "
+    "by which a line across the bedding has turned against it, from the deformation gradient "
+    "within "
+    "1.5 mean diameters"};
+constexpr Quantity shear_between{
+    "bedding_shear_between_layers", "1",
+    "`bedding_shear_in_layers` in rock of no layer between the highest and the lowest one"};
 
 /// A layer compacts, and what is below it, in this extension after it was laid down, m: in four
 /// looks of Compaction (its `approach`). Until then it is left out, as it counts for no burial yet.
@@ -65,7 +75,8 @@ std::vector<std::uint32_t> rocks(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     std::vector<std::uint32_t> rocks;
     for (std::size_t i = 0; i < d.x.size(); ++i)
-        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) + (d.material[i] == weak ? 1u : 0u));
+        rocks.push_back((d.stratum[i] > 0 ? 2u : 0u) +
+                        (is_weak(state.materials, d.material[i]) ? 1u : 0u));
     return rocks;
 }
 
@@ -76,7 +87,7 @@ NamedNumbers weak_shares(const State& state) {
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const std::size_t kind = d.stratum[i] == 0 ? 0 : 1;
         area[kind] += rock[i] * rock[i];
-        weak_area[kind] += d.material[i] == weak ? rock[i] * rock[i] : 0.0;
+        weak_area[kind] += is_weak(state.materials, d.material[i]) ? rock[i] * rock[i] : 0.0;
     }
     NamedNumbers shares;
     add(shares, basement_weak, weak_area[0] / area[0]);
@@ -93,7 +104,8 @@ std::optional<double> weak_off_faults(const State& state, std::span<const Fault>
             continue;
         const double area = d.radius[i] * d.radius[i];
         all += area;
-        if (d.material[i] == weak && std::ranges::none_of(faults, [&](const Fault& f) {
+        if (is_weak(state.materials, d.material[i]) &&
+            std::ranges::none_of(faults, [&](const Fault& f) {
                 return std::abs(place_on(f.trace.points, {d.x[i], d.y[i]}).distance) <= distance;
             }))
             off += area;
@@ -143,6 +155,10 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
     NamedNumbers numbers;
     if (setting.detection_circle)
         append(numbers, weak_shares(state));
+    if (const auto shear = bedding_shear(state)) {
+        add(numbers, shear_in_layers, shear->in_layers);
+        add(numbers, shear_between, shear->between);
+    }
     if (!setting.sediment)
         return numbers;
     const Sediment& sediment = *setting.sediment;
@@ -154,8 +170,9 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
 }
 
 std::span<const Quantity> rock_quantities() {
-    static constexpr Quantity all[] = {basement_weak, sediment_weak,       porosity_error,
-                                       porosity_off,  superposition_share, above_target};
+    static constexpr Quantity all[] = {basement_weak,   sediment_weak,       porosity_error,
+                                       porosity_off,    superposition_share, above_target,
+                                       shear_in_layers, shear_between};
     return all;
 }
 

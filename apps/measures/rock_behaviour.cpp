@@ -23,12 +23,13 @@ std::vector<double> unbonded_shares(const dem::State& state) {
 
 std::vector<RockBehaviour> rock_behaviour(std::span<const double> unbonded_share,
                                           std::span<const std::int32_t> stratum,
-                                          std::span<const std::uint8_t> material) {
+                                          std::span<const std::uint8_t> material,
+                                          std::span<const dem::Material> materials) {
     assert(stratum.size() == unbonded_share.size() && material.size() == unbonded_share.size());
     constexpr double cracked = 0.25, loose = 0.5; // of contacts
     std::vector<RockBehaviour> behaviour(unbonded_share.size(), RockBehaviour::elastic);
     for (std::size_t i = 0; i < behaviour.size(); ++i) {
-        if (material[i] == dem::weak)
+        if (dem::is_weak(materials, material[i]))
             behaviour[i] = RockBehaviour::weakened;
         else if (stratum[i] > 0 && unbonded_share[i] > loose)
             behaviour[i] = RockBehaviour::unconsolidated;

@@ -20,10 +20,11 @@ enum class RockBehaviour : std::int32_t {
 /// Share of every disc's contacts that are not bonded; 1 for a disc without contacts.
 std::vector<double> unbonded_shares(const dem::State& state);
 
-/// Class of every disc. The spans have its share of unbonded contacts, its stratum and its
-/// material.
+/// Class of every disc. The spans have its share of unbonded contacts, its stratum and the number
+/// of its material among `materials`.
 std::vector<RockBehaviour> rock_behaviour(std::span<const double> unbonded_share,
                                           std::span<const std::int32_t> stratum,
-                                          std::span<const std::uint8_t> material);
+                                          std::span<const std::uint8_t> material,
+                                          std::span<const dem::Material> materials);
 
 } // namespace listric::measures

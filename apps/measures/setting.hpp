@@ -3,6 +3,8 @@
 #include "dem/base/target_line.hpp"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace listric::measures {
 
@@ -13,6 +15,12 @@ struct Sediment {
     double surface_porosity = 0.0;        ///< as deposited
     double disc_density = 0.0;            ///< as deposited, kg/m3
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays
+};
+
+/// A top or bottom of a layer of rock before extension.
+struct LayerBoundary {
+    std::string name; ///< "layer mica", "base of layer mica"
+    dem::TargetLine line;
 };
 
 /// Facts of a run that measures need beside its states.
@@ -31,6 +39,8 @@ struct Setting {
     /// faults are not looked for and do not weaken.
     std::optional<double> detection_circle;
     std::optional<Sediment> sediment; ///< none: nothing is deposited
+    /// Tops and bottoms of layers of rock before extension, from the highest down.
+    std::vector<LayerBoundary> boundaries = {};
 
     /// Whether strain between states at two extensions, m, is of a whole window: an extra state of
     /// a run that was stopped is too near to the one before.

@@ -10,6 +10,8 @@
     EFFECT(gravity) \
     EFFECT(bonds) \
     EFFECT(fault_weakening) \
+    EFFECT(layer) \
+    EFFECT(old_fault) \
     EFFECT(bond_healing) \
     EFFECT(sedimentation) \
     EFFECT(pore_fluid) \

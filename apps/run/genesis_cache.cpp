@@ -107,6 +107,13 @@ private:
     bool has_waited_ = false;
 };
 
+std::vector<RockLayer> layers_of(const ModelParts& parts) {
+    std::vector<RockLayer> layers;
+    for (const LayerFacts& layer : parts.layers)
+        layers.push_back(layer.rock);
+    return layers;
+}
+
 State make_anew(const Scene& scene, const ModelParts& parts, const StageReport& report,
                 const StopToken& stop, int threads) {
     // The hanging wall comes to rest on a base that does too, so its mean motion is none.
@@ -115,6 +122,7 @@ State make_anew(const Scene& scene, const ModelParts& parts, const StageReport& 
         .base = parts.base,
         .materials = parts.materials,
         .bonds = parts.bonds,
+        .layers = layers_of(parts),
         .physics = {.damping = parts.physics.damping, .gravity = parts.physics.gravity},
         .time_step_safety = scene.cycle.time_step_safety,
         .inertial_mass_floor = scene.cycle.inertial_mass_floor,

@@ -8,6 +8,7 @@
 #include "dem/base/target_line.hpp"
 #include "dem/cycle/cycle.hpp"
 #include "dem/event.hpp"
+#include "dem/genesis/genesis.hpp"
 #include "dem/units.hpp"
 
 #include <any>
@@ -48,6 +49,12 @@ struct FileParameter {
     std::string_view doc, changes; ///< as those of a Parameter
     /// @param refuse  takes the parameter's path
     void (*read)(Scene& scene, const std::string& file, const Refuse& refuse);
+    /// In its place for an effect of several tables. @param item  number of the table
+    void (*read_item)(Scene& scene, std::size_t item, const std::string& file,
+                      const Refuse& refuse) = nullptr;
+    /// How the file is named: by its path; as a material, by name or path; or as that or "none",
+    /// which is then what is read.
+    enum Naming { path, material, material_or_none } naming = path;
 };
 
 /// A key that an effect had once; a scene that has it is refused.
@@ -87,6 +94,13 @@ struct SedimentFacts {
     double deposition_interval = 0.0;     ///< from stratum to stratum, a
 };
 
+/// A layer of rock as effects describe it to genesis and to measures.
+struct LayerFacts {
+    std::string name;
+    std::uint8_t material = 0; ///< of its sound rock
+    dem::RockLayer rock;       ///< its place before extension
+};
+
 /// Parts that effects put into a model besides events: each adds its share in the order of the
 /// list.
 struct ModelParts {
@@ -95,6 +109,7 @@ struct ModelParts {
     double gravity = 0.0; ///< of the planet, m/s^2; discs in water weigh less: see physics
     std::vector<dem::Material> materials; ///< by MaterialIndex
     std::optional<dem::BondStrength> bonds;
+    std::vector<LayerFacts> layers; ///< by the column `layer`, from 1
     std::optional<SedimentFacts> sediment;
     /// Sediment younger than this is too loose for a fault: it creeps all over, a.
     double youngest_sediment = 2.0e5;
@@ -171,6 +186,14 @@ struct PartAddress {
     void* (*reach)(std::any& parameters);
 };
 
+/// Where the items of an effect of several tables, [[name]], are in the std::any that holds them.
+struct ItemAddress {
+    std::size_t (*count)(const std::any& parameters);
+    const void* (*get)(const std::any& parameters, std::size_t item);
+    void* (*reach)(std::any& parameters, std::size_t item);
+    void (*append)(std::any& parameters); ///< one with defaults
+};
+
 struct Effect;
 using EffectList = std::span<const Effect* const>;
 
@@ -181,8 +204,9 @@ struct Effect {
     std::string_view doc;
     std::any (*defaults)(); ///< parameters; see make_defaults
     PartAddress address;
-    std::vector<Parameter> parameters = {};
-    std::vector<FormerKey> former = {}; ///< refused with what does it now
+    std::vector<Parameter> parameters = {}; ///< of an item, where there are several
+    std::optional<ItemAddress> items = {};  ///< none: one table; else a table [[name]] for each
+    std::vector<FormerKey> former = {};     ///< refused with what does it now
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too
@@ -259,5 +283,19 @@ constexpr PartAddress address_of{
         return std::any_cast<Parameters>(&parameters);
     },
     [](std::any& parameters) -> void* { return std::any_cast<Parameters>(&parameters); }};
+
+/// Where the items are in a std::any that holds a std::vector of them.
+template <class Item>
+constexpr ItemAddress items_of{
+    [](const std::any& parameters) {
+        return std::any_cast<const std::vector<Item>&>(parameters).size();
+    },
+    [](const std::any& parameters, std::size_t item) -> const void* {
+        return &std::any_cast<const std::vector<Item>&>(parameters)[item];
+    },
+    [](std::any& parameters, std::size_t item) -> void* {
+        return &std::any_cast<std::vector<Item>&>(parameters)[item];
+    },
+    [](std::any& parameters) { std::any_cast<std::vector<Item>&>(parameters).emplace_back(); }};
 
 } // namespace listric

@@ -54,6 +54,9 @@ std::string type_of(const Parameter& parameter) {
         std::string operator()(const Place<std::vector<PickedLine>>&) const {
             return "array of {name = ..., age_a = ..., x_m = [...], depth_m = [...]}";
         }
+        std::string operator()(const Place<std::vector<dem::Point>>&) const {
+            return "array of points [x_m, depth_m]";
+        }
         std::string operator()(const Place<std::vector<fem::Layer>>&) const {
             return "array of {top_depth_m = ..., young_modulus_pa = ..., ...}";
         }

@@ -59,7 +59,7 @@ using Value =
                  Place<bool>, Place<std::string>, Choice, Place<std::vector<double>>,
                  Place<std::vector<dem::DetachmentSegment>>, Place<std::vector<dem::TargetStage>>,
                  Place<std::vector<fem::Layer>>, Place<std::vector<std::array<double, 4>>>,
-                 Place<std::vector<PickedLine>>>;
+                 Place<std::vector<PickedLine>>, Place<std::vector<dem::Point>>>;
 
 /// The one declaration of a parameter. A default outside the range means that the parameter must be
 /// given.

@@ -85,10 +85,7 @@ struct Allowed {
         return array_of(item, 1);
     }
     Json operator()(const Place<std::vector<dem::TargetStage>>&) const {
-        Json point = array_of(
-            Json::array({number_schema(ranges::target_x), number_schema(parameter.range)}), 2);
-        point["maxItems"] = 2;
-        const Json points = array_of(point, 1);
+        const Json points = points_schema();
         const Json stage =
             closed_table("", {{"time_a", number_schema(ranges::target_time)}, {"points", points}},
                          {"time_a", "points"});
@@ -106,6 +103,16 @@ struct Allowed {
     Json operator()(const Place<std::vector<fem::Layer>>&) const {
         const fem::Layer layer;
         return array_of(table_schema("", layer_parameters(), &layer));
+    }
+    Json operator()(const Place<std::vector<dem::Point>>&) const { return points_schema(); }
+
+private:
+    /// Points of an x and of a number that the parameter's range holds for.
+    Json points_schema() const {
+        Json point = array_of(
+            Json::array({number_schema(ranges::target_x), number_schema(parameter.range)}), 2);
+        point["maxItems"] = 2;
+        return array_of(point, 1);
     }
 };
 
@@ -235,7 +242,10 @@ std::string scene_schema(EffectList effects) {
     properties["materials"] = materials_schema(effects);
     for (const SceneTable& table : scene_tables(effects)) {
         const void* part = table.add(table, scene);
-        Json& entry = properties[std::string(table.name)];
+        Json& property = properties[std::string(table.name)];
+        if (table.is_array())
+            property = array_of({}, 1);
+        Json& entry = table.is_array() ? property["items"] : property;
         entry = table_schema(fmt::format("{}{}", table.effect ? "effect: " : "", table.doc),
                              table.parameters, part);
         const FileName none;

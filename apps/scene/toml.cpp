@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <sstream>
 
@@ -106,6 +107,7 @@ const std::string& string(const Entry& entry, const Parameter& parameter) {
 }
 
 dem::DetachmentSegment read_segment(const Entry& entry);
+std::vector<Point> read_points(const Entry& entry, const Parameter& parameter);
 std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parameter);
 
 /// Reads an entry into an object, one function for each type of value.
@@ -155,6 +157,10 @@ struct Reader {
 
     void operator()(const Place<std::vector<dem::TargetStage>>& x) const {
         x.reach(object) = read_target(entry, parameter);
+    }
+
+    void operator()(const Place<std::vector<dem::Point>>& x) const {
+        x.reach(object) = read_points(entry, parameter);
     }
 
     void operator()(const Place<std::vector<fem::Layer>>& place) const {
@@ -253,7 +259,7 @@ dem::DetachmentSegment read_segment(const Entry& entry) {
     return segment;
 }
 
-/// Points [x, y] by ascending x; the parameter's range holds for y.
+/// Points [x, y]; the parameter's range holds for y.
 std::vector<Point> read_points(const Entry& entry, const Parameter& parameter) {
     Parameter x_parameter = parameter;
     x_parameter.range = ranges::target_x;
@@ -265,11 +271,6 @@ std::vector<Point> read_points(const Entry& entry, const Parameter& parameter) {
             fail(item, "needs two numbers, for example [12000.0, -350.0]");
         const Point p{number({*pair->get(0), item.path + "[0]"}, x_parameter),
                       number({*pair->get(1), item.path + "[1]"}, parameter)};
-        if (!points.empty() && p.x <= points.back().x)
-            fail(item,
-                 fmt::format("is not sorted: x = {} comes after {}; sort the points by x, each "
-                             "x once",
-                             text(p.x), text(points.back().x)));
         points.push_back(p);
     }
     if (points.empty())
@@ -278,10 +279,22 @@ std::vector<Point> read_points(const Entry& entry, const Parameter& parameter) {
     return points;
 }
 
+/// Points by ascending x.
+std::vector<Point> read_sorted_points(const Entry& entry, const Parameter& parameter) {
+    std::vector<Point> points = read_points(entry, parameter);
+    for (std::size_t k = 1; k < points.size(); ++k)
+        if (points[k].x <= points[k - 1].x)
+            fail({*entry.node.as_array()->get(k), fmt::format("{}[{}]", entry.path, k)},
+                 fmt::format("is not sorted: x = {} comes after {}; sort the points by x, each "
+                             "x once",
+                             text(points[k].x), text(points[k - 1].x)));
+    return points;
+}
+
 std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parameter) {
     const toml::array& items = array(entry, parameter);
     if (items.empty() || !items.front().is_table())
-        return {{0.0, read_points(entry, parameter)}};
+        return {{0.0, read_sorted_points(entry, parameter)}};
     Parameter years = parameter;
     years.range = ranges::target_time;
     std::vector<TargetStage> stages;
@@ -299,7 +312,7 @@ std::vector<TargetStage> read_target(const Entry& entry, const Parameter& parame
             fail(item, fmt::format("is not sorted: time_a = {} comes after {}; sort the stages by "
                                    "time, each time once",
                                    text(stage.time), text(stages.back().time)));
-        stage.points = read_points({*points, item.path + ".points"}, parameter);
+        stage.points = read_sorted_points({*points, item.path + ".points"}, parameter);
         stages.push_back(stage);
     }
     return stages;
@@ -343,12 +356,48 @@ toml::table parse(const std::string& text, const std::string& origin) {
 
 namespace {
 
+bool is_number(std::string_view key) {
+    return !key.empty() && key.size() < 4 &&
+           std::ranges::all_of(key, [](unsigned char c) { return std::isdigit(c); });
+}
+
+/// Whether a table's keys are numbers of an array's items: stage.0.distance_m.
+bool names_items(const toml::node& node) {
+    const toml::table* table = node.as_table();
+    return table && !table->empty() &&
+           std::ranges::all_of(*table, [](const auto& one) { return is_number(one.first.str()); });
+}
+
+void merge(toml::table& into, toml::table& from, const std::string& origin);
+
+/// Moves items over by their number, tables into the tables that are there; the next number adds
+/// an item.
+void merge_items(toml::array& into, toml::table& from, std::string_view name,
+                 const std::string& origin) {
+    for (auto&& [key, node] : from) {
+        const auto number = static_cast<std::size_t>(std::stoul(std::string(key.str())));
+        if (number > into.size())
+            fail(fmt::format("{}: {}.{}: there are {}, counted from 0; the next is {}.{}", origin,
+                             name, number, into.size(), name, into.size()));
+        if (number == into.size())
+            into.push_back(std::move(node));
+        else if (into[number].is_table() && node.is_table())
+            merge(*into[number].as_table(), *node.as_table(), origin);
+        else
+            into.replace(into.cbegin() + static_cast<std::ptrdiff_t>(number), std::move(node));
+    }
+}
+
 /// Moves the values over, tables into the tables of the same name. They keep their origin.
-void merge(toml::table& into, toml::table& from) {
+void merge(toml::table& into, toml::table& from, const std::string& origin) {
     for (auto&& [key, node] : from) {
         toml::table* table = into[key].as_table();
         if (table && node.is_table()) {
-            merge(*table, *node.as_table());
+            merge(*table, *node.as_table(), origin);
+        } else if (names_items(node) && (into[key].is_array() || !into.contains(key))) {
+            if (!into.contains(key))
+                into.insert(key, toml::array{});
+            merge_items(*into[key].as_array(), *node.as_table(), key.str(), origin);
         } else {
             into.insert_or_assign(key, std::move(node));
         }
@@ -373,7 +422,7 @@ void set(toml::table& document, const std::string& assignment, const std::string
     }
     if (equals == key.npos || given.size() != 1)
         fail(fmt::format("{}: needs the form table.key=value", origin));
-    merge(document, given);
+    merge(document, given, origin);
 }
 
 // --------------------------------------------------------------------------------------- writing
@@ -418,6 +467,7 @@ struct Writer {
     std::string operator()(const Place<std::vector<fem::Layer>>& x) const;
     std::string operator()(const Place<std::vector<PickedLine>>& x) const;
     std::string operator()(const Place<std::vector<dem::TargetStage>>& x) const;
+    std::string operator()(const Place<std::vector<dem::Point>>& x) const;
     std::string operator()(const Place<std::vector<std::array<double, 4>>>& x) const {
         std::vector<std::string> items;
         for (const auto& four : x.get(object))
@@ -468,22 +518,27 @@ std::string Writer::operator()(const Place<std::vector<PickedLine>>& x) const {
     return lines_of(x.get(object), picked_line_parameters());
 }
 
+std::string points_text(const std::vector<dem::Point>& points) {
+    std::vector<std::string> items;
+    for (const dem::Point& p : points)
+        items.push_back(fmt::format("[{}, {}]", toml_float(p.x), toml_float(p.y)));
+    return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
+std::string Writer::operator()(const Place<std::vector<dem::Point>>& x) const {
+    return x.get(object).empty() ? "" : points_text(x.get(object));
+}
+
 std::string Writer::operator()(const Place<std::vector<dem::TargetStage>>& x) const {
     const std::vector<dem::TargetStage>& stages = x.get(object);
-    const auto points = [](const dem::TargetStage& stage) {
-        std::vector<std::string> items;
-        for (const dem::Point& p : stage.points)
-            items.push_back(fmt::format("[{}, {}]", toml_float(p.x), toml_float(p.y)));
-        return fmt::format("[{}]", fmt::join(items, ", "));
-    };
     if (stages.empty())
         return "";
     if (stages.size() == 1 && stages.front().time == 0.0)
-        return points(stages.front());
+        return points_text(stages.front().points);
     std::string lines;
     for (const dem::TargetStage& stage : stages)
         lines += fmt::format("    {{time_a = {}, points = {}}},\n", toml_float(stage.time),
-                             points(stage));
+                             points_text(stage.points));
     return fmt::format("[\n{}]", lines);
 }
 

@@ -55,8 +55,8 @@ bool BondHealing::apply(State& state, const RigidBase&) {
         for (; k < end; ++k) {
             const auto i = static_cast<std::size_t>(c.first[k]),
                        j = static_cast<std::size_t>(c.second[k]);
-            if (c.bonded[k] || !touches[k] || !state.materials[d.material[i]].bondable ||
-                !state.materials[d.material[j]].bondable ||
+            if (c.bonded[k] || !touches[k] ||
+                !may_bond(state.materials, d.material[i], d.material[j]) ||
                 std::max(d.start_extension[i], d.start_extension[j]) > latest)
                 continue;
             const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];

@@ -4,7 +4,7 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/events/measure_circle.hpp"
-#include "dem/events/weakened_discs.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
@@ -38,21 +38,22 @@ std::vector<bool> cemented(State& state) {
 /// @param loose  whether sediment is looked at that is not cemented, too
 Displacements displacements(State& state, double youngest, bool loose) {
     const DiscColumns d = disc_columns(state);
-    const WeakenedColumns w = weakened_columns(state);
+    const auto scanned_x = state.discs.get<double>("scanned_x");
+    const auto scanned_y = state.discs.get<double>("scanned_y");
     const std::vector<bool> rock = cemented(state);
     const bool compacts = state.discs.has("scanned_porosity");
     const auto porosity = compacts ? state.discs.get<double>("porosity") : std::span<double>();
     const auto before = compacts ? state.discs.get<double>("scanned_porosity") : porosity;
     Displacements s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] > 0 && d.material[i] != weak &&
+        if (d.stratum[i] > 0 && !is_weak(state.materials, d.material[i]) &&
             (!(loose || rock[i]) || state.clock.extension - d.start_extension[i] < youngest))
             continue;
         s.row.push_back(static_cast<std::int32_t>(i));
         s.x.push_back(d.x[i]);
         s.y.push_back(d.y[i]);
-        s.ux.push_back(d.x[i] - w.scanned_x[i]);
-        s.uy.push_back(d.y[i] - w.scanned_y[i]);
+        s.ux.push_back(d.x[i] - scanned_x[i]);
+        s.uy.push_back(d.y[i] - scanned_y[i]);
         if (compacts)
             s.compaction.push_back((porosity[i] - before[i]) / (1.0 - porosity[i]));
     }
@@ -151,9 +152,11 @@ std::vector<Band> gaps(const std::vector<FaultSegment>& kept,
 }
 
 /// Rows of the sound discs in a band; none where most of it is weak already: the slip is that of a
-/// fault known before, which would widen with every scan if the rest were weakened.
-std::vector<std::int32_t> sound_discs(const Displacements& s, const DiscColumns& d,
-                                      const Band& band, double width, double least_share) {
+/// fault known before, which would widen with every scan if the rest were weakened. Rock that is
+/// never weakened does not count.
+std::vector<std::int32_t> sound_discs(const Displacements& s, const State& state, const Band& band,
+                                      double width, double least_share) {
+    const auto material = disc_columns(state).material;
     const Point along = unit(band.to - band.from);
     const double length = norm(band.to - band.from);
     double all = 0.0;
@@ -163,8 +166,10 @@ std::vector<std::int32_t> sound_discs(const Displacements& s, const DiscColumns&
         if (dot(along, at) < 0.0 || dot(along, at) > length ||
             std::abs(cross(along, at)) >= 0.5 * width)
             continue;
-        all += 1.0;
-        if (d.material[static_cast<std::size_t>(s.row[k])] != weak)
+        const std::uint8_t m = material[static_cast<std::size_t>(s.row[k])];
+        const bool can_weaken = weakened(state.materials, m) != no_material;
+        all += can_weaken || is_weak(state.materials, m) ? 1.0 : 0.0;
+        if (can_weaken)
             sound.push_back(s.row[k]);
     }
     if (static_cast<double>(sound.size()) < least_share * all)
@@ -182,7 +187,7 @@ std::vector<std::int32_t> rested_discs(State& state, const Displacements& s, con
     in_pieces(s.row.size(), 64, [&](std::size_t k, std::size_t end) {
         for (; k < end; ++k) {
             const auto i = static_cast<std::size_t>(s.row[k]);
-            if (material[i] != weak)
+            if (!is_weak(state.materials, material[i]))
                 continue;
             GradientFit fit;
             cells.for_each_near(s.x[k], s.y[k], [&](std::int32_t member) {
@@ -200,7 +205,7 @@ std::vector<std::int32_t> rested_discs(State& state, const Displacements& s, con
     std::vector<std::int32_t> rows;
     for (const std::int32_t row : s.row)
         if (const auto i = static_cast<std::size_t>(row);
-            material[i] == weak && rested[i] >= p.heal_after)
+            is_weak(state.materials, material[i]) && rested[i] >= p.heal_after)
             rows.push_back(row);
     return rows;
 }
@@ -209,14 +214,22 @@ std::vector<std::int32_t> rested_discs(State& state, const Displacements& s, con
 void heal(State& state, const std::vector<std::int32_t>& rows, double stress_ratio,
           double gravity) {
     const DiscColumns d = disc_columns(state);
-    const WeakenedColumns w = weakened_columns(state);
+    const EnlargedColumns w = enlarged_columns(state);
     const auto rested = state.discs.get<double>("rested_a");
     const std::vector<double> weight = overburden(state, rows, gravity);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const auto i = static_cast<std::size_t>(rows[k]);
-        d.material[i] = d.stratum[i] > 0 ? sediment : basement;
-        d.radius[i] /= enlargement(stress_ratio * weight[k], state.materials[weak]);
-        w.rock_radius[i] = w.rock_area[i] = rested[i] = 0.0;
+        const Material& from = state.materials[d.material[i]];
+        const std::uint8_t of_layer = from.weak_of;
+        d.radius[i] /= enlargement(stress_ratio * weight[k], from);
+        const std::uint8_t otherwise = d.stratum[i] > 0 ? sediment : basement;
+        d.material[i] = of_layer != no_material ? of_layer : otherwise;
+        rested[i] = 0.0;
+        if (is_soft(state.materials, d.material[i])) {
+            d.radius[i] *= enlargement(stress_ratio * weight[k], state.materials[d.material[i]]);
+            continue;
+        }
+        w.rock_radius[i] = w.rock_area[i] = 0.0;
         w.correction[i] = 1.0;
     }
 }
@@ -249,7 +262,9 @@ FaultWeakening::FaultWeakening(const FaultWeakeningParameters& parameters, doubl
 }
 
 void FaultWeakening::begin(State& state) {
-    add_weakened_columns(state);
+    state.discs.add_like<double>("scanned_x", "m", "x");
+    state.discs.add_like<double>("scanned_y", "m", "y");
+    add_enlarged_columns(state);
     if (parameters_.heal_after > 0.0)
         state.discs.add<double>("rested_a", "a", 0.0);
     if (state.discs.has("porosity"))
@@ -277,34 +292,17 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     if (p.heal_after > 0.0)
         heal(state, rested_discs(state, sample, cells, 0.5 * l.circle, p, schedule().seconds()),
              p.mean_stress_ratio, gravity_);
-    const DiscColumns d = disc_columns(state);
-    const WeakenedColumns w = weakened_columns(state);
     std::vector<std::int32_t> converted =
         joined(by_piece(bands.size(), 4, [&](std::size_t k, std::size_t end) {
             std::vector<std::int32_t> rows;
             for (; k < end; ++k)
-                std::ranges::copy(sound_discs(sample, d, bands[k], l.width, p.sound_share),
+                std::ranges::copy(sound_discs(sample, state, bands[k], l.width, p.sound_share),
                                   std::back_inserter(rows));
             return rows;
         }));
     std::ranges::sort(converted);
     converted.erase(std::unique(converted.begin(), converted.end()), converted.end());
-    for (const std::int32_t row : converted)
-        d.material[static_cast<std::size_t>(row)] = weak;
-    const std::vector<PowerCell> before = power_cells(state, base, converted);
-    const std::vector<double> weight = overburden(state, converted, gravity_);
-    for (std::size_t k = 0; k < converted.size(); ++k) {
-        const auto i = static_cast<std::size_t>(converted[k]);
-        w.rock_radius[i] = d.radius[i];
-        w.rock_area[i] = before[k].closed ? before[k].area : 0.0;
-        // Enlarged at once, a soft disc carries the load that the stiff one carried.
-        d.radius[i] *= enlargement(p.mean_stress_ratio * weight[k], state.materials[weak]);
-    }
-    const ContactColumns c = contact_columns(state);
-    for (std::size_t k = 0; k < c.first.size(); ++k)
-        if (d.material[static_cast<std::size_t>(c.first[k])] == weak ||
-            d.material[static_cast<std::size_t>(c.second[k])] == weak)
-            c.bonded[k] = 0;
+    weaken(state, base, converted, p.mean_stress_ratio, gravity_);
 
     const std::size_t old = memory.rows();
     memory.resize(old + faults.size());
@@ -319,8 +317,9 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     put("slip_m", [](const FaultSegment& f) { return f.slip; });
     put("found_at_m", [&](const FaultSegment&) { return state.clock.extension; });
 
-    std::ranges::copy(d.x, w.scanned_x.begin());
-    std::ranges::copy(d.y, w.scanned_y.begin());
+    const DiscColumns d = disc_columns(state);
+    std::ranges::copy(d.x, state.discs.get<double>("scanned_x").begin());
+    std::ranges::copy(d.y, state.discs.get<double>("scanned_y").begin());
     if (state.discs.has("scanned_porosity"))
         std::ranges::copy(state.discs.get<double>("porosity"),
                           state.discs.get<double>("scanned_porosity").begin());

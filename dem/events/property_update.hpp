@@ -2,12 +2,12 @@
 
 #include "dem/event.hpp"
 #include "dem/events/fault_weakening.hpp"
-#include "dem/events/weakened_discs.hpp"
 
 namespace listric::dem {
 
-/// Adjusts radius and density of weakened discs, which interpenetrate under load, such that the
-/// volume of the rock and its mass are conserved [paper, "Enhanced DE models"].
+/// Adjusts radius and density of discs of weakened rock and of soft layers, which interpenetrate
+/// under load, such that the volume of the rock and its mass are conserved [paper, "Enhanced DE
+/// models"].
 ///
 /// The radius follows the mean stress expected below what lies above the disc; what that leaves of
 /// a change of volume, measured by power cells around the disc, is taken back step by step.

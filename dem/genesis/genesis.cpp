@@ -2,13 +2,16 @@
 
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/genesis/packing.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace listric::dem {
 
@@ -74,6 +77,70 @@ void set_masses(State& state, double rock_density, double area) {
         solid += pi * r * r;
     for (std::size_t i = 0; i < d.x.size(); ++i)
         d.mass[i] = rock_density * area / solid * pi * d.radius[i] * d.radius[i];
+}
+
+/// Tells discs which layer they are of, and gives them its material and density. A soft layer stays
+/// as stiff as the basement for now.
+void lay(State& state, const GenesisRequest& request) {
+    const auto layer_of = state.discs.add<std::uint8_t>("layer", "1", 0);
+    const DiscColumns d = disc_columns(state);
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const auto layer = std::ranges::find_if(request.layers, [&](const RockLayer& l) {
+            return l.contains({d.x[i], d.y[i]});
+        });
+        if (layer == request.layers.end())
+            continue;
+        layer_of[i] = static_cast<std::uint8_t>(layer - request.layers.begin() + 1);
+        d.mass[i] *= layer->density / request.hanging_wall.rock_density;
+        if (!is_soft(request.materials, layer->material))
+            d.material[i] = layer->material;
+    }
+}
+
+/// Breaks bonds where rock of the layers is not to have any.
+void part_unbonded(State& state) {
+    const ConstDiscColumns d = disc_columns(std::as_const(state));
+    const ContactColumns c = contact_columns(state);
+    for (std::size_t k = 0; k < c.first.size(); ++k)
+        if (!may_bond(state.materials, d.material[static_cast<std::size_t>(c.first[k])],
+                      d.material[static_cast<std::size_t>(c.second[k])]))
+            c.bonded[k] = 0;
+}
+
+/// Makes soft layers of the stiff rock that they are so far, and lets the packing come to rest
+/// while the property update keeps their volume.
+void soften(State& state, const RigidBase& base, const GenesisRequest& request,
+            const CyclePhysics& physics, int crossing, const Execution& execution,
+            const std::function<void(std::string_view, double)>& report) {
+    constexpr int rounds = 40;
+    constexpr double enough = 0.002; // of the volume
+    const VolumeKeeping how{2.0 * state.mean_radius};
+    const auto layer_of = state.discs.get<std::uint8_t>("layer");
+    const DiscColumns d = disc_columns(state);
+    std::vector<std::int32_t> rows;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (layer_of[i] > 0)
+            if (const std::uint8_t m = request.layers[layer_of[i] - 1u].material;
+                is_soft(request.materials, m)) {
+                d.material[i] = m;
+                rows.push_back(static_cast<std::int32_t>(i));
+            }
+    if (rows.empty())
+        return;
+    add_enlarged_columns(state);
+    enlarge(state, base, rows, how.mean_stress_ratio, physics.gravity);
+    for (int round = 0; round < rounds; ++round) {
+        report("softening of layers", static_cast<double>(round) / rounds);
+        find_contacts(state, base);
+        execution.packed->forget();
+        advance(state, base, physics, 4 * crossing, execution);
+        if (std::abs(*keep_volume(state, base, how, physics.gravity)) < enough && round > 4)
+            break;
+    }
+    find_contacts(state, base);
+    settle(
+        state, base, physics, 2.5e-3, 150 * crossing,
+        [&](double share) { report("third equilibrium", share); }, execution);
 }
 
 /// Motion of discs counts from here.
@@ -185,15 +252,22 @@ State make_hanging_wall(const GenesisRequest& request,
     grow_floaters(state, open, physics, largest, execution, report);
     trim(state, p.length);
     set_masses(state, p.rock_density, area);
+    if (!request.layers.empty())
+        lay(state, request);
     sort_discs(state);
     find_contacts(state, open);
     settle(
         state, open, physics, 2.5e-3, 150 * crossing,
         [&](double share) { report("second equilibrium", share); }, execution);
 
+    if (!request.layers.empty())
+        soften(state, open, request, physics, crossing, execution, report);
+
     state.materials = request.materials;
     if (request.bonds)
         bond_touching(state, *request.bonds, 0);
+    if (!request.layers.empty())
+        part_unbonded(state);
     begin_history(state);
     return state;
 }

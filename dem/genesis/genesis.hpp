@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/base.hpp"
+#include "dem/base/target_line.hpp"
 #include "dem/cycle/cycle.hpp"
 #include "dem/state.hpp"
 
@@ -32,12 +33,26 @@ std::size_t disc_count(const HangingWallParameters& p, double area);
 double stable_time_step(double mass, std::span<const Material> materials, double damping,
                         double safety);
 
+/// A layer of rock in the hanging wall: what lies between two lines before extension. A line at or
+/// above the original surface bounds nothing.
+struct RockLayer {
+    TargetLine top, bottom; ///< y over x, m; y up
+    std::uint8_t material = basement;
+    double density = 2600.0; ///< bulk density of the packing, kg/m^3
+
+    bool contains(Point p) const {
+        const double upper = top.height(p.x);
+        return p.y > bottom.height(p.x) && (p.y <= upper || upper >= 0.0);
+    }
+};
+
 /// Inputs of genesis besides the hanging wall itself.
 struct GenesisRequest {
     HangingWallParameters hanging_wall;
     RigidBase base; ///< surfaces as in the run; the last one closes the right side
     std::vector<Material> materials;
     std::optional<BondStrength> bonds;
+    std::vector<RockLayer> layers = {}; ///< the first one has what several contain
     CyclePhysics physics;
     double time_step_safety = 0.95;
     double inertial_mass_floor = 0.75; ///< mean basement disc masses
@@ -49,7 +64,12 @@ struct GenesisRequest {
 /// Makes a settled, bonded hanging wall [paper, Fig. 2b]: random small discs in its shape, expanded
 /// under a lid to the wanted porosity, frictionless equilibrium, gravity without the lid,
 /// equilibrium, floaters grown until they carry load, the surface trimmed to its level, bonds at
-/// every contact. `report(stage, share done)` is called now and then.
+/// every contact that may be bonded.
+///
+/// With layers, discs have a column `layer`: 0 for rock of none, n for the n-th. Discs are of a
+/// layer by their centre where the trimmed packing has come to rest. Soft layers are made of stiff
+/// rock first, and then enlarged, as weakened discs are, until the packing rests again with their
+/// volume as it was. `report(stage, share done)` is called now and then.
 State make_hanging_wall(const GenesisRequest& request,
                         const std::function<void(std::string_view, double)>& report);
 

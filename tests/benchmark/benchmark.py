@@ -143,7 +143,7 @@ def measure_instructions():
 
 # What a scene with gravity and friction alone never calls, in dem/events and dem.
 EFFECTS = ("bond_healing", "compaction", "energy", "energy_account", "fault_weakening",
-           "measure_circle", "property_update", "sediment_stress", "sedimentation", "weakened_discs")
+           "measure_circle", "property_update", "sediment_stress", "sedimentation", "soft_discs")
 
 
 def link(preset, folder, without):

@@ -140,6 +140,15 @@ std::vector<std::string> names_of(Chosen run) {
     return names;
 }
 
+/// What a scene says of an effect at least, as --set takes it.
+std::string tables_of(std::string_view effect) {
+    if (effect == "layer")
+        return R"([{name="mica", material="mica", top_m=400.0, thickness_m=300.0}])";
+    if (effect == "old_fault")
+        return "[{points=[[2000.0, 300.0], [2400.0, 1200.0]]}]";
+    return "{}";
+}
+
 class Combination : public SceneRuns {
 protected:
     /// The scene as shipped with the effects that are chosen: those that it lacks with their
@@ -151,7 +160,7 @@ protected:
             if (there && !has(run, effect->name))
                 r.without.emplace_back(effect->name);
             if (!there && has(run, effect->name))
-                r.set.push_back(fmt::format("{}={{}}", effect->name));
+                r.set.push_back(fmt::format("{}={}", effect->name, tables_of(effect->name)));
         }
         if (has(run, series))
             r.set.push_back("output.series=paraview");

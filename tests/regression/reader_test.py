@@ -340,7 +340,7 @@ class Reader(unittest.TestCase):
         with open(other, "ab") as file:
             file.write(b"listric checksum" + bytes(8))
         for snapshot, words in zip(run.snapshots, (("cut short",), ("is damaged",),
-                                                   (f"format {FORMAT + 1}", f"and {FORMAT}"))):
+                                                   (f"format {FORMAT + 1}", f"to {FORMAT}"))):
             with self.fails(listric.RunError, snapshot.path, *words):
                 snapshot.discs["x"]
 

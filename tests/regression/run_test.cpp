@@ -582,7 +582,7 @@ TEST_F(RunTest, ASnapshotOfAnotherFormatIsRefusedAndTheRunIsKept) {
         const Ended refused = call_run(output, {"--resume", "--until", "133.7"});
         EXPECT_EQ(refused.code, 2);
         EXPECT_THAT(refused.err, AllOf(HasSubstr(std::string("format ") + digit),
-                                       HasSubstr("reads formats 5 and 6"), HasSubstr("version"),
+                                       HasSubstr("reads formats 5 to 7"), HasSubstr("version"),
                                        HasSubstr(cure)));
         EXPECT_TRUE(tree(output / "snapshots") == before);
     }

@@ -194,8 +194,8 @@ TEST(Compaction, UpliftRestoresNothing) {
 
 TEST(Compaction, WeakenedDiscsShrinkWithTheirRock) {
     Burial b;
-    add_weakened_columns(b.state);
-    const WeakenedColumns w = weakened_columns(b.state);
+    add_enlarged_columns(b.state);
+    const EnlargedColumns w = enlarged_columns(b.state);
     disc_columns(b.state).radius[0] = 117.0; // enlarged by 1.3
     w.rock_radius[0] = 90.0;
     w.rock_area[0] = 30000.0;

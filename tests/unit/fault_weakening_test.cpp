@@ -138,7 +138,7 @@ TEST(FaultWeakening, ConvertsTheBandAndNothingElse) {
     const std::vector<double> weight = overburden(b.state, rows, 9.81);
     b.apply();
     const DiscColumns d = disc_columns(b.state);
-    const WeakenedColumns w = weakened_columns(b.state);
+    const EnlargedColumns w = enlarged_columns(b.state);
     const std::vector<Band> bands = b.bands();
     const double soft = 0.5 * b.state.materials[weak].normal_stiffness;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
@@ -147,7 +147,7 @@ TEST(FaultWeakening, ConvertsTheBandAndNothingElse) {
         });
         ASSERT_EQ(d.material[i] == weak, in_band) << d.x[i] << " " << d.y[i];
         EXPECT_EQ(w.rock_radius[i], in_band ? before[i] : 0.0);
-        EXPECT_EQ(w.scanned_x[i], d.x[i]);
+        EXPECT_EQ(b.state.discs.get<double>("scanned_x")[i], d.x[i]);
         const double q = 0.75 * weight[i] / soft;
         const double enlarged = in_band ? 1.0 + q / (1.0 + 0.42 * q) : 1.0;
         EXPECT_NEAR(d.radius[i], before[i] * enlarged, 1e-12 * before[i]);
@@ -224,7 +224,7 @@ TEST(FaultWeakening, WeakBandsAreNotWidened) {
         if (std::abs(b.off_plane(d.x[i], d.y[i], 60.0 * degree)) <
             0.5 * parameters.band_diameters * b.diameter) {
             d.material[i] = weak;
-            weakened_columns(b.state).rock_radius[i] = d.radius[i];
+            enlarged_columns(b.state).rock_radius[i] = d.radius[i];
         }
     const std::ptrdiff_t before = b.weak_discs();
     for (int window = 0; window < 3; ++window) {
@@ -256,7 +256,7 @@ TEST(FaultWeakening, RockThatRestsIsSoundAgain) {
     b.apply();
     EXPECT_EQ(b.weak_discs(), weakened);
     b.apply(); // the second interval at rest
-    const WeakenedColumns w = weakened_columns(b.state);
+    const EnlargedColumns w = enlarged_columns(b.state);
     for (std::size_t i = 0; i < before.size(); ++i) {
         EXPECT_EQ(disc_columns(b.state).material[i], basement);
         // Under the load of before, but for what of the enlarged neighbours lies above a centre: a

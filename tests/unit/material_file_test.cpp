@@ -94,7 +94,8 @@ protected:
 TEST_F(MaterialFileTest, ShippedMaterials) {
     EXPECT_THAT(materials.names(),
                 ElementsAre("mat18-b", "mat18-b-calibrated", "mat18-w", "mat18-w-calibrated",
-                            "mat18-w-frictional", "mud", "sand", "sediment", "silt"));
+                            "mat18-w-frictional", "mica", "mud", "salt", "sand", "sandbox-sand",
+                            "sediment", "shale", "silt"));
     for (const std::string& name : materials.names()) {
         const RockMaterial rock = load_material(name);
         EXPECT_EQ(rock.name, name);

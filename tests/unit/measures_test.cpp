@@ -8,7 +8,7 @@
 #include "apps/measures/measures.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
-#include "dem/events/weakened_discs.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -306,7 +306,7 @@ TEST(Measures, OfWeakenedVolumeAreNoneWhereThereIsMoreSedimentThanRock) {
     const Scene scene = load_scene({.scene = "lis1"});
     const ModelParts parts = make_parts(scene);
     State state = lattice(scene, parts.base);
-    add_weakened_columns(state);
+    add_enlarged_columns(state);
     const auto known = [&] {
         const auto effect =
             std::ranges::find(scene.effects, "fault_weakening",

@@ -30,10 +30,10 @@ struct Lattice {
     explicit Lattice(double rock_area = 0.0) {
         std::vector<Disc> discs = hexagonal(11, 11, r);
         state = make_state(discs);
-        add_weakened_columns(state);
+        add_enlarged_columns(state);
         disc_columns(state).material[middle] = weak;
-        weakened_columns(state).rock_radius[middle] = r;
-        weakened_columns(state).rock_area[middle] = rock_area;
+        enlarged_columns(state).rock_radius[middle] = r;
+        enlarged_columns(state).rock_area[middle] = rock_area;
     }
     double radius() { return disc_columns(state).radius[middle]; }
     bool apply() { return event.apply(state, {}); }
@@ -90,7 +90,7 @@ TEST(PropertyUpdate, MassAndSoundDiscsAreUntouched) {
             EXPECT_EQ(now.radius[i], was.radius[i]);
         }
     }
-    EXPECT_EQ(weakened_columns(l.state).rock_radius[middle], r);
+    EXPECT_EQ(enlarged_columns(l.state).rock_radius[middle], r);
 }
 
 TEST(PropertyUpdate, LostAndWonVolumeIsTakenBack) {
@@ -100,24 +100,24 @@ TEST(PropertyUpdate, LostAndWonVolumeIsTakenBack) {
     const double factor = enlargement(same.stress(), same.state.materials[weak]);
     // dA / A = 2 factor dr / r, of which 0.3 is corrected at a time for the disc's zone and 0.5 for
     // all zones together; here the disc is both.
-    EXPECT_NEAR(weakened_columns(grown.state).correction[middle],
+    EXPECT_NEAR(enlarged_columns(grown.state).correction[middle],
                 1.0 - 0.8 * (1.0 / 0.99 - 1.0) / (2.0 * factor), 1e-12);
-    EXPECT_NEAR(weakened_columns(shrunk.state).correction[middle],
+    EXPECT_NEAR(enlarged_columns(shrunk.state).correction[middle],
                 1.0 - 0.8 * (1.0 / 1.01 - 1.0) / (2.0 * factor), 1e-12);
-    EXPECT_NEAR(weakened_columns(same.state).correction[middle], 1.0, 1e-12);
+    EXPECT_NEAR(enlarged_columns(same.state).correction[middle], 1.0, 1e-12);
 }
 
 TEST(PropertyUpdate, WhatAllHaveLostIsTakenBackByAll) {
     constexpr std::size_t far = 24; // of another zone, with its volume as it was
     Lattice l(0.98 * cell);
     disc_columns(l.state).material[far] = weak;
-    weakened_columns(l.state).rock_radius[far] = r;
-    weakened_columns(l.state).rock_area[far] = cell;
+    enlarged_columns(l.state).rock_radius[far] = r;
+    enlarged_columns(l.state).rock_area[far] = cell;
     const double factor = enlargement(
         0.75 * overburden(l.state, std::vector{static_cast<std::int32_t>(far)}, heavy)[0],
         l.state.materials[weak]);
     l.apply();
-    EXPECT_NEAR(weakened_columns(l.state).correction[far],
+    EXPECT_NEAR(enlarged_columns(l.state).correction[far],
                 1.0 - 0.5 * (2.0 / 1.98 - 1.0) / (2.0 * factor), 1e-12);
 }
 

@@ -14,7 +14,9 @@ using testing::DoubleEq;
 using testing::ElementsAre;
 
 RockBehaviour of(double unbonded_share, std::int32_t stratum, std::uint8_t material) {
-    return rock_behaviour(std::array{unbonded_share}, std::array{stratum}, std::array{material})
+    const std::vector<dem::Material> materials(3);
+    return rock_behaviour(std::array{unbonded_share}, std::array{stratum}, std::array{material},
+                          materials)
         .front();
 }
 

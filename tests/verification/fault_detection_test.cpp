@@ -15,7 +15,7 @@
 #include "dem/contacts/cells.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/measure_circle.hpp"
-#include "dem/events/weakened_discs.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "tests/verification/settled_packing.hpp"
 
 #include <gtest/gtest.h>
@@ -85,14 +85,15 @@ struct Slab {
     /// Largest slip in circles wholly inside, at points half a radius apart, m.
     double largest_slip() {
         const ConstDiscColumns d = disc_columns(std::as_const(state));
-        const WeakenedColumns w = weakened_columns(state);
+        const auto scanned_x = state.discs.get<double>("scanned_x");
+        const auto scanned_y = state.discs.get<double>("scanned_y");
         Displacements s;
         for (std::size_t i = 0; i < d.x.size(); ++i) {
             s.row.push_back(static_cast<std::int32_t>(i));
             s.x.push_back(d.x[i]);
             s.y.push_back(d.y[i]);
-            s.ux.push_back(d.x[i] - w.scanned_x[i]);
-            s.uy.push_back(d.y[i] - w.scanned_y[i]);
+            s.ux.push_back(d.x[i] - scanned_x[i]);
+            s.uy.push_back(d.y[i] - scanned_y[i]);
         }
         const double circle = 10.0 * state.mean_radius, step = 0.5 * state.mean_radius;
         const Cells cells(s.x, s.y, 0.5 * circle);

@@ -6,6 +6,7 @@ origin), n discs:
     discs_x, discs_y, discs_radius   m
     discs_stratum                    0 before the rift, then 1 for the oldest stratum
     discs_start_depth                m, NaN for sediment
+    discs_layer                      0, or the number of its layer of rock; only where there are layers
     discs_shear_strain               of the last window of extension, NaN for younger discs
     discs_behaviour                  class of rock behaviour; only where there are bonds
     bonded                           contacts: x, y of both discs, 1 where both are sediment
@@ -73,6 +74,8 @@ class Frame:
     strata: int                                # number that the colours are for
     strain_end: float                          # of the colour scale
     layers: tuple[Layer, ...] = ()
+    beds: np.ndarray | None = None             # layer of rock by disc, 0: none
+    bed_names: tuple[str, ...] = ()
     behaviour: np.ndarray | None = None
     bonded: np.ndarray | None = None
     profile: np.ndarray | None = None
@@ -181,7 +184,8 @@ def load_discs(folder: str) -> dict[str, np.ndarray | None]:
     discs = {name: load_array(folder, "discs_" + name) for name in ("x", "y", "radius", "stratum")}
     for name in ("start_depth", "shear_strain"):  # not defined for all discs
         discs[name] = load_array(folder, "discs_" + name, finite=False)
-    discs["behaviour"] = load_array(folder, "discs_behaviour", optional=True)
+    for name in ("behaviour", "layer"):
+        discs[name] = load_array(folder, "discs_" + name, optional=True)
     count = len(discs["x"])
     if count == 0:
         raise InputError(f"{folder}: discs_x.npy holds no discs")
@@ -243,6 +247,8 @@ def load_frame(folder: str) -> Frame:
         strain=np.asarray(discs["shear_strain"], dtype=float), detachment=km(detachment),
         strata=max(int(meta["strata"]), int(discs["stratum"].max()), 0),
         strain_end=meta["strain_end"], layers=load_layers(folder, meta, len(discs["x"])),
+        beds=None if discs["layer"] is None else discs["layer"].astype(int),
+        bed_names=tuple(printable(name) for name in meta.get("rock_layers", ())),
         behaviour=behaviour(discs),
         bonded=scaled(table("bonded", 5), [1e-3] * 4 + [1.0]),
         profile=profile if profile is not None and len(profile) > 1 else None,

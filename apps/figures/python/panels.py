@@ -12,7 +12,7 @@ from frame import Frame
 from page import PANEL_WIDTH, PROFILE_HEIGHT
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
-from vocabulary import (INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
+from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
                         palette, stratum_colours)
 
 import numpy as np
@@ -37,6 +37,9 @@ def strata_panel(ax, cax, frame: Frame) -> None:
     section_axes(ax, frame)
     rgb = layer_colours(frame.start_depth)
     sediment = frame.stratum > 0
+    if frame.beds is not None:
+        bed = frame.beds > 0
+        rgb[bed] = bed_colours()[(frame.beds[bed] - 1) % len(BED_COLOURS)]
     if sediment.any():
         colours = stratum_colours(frame.strata)
         rgb[sediment] = colours[frame.stratum[sediment] - 1]
@@ -45,7 +48,7 @@ def strata_panel(ax, cax, frame: Frame) -> None:
         cax.set_axis_off()
     draw_discs(ax, frame, rgb)
     handles = [(tuple(swatch(c) for c in LAYER_COLOURS), f"pre-rift, {LAYER:g} km layers"),
-               (stroke(INK, 1.5), "detachment")]
+               *bed_handles(frame), (stroke(INK, 1.5), "detachment")]
     if frame.level is not None:
         ax.axhline(frame.level, color=LEVEL_BLUE, linewidth=1.0, dashes=(6, 3), zorder=6)
         handles.append((stroke(LEVEL_BLUE, 1.0, dashes=(4, 2)), "target level of sediments"))
@@ -59,6 +62,18 @@ def strata_panel(ax, cax, frame: Frame) -> None:
     handles += draw_observed(ax, frame)
     handles += draw_faults(ax, frame.faults)
     describe(ax, frame, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
+
+
+def bed_colours() -> np.ndarray:
+    return np.array([to_rgb(colour) for colour in BED_COLOURS])
+
+
+def bed_handles(frame: Frame) -> list:
+    """Legend entries of the layers of rock: one for each colour, with the names that have it."""
+    names: dict[str, list[str]] = {}
+    for n, name in enumerate(frame.bed_names):
+        names.setdefault(BED_COLOURS[n % len(BED_COLOURS)], []).append(name)
+    return [(swatch(colour), ", ".join(some)) for colour, some in names.items()]
 
 
 def draw_layers(ax, frame: Frame) -> list:

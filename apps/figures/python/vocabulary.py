@@ -22,6 +22,7 @@ VOCABULARY = read()
 INKS = {name: layer["ink"] for name, layer in VOCABULARY["layers"].items() if "ink" in layer}
 LAYER_COLOURS = VOCABULARY["pre_rift"]["colours"]     # of pre-rift rock by depth, in turn
 LAYER = VOCABULARY["pre_rift"]["layer_m"] / 1000.0    # km
+BED_COLOURS = VOCABULARY["rock_layers"]["colours"]    # of layers of rock, in turn
 # Classes of rock behaviour in their order [paper, Figs. 5, 9b].
 ROCK_CLASSES = VOCABULARY["rock_classes"]
 

@@ -55,6 +55,9 @@ function stratumColour(k, strata, table) {
   return strata >= from && k % 2 === 0 ? mixed(colour, 0xffffffff, lighter) : colour;
 }
 
+/** Of the n-th layer of rock, from 1, by turns. */
+function layerColour(n) { return vocabulary.rock_layers.colours[(n - 1) % vocabulary.rock_layers.colours.length]; }
+
 /** A colour by id. */
 function discColours(run, k, mode, palette, top, strata) {
   const table = paletteOf(mode, palette), colours = new Uint32Array(run.codes[k].present.length);
@@ -62,8 +65,9 @@ function discColours(run, k, mode, palette, top, strata) {
     const stratum = run.codes[k].stratum, depth = run.values(k, "start_depth_m");
     const young = Array.from({length: strata + 1}, (_, s) => s && stratumColour(s, strata, table));
     const old = vocabulary.pre_rift.colours.map(packedColour), layer = vocabulary.pre_rift.layer_m;
+    const bed = run.codes[k].layer, beds = (run.head.rock_layers || []).map((name, n) => packedColour(layerColour(n + 1)));
     for (let i = 0; i < colours.length; ++i)
-      colours[i] = stratum[i] > 0 ? young[stratum[i]] : old[Math.floor(Math.max(depth[i], 0) / layer) % old.length];
+      colours[i] = stratum[i] > 0 ? young[stratum[i]] : bed && bed[i] ? beds[bed[i] - 1] : old[Math.floor(Math.max(depth[i], 0) / layer) % old.length];
   } else if (mode === "rock") {
     const classes = vocabulary.rock_classes.map(({colour}) => packedColour(colour));
     run.codes[k].behaviour.forEach((behaviour, i) => { colours[i] = classes[behaviour]; });

@@ -46,7 +46,7 @@ async function draw() {
   const needs = modes[page.mode].needs.filter(name => page.runs[0].has(name));
   const inked = run => shownLayers(run, "discs", page.shown);
   await Promise.all(page.runs.map(run => run.load([...needs, ...(page.shown.has("bonds") ? bondStreams : []),
-    ...inked(run).map(([name]) => name)])));
+    ...inked(run).map(([name]) => name), ...(page.mode === "strata" ? ["layer"] : [])])));
   if (turn !== drawing) return;
   const top = scaleEnd(page.runs, page.mode);
   const strata = Math.max(...page.runs.map(run => run.codes.at(-1).stratum.reduce((a, b) => Math.max(a, b), 0)));
@@ -73,6 +73,8 @@ function legendItems() {
     const rate = page.runs[0].head.rate_m_per_a * 1e6, last = page.runs[0].moments.at(-1).extension_m / rate;
     if (strata) items.push({label: `sediment laid down (Myr), ${strata} strata`, from: 0, to: digits(last, 2),
       colours: bar(share => stratumColour(Math.min(1 + Math.floor(share * strata), strata), strata, table))});
+    for (const [n, name] of (page.runs[0].head.rock_layers || []).entries())
+      items.push({colour: layerColour(n + 1), label: name});
     vocabulary.pre_rift.colours.forEach((colour, n) =>
       items.push({colour, label: n ? "by turns" : `pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km`}));
   } else items.push({label: modes[page.mode].label, from: 0, to: `${plain(top / (unit || 1))} or more`,
@@ -299,7 +301,8 @@ function readOut(section, column, row) {
   if (id !== nobody) {
     const stratum = run.codes[k].stratum[id];
     const from = !stratum && run.codes[k].start_depth_m ? `, from ${(run.values(k, "start_depth_m")[id] / 1000).toFixed(1)} km` : "";
-    words.push(stratum ? stratumName(stratum) : `pre-rift${from}`);
+    const layer = run.codes[k].layer && run.codes[k].layer[id];
+    words.push(stratum ? stratumName(stratum) : layer ? `${run.head.rock_layers[layer - 1]}${from}` : `pre-rift${from}`);
     if (page.mode === "rock") words.push(vocabulary.rock_classes[run.codes[k].behaviour[id]].label);
     else if (mode.end && mode.needs.every(name => run.codes[k][name])) {
       const value = page.mode === "displacement" ? displacement(run, k)[id] : run.values(k, mode.needs[0])[id];

@@ -1,6 +1,7 @@
 #include "dem/events/fault_weakening.hpp"
 
 #include "apps/model/measure_names.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/events/property_update.hpp"
 
 #include "apps/model/effect_list.hpp"
@@ -130,8 +131,10 @@ std::vector<Measure<Observation>> measures() {
     return {{weak_fraction, "1", "share of discs weakened by fault detection",
              [](const Observation& now) -> std::optional<double> {
                  const auto material = dem::disc_columns(now.state).material;
-                 return static_cast<double>(std::ranges::count(material, dem::weak)) /
-                        static_cast<double>(material.size());
+                 const auto weak = std::ranges::count_if(material, [&](std::uint8_t m) {
+                     return dem::is_weak(now.state.materials, m);
+                 });
+                 return static_cast<double>(weak) / static_cast<double>(material.size());
              }},
             {volume_error_fraction, "1",
              "power-cell area of the weakened discs less their area before weakening, over the "
@@ -142,7 +145,7 @@ std::vector<Measure<Observation>> measures() {
 std::vector<double> weak_discs(const Observation& now) {
     std::vector<double> weak;
     for (const std::uint8_t material : dem::disc_columns(now.state).material)
-        weak.push_back(material == dem::weak ? 1.0 : 0.0);
+        weak.push_back(dem::is_weak(now.state.materials, material) ? 1.0 : 0.0);
     return weak;
 }
 

@@ -19,7 +19,7 @@ except ImportError as error:
     raise ImportError("listric reads snapshots with h5py: install the package python3-h5py, or "
                       "`pip install h5py`") from error
 
-FORMAT = 6  # of the snapshots that the program writes
+FORMAT = 7  # the newest of the snapshots that the program writes: with layers of rock, else 6
 _OLDEST = 5  # that is read, too: its scene is an attribute, which is nothing that is asked for here
 _KIND = "listric snapshot "
 _END = b"listric checksum"  # in front of the last eight bytes of a whole file
@@ -117,7 +117,8 @@ class Snapshot:
         return self._tables[name]
 
     def lines(self, kind: str) -> list[dict]:
-        """Lines of `listric export KIND` at this moment: "horizons", "faults", "surfaces", "base".
+        """Lines of `listric export KIND` at this moment: "horizons", "faults", "surfaces", "base",
+        "layers".
 
         A dict per line with the columns of docs/export.md: one value for those of a line, an array of
         shape (points,) for those of a point, among them x_m and depth_m (positive down). Read from the
@@ -182,7 +183,7 @@ def _check_format(file, path: Path) -> None:
     if found not in (f"{_KIND}{number}" for number in range(_OLDEST, FORMAT + 1)):
         version = _text(file.attrs.get("version", b"unknown"))
         raise RunError(f"{path}: is of format {found.removeprefix(_KIND) or 'unknown'}, written by "
-                       f"version {version}, and this package reads formats {_OLDEST} and {FORMAT}; "
+                       f"version {version}, and this package reads formats {_OLDEST} to {FORMAT}; "
                        "take the package of that version")
 
 

@@ -1,0 +1,438 @@
+#include "apps/scene/scene_layer.hpp"
+
+#include "apps/model/effect_list.hpp"
+#include "apps/scene/scene.hpp"
+#include "apps/scene/toml.hpp"
+#include "apps/support/csv.hpp"
+#include "apps/support/csv_records.hpp"
+#include "apps/support/error.hpp"
+#include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
+#include "dem/base/target_line.hpp"
+#include "dem/events/property_update.hpp"
+#include "dem/genesis/genesis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace listric::effects::layer {
+
+namespace {
+
+using L = SceneLayer;
+
+/// Layers at most this stiff, over the hanging wall, are soft.
+constexpr double soft_from = 0.5;
+constexpr std::size_t most_materials = 200;
+
+/// A member of the array of strengths, as a parameter's value.
+template <std::size_t k>
+constexpr Place<std::optional<double>> strength{
+    [](const void* object) -> const std::optional<double>& {
+        return static_cast<const L*>(object)->strength[k];
+    },
+    [](void* object) -> std::optional<double>& { return static_cast<L*>(object)->strength[k]; }};
+
+std::vector<Parameter> parameters() {
+    constexpr Range depth = between(0, 1e5);
+    constexpr std::string_view of_file = "Stands in place of what the material's file has.";
+    constexpr std::string_view of_weak = "Stands in place of what the file of weakens_to has.";
+    return {
+        {"name", at<&L::name>, "", ranges::any, "", "name in figures, exports and measures",
+         "Changes no run."},
+        {"top_m", at<&L::top>, "m", depth, "", "depth of its top, if that is level",
+         "Raising it buries the layer deeper."},
+        {"bottom_m", at<&L::bottom>, "m", depth, "", "depth of its bottom, if that is level",
+         "Raising it thickens the layer."},
+        {"thickness_m", at<&L::thickness>, "m", ranges::length, "",
+         "thickness, in place of a bottom",
+         "Below two mean disc diameters rough rock above and below interlocks across the layer.",
+         between(300, 1500)},
+        {"top", at<&L::top_line>, "", depth, "",
+         "points [x, depth] of its top, straight between them",
+         "Lets the layer rise, dip and pinch out."},
+        {"bottom", at<&L::bottom_line>, "", depth, "", "points [x, depth] of its bottom",
+         "Lets the layer's thickness change along the section."},
+        {"density_kg_per_m3", at<&L::density>, "kg/m3", ranges::density, "",
+         "bulk density of its packing; default: the hanging wall's",
+         "Raising it raises the stress below the layer.", between(2200, 2600)},
+        {"welded", at<&L::is_welded>, "", ranges::any, "",
+         "whether bonds may join it to the rock above and below",
+         "false leaves its top and bottom without bonds for good: planes on which it may slip."},
+        {"normal_stiffness_pa", at<&L::normal_stiffness>, "Pa", ranges::stiffness, "k_n",
+         "normal stiffness of one disc, if not its material's", of_file},
+        {"shear_stiffness_pa", at<&L::shear_stiffness>, "Pa", ranges::stiffness, "k_s",
+         "shear stiffness of one disc, if not its material's", of_file},
+        {"friction", at<&L::friction>, "", ranges::friction, "mu_d",
+         "friction of a disc, if not its material's", of_file},
+        {"tensile_strength_pa", strength<0>, "Pa", ranges::strength, "F_c^n",
+         "mean tensile strength of its bonds, if not its material's; none of the four: no bonds",
+         of_file},
+        {"tensile_strength_sd_pa", strength<1>, "Pa", ranges::strength, "",
+         "standard deviation of the tensile strength", of_file},
+        {"shear_strength_pa", strength<2>, "Pa", ranges::strength, "F_c^s",
+         "mean shear strength of its bonds", of_file},
+        {"shear_strength_sd_pa", strength<3>, "Pa", ranges::strength, "",
+         "standard deviation of the shear strength", of_file},
+        {"strength_is", one_of<&L::strength_is>({"stress", "force"}), "", ranges::any, "",
+         "strengths are stresses on the mean disc section, or forces in N", of_file},
+        {"weakens", at<&L::weakens>, "", ranges::any, "", "whether fault weakening can weaken it",
+         "false is what weakens_to = \"none\" becomes."},
+        {"weakened_normal_stiffness_pa", at<&L::weakened_normal_stiffness>, "Pa", ranges::stiffness,
+         "", "normal stiffness when weakened; none: as in [fault_weakening]", of_weak},
+        {"weakened_shear_stiffness_pa", at<&L::weakened_shear_stiffness>, "Pa", ranges::stiffness,
+         "", "shear stiffness when weakened; none: as in [fault_weakening]", of_weak},
+        {"weakened_friction", at<&L::weakened_friction>, "", ranges::friction, "",
+         "friction when weakened; none: as in [fault_weakening]", of_weak},
+    };
+}
+
+L& item_of(Scene& scene, std::size_t item) { return (*scene.find<SceneLayers>())[item]; }
+
+template <class T> void take(std::optional<T>& into, T value) {
+    if (!into)
+        into = value;
+}
+
+void take_material(Scene& scene, std::size_t item, const std::string& file, const Refuse&) {
+    const RockMaterial rock = read_material(file);
+    L& layer = item_of(scene, item);
+    take(layer.normal_stiffness, rock.material.normal_stiffness);
+    take(layer.shear_stiffness, rock.material.shear_stiffness);
+    take(layer.friction, rock.material.friction);
+    if (!rock.bonds)
+        return;
+    take(layer.strength[0], rock.bonds->tensile_mean);
+    take(layer.strength[1], rock.bonds->tensile_deviation);
+    take(layer.strength[2], rock.bonds->shear_mean);
+    take(layer.strength[3], rock.bonds->shear_deviation);
+    layer.strength_is = rock.bonds->reading;
+}
+
+std::string path_of(std::size_t item, std::string_view key) {
+    return fmt::format("layer[{}].{}", item, key);
+}
+
+void take_weakened(Scene& scene, std::size_t item, const std::string& file, const Refuse& refuse) {
+    L& layer = item_of(scene, item);
+    if (file == "none") {
+        layer.weakens = false;
+        return;
+    }
+    const RockMaterial rock = read_material(file);
+    if (rock.bonds)
+        refuse(path_of(item, "weakens_to"),
+               fmt::format("{} has bonds, which weakened rock cannot have; give a material without "
+                           "[bonds], or \"none\"",
+                           rock.name));
+    take(layer.weakened_normal_stiffness, rock.material.normal_stiffness);
+    take(layer.weakened_shear_stiffness, rock.material.shear_stiffness);
+    take(layer.weakened_friction, rock.material.friction);
+}
+
+std::vector<dem::Point> read_line(const std::string& file) {
+    const CsvRows rows = read_csv(file, {.numbers = {"x_m", "depth_m"}});
+    std::vector<dem::Point> points;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        points.push_back({rows.columns[0][k], rows.columns[1][k]});
+    for (std::size_t k = 1; k < points.size(); ++k)
+        if (points[k].x <= points[k - 1].x)
+            throw SceneError(fmt::format("{}: x_m: {} comes after {}; sort the rows by x, each x "
+                                         "once",
+                                         csv_place(file, rows.line[k]), text(points[k].x),
+                                         text(points[k - 1].x)));
+    if (points.empty())
+        throw SceneError(fmt::format("{}: has no points, needs at least one", file));
+    return points;
+}
+
+void take_top(Scene& scene, std::size_t item, const std::string& file, const Refuse& refuse) {
+    if (!item_of(scene, item).top_line.empty())
+        refuse(path_of(item, "top_csv"), "beside top; give one of them");
+    item_of(scene, item).top_line = read_line(file);
+}
+
+void take_bottom(Scene& scene, std::size_t item, const std::string& file, const Refuse& refuse) {
+    if (!item_of(scene, item).bottom_line.empty())
+        refuse(path_of(item, "bottom_csv"), "beside bottom; give one of them");
+    item_of(scene, item).bottom_line = read_line(file);
+}
+
+// ------------------------------------------------------------------------------------- checks
+
+/// Places along the section at which layers are looked at, m.
+std::vector<double> places(const Scene& scene, const L& a, const L& b) {
+    constexpr int steps = 400;
+    const double length = scene.hanging_wall.length;
+    std::vector<double> x = a.bends(), more = b.bends();
+    x.insert(x.end(), more.begin(), more.end());
+    std::erase_if(x, [&](double place) { return place < 0.0 || place > length; });
+    for (int k = 0; k <= steps; ++k)
+        x.push_back(length * k / steps);
+    std::ranges::sort(x);
+    return x;
+}
+
+void check_line(const Scene& scene, std::size_t item, std::string_view key,
+                const std::vector<dem::Point>& line, const Refuse& refuse) {
+    const double length = scene.hanging_wall.length;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        const auto refuse_point = [&](const std::string& what) {
+            refuse(path_of(item, fmt::format("{}[{}]", key, k)), what);
+        };
+        if (line[k].x < 0.0 || line[k].x > length)
+            refuse_point(fmt::format("x = {} is outside of the hanging wall, allowed: 0 to {}; "
+                                     "beyond its points a line is level",
+                                     text(line[k].x), text(length)));
+        if (line[k].y < 0.0 || line[k].y > 1e5)
+            refuse_point(fmt::format("depth {} is out of range, allowed: 0 (the original surface) "
+                                     "to 1e5",
+                                     text(line[k].y)));
+        if (k > 0 && line[k].x <= line[k - 1].x)
+            refuse_point(fmt::format("is not sorted: x = {} comes after {}; sort the points by x, "
+                                     "each x once",
+                                     text(line[k].x), text(line[k - 1].x)));
+    }
+}
+
+void check_bounds(const L& layer, std::size_t item, const Refuse& refuse) {
+    const std::string table = fmt::format("layer[{}]", item);
+    if (layer.top.has_value() + !layer.top_line.empty() != 1)
+        refuse(table, fmt::format("{} has {}, needs one of top_m, top and top_csv", layer.name,
+                                  layer.top ? "two tops" : "no top"));
+    const int bottoms =
+        layer.bottom.has_value() + layer.thickness.has_value() + !layer.bottom_line.empty();
+    if (bottoms != 1)
+        refuse(table, fmt::format("{} has {}, needs one of thickness_m, bottom_m, bottom and "
+                                  "bottom_csv",
+                                  layer.name, bottoms == 0 ? "no bottom" : "several bottoms"));
+}
+
+/// What makes a layer at least that thick of `discs` discs.
+std::string cure(double thickness, double discs) {
+    const double radius = 0.5 * thickness / discs;
+    for (const AccuracyLevel& level : accuracy_levels())
+        if (level.mean_radius <= radius)
+            return fmt::format("accuracy = \"{}\" or hanging_wall.mean_radius_m = {:.4g} would do",
+                               level.name, std::floor(10.0 * radius) / 10.0);
+    return fmt::format("hanging_wall.mean_radius_m = {:.4g} would do", radius);
+}
+
+double thickest(const Scene& scene, const L& layer) {
+    double greatest = 0.0;
+    for (const double x : places(scene, layer, layer))
+        greatest = std::max(greatest, layer.bottom_at(x) - layer.top_at(x));
+    return greatest;
+}
+
+void check_geometry(const Scene& scene, const L& layer, std::size_t item, const Refuse& refuse) {
+    const std::string table = fmt::format("layer[{}]", item);
+    check_line(scene, item, "top", layer.top_line, refuse);
+    check_line(scene, item, "bottom", layer.bottom_line, refuse);
+    const dem::Chain base = make_rigid_base(scene).surfaces.front().chain;
+    bool is_inside = false;
+    for (const double x : places(scene, layer, layer)) {
+        const double top = layer.top_at(x), bottom = layer.bottom_at(x);
+        if (bottom < top)
+            refuse(table, fmt::format("{} is upside down at x = {}: its top is {} deep, its bottom "
+                                      "{}; exchange them, or end both where it pinches out",
+                                      layer.name, text(x), text(top), text(bottom)));
+        is_inside |= top < -dem::height_at(base, x);
+    }
+    if (!is_inside)
+        refuse(table, fmt::format("{} is below the detachment everywhere; it is there down to {} m",
+                                  layer.name, text(scene.hanging_wall.thickness)));
+    const double diameter = 2.0 * scene.hanging_wall.mean_radius;
+    if (const double greatest = thickest(scene, layer); greatest < diameter)
+        refuse(table, fmt::format("{} is {} m thick, less than a mean disc diameter ({} m); {}",
+                                  layer.name, text(greatest), text(diameter), cure(greatest, 1.0)));
+}
+
+void check_overlap(const Scene& scene, const SceneLayers& layers, const Refuse& refuse) {
+    constexpr double tolerance = 1e-3; // m
+    for (std::size_t b = 0; b < layers.size(); ++b)
+        for (std::size_t a = 0; a < b; ++a)
+            for (const double x : places(scene, layers[a], layers[b])) {
+                const double from = std::max(layers[a].top_at(x), layers[b].top_at(x));
+                const double to = std::min(layers[a].bottom_at(x), layers[b].bottom_at(x));
+                if (to > from + tolerance)
+                    refuse(
+                        fmt::format("layer[{}]", b),
+                        fmt::format("{} overlaps {} at x = {}, from {:.4g} to {:.4g} m of depth; "
+                                    "let one end where the other begins",
+                                    layers[b].name, layers[a].name, text(x), from, to));
+            }
+}
+
+void check_rock(const Scene& scene, const L& layer, std::size_t item, const Refuse& refuse) {
+    const std::string table = fmt::format("layer[{}]", item);
+    if (!layer.normal_stiffness || !layer.shear_stiffness || !layer.friction)
+        refuse(table, fmt::format("{} needs material, a material by name or path, for example "
+                                  "\"shale\"",
+                                  layer.name));
+    const auto given = std::ranges::count_if(layer.strength, [](const auto& s) { return !!s; });
+    if (given != 0 && given != std::ssize(layer.strength))
+        refuse(table,
+               fmt::format(
+                   "{} has {} of the four strengths of bonds; give all of tensile_strength_pa, "
+                   "tensile_strength_sd_pa, shear_strength_pa and shear_strength_sd_pa, or a "
+                   "material with [bonds]",
+                   layer.name, given));
+    if (!layer.is_welded && !has_effect(scene, "bonds"))
+        refuse(path_of(item, "welded"),
+               "is about bonds, and the scene has none; add [bonds] or leave it out");
+}
+
+void check(const Scene& scene, const Refuse& refuse) {
+    const SceneLayers& layers = *scene.find<SceneLayers>();
+    if (3 + 2 * layers.size() > most_materials)
+        refuse("layer",
+               fmt::format("there are {}, which makes {} materials, allowed: {} materials, "
+                           "two a layer and three of the hanging wall",
+                           layers.size(), 3 + 2 * layers.size(), most_materials));
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        const std::string table = fmt::format("layer[{}]", k);
+        if (layers[k].name.empty())
+            refuse(table, "needs name (name in figures, exports and measures)");
+        for (std::size_t other = 0; other < k; ++other)
+            if (layers[other].name == layers[k].name)
+                refuse(path_of(k, "name"), fmt::format("\"{}\" is the name of two layers; each has "
+                                                       "a name of its own",
+                                                       layers[k].name));
+        check_bounds(layers[k], k, refuse);
+        check_rock(scene, layers[k], k, refuse);
+        check_geometry(scene, layers[k], k, refuse);
+    }
+    check_overlap(scene, layers, refuse);
+}
+
+bool is_soft(const Scene& scene, const L& layer) {
+    return *layer.normal_stiffness <= soft_from * scene.basement.normal_stiffness;
+}
+
+std::string warning(const Scene& scene) {
+    const double diameter = 2.0 * scene.hanging_wall.mean_radius;
+    std::string thin;
+    double least = std::numeric_limits<double>::infinity();
+    for (const L& layer : *scene.find<SceneLayers>())
+        if (const double greatest = thickest(scene, layer); greatest < 2.0 * diameter) {
+            thin += fmt::format("{}{}", thin.empty() ? "" : ", ", layer.name);
+            least = std::min(least, greatest);
+        }
+    if (thin.empty())
+        return "";
+    return fmt::format("layers thinner than two mean disc diameters ({} m) hardly slip, since rock "
+                       "interlocks across them: {}; {}",
+                       text(2.0 * diameter), thin, cure(least, 2.0));
+}
+
+// -------------------------------------------------------------------------------------- model
+
+dem::TargetLine line_of(const Scene& scene, const L& layer, double (L::*depth)(double) const) {
+    std::vector<double> x = layer.bends();
+    if (x.empty())
+        x = {0.0, scene.hanging_wall.length};
+    std::vector<dem::Point> points;
+    for (const double place : x)
+        points.push_back({place, -(layer.*depth)(place)});
+    return dem::TargetLine(points);
+}
+
+void contribute(const Scene& scene, ModelParts& parts) {
+    const auto* weakening = scene.find<dem::FaultWeakeningParameters>();
+    for (const L& layer : *scene.find<SceneLayers>()) {
+        const auto index = static_cast<std::uint8_t>(parts.materials.size());
+        dem::Material rock{*layer.normal_stiffness, *layer.shear_stiffness, *layer.friction};
+        rock.is_welded = layer.is_welded;
+        rock.is_soft = is_soft(scene, layer);
+        rock.bondable = layer.strength[0].has_value();
+        if (rock.bondable)
+            rock.bonds =
+                dem::BondStrength{*layer.strength[0], *layer.strength[1], *layer.strength[2],
+                                  *layer.strength[3], layer.strength_is};
+        parts.materials.push_back(rock);
+        parts.layers.push_back(
+            {layer.name,
+             index,
+             {line_of(scene, layer, &L::top_at), line_of(scene, layer, &L::bottom_at), index,
+              layer.density.value_or(scene.hanging_wall.rock_density)}});
+        if (!weakening || !layer.weakens)
+            continue;
+        dem::Material weak = weakening->material;
+        weak.normal_stiffness = layer.weakened_normal_stiffness.value_or(weak.normal_stiffness);
+        weak.shear_stiffness = layer.weakened_shear_stiffness.value_or(weak.shear_stiffness);
+        weak.friction = layer.weakened_friction.value_or(weak.friction);
+        weak.weak_of = index;
+        parts.materials.push_back(weak);
+    }
+}
+
+/// Soft layers keep their volume, also where no fault is weakened.
+void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
+    const SceneLayers& layers = *scene.find<SceneLayers>();
+    const bool any_soft =
+        std::ranges::any_of(layers, [&](const L& layer) { return is_soft(scene, layer); });
+    if (any_soft && !has_effect(scene, "fault_weakening"))
+        dem::add(events, std::make_unique<dem::PropertyUpdate>(dem::FaultWeakeningParameters{},
+                                                               scene.extension.rate,
+                                                               parts.physics.gravity));
+}
+
+std::string explain(const Scene& scene, EffectList) {
+    std::string lines = "layers\n";
+    const double diameter = 2.0 * scene.hanging_wall.mean_radius;
+    for (const L& layer : *scene.find<SceneLayers>())
+        lines += fmt::format("  {}: {:.1f} mean disc diameters thick, {}, {}, friction {:g}\n",
+                             layer.name, thickest(scene, layer) / diameter,
+                             is_soft(scene, layer) ? "soft" : "stiff",
+                             layer.strength[0] ? "bonded" : "unbonded", *layer.friction);
+    return lines;
+}
+
+double price(const Scene& scene, const Workload& work) {
+    return has_effect(scene, "fault_weakening")
+               ? 0.0
+               : work.years / dem::FaultWeakeningParameters{}.update_interval * 18.0 * work.discs;
+}
+
+} // namespace
+
+Works works() { return {}; }
+
+const Effect& effect() {
+    static const Effect effect{
+        .name = "layer",
+        .doc = "a layer of rock of its own before extension",
+        .defaults = make_defaults<SceneLayers>,
+        .address = address_of<SceneLayers>,
+        .parameters = parameters(),
+        .items = items_of<L>,
+        .files = {{"material",
+                   "material, by name or path: microproperties of its discs and strengths of bonds",
+                   "Sets stiffness, friction and strength of the layer at once.", nullptr,
+                   take_material, FileParameter::material},
+                  {"weakens_to",
+                   "material that fault weakening makes of it, or \"none\"; default: "
+                   "materials.weakened",
+                   "\"none\" keeps a layer that is to slip from becoming rougher.", nullptr,
+                   take_weakened, FileParameter::material_or_none},
+                  {"top_csv", "file with points of its top, in place of top: columns x_m, depth_m",
+                   "Stands in place of top.", nullptr, take_top},
+                  {"bottom_csv",
+                   "file with points of its bottom, in place of bottom: columns x_m, depth_m",
+                   "Stands in place of bottom.", nullptr, take_bottom}},
+        .in_genesis = true,
+        .check = check,
+        .warning = warning,
+        .contribute = contribute,
+        .add_events = add_events,
+        .explain = explain,
+        .price = price,
+    };
+    return effect;
+}
+
+} // namespace listric::effects::layer
