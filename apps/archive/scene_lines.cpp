@@ -4,6 +4,8 @@
 #include "apps/scene/scene_file.hpp"
 #include "apps/scene/tables.hpp"
 
+#include <fmt/format.h>
+
 #include <sstream>
 
 namespace listric::archive {
@@ -46,10 +48,15 @@ std::string value_in(const std::map<std::string, std::string>& values,
                      const std::string& parameter) {
     if (const auto found = values.find(parameter); found != values.end())
         return found->second;
-    if (values.contains("[" + parameter.substr(0, parameter.find('.')) + "]"))
-        if (const auto found = default_values().find(parameter); found != default_values().end())
-            return found->second;
-    return "nothing";
+    const std::string table = parameter.substr(0, parameter.rfind('.'));
+    if (!values.contains("[" + table + "]"))
+        return "nothing";
+    // Defaults of every table [[name]] are those of the first.
+    const std::size_t item = table.find('.');
+    const auto found = default_values().find(
+        item == table.npos ? parameter
+                           : table.substr(0, item) + ".0" + parameter.substr(table.size()));
+    return found != default_values().end() ? found->second : "nothing";
 }
 
 } // namespace
@@ -67,13 +74,19 @@ std::vector<std::string> scene_lines(std::string_view text) {
 std::map<std::string, std::string> scene_values(std::string_view text) {
     std::map<std::string, std::string> values;
     std::string table;
+    std::map<std::string, int> items; // tables [[name]] so far
     std::string* last = nullptr;
     for (const std::string& line : scene_lines(text)) {
         const std::size_t equals = line.find(" = ");
         if (line.starts_with('[') && line.ends_with(']') && line.find(',') == line.npos) {
-            table = line.substr(1, line.size() - 2) + ".";
+            table = line.substr(1, line.size() - 2);
+            if (table.starts_with('[')) {
+                table = table.substr(1, table.size() - 2);
+                table += fmt::format(".{}", items[table]++);
+            }
             last = nullptr;
-            values[line] = "a table";
+            values["[" + table + "]"] = "a table";
+            table += ".";
         } else if (equals != line.npos && line.front() != ' ' && line.front() != '{') {
             last = &values[table + line.substr(0, equals)];
             *last = line.substr(equals + 3);

@@ -67,7 +67,8 @@ Words assignments() {
     for (const SceneTable& table : scene_tables(program_effects()))
         for (const auto* parameters : {&table.parameters, &table.source})
             for (const Parameter& parameter : *parameters)
-                words.push_back(fmt::format("{}.{}=", table.name, parameter.key));
+                words.push_back(fmt::format("{}{}.{}=", table.name, table.is_array() ? ".0" : "",
+                                            parameter.key));
     for (const Parameter& parameter : flexure_parameters())
         words.push_back(fmt::format("flexure.{}=", parameter.key));
     return words;

@@ -51,7 +51,11 @@ void make_names_absolute(toml::table& document, const fs::path& folder, EffectLi
                 make_absolute(node, folder);
     for (const Effect* effect : effects)
         for (const FileParameter& file : effect->files)
-            make_absolute(at(effect->name, file.key), folder);
+            if (const toml::array* items = document[effect->name].as_array())
+                for (std::size_t item = 0; item < items->size(); ++item)
+                    make_absolute(at(fmt::format("{}[{}]", effect->name, item), file.key), folder);
+            else
+                make_absolute(at(effect->name, file.key), folder);
 }
 
 toml::array pieces_of(const dem::DetachmentParameters& detachment) {

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace listric {
 
 namespace {
@@ -29,11 +31,14 @@ std::vector<SceneDifference> scene_differences(const Scene& first, const Scene& 
                   [](const Parameter& p) { return p.key == "name" || p.key == "description"; });
     compare("", top, &first, &second, found);
     for (const SceneTable& table : scene_tables(effects)) {
-        const void *a = table.find(table, first), *b = table.find(table, second);
-        if (a && b)
-            compare(fmt::format("{}.", table.name), table.parameters, a, b, found);
-        else if (a || b)
-            found.push_back({std::string(table.name), "", a ? "on" : "off", b ? "on" : "off"});
+        const std::size_t a = table.count(first), b = table.count(second);
+        for (std::size_t item = 0; item < std::max(a, b); ++item)
+            if (item < std::min(a, b))
+                compare(table.path(item) + ".", table.parameters, table.item(first, item),
+                        table.item(second, item), found);
+            else
+                found.push_back(
+                    {table.path(item), "", item < a ? "on" : "off", item < b ? "on" : "off"});
     }
     return found;
 }

@@ -48,6 +48,9 @@ struct FileParameter {
     std::string_view doc, changes; ///< as those of a Parameter
     /// @param refuse  takes the parameter's path
     void (*read)(Scene& scene, const std::string& file, const Refuse& refuse);
+    /// In its place for an effect of several tables. @param item  number of the table
+    void (*read_item)(Scene& scene, std::size_t item, const std::string& file,
+                      const Refuse& refuse) = nullptr;
 };
 
 /// A key that an effect had once; a scene that has it is refused.
@@ -171,6 +174,14 @@ struct PartAddress {
     void* (*reach)(std::any& parameters);
 };
 
+/// Where the items of an effect of several tables, [[name]], are in the std::any that holds them.
+struct ItemAddress {
+    std::size_t (*count)(const std::any& parameters);
+    const void* (*get)(const std::any& parameters, std::size_t item);
+    void* (*reach)(std::any& parameters, std::size_t item);
+    void (*append)(std::any& parameters); ///< one with defaults
+};
+
 struct Effect;
 using EffectList = std::span<const Effect* const>;
 
@@ -181,8 +192,9 @@ struct Effect {
     std::string_view doc;
     std::any (*defaults)(); ///< parameters; see make_defaults
     PartAddress address;
-    std::vector<Parameter> parameters = {};
-    std::vector<FormerKey> former = {}; ///< refused with what does it now
+    std::vector<Parameter> parameters = {}; ///< of an item, where there are several
+    std::optional<ItemAddress> items = {};  ///< none: one table; else a table [[name]] for each
+    std::vector<FormerKey> former = {};     ///< refused with what does it now
     std::vector<FileParameter> files = {};
     std::optional<RockSource> rock = {};
     std::vector<std::string_view> needs = {}; ///< tables that must be there, too
@@ -259,5 +271,19 @@ constexpr PartAddress address_of{
         return std::any_cast<Parameters>(&parameters);
     },
     [](std::any& parameters) -> void* { return std::any_cast<Parameters>(&parameters); }};
+
+/// Where the items are in a std::any that holds a std::vector of them.
+template <class Item>
+constexpr ItemAddress items_of{
+    [](const std::any& parameters) {
+        return std::any_cast<const std::vector<Item>&>(parameters).size();
+    },
+    [](const std::any& parameters, std::size_t item) -> const void* {
+        return &std::any_cast<const std::vector<Item>&>(parameters)[item];
+    },
+    [](std::any& parameters, std::size_t item) -> void* {
+        return &std::any_cast<std::vector<Item>&>(parameters)[item];
+    },
+    [](std::any& parameters) { std::any_cast<std::vector<Item>&>(parameters).emplace_back(); }};
 
 } // namespace listric

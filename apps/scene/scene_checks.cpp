@@ -14,10 +14,11 @@ namespace listric {
 using namespace dem;
 
 Entry entry_at(const toml::table& document, const std::string& path) {
-    const std::string table = path.substr(0, path.find('.'));
     const toml::node* node = document.at_path(path).node();
     if (!node)
-        node = document.get(table);
+        node = document.at_path(path.substr(0, path.find('.'))).node();
+    if (!node)
+        node = document.get(path.substr(0, path.find_first_of(".[")));
     return {node ? *node : document, path};
 }
 

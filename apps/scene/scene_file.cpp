@@ -50,7 +50,7 @@ void drop_effects(Scene& scene, const std::vector<std::string>& without,
     std::vector<std::string_view> names, effects;
     for (const SceneTable& table : all) {
         names.push_back(table.name);
-        if (table.effect && table.in(scene))
+        if ((table.effect || table.is_array()) && table.in(scene))
             effects.push_back(table.name);
     }
     const std::string in_scene =
@@ -66,7 +66,7 @@ void drop_effects(Scene& scene, const std::vector<std::string>& without,
             refuse(meant ? fmt::format("unknown table, did you mean {}?", *meant)
                          : "unknown table");
         }
-        if (!table->effect)
+        if (!table->effect && !table->is_array())
             refuse("is not an effect and cannot be left out");
         if (std::ranges::find(effects, name) == effects.end())
             refuse("is not in the scene");
@@ -169,28 +169,64 @@ std::vector<std::string_view> file_keys(const SceneTable& table) {
 /// Reads the files that a table's parameters name into what they stand for.
 void read_files(Scene& scene, const SceneTable& table, const toml::table& document,
                 const fs::path& folder) {
-    if (!table.effect || !table.in(scene))
+    if (!table.effect)
         return;
-    for (const FileParameter& parameter : table.effect->files) {
-        const std::string path = fmt::format("{}.{}", table.name, parameter.key);
+    const auto read_one = [&](const FileParameter& parameter, std::size_t item) {
+        const std::string path = fmt::format("{}.{}", table.path(item), parameter.key);
         const toml::node* node = document.at_path(path).node();
         if (!node)
-            continue;
+            return;
         const Entry entry{*node, path};
         FileName given;
         read(entry, file_name(parameter.key, parameter.doc), &given);
         const std::string& name = given.file;
         if (name.empty())
-            continue;
+            return;
         const std::string file = located(name, node, folder);
         std::error_code error;
         if (!fs::is_regular_file(file, error))
             fail(entry, fmt::format("{}: no such file", file));
         scene.files.emplace_back(file);
-        parameter.read(scene, file, [&](const std::string& at, const std::string& message) {
+        const Refuse refuse = [&](const std::string& at, const std::string& message) {
             fail(entry_at(document, at), message);
-        });
+        };
+        if (table.is_array())
+            parameter.read_item(scene, item, file, refuse);
+        else
+            parameter.read(scene, file, refuse);
+    };
+    for (std::size_t item = 0; item < table.count(scene); ++item)
+        for (const FileParameter& parameter : table.effect->files)
+            read_one(parameter, item);
+}
+
+/// The tables [[name]] of a document; fails unless they are such.
+const toml::array& tables_at(const SceneTable& table, const toml::node& node) {
+    const Entry entry{node, std::string(table.name)};
+    const toml::array* all = node.as_array();
+    if (!all)
+        fail(entry, fmt::format("is of several tables: needs the heading [[{0}]] for each, or "
+                                "--set {0}.0.key=value, counted from 0",
+                                table.name));
+    if (all->empty())
+        fail(entry,
+             fmt::format("is empty, needs at least one [[{}]]; or leave it out", table.name));
+    for (std::size_t item = 0; item < all->size(); ++item)
+        if (!all->get(item)->is_table())
+            fail_type({*all->get(item), table.path(item)}, "table");
+    return *all;
+}
+
+/// Reads a document's tables of one name into the scene that has them, with defaults.
+void read_tables(Scene& scene, const SceneTable& table, const toml::node& node) {
+    if (!table.is_array()) {
+        read_table({node, std::string(table.name)}, table.parameters, table.add(table, scene),
+                   file_keys(table));
+        return;
     }
+    for (std::size_t item = 0; item < table.count(scene); ++item)
+        read_table({*node.as_array()->get(item), table.path(item)}, table.parameters,
+                   table.items.reach(table, scene, item), file_keys(table));
 }
 
 /// Reads those keys of a table that are of its source.
@@ -290,9 +326,14 @@ void begin_scene(Scene& scene, const toml::table& document, const std::vector<Sc
                  std::ranges::find(all, key.str(), &SceneTable::name) == all.end())
             fail_unknown(entry, top_level(), all);
     }
-    for (const SceneTable& table : all)
-        if (document.contains(table.name))
+    for (const SceneTable& table : all) {
+        const toml::node* node = document.get(table.name);
+        if (node && table.is_array())
+            for (std::size_t item = 0; item < tables_at(table, *node).size(); ++item)
+                table.items.append(table, scene);
+        else if (node)
             table.add(table, scene);
+    }
 }
 
 void set_accuracy(Scene& scene) {
@@ -342,8 +383,7 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
         take_picked_fault(scene, table_named("detachment"), document, path.parent_path());
     for (const SceneTable& table : all)
         if (const toml::node* node = document.get(table.name))
-            read_table({*node, std::string(table.name)}, table.parameters, table.add(table, scene),
-                       file_keys(table));
+            read_tables(scene, table, *node);
     for (const SceneTable& table : all)
         read_files(scene, table, document, path.parent_path());
     drop_effects(scene, request.without, all);
@@ -379,9 +419,10 @@ std::string to_toml(const Scene& scene) {
                                     write(top_level(), static_cast<const Heading*>(&scene)));
     const FileName none; // the parameters hold the content of files
     for (const SceneTable& table : scene_tables(effects))
-        if (const void* part = table.find(table, scene))
-            lines += fmt::format("\n[{}]  # {}\n{}{}", table.name, table.doc,
-                                 write(table.parameters, part), write(file_names(table), &none));
+        for (std::size_t item = 0; item < table.count(scene); ++item)
+            lines += fmt::format("\n{}  # {}\n{}{}", table.heading(), table.doc,
+                                 write(table.parameters, table.item(scene, item)),
+                                 write(file_names(table), &none));
     return lines;
 }
 
@@ -397,8 +438,8 @@ std::string parameter_reference(EffectList effects) {
         lines += explain(file_name(rock.key, rock.doc, rock.changes), &name);
     }
     for (const SceneTable& table : scene_tables(effects)) {
-        lines +=
-            fmt::format("\n[{}]{}: {}\n", table.name, table.effect ? " (effect)" : "", table.doc);
+        lines += fmt::format("\n{}{}: {}\n", table.heading(), table.effect ? " (effect)" : "",
+                             table.doc);
         const void* part = table.add(table, scene);
         for (const Parameter& parameter : table.parameters)
             lines += explain(parameter, part);

@@ -229,7 +229,10 @@ std::string scene_schema(EffectList effects) {
     properties["materials"] = materials_schema(effects);
     for (const SceneTable& table : scene_tables(effects)) {
         const void* part = table.add(table, scene);
-        Json& entry = properties[std::string(table.name)];
+        Json& property = properties[std::string(table.name)];
+        if (table.is_array())
+            property = array_of({}, 1);
+        Json& entry = table.is_array() ? property["items"] : property;
         entry = table_schema(fmt::format("{}{}", table.effect ? "effect: " : "", table.doc),
                              table.parameters, part);
         const FileName none;

@@ -235,7 +235,38 @@ auto part_of(const Effect* effect, auto& scene) {
     return std::ranges::find(scene.effects, effect, &EffectPart::effect);
 }
 
-SceneTable table_of_effect(const Effect& effect) {
+/// The first of several tables, as SceneTable::find and add have it.
+const void* first_item(const SceneTable& table, const Scene& scene) {
+    return table.items.count(table, scene) == 0 ? nullptr : table.items.get(table, scene, 0);
+}
+void* first_item_or_new(const SceneTable& table, Scene& scene) {
+    if (table.items.count(table, scene) == 0)
+        table.items.append(table, scene);
+    return table.items.reach(table, scene, 0);
+}
+
+/// Tables of an effect that has several.
+TableItems items_of_effect() {
+    return {[](const SceneTable& table, const Scene& scene) -> std::size_t {
+                const auto part = part_of(table.effect, scene);
+                return part == scene.effects.end() ? 0
+                                                   : table.effect->items->count(part->parameters);
+            },
+            [](const SceneTable& table, const Scene& scene, std::size_t item) {
+                return table.effect->items->get(part_of(table.effect, scene)->parameters, item);
+            },
+            [](const SceneTable& table, Scene& scene, std::size_t item) {
+                return table.effect->items->reach(part_of(table.effect, scene)->parameters, item);
+            },
+            [](const SceneTable& table, Scene& scene) {
+                auto part = part_of(table.effect, scene);
+                if (part == scene.effects.end())
+                    part = scene.effects.insert(part, {table.effect, table.effect->defaults()});
+                table.effect->items->append(part->parameters);
+            }};
+}
+
+SceneTable single_table_of(const Effect& effect) {
     return {effect.name,
             effect.doc,
             effect.parameters,
@@ -257,6 +288,16 @@ SceneTable table_of_effect(const Effect& effect) {
             &effect};
 }
 
+SceneTable table_of_effect(const Effect& effect) {
+    SceneTable table = single_table_of(effect);
+    if (effect.items) {
+        table.find = first_item;
+        table.add = first_item_or_new;
+        table.items = items_of_effect();
+    }
+    return table;
+}
+
 template <class Source>
 void add_source(std::vector<SceneTable>& tables, std::string_view name,
                 std::vector<Parameter> parameters, Source) {
@@ -267,6 +308,14 @@ void add_source(std::vector<SceneTable>& tables, std::string_view name,
 }
 
 } // namespace
+
+std::string SceneTable::path(std::size_t number) const {
+    return is_array() ? fmt::format("{}[{}]", name, number) : std::string(name);
+}
+
+std::string SceneTable::heading() const {
+    return is_array() ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name);
+}
 
 const std::vector<Parameter>& top_level() {
     static const std::vector<Parameter> parameters = [] {

@@ -2,12 +2,25 @@
 
 #include "apps/scene/effect.hpp"
 
+#include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace listric {
 
-/// A table of the scene file and the part of a scene that it describes.
+struct SceneTable;
+
+/// The tables [[name]] of a scene, in the order of its file.
+struct TableItems {
+    std::size_t (*count)(const SceneTable& table, const Scene& scene) = nullptr; ///< null: [name]
+    const void* (*get)(const SceneTable& table, const Scene& scene, std::size_t item) = nullptr;
+    void* (*reach)(const SceneTable& table, Scene& scene, std::size_t item) = nullptr;
+    void (*append)(const SceneTable& table, Scene& scene) = nullptr; ///< one with defaults
+};
+
+/// A table of the scene file and the part of a scene that it describes; or an array of tables, of
+/// which `find` and `add` have the first.
 struct SceneTable {
     std::string_view name;
     std::string_view doc;
@@ -20,8 +33,21 @@ struct SceneTable {
     /// read. Of an object of its own, here with defaults.
     std::vector<Parameter> source = {};
     const void* source_defaults = nullptr;
+    TableItems items = {};
 
     bool in(const Scene& scene) const { return find(*this, scene) != nullptr; }
+    bool is_array() const { return items.count != nullptr; }
+    /// How many a scene has.
+    std::size_t count(const Scene& scene) const {
+        return is_array() ? items.count(*this, scene) : in(scene) ? 1 : 0;
+    }
+    const void* item(const Scene& scene, std::size_t number) const {
+        return is_array() ? items.get(*this, scene, number) : find(*this, scene);
+    }
+    /// As messages name it: "stage[0]", "gravity".
+    std::string path(std::size_t number) const;
+    /// As files have it: "[[stage]]", "[gravity]".
+    std::string heading() const;
 };
 
 /// The parameters above the first table, of a Heading.

@@ -78,16 +78,20 @@ std::string materials_of(const Given& given, EffectList effects) {
 }
 
 std::string table_of(const SceneTable& table, const Scene& scene, const Given& given) {
-    std::string lines = fmt::format("\n# {}\n[{}]\n", table.doc, table.name);
-    const void* part = table.find(table, scene);
-    for (const Parameter& parameter : table.parameters)
-        lines += line_of(parameter, part, given.at(table.name, parameter.key) != nullptr);
-    const FileName none;
-    for (const Parameter& parameter : table.source)
-        lines += source_line(given, table.name, parameter, table.source_defaults);
-    if (table.effect)
-        for (const Parameter& parameter : file_names(table))
-            lines += source_line(given, table.name, parameter, &none);
+    std::string lines;
+    for (std::size_t item = 0; item < table.count(scene); ++item) {
+        const std::string path = table.path(item);
+        lines += fmt::format("\n# {}\n{}\n", table.doc, table.heading());
+        for (const Parameter& parameter : table.parameters)
+            lines += line_of(parameter, table.item(scene, item),
+                             given.at(path, parameter.key) != nullptr);
+        const FileName none;
+        for (const Parameter& parameter : table.source)
+            lines += source_line(given, path, parameter, table.source_defaults);
+        if (table.effect)
+            for (const Parameter& parameter : file_names(table))
+                lines += source_line(given, path, parameter, &none);
+    }
     return lines;
 }
 
@@ -117,7 +121,7 @@ std::string scene_template(const std::string& from, EffectList effects) {
         if (given.document.contains(table.name) || table.in(scene))
             lines += table_of(table, scene, given);
         else
-            missing += fmt::format("# {:<24}  # {}\n", fmt::format("[{}]", table.name), table.doc);
+            missing += fmt::format("# {:<24}  # {}\n", table.heading(), table.doc);
     return lines +
            "\n# Tables that are not here; `listric explain --parameters` lists their keys.\n" +
            missing;

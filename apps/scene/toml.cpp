@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <sstream>
 
@@ -343,12 +344,48 @@ toml::table parse(const std::string& text, const std::string& origin) {
 
 namespace {
 
+bool is_number(std::string_view key) {
+    return !key.empty() && key.size() < 4 &&
+           std::ranges::all_of(key, [](unsigned char c) { return std::isdigit(c); });
+}
+
+/// Whether a table's keys are numbers of an array's items: stage.0.distance_m.
+bool names_items(const toml::node& node) {
+    const toml::table* table = node.as_table();
+    return table && !table->empty() &&
+           std::ranges::all_of(*table, [](const auto& one) { return is_number(one.first.str()); });
+}
+
+void merge(toml::table& into, toml::table& from, const std::string& origin);
+
+/// Moves items over by their number, tables into the tables that are there; the next number adds
+/// an item.
+void merge_items(toml::array& into, toml::table& from, std::string_view name,
+                 const std::string& origin) {
+    for (auto&& [key, node] : from) {
+        const auto number = static_cast<std::size_t>(std::stoul(std::string(key.str())));
+        if (number > into.size())
+            fail(fmt::format("{}: {}.{}: there are {}, counted from 0; the next is {}.{}", origin,
+                             name, number, into.size(), name, into.size()));
+        if (number == into.size())
+            into.push_back(std::move(node));
+        else if (into[number].is_table() && node.is_table())
+            merge(*into[number].as_table(), *node.as_table(), origin);
+        else
+            into.replace(into.cbegin() + static_cast<std::ptrdiff_t>(number), std::move(node));
+    }
+}
+
 /// Moves the values over, tables into the tables of the same name. They keep their origin.
-void merge(toml::table& into, toml::table& from) {
+void merge(toml::table& into, toml::table& from, const std::string& origin) {
     for (auto&& [key, node] : from) {
         toml::table* table = into[key].as_table();
         if (table && node.is_table()) {
-            merge(*table, *node.as_table());
+            merge(*table, *node.as_table(), origin);
+        } else if (names_items(node) && (into[key].is_array() || !into.contains(key))) {
+            if (!into.contains(key))
+                into.insert(key, toml::array{});
+            merge_items(*into[key].as_array(), *node.as_table(), key.str(), origin);
         } else {
             into.insert_or_assign(key, std::move(node));
         }
@@ -373,7 +410,7 @@ void set(toml::table& document, const std::string& assignment, const std::string
     }
     if (equals == key.npos || given.size() != 1)
         fail(fmt::format("{}: needs the form table.key=value", origin));
-    merge(document, given);
+    merge(document, given, origin);
 }
 
 // --------------------------------------------------------------------------------------- writing

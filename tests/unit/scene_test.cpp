@@ -177,9 +177,9 @@ std::string bits(const Scene& scene) {
     };
     add(top_level(), static_cast<const Heading*>(&scene));
     for (const SceneTable& table : all_tables()) {
-        if (const void* part = table.find(table, scene)) {
-            lines += fmt::format("[{}]\n", table.name);
-            add(table.parameters, part);
+        for (std::size_t item = 0; item < table.count(scene); ++item) {
+            lines += table.heading() + "\n";
+            add(table.parameters, table.item(scene, item));
         }
     }
     return lines;
@@ -883,7 +883,7 @@ TEST_F(SceneTest, WhatIsWrittenReadsWell) {
 TEST_F(SceneTest, TheReferenceHasEveryParameter) {
     const std::string reference = parameter_reference(program_effects());
     for (const SceneTable& table : all_tables()) {
-        EXPECT_THAT(reference, HasSubstr(fmt::format("\n[{}]", table.name)));
+        EXPECT_THAT(reference, HasSubstr("\n" + table.heading()));
         for (const Parameter& parameter : table.parameters) {
             EXPECT_THAT(reference, HasSubstr(fmt::format("    {} = ", parameter.key)));
             EXPECT_THAT(reference, HasSubstr(std::string(parameter.doc)));

@@ -48,7 +48,8 @@ class Forms {
    *  @param toggle  takes a table's name and whether it is there */
   constructor(host, schema, {change, toggle, defaultOf}) {
     Object.assign(this, {host, schema, change, toggle, defaultOf, fields: new Map(), tables: new Map(), bad: new Map()});
-    const top = Object.keys(schema.properties).filter(key => schema.properties[key].type !== "object");
+    const isTable = own => own.type === "object" || own.items?.properties; // [[name]] is edited as text
+    const top = Object.keys(schema.properties).filter(key => !isTable(schema.properties[key]));
     this.addTable("", "Scene", "name, accuracy and seed", top, true);
     for (const [name, table] of Object.entries(schema.properties)) {
       if (table.type !== "object" || drawnElsewhere[name] === null) continue;
