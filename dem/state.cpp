@@ -268,10 +268,10 @@ std::uint64_t hash(const State& state) {
         mix(h, static_cast<std::uint8_t>(m.bondable));
     }
     mix(h, state.clock.cycle);
-    for (double value : {state.clock.time_step, state.clock.extension, state.ledger.initial,
-                         state.ledger.deposited, state.ledger.removed, state.mean_radius,
-                         state.inertial_mass_floor, state.skin, state.searched_extension,
-                         state.displacement_bound, state.window_speed})
+    for (double value :
+         {state.clock.time_step, state.clock.travel, state.ledger.initial, state.ledger.deposited,
+          state.ledger.removed, state.mean_radius, state.inertial_mass_floor, state.skin,
+          state.searched_extension, state.displacement_bound, state.window_speed})
         mix(h, value);
     mix(h, state.check_interval);
     mix(h, state.seed);

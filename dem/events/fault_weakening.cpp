@@ -46,7 +46,7 @@ Displacements displacements(State& state, double youngest, bool loose) {
     Displacements s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (d.stratum[i] > 0 && d.material[i] != weak &&
-            (!(loose || rock[i]) || state.clock.extension - d.start_extension[i] < youngest))
+            (!(loose || rock[i]) || state.clock.travel - d.start_extension[i] < youngest))
             continue;
         s.row.push_back(static_cast<std::int32_t>(i));
         s.x.push_back(d.x[i]);
@@ -276,7 +276,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
 
     if (p.heal_after > 0.0)
         heal(state, rested_discs(state, sample, cells, 0.5 * l.circle, p, schedule().seconds()),
-             p.mean_stress_ratio, gravity_);
+             mean_stress_ratio(p, state, base), gravity_);
     const DiscColumns d = disc_columns(state);
     const WeakenedColumns w = weakened_columns(state);
     std::vector<std::int32_t> converted =
@@ -293,12 +293,13 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
         d.material[static_cast<std::size_t>(row)] = weak;
     const std::vector<PowerCell> before = power_cells(state, base, converted);
     const std::vector<double> weight = overburden(state, converted, gravity_);
+    const double stress_ratio = mean_stress_ratio(p, state, base);
     for (std::size_t k = 0; k < converted.size(); ++k) {
         const auto i = static_cast<std::size_t>(converted[k]);
         w.rock_radius[i] = d.radius[i];
         w.rock_area[i] = before[k].closed ? before[k].area : 0.0;
         // Enlarged at once, a soft disc carries the load that the stiff one carried.
-        d.radius[i] *= enlargement(p.mean_stress_ratio * weight[k], state.materials[weak]);
+        d.radius[i] *= enlargement(stress_ratio * weight[k], state.materials[weak]);
     }
     const ContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k)
@@ -317,7 +318,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     put("y_m", [](const FaultSegment& f) { return f.centre.y; });
     put("angle_rad", [](const FaultSegment& f) { return f.angle; });
     put("slip_m", [](const FaultSegment& f) { return f.slip; });
-    put("found_at_m", [&](const FaultSegment&) { return state.clock.extension; });
+    put("found_at_m", [&](const FaultSegment&) { return state.clock.travel; });
 
     std::ranges::copy(d.x, w.scanned_x.begin());
     std::ranges::copy(d.y, w.scanned_y.begin());

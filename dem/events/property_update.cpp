@@ -39,6 +39,7 @@ bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     const WeakenedColumns w = weakened_columns(state);
     const std::vector<PowerCell> cells = power_cells(state, base, rows);
     const std::vector<double> weight = overburden(state, rows, gravity_);
+    const double stress_ratio = mean_stress_ratio(parameters_, state, base);
     const double common_error = relative_volume_change(w, rows, cells);
 
     // Volume is conserved by zones, not by disc: the error is averaged over a fault's width.
@@ -53,8 +54,7 @@ bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     in_pieces(rows.size(), 64, [&](std::size_t k, std::size_t end) {
         for (; k < end; ++k) {
             const auto i = static_cast<std::size_t>(rows[k]);
-            const double factor =
-                enlargement(parameters_.mean_stress_ratio * weight[k], state.materials[weak]);
+            const double factor = enlargement(stress_ratio * weight[k], state.materials[weak]);
             double now = 0.0, before = 0.0;
             near.for_each_near(x[k], y[k], [&](std::int32_t other) {
                 const auto o = static_cast<std::size_t>(other);
