@@ -136,13 +136,6 @@ void place(Surface& surface, const Chain& chain, Point translation, double exten
     surface.translation = translation;
 }
 
-double Motion::time_at(double extension) const {
-    assert(speed > 0.0 && extension >= 0.0);
-    const double in_ramp = 0.5 * speed * ramp;
-    return extension < in_ramp ? std::sqrt(2.0 * extension * ramp / speed)
-                               : ramp + (extension - in_ramp) / speed;
-}
-
 Stretching stretching(const RigidBase& base, double extension) {
     for (const Surface& surface : base.surfaces)
         if (surface.stretched_length > 0.0)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/material.hpp"
+#include "dem/motion.hpp"
 #include "dem/point.hpp"
 
 #include <optional>
@@ -87,17 +88,6 @@ Chain moved(Chain chain, Point by);
 /// Puts a surface where `chain` is at an extension, m, and lets it move from there. Neighbour lists
 /// must learn of it: find_surface_contacts().
 void place(Surface& surface, const Chain& chain, Point translation, double extension);
-
-/// The prescribed motion of base and right wall: extension speed grows linearly from rest.
-struct Motion {
-    double speed = 0.0; ///< m/s
-    double ramp = 0.0;  ///< s
-
-    double speed_at(double time) const { return time < ramp ? speed * (time / ramp) : speed; }
-
-    /// When it has come as far as an extension, m; s from rest.
-    double time_at(double extension) const;
-};
 
 /// Surfaces that the discs rest on: detachment, backstop above the breakaway and right wall; or the
 /// walls of a box.

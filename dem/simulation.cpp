@@ -74,10 +74,10 @@ bool Simulation::extend_to(double goal, const Execution& execution, const Report
     assert(has_state_);
     assert(!execution.energy); // that is EnergyAccount's
     const Team team(execution.threads);
-    while (extension() < goal - tolerance()) {
+    while (travel() < goal - tolerance()) {
         const double stop = std::min(next_due(), goal);
         cycle_toward(stop, execution);
-        const bool goes_on = !report || report(*this), is_due = extension() >= stop - tolerance();
+        const bool goes_on = !report || report(*this), is_due = travel() >= stop - tolerance();
         if (is_due || !goes_on)
             collect();
         if (is_due)
@@ -95,7 +95,9 @@ double Simulation::next_due() const {
     return due;
 }
 
-double Simulation::tolerance() const { return 0.5 * base_.motion.speed * state_.clock.time_step; }
+double Simulation::tolerance() const {
+    return 0.5 * base_.motion.greatest_speed() * state_.clock.time_step;
+}
 
 template <class Work> void Simulation::timed(const std::string& part, Work&& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -123,7 +125,7 @@ void Simulation::apply_due_events() {
         timed(energy_->name(), [&] { energy_->book_cycles(state_, base_); });
     bool search_due = false;
     for (const auto& event : events_) {
-        if (event->next_due() > extension() + tolerance())
+        if (event->next_due() > travel() + tolerance())
             continue;
         if (!dynamic_cast<const Observer*>(event.get()))
             touch();
@@ -148,11 +150,10 @@ void Simulation::collect() {
 
 /// Makes a batch of cycles, at most up to the extension.
 void Simulation::cycle_toward(double goal, Execution execution) {
-    const double per_cycle = base_.motion.speed * state_.clock.time_step;
+    const double per_cycle = base_.motion.greatest_speed() * state_.clock.time_step;
     const auto discs = static_cast<double>(state_.discs.rows());
-    const auto batch =
-        static_cast<std::int64_t>(std::clamp(std::floor((goal - extension()) / per_cycle), 1.0,
-                                             greatest_batch(discs, execution.threads)));
+    const auto batch = static_cast<std::int64_t>(std::clamp(
+        std::floor((goal - travel()) / per_cycle), 1.0, greatest_batch(discs, execution.threads)));
     EnergyFlows flows;
     if (energy_) {
         flows = energy_->flows();

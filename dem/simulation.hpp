@@ -81,13 +81,15 @@ public:
     /// it returns false, the simulation stops once due events are applied.
     using Report = std::function<bool(const Simulation&)>;
 
-    /// Cycles and events up to an extension, m, to half a cycle. Returns false if the report has
-    /// stopped it. Throws NumericalFailure, and what events throw.
-    bool extend_to(double extension, const Execution& execution = {}, const Report& report = {});
+    /// Cycles and events up to a travel, m, to half a cycle: to that extension, where the motion
+    /// has no stages. Returns false if the report has stopped it. Throws NumericalFailure, and what
+    /// events throw.
+    bool extend_to(double travel, const Execution& execution = {}, const Report& report = {});
 
+    double travel() const { return state_.clock.travel; }       ///< m
     double extension() const { return state_.clock.extension; } ///< m
-    double next_due() const;  ///< extension at which the next event is due, m
-    double tolerance() const; ///< half a cycle's extension, m
+    double next_due() const;  ///< travel at which the next event is due, m
+    double tolerance() const; ///< half a cycle's travel, m
 
     const State& state() const { return state_; }
     /// For what is no event, before the next cycles: keep contacts up to date.

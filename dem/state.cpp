@@ -246,9 +246,9 @@ void mix(std::uint64_t& h, const Table& table) {
 
 /// What only materials of layers have.
 void mix_of_layer(std::uint64_t& h, const Material& m) {
-    for (const std::uint8_t value : {static_cast<std::uint8_t>(m.is_soft),
-                                     static_cast<std::uint8_t>(m.is_welded), m.weak_of,
-                                     static_cast<std::uint8_t>(m.bonds.has_value())})
+    for (const std::uint8_t value :
+         {static_cast<std::uint8_t>(m.is_soft), static_cast<std::uint8_t>(m.is_welded), m.weak_of,
+          static_cast<std::uint8_t>(m.bonds.has_value())})
         mix(h, value);
     const BondStrength b = m.bonds.value_or(BondStrength{});
     for (const double value :
@@ -284,10 +284,10 @@ std::uint64_t hash(const State& state) {
             mix_of_layer(h, m);
     }
     mix(h, state.clock.cycle);
-    for (double value : {state.clock.time_step, state.clock.extension, state.ledger.initial,
-                         state.ledger.deposited, state.ledger.removed, state.mean_radius,
-                         state.inertial_mass_floor, state.skin, state.searched_extension,
-                         state.displacement_bound, state.window_speed})
+    for (double value :
+         {state.clock.time_step, state.clock.travel, state.ledger.initial, state.ledger.deposited,
+          state.ledger.removed, state.mean_radius, state.inertial_mass_floor, state.skin,
+          state.searched_extension, state.displacement_bound, state.window_speed})
         mix(h, value);
     mix(h, state.check_interval);
     mix(h, state.seed);

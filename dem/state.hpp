@@ -17,7 +17,9 @@ namespace listric::dem {
 struct Clock {
     std::int64_t cycle = 0; ///< cycles since extension began
     double time_step = 0.0; ///< s
-    double extension = 0.0; ///< displacement of base and right wall, m
+    double travel = 0.0;    ///< way of base and right wall back and forth, and in pauses: the clock
+                            ///< of all events, see Motion, m
+    double extension = 0.0; ///< displacement of the right wall: Motion::position(travel), m
 
     double time() const { return static_cast<double>(cycle) * time_step; } ///< s
 };

@@ -20,14 +20,13 @@ namespace fs = std::filesystem;
 
 FaultReport report_faults(const Setting& setting, const RigidBase& base, const State& now,
                           const RunHistory& history) {
-    return measures::report_faults(setting, base, now,
-                                   history.before(now.clock.extension, setting));
+    return measures::report_faults(setting, base, now, history.before(now.clock.travel, setting));
 }
 
 FaultReport active_faults(const Setting& setting, const RigidBase& base, const State& now,
                           const RunHistory& history) {
     return measures::report_faults(setting, base, now,
-                                   history.before(now.clock.extension, setting, 1));
+                                   history.before(now.clock.travel, setting, 1));
 }
 
 std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
@@ -59,7 +58,7 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
                                               fault_segments(moment.events), past));
             found.emplace_back(wanted[path], std::move(numbers));
         }
-        if (!past.empty() && !setting.is_window(past.back().places.extension, now.clock.extension))
+        if (!past.empty() && !setting.is_window(past.back().places.extension, now.clock.travel))
             continue;
         past.push_back(remember(setting, base, now, past));
         places.push_back(past.back().places);

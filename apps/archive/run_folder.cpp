@@ -39,9 +39,10 @@ double snapshot_extension(const fs::path& path) {
 }
 
 std::vector<double> window_ends(const Table& history) {
-    if (!history.has("extension_m"))
+    const char* clock = history.has("travel_m") ? "travel_m" : "extension_m";
+    if (!history.has(clock))
         return {};
-    const auto extensions = history.get<double>("extension_m");
+    const auto extensions = history.get<double>(clock);
     return {extensions.begin(), extensions.end()};
 }
 
@@ -97,7 +98,7 @@ void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> event
         const bool is_known = memory != snapshot.event_memory.end();
         const auto* observer = dynamic_cast<const Observer*>(event.get());
         if (!is_known && observer && observer->begins_any_time()) {
-            while (event->next_due() <= snapshot.state.clock.extension)
+            while (event->next_due() <= snapshot.state.clock.travel)
                 ++event->applied;
             continue;
         }

@@ -162,6 +162,8 @@ std::uint64_t content_hash(const Content& content) {
 
 void write_state(hid_t file, const State& state) {
     for_each_number(state, writes_numbers(file));
+    if (state.clock.travel != state.clock.extension) // the way and the place: stages of motion
+        write_number(file, "travel", state.clock.travel);
     for_each_table(state, [&](const char* name, const Table& table) {
         write_table(create_group(file, name), table);
     });
@@ -190,6 +192,8 @@ void write_state(hid_t file, const State& state) {
 State read_state(hid_t file) {
     State state;
     for_each_number(state, reads_numbers(file));
+    state.clock.travel =
+        H5Aexists(file, "travel") > 0 ? read_number<double>(file, "travel") : state.clock.extension;
     for_each_table(state, [&](const char* name, Table& table) { table = read_table(file, name); });
     if (H5Lexists(file, "base_nodes", H5P_DEFAULT) > 0) {
         state.base_nodes = read_table(file, "base_nodes");

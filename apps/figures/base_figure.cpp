@@ -57,8 +57,8 @@ std::vector<fs::path> shown(const std::vector<fs::path>& snapshots) {
 std::string uplift_rows(const State& state, const fem::Field& field, int decimals) {
     std::string rows;
     const auto add = [&](double x, double uplift) {
-        rows += fmt::format("{:.{}f},{:.{}f},{:.{}f}\n", state.clock.extension, decimals, x,
-                            decimals, uplift, decimals + 2);
+        rows += fmt::format("{:.{}f},{:.{}f},{:.{}f}\n", state.clock.travel, decimals, x, decimals,
+                            uplift, decimals + 2);
     };
     for (std::size_t k = 0; k < field.place.size(); ++k)
         if (std::abs(field.place[k].y) < 1e-3 && field.place[k].x < 0.0 &&
@@ -128,7 +128,7 @@ void draw_base(const RunFolder& run, const PictureOrder& order) {
         const ConstBaseNodeColumns nodes = base_node_columns(state);
         for (std::size_t k = 0; k < nodes.x.size(); ++k)
             table += fmt::format("{1:.{0}f},{2:.{0}f},{3:.{0}f},{5:.{4}f},{6:.{4}f}\n", decimals,
-                                 state.clock.extension, nodes.x[k], nodes.y[k], decimals + 2,
+                                 state.clock.travel, nodes.x[k], nodes.y[k], decimals + 2,
                                  nodes.ux[k], nodes.uy[k]);
     }
     write_table(run.output / "base.csv", base_header, table);

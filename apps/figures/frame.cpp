@@ -200,7 +200,7 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         {"scene", scene.name},
         {"title", scene.description},
         {"extension_m", state.clock.extension},
-        {"time_a", state.clock.extension / scene.extension.rate},
+        {"time_a", state.clock.travel / scene.extension.rate},
         {"mean_radius_m", state.mean_radius},
         {"right_wall_x_m", now.right_end()},
         {"strata", d.stratum.empty() ? 0 : *std::ranges::max_element(d.stratum)},
@@ -222,6 +222,8 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
             frame["strata_a"].push_back(age);
     for (const LayerFacts& layer : now.parts.layers)
         frame["rock_layers"].push_back(layer.name);
+    if (!now.parts.base.motion.stages.empty())
+        frame["travel_m"] = state.clock.travel;
     if (now.parts.sediment)
         frame["level_m"] = now.parts.sediment->level;
     return frame;
@@ -262,12 +264,12 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     nlohmann::json frame = frame_json(now, m);
     frame["strain_end"] = scale_end(strain);
     frame["layers"] = declared_layers(now.scene);
-    const double extension = now.state.clock.extension;
+    const double extension = now.state.clock.travel;
     frame["extension_km"] = names.value_or(MomentNames(now.scene.output.interval, {&extension, 1}))
                                 .kilometres(extension);
     // Picks are of the section as it is at the end of extension.
     const bool observed =
-        now.scene.observed && now.state.clock.extension >= 0.999 * now.scene.extension.distance;
+        now.scene.observed && now.state.clock.travel >= 0.999 * now.scene.extension.distance;
     std::vector<Horizon> horizons;
     if (observed || underlay)
         horizons = trace_horizons(archive::make_setting(now.scene, now.parts), now.parts.base,

@@ -264,11 +264,11 @@ void write_paraview(const fs::path& output, const State& state, const RigidBase&
     const fs::path folder = output / "paraview";
     std::error_code error;
     fs::create_directories(folder, error);
-    const std::string moment = names.metres(state.clock.extension) + "m.vtp";
+    const std::string moment = names.metres(state.clock.travel) + "m.vtp";
     write_text(folder / ("discs-" + moment), discs_file(state, base));
     write_text(folder / ("contacts-" + moment), contacts_file(state));
     write_text(folder / ("base-" + moment), base_file(state, base));
-    write_series(output, names, state.clock.extension, extension_rate);
+    write_series(output, names, state.clock.travel, extension_rate);
     copy_view(output);
 }
 

@@ -377,19 +377,19 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
 
 void ReportMoments::add(const Observation& now, const SectionLines& lines) {
     const Clock& clock = now.state.clock;
-    if (extension_ != clock.extension) {
+    if (extension_ != clock.travel) {
         std::map<std::string, double> ends;
         const std::vector<Stream> to_pack = streams(now, ends);
         std::vector<std::string> packed(to_pack.size());
         for_each_shared(to_pack.size(), [&](std::size_t k) { packed[k] = to_pack[k](); });
         moments_.push_back({fmt::format("\"extension_m\":{},\"time_a\":{},\"discs\":{},\"ends\":{},"
                                         "\"streams\":{{{}}}",
-                                        clock.extension, clock.extension / now.scene.extension.rate,
+                                        clock.travel, clock.travel / now.scene.extension.rate,
                                         now.state.discs.rows(), to_text(nlohmann::json(ends)),
                                         fmt::join(packed, ",")),
                             ""});
     }
-    extension_ = clock.extension;
+    extension_ = clock.travel;
     moments_.back().lines = lines.packed;
     followed_ = lines.followed;
 }

@@ -124,7 +124,7 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
             return;
         const auto moment = std::make_shared<const Moment>(folder.read(path));
         const bool followed = choice.every_line || is_drawn(path);
-        const auto known = made.find(moment->state.clock.extension);
+        const auto known = made.find(moment->state.clock.travel);
         if (known != made.end() && known->second.followed >= followed) {
             drawn[path] = {moment};
             return;
@@ -147,7 +147,7 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
     }
     const auto keep_lines = [&](Drawn& now) {
         if (now.lines.valid())
-            made[now.moment->state.clock.extension] = now.lines.get();
+            made[now.moment->state.clock.travel] = now.lines.get();
     };
     double mean_radius = 0.0;
     for (std::size_t k = 0;
@@ -156,7 +156,7 @@ double add_moments(ReportMoments& moments, const RunFolder& folder, const RunHis
             draw(shown[ahead]);
         Drawn& now = drawn.at(shown[k]);
         keep_lines(now);
-        moments.add(observe(*now.moment), made.at(now.moment->state.clock.extension));
+        moments.add(observe(*now.moment), made.at(now.moment->state.clock.travel));
         mean_radius = now.moment->state.mean_radius;
         drawn.erase(shown[k]);
     }

@@ -233,7 +233,7 @@ Fault describe(const FaultTrace& trace, const State& now, const Chain& detachmen
     f.foot = foot_of(trace, detachment, unit);
     f.throw_error = diameter;
     f.pre_rift_throw = pre_rift_throw(now, trace.points);
-    f.born_at = f.traced_since = now.clock.extension;
+    f.born_at = f.traced_since = now.clock.travel;
     f.dip_at_birth = f.dip;
     f.foot_at_birth = f.foot;
     return f;

@@ -92,7 +92,7 @@ double gini(std::span<const double> density, std::span<const double> area) {
 
 Localisation measure_localisation(const Setting& setting, const State& state,
                                   const Strain& strain) {
-    const double extension = state.clock.extension;
+    const double extension = state.clock.travel;
     assert(extension > 0.0);
     const bool whole = strain.applied > 0;
     const std::vector<double> so_far = whole ? std::vector<double>() : shear_strain(state);

@@ -96,7 +96,7 @@ void add_sediment(Measures& m, const Setting& setting, const State& state, const
 
 void add_localisation(Measures& m, const Setting& setting, const State& state, Events events) {
     const auto* strain = find<Strain>(events);
-    if (!strain || state.clock.extension <= 0.0)
+    if (!strain || state.clock.travel <= 0.0)
         return;
     const Localisation found = measure_localisation(setting, state, *strain);
     m.strain_top10 = found.top10;

@@ -32,7 +32,7 @@ RunSoFar::RunSoFar(const Setting& the_setting, const RigidBase& the_base, const 
     : setting(the_setting), base(the_base), detachment(the_base.surfaces.front().chain), now(state),
       past(before), discs(disc_columns(state)), places(state),
       profile(measure_profile(the_setting, state, the_base)), diameter(2.0 * state.mean_radius),
-      extension(state.clock.extension) {
+      extension(state.clock.travel) {
     if (!past.empty())
         last_window = shear_field(past.back().places, places, setting.youngest_sediment);
 }

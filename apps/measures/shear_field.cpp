@@ -20,7 +20,7 @@ constexpr double flattest = 1e-3;
 } // namespace
 
 DiscPlaces::DiscPlaces(const State& state)
-    : extension(state.clock.extension), diameter(2.0 * state.mean_radius),
+    : extension(state.clock.travel), diameter(2.0 * state.mean_radius),
       row_of(static_cast<std::size_t>(state.next_id), -1) {
     const ConstDiscColumns d = disc_columns(state);
     x.assign(d.x.begin(), d.x.end());

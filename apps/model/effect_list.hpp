@@ -21,7 +21,8 @@
     EFFECT(lower_crust_thinning) \
     EFFECT(basin_water) \
     EFFECT(footwall_erosion) \
-    EFFECT(base_motion)
+    EFFECT(base_motion) \
+    EFFECT(stage)
 // clang-format on
 
 #define EFFECT(name)                                                                               \

@@ -1,6 +1,7 @@
 #include "apps/model/model.hpp"
 
 #include "apps/model/base_driver.hpp"
+#include "apps/scene/stages.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "dem/events/equilibrium.hpp"
 #include "dem/events/strain.hpp"
@@ -108,7 +109,11 @@ Scene genesis_of(const Scene& scene) {
     start.accuracy = start.description = start.name = "";
     start.extension = {};
     start.output = {};
-    start.extension.distance = scene.extension.distance; // decides how far the base reaches
+    start.extension.distance = greatest_extension(scene); // decides how far the base reaches
+    if (start.detachment) {                               // the backstop stands in genesis
+        start.detachment->footwall_top.reset();
+        start.detachment->footwall_friction = DetachmentParameters{}.footwall_friction;
+    }
     std::erase_if(start.effects, [](const EffectPart& part) { return !part.effect->in_genesis; });
     for (EffectPart& part : start.effects)
         if (part.effect->as_in_genesis)

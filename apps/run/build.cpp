@@ -83,10 +83,10 @@ bool extend_by_windows(Simulation& simulation, const RunView& run, double goal,
                        const std::function<bool()>& end_of_window) {
     const double tolerance = simulation.tolerance();
     bool goes_on = true;
-    while (goes_on && run.extension() < goal - tolerance) {
+    while (goes_on && run.travel() < goal - tolerance) {
         const double window = run.next_window_end();
         goes_on = simulation.extend_to(std::min(window, goal), run.options.execution(), report);
-        if (run.extension() >= window - tolerance)
+        if (run.travel() >= window - tolerance)
             goes_on = end_of_window() && goes_on;
     }
     return goes_on;

@@ -117,9 +117,11 @@ std::vector<RockLayer> layers_of(const ModelParts& parts) {
 State make_anew(const Scene& scene, const ModelParts& parts, const StageReport& report,
                 const StopToken& stop, int threads) {
     // The hanging wall comes to rest on a base that does too, so its mean motion is none.
+    RigidBase base = parts.base;
+    stand_backstop(base);
     const GenesisRequest request{
         .hanging_wall = scene.hanging_wall,
-        .base = parts.base,
+        .base = std::move(base),
         .materials = parts.materials,
         .bonds = parts.bonds,
         .layers = layers_of(parts),

@@ -178,7 +178,9 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     p.discs_at_start = estimated_discs(scene);
     p.discs_at_end = p.discs_at_start + new_discs(scene);
     const double ramp = 0.5 * scene.extension.ramp; // s that it costs
-    const double time = scene.extension.distance / scene.extension.speed + ramp;
+    const double time = parts.base.motion.stages.empty()
+                            ? scene.extension.distance / scene.extension.speed + ramp
+                            : parts.base.motion.time_at(scene.extension.distance);
     p.cycles = std::floor(time / p.time_step);
     p.disc_steps = 0.5 * static_cast<double>(p.discs_at_start + p.discs_at_end) * p.cycles;
     const auto start = static_cast<double>(p.discs_at_start);

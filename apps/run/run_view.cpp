@@ -35,16 +35,16 @@ MomentNames RunView::names() const { return {scene.output.interval, window_ends(
 /// passed over. Windows are counted, not summed up, so that a resumed run has the same ends.
 double RunView::next_window_end() const {
     const double window = scene.output.interval, tolerance = simulation.tolerance();
-    double count = std::floor((extension() + tolerance) / window);
-    while (extension() >= count * window - tolerance)
+    double count = std::floor((travel() + tolerance) / window);
+    while (travel() >= count * window - tolerance)
         count += 1.0;
     return count * window;
 }
 
-bool RunView::is_drawn() const { return is_drawn_at(scene, extension()); }
+bool RunView::is_drawn() const { return is_drawn_at(scene, travel()); }
 
 fs::path RunView::snapshot() const {
-    return options.output / "snapshots" / snapshot_name(names().metres(extension()));
+    return options.output / "snapshots" / snapshot_name(names().metres(travel()));
 }
 
 std::vector<fs::path> RunView::ended_windows() const {
@@ -52,16 +52,16 @@ std::vector<fs::path> RunView::ended_windows() const {
     std::vector<fs::path> ended = list_snapshots(options.output);
     std::erase_if(ended, [&](const fs::path& path) {
         const auto end = moments.window_end(*moment_of_snapshot(path.filename().string()));
-        return !end || *end > extension();
+        return !end || *end > travel();
     });
     return ended;
 }
 
 /// Makes what is not there of the present moment.
 template <class T, class Make> const T& RunView::made_once(Made<T>& made, Make&& make) {
-    if (!made.is_of(extension())) {
+    if (!made.is_of(travel())) {
         const PartWatch time = watch(Part::measures);
-        made = {make(), extension()};
+        made = {make(), travel()};
     }
     return *made.value;
 }
@@ -102,7 +102,7 @@ void RunView::require_elasticity() const {
 void RunView::count_cycles() {
     const dem::Clock& clock = state().clock;
     const dem::Motion& motion = simulation.base().motion;
-    const double to_go = motion.time_at(target()) - motion.time_at(std::min(extension(), target()));
+    const double to_go = motion.time_at(target()) - motion.time_at(std::min(travel(), target()));
     const auto done = static_cast<double>(clock.cycle);
     time_left_.read(done, done + to_go / clock.time_step, seconds_since(started_));
 }
@@ -110,7 +110,7 @@ void RunView::count_cycles() {
 void RunView::show_progress(const std::string& what) {
     log.progress([&](std::size_t columns) {
         return progress_line({time_left_.share_done(seconds_since(started_)),
-                              what.empty() ? way_text(extension(), target()) : what, seconds_left(),
+                              what.empty() ? way_text(travel(), target()) : what, seconds_left(),
                               std::time(nullptr)},
                              columns);
     });

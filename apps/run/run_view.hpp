@@ -49,8 +49,9 @@ public:
     std::string summary;                            ///< summary.json, once the run is closed
 
     const dem::State& state() const { return simulation.state(); }
+    double travel() const { return simulation.travel(); }                   ///< m
     double extension() const { return simulation.extension(); }             ///< m
-    double target() const { return options.end(scene.extension.distance); } ///< of extension, m
+    double target() const { return options.end(scene.extension.distance); } ///< of travel, m
     Observation now() const { return {scene, parts, state(), simulation.events()}; }
 
     int ranks() const;
@@ -61,7 +62,7 @@ public:
 
     /// By the windows that have ended.
     MomentNames names() const;
-    bool is_window_end() const { return names().is_window_end(extension()); }
+    bool is_window_end() const { return names().is_window_end(travel()); }
     double next_window_end() const; ///< extension, m
     bool is_drawn() const;          ///< whether the scene wants pictures of the present moment
 
@@ -72,8 +73,8 @@ public:
     std::vector<std::filesystem::path> ended_windows() const;
 
     const measures::Measures& measured();
-    const measures::FaultReport& faults(); ///< followed back to their birth
-    bool knows_faults() const { return faults_.is_of(extension()); } ///< of the present moment
+    const measures::FaultReport& faults();                        ///< followed back to their birth
+    bool knows_faults() const { return faults_.is_of(travel()); } ///< of the present moment
 
     /// The measures of the present moment, a row of history.csv. NaN: no meaning in this run.
     NamedNumbers row();

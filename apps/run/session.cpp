@@ -36,7 +36,7 @@ RunOutcome Session::run() {
     } catch (const Interrupted&) {
         enter(Phase::stopped);
         run_.log.say(fmt::format("stopped at {} of extension; {}",
-                                 length_text(run_.extension(), run_.scene.output.interval),
+                                 length_text(run_.travel(), run_.scene.output.interval),
                                  resume_hint(run_.options.output)));
         return RunOutcome::interrupted;
     }
@@ -72,7 +72,7 @@ bool Session::resume() {
         run_.past = RunHistory(run_.ended_windows());
         tell(&Output::resume);
         run_.log.say(fmt::format("resuming at {} of extension from {}",
-                                 length_text(run_.extension(), run_.scene.output.interval),
+                                 length_text(run_.travel(), run_.scene.output.interval),
                                  path->string()));
         return true;
     }

@@ -37,6 +37,9 @@ struct BendingBase;
 /// Refuses a scene because of the value at a path of keys ("table.key"). Throws SceneError.
 using Refuse = std::function<void(const std::string& path, const std::string& message)>;
 
+/// Whether a scene's file or call gives a value at a path of keys.
+using IsGiven = std::function<bool(const std::string& path)>;
+
 /// Why a scene cannot be, as Refuse takes it.
 struct Objection {
     std::string path, message;
@@ -215,6 +218,8 @@ struct Effect {
     void (*as_in_genesis)(std::any& parameters) = nullptr;
 
     void (*scale)(Scene& scene, const AccuracyLevel& level) = nullptr; ///< defaults by accuracy
+    /// Sets what follows from its parameters in other tables, once all are read.
+    void (*complete)(Scene& scene, const IsGiven& is_given, const Refuse& refuse) = nullptr;
     void (*check)(const Scene& scene, const Refuse& refuse) = nullptr;
     /// Oddity of a scene that is allowed all the same; empty: none.
     std::string (*warning)(const Scene& scene) = nullptr;

@@ -1,4 +1,5 @@
 #include "apps/scene/picks_check.hpp"
+#include "apps/scene/stages.hpp"
 
 #include "apps/support/csv_records.hpp"
 #include "apps/support/error.hpp"
@@ -47,7 +48,7 @@ struct Room {
 
 Room room_of(const Scene& scene, PickKind kind) {
     const double length = scene.hanging_wall.length, thickness = scene.hanging_wall.thickness;
-    const double right = length + scene.extension.distance, margin = 0.01 * length;
+    const double right = length + greatest_extension(scene), margin = 0.01 * length;
     if (kind == PickKind::faults) // which are drawn, in the footwall, too
         return {-length, right + length, 3.0 * thickness};
     return {-margin, right + margin, 1.2 * thickness};

@@ -1,5 +1,7 @@
 #include "apps/scene/scene.hpp"
 
+#include "apps/scene/stages.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,8 +17,8 @@ bool is_drawn_at(const Scene& scene, double extension) {
 
 RigidBase make_rigid_base(const Scene& scene) {
     const Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
-                        scene.extension.distance};
-    const Motion motion{scene.extension.speed, scene.extension.ramp};
+                        greatest_extension(scene)};
+    const Motion motion = make_motion(scene);
     return scene.stretching ? make_stretching_box(*scene.stretching, extent, scene.basement, motion)
                             : make_halfgraben(*scene.detachment, extent, scene.basement, motion);
 }

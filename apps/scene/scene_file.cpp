@@ -350,6 +350,18 @@ void begin_scene(Scene& scene, const toml::table& document, const std::vector<Sc
     }
 }
 
+void complete_effects(Scene& scene, const toml::table& document) {
+    const IsGiven is_given = [&](const std::string& path) {
+        return document.at_path(path).node() != nullptr;
+    };
+    const Refuse refuse = [&](const std::string& path, const std::string& message) {
+        fail(entry_at(document, path), message);
+    };
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->complete)
+            part.effect->complete(scene, is_given, refuse);
+}
+
 void set_accuracy(Scene& scene) {
     const AccuracyLevel& level =
         *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
@@ -401,6 +413,7 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     for (const SceneTable& table : all)
         read_files(scene, table, document, path.parent_path());
     drop_effects(scene, request.without, all);
+    complete_effects(scene, document);
     check_scene(scene, document, effects);
     for (const EffectPart& part : scene.effects)
         if (part.effect->warning)

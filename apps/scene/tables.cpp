@@ -3,6 +3,8 @@
 #include "apps/scene/pieces.hpp"
 #include "apps/support/csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -57,6 +59,14 @@ std::vector<Parameter> detachment_parameters() {
          "the detachment's own friction, or the smaller of its and the disc's, as in PFC",
          "With \"smaller\" weakened rock loses its hold on the detachment, and head blocks turn by "
          "4 to 5 % more or less."},
+        {"footwall_top_m", at<&P::footwall_top>, "m", between(1, 1e6), "",
+         "length of level ground behind the breakaway, at rest whatever the base does; none: a "
+         "backstop stands above the breakaway",
+         "Lets rock that is pushed up run over the footwall; needed where a [[stage]] shortens.",
+         between(2e4, 5e4)},
+        {"footwall_friction", at<&P::footwall_friction>, "", ranges::friction, "",
+         "friction between discs and that ground",
+         "Raising it keeps what runs over the footwall nearer to the breakaway."},
         {"segments", at<&P::segments>, "", ranges::any, "",
          "arcs and lines, from the breakaway down",
          "Their shape determines the shape of the basin more than any other parameter does."},

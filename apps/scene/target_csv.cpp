@@ -1,4 +1,5 @@
 #include "apps/scene/target_csv.hpp"
+#include "apps/scene/stages.hpp"
 
 #include "apps/support/csv.hpp"
 #include "apps/support/csv_records.hpp"
@@ -57,7 +58,7 @@ namespace {
 /// with.
 void check_place(Scene& scene, const std::vector<TargetStage>& stages, const std::string& file) {
     const double length = scene.hanging_wall.length;
-    const double right = length + scene.extension.distance;
+    const double right = length + greatest_extension(scene);
     double least = stages.front().points.front().x, most = least;
     for (const TargetStage& stage : stages) {
         least = std::min(least, stage.points.front().x);

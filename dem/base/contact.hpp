@@ -13,9 +13,20 @@ namespace listric::dem {
 
 /// The base in a cycle: what of it changes with time where it does not deform.
 struct BaseInstant {
-    double extension; ///< m
-    double speed;     ///< of extension, m/s
+    double extension;                    ///< m
+    double speed;                        ///< of extension, m/s; below 0: shortening
+    double conveyor = 1.0;               ///< factor of the speed along the detachment
+    std::optional<double> friction = {}; ///< of the detachment, in place of the surface's
 };
+
+inline BaseInstant base_instant(const MotionInstant& motion, double extension) {
+    return {extension, motion.speed, motion.conveyor, motion.friction};
+}
+
+/// Friction of a surface now.
+inline double friction_of(const Surface& surface, const BaseInstant& now) {
+    return now.friction && surface.conveyor != 0.0 ? *now.friction : surface.friction;
+}
 
 /// A disc as a surface sees it.
 struct BaseContactDisc {
@@ -35,12 +46,13 @@ inline double slip_rate_on(const Foot& foot, Point wall_velocity, const BaseCont
 
 /// Force on a disc whose closest point of a surface is known and moves with `wall_velocity`, m/s.
 /// Updates the shear force.
-inline BaseContactForce surface_force(const Surface& surface, const Foot& foot, Point wall_velocity,
+inline BaseContactForce surface_force(const Surface& surface, const BaseInstant& now,
+                                      const Foot& foot, Point wall_velocity,
                                       const BaseContactDisc& disc, ContactParameters parameters,
                                       double& shear_force) {
     const double nx = foot.normal.x, ny = foot.normal.y;
     const double slip_rate = slip_rate_on(foot, wall_velocity, disc);
-    const auto friction = static_cast<float>(surface.friction);
+    const auto friction = static_cast<float>(friction_of(surface, now));
     parameters.friction = surface.friction_rule == FrictionRule::smaller
                               ? std::min(friction, parameters.friction)
                               : friction;
@@ -53,11 +65,13 @@ inline BaseContactForce surface_force(const Surface& surface, const Foot& foot, 
 
 /// Velocity of a surface where it has a normal, below a disc at x, m/s. The conveyor runs along the
 /// chain, whose direction is (n_y, -n_x).
-inline Point surface_velocity(const Surface& surface, BaseInstant now, double x, Point normal) {
-    double along = surface.translation.x + surface.conveyor * normal.y;
+inline Point surface_velocity(const Surface& surface, const BaseInstant& now, double x,
+                              Point normal) {
+    const double conveyor = surface.conveyor * now.conveyor;
+    double along = surface.translation.x + conveyor * normal.y;
     if (surface.stretched_length > 0.0)
         along += x / (surface.stretched_length + now.extension);
-    return {now.speed * along, now.speed * (surface.translation.y - surface.conveyor * normal.x)};
+    return {now.speed * along, now.speed * (surface.translation.y - conveyor * normal.x)};
 }
 
 /// Where a rigid surface and a disc meet and how they move past each other.
@@ -67,8 +81,8 @@ struct BaseContactMotion {
 };
 
 /// None where the surface has ended.
-inline std::optional<BaseContactMotion> base_contact_motion(const Surface& surface, BaseInstant now,
-                                                            const BaseContactDisc& disc) {
+inline std::optional<BaseContactMotion>
+base_contact_motion(const Surface& surface, const BaseInstant& now, const BaseContactDisc& disc) {
     const auto foot = nearest(surface, now.extension, {disc.x, disc.y});
     if (!foot)
         return std::nullopt;
@@ -78,7 +92,7 @@ inline std::optional<BaseContactMotion> base_contact_motion(const Surface& surfa
 
 /// Force of one rigid surface on one disc; both cycles use it. `parameters` are the stiffness of
 /// surface and disc in series. Updates the shear force.
-inline BaseContactForce base_contact_force(const Surface& surface, BaseInstant now,
+inline BaseContactForce base_contact_force(const Surface& surface, const BaseInstant& now,
                                            const BaseContactDisc& disc,
                                            ContactParameters parameters, double& shear_force) {
     const auto foot = nearest(surface, now.extension, {disc.x, disc.y});
@@ -86,8 +100,8 @@ inline BaseContactForce base_contact_force(const Surface& surface, BaseInstant n
         shear_force = 0.0;
         return {0.0, 0.0, 0.0};
     }
-    return surface_force(surface, *foot, surface_velocity(surface, now, disc.x, foot->normal), disc,
-                         parameters, shear_force);
+    return surface_force(surface, now, *foot, surface_velocity(surface, now, disc.x, foot->normal),
+                         disc, parameters, shear_force);
 }
 
 /// Force of a surface that deforms, and to which nodes it goes back.
@@ -134,7 +148,7 @@ NodeContactMotion node_contact_motion(const Surface& surface, const NodeColumns&
 /// How the disc moves past it; none where the surface has ended.
 inline std::optional<BaseContactMotion> surface_motion(const Surface& surface,
                                                        const NodeContactMotion& motion,
-                                                       BaseInstant now,
+                                                       const BaseInstant& now,
                                                        const BaseContactDisc& disc) {
     if (!motion.foot)
         return std::nullopt;
@@ -145,7 +159,7 @@ inline std::optional<BaseContactMotion> surface_motion(const Surface& surface,
 
 /// The force of a surface that deforms; updates shear force and place.
 inline NodeContactForce node_contact_force(const Surface& surface, const BaseNodeColumns& nodes,
-                                           BaseInstant now, const BaseContactDisc& disc,
+                                           const BaseInstant& now, const BaseContactDisc& disc,
                                            ContactParameters parameters, double& shear_force,
                                            double& place) {
     const NodeContactMotion motion =
@@ -156,7 +170,7 @@ inline NodeContactForce node_contact_force(const Surface& surface, const BaseNod
     }
     const Point runs = surface_velocity(surface, now, disc.x, motion.foot->normal);
     const BaseContactForce force = surface_force(
-        surface, *motion.foot, {motion.velocity.x + runs.x, motion.velocity.y + runs.y}, disc,
+        surface, now, *motion.foot, {motion.velocity.x + runs.x, motion.velocity.y + runs.y}, disc,
         parameters, shear_force);
     return {force, motion.node, motion.weight};
 }

@@ -19,7 +19,7 @@ namespace listric::dem {
 
 using namespace fast;
 
-void FastCycle::compute_base(Strip& strip, BaseInstant now) {
+void FastCycle::compute_base(Strip& strip, const BaseInstant& now) {
     for (BaseContact& contact : strip.base_contacts) {
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
         const BaseContactForce f = base_contact_force(
@@ -30,7 +30,7 @@ void FastCycle::compute_base(Strip& strip, BaseInstant now) {
     }
 }
 
-void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, BaseInstant now) {
+void FastCycle::compute_nodes(Strip& strip, const BaseNodeColumns& nodes, const BaseInstant& now) {
     for (NodeContact& node_contact : strip.node_contacts) {
         BaseContact& contact = node_contact.contact;
         const Disc& d = discs_[static_cast<std::size_t>(contact.disc)];
@@ -216,8 +216,8 @@ private:
     }
 
     void cycle() {
-        const double speed = fast_.base_->motion.speed_at(clock_.time());
-        const BaseInstant now{clock_.extension, speed};
+        const MotionInstant motion = fast_.base_->motion.at(clock_.time(), clock_.travel);
+        const BaseInstant now = base_instant(motion, clock_.extension);
         for_free_strips([&](Strip& strip) {
             if (fast_.deforms_)
                 fast_.compute_nodes(strip, piece_.nodes, now);
@@ -230,7 +230,7 @@ private:
             fast_.fastest_node_[parity] =
                 fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.around);
         Stretching thins = stretching(*fast_.base_, clock_.extension);
-        thins.rate *= speed;
+        thins.rate *= motion.speed;
         const auto sweep =
             clock_.cycle % averaging_interval == 0 ? &Kernels::sampling_sweep : &Kernels::sweep;
         double& mine = piece_.fastest[static_cast<std::size_t>(thread_)].in[parity];
@@ -255,14 +255,16 @@ private:
         }
         sweep_strips(false);
         piece_.barrier.wait();
-        double fastest = greater(piece_.surface_translation * speed, fast_.fastest_node_[parity]);
+        double fastest = greater(piece_.surface_translation * std::abs(motion.speed),
+                                 fast_.fastest_node_[parity]);
         for (const Piece::Fastest& all : piece_.fastest)
             fastest = greater(fastest, all.in[parity]);
         if (piece_.halo)
             exchange(fastest);
         else
             watch_.enter(fastest, clock_.time_step);
-        clock_.extension += speed * clock_.time_step;
+        clock_.travel += motion.travel_speed * clock_.time_step;
+        clock_.extension = fast_.base_->motion.position(clock_.travel);
         ++clock_.cycle;
     }
 

@@ -111,8 +111,8 @@ private:
     void pack_gathers(const State& state, fast::Strip& strip);
     void unpack(const fast::Strip& strip, State& state) const;
 
-    void compute_base(fast::Strip& strip, BaseInstant now);
-    void compute_nodes(fast::Strip& strip, const BaseNodeColumns& nodes, BaseInstant now);
+    void compute_base(fast::Strip& strip, const BaseInstant& now);
+    void compute_nodes(fast::Strip& strip, const BaseNodeColumns& nodes, const BaseInstant& now);
     double move_base(State& state, const BaseNodeColumns& nodes, const Clock& clock,
                      BaseResponse* response, Surroundings& around);
     fast::DampedAgainst damped_against() const;

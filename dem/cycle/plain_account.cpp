@@ -19,8 +19,9 @@ struct PlainAccount::BaseContact {
 };
 
 PlainAccount::PlainAccount(State& state, const RigidBase& base)
-    : state_(state),
-      base_(base), now_{state.clock.extension, base.motion.speed_at(state.clock.time())},
+    : state_(state), base_(base),
+      now_(base_instant(base.motion.at(state.clock.time(), state.clock.travel),
+                        state.clock.extension)),
       d_(disc_columns(state)), c_(contact_columns(state)), b_(base_contact_columns(state)),
       nodes_(base_node_columns(state)), radii_(state), of_nodes_(state.base_nodes.rows()) {}
 

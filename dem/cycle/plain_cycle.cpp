@@ -31,7 +31,8 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
             force[i].x += pushes[i].x;
             force[i].y += pushes[i].y;
         }
-    const BaseInstant now{state.clock.extension, base.motion.speed_at(state.clock.time())};
+    const BaseInstant now =
+        base_instant(base.motion.at(state.clock.time(), state.clock.travel), state.clock.extension);
     const BaseNodeColumns nodes = base_node_columns(state);
     const bool deforms = !nodes.x.empty();
     const auto places = deforms ? state.base_contacts.get<double>("place") : std::span<double>();
@@ -173,18 +174,20 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
                      const PairParameters& pairs, std::span<Force> force, BaseResponse* response,
                      Surroundings& around, Account&& account) {
     Clock& clock = state.clock;
-    const double speed = base.motion.speed_at(clock.time());
+    const MotionInstant motion = base.motion.at(clock.time(), clock.travel);
     base_forces(state, base, force, account);
     contact_forces(state, pairs, force, account);
     Stretching thins = stretching(base, clock.extension);
-    thins.rate *= speed;
+    thins.rate *= motion.speed;
     const double disc_speed = move_discs(state, physics, {state, physics, thins}, force, account);
     account.enter_half_step();
     around.respond(state, clock, response);
     account.enter_half_step();
     const double node_speed = move_nodes(base_node_columns(state), clock.time_step);
-    const double base_speed = greater(greatest_translation(base) * speed, node_speed);
-    clock.extension += speed * clock.time_step;
+    const double base_speed =
+        greater(greatest_translation(base) * std::abs(motion.speed), node_speed);
+    clock.travel += motion.travel_speed * clock.time_step;
+    clock.extension = base.motion.position(clock.travel);
     ++clock.cycle;
     return greater(around.after_cycle(state, disc_speed), base_speed);
 }

@@ -49,7 +49,7 @@ bool BondHealing::apply(State& state, const RigidBase&) {
     const HealedColumns h = healed_columns(state);
     const double strain = parameters_.strain_rate * schedule().seconds();
     // Discs laid down at the last healing, to half a cycle, have a whole interval behind them.
-    const double latest = state.clock.extension - 0.75 * schedule().spacing();
+    const double latest = state.clock.travel - 0.75 * schedule().spacing();
     const std::vector<bool> touches = touching(state);
     in_pieces(c.first.size(), 4096, [&](std::size_t k, std::size_t end) {
         for (; k < end; ++k) {

@@ -41,7 +41,7 @@ bool Compaction::apply(State& state, const RigidBase& base) {
     const auto rock_radius =
         weakening ? state.discs.get<double>("rock_radius") : std::span<double>{};
     const auto rock_area = weakening ? state.discs.get<double>("rock_area") : std::span<double>{};
-    const double extension = state.clock.extension;
+    const double extension = state.clock.travel;
     const double seconds =
         base.motion.time_at(extension + schedule().spacing()) - base.motion.time_at(extension);
     const GroundLevel ground(state);

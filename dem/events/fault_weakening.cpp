@@ -3,8 +3,8 @@
 #include "dem/contacts/cells.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
-#include "dem/events/measure_circle.hpp"
 #include "dem/contacts/soft_discs.hpp"
+#include "dem/events/measure_circle.hpp"
 #include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
@@ -47,7 +47,7 @@ Displacements displacements(State& state, double youngest, bool loose) {
     Displacements s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (d.stratum[i] > 0 && !is_weak(state.materials, d.material[i]) &&
-            (!(loose || rock[i]) || state.clock.extension - d.start_extension[i] < youngest))
+            (!(loose || rock[i]) || state.clock.travel - d.start_extension[i] < youngest))
             continue;
         s.row.push_back(static_cast<std::int32_t>(i));
         s.x.push_back(d.x[i]);
@@ -291,7 +291,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
 
     if (p.heal_after > 0.0)
         heal(state, rested_discs(state, sample, cells, 0.5 * l.circle, p, schedule().seconds()),
-             p.mean_stress_ratio, gravity_);
+             mean_stress_ratio(p, state, base), gravity_);
     std::vector<std::int32_t> converted =
         joined(by_piece(bands.size(), 4, [&](std::size_t k, std::size_t end) {
             std::vector<std::int32_t> rows;
@@ -302,7 +302,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
         }));
     std::ranges::sort(converted);
     converted.erase(std::unique(converted.begin(), converted.end()), converted.end());
-    weaken(state, base, converted, p.mean_stress_ratio, gravity_);
+    weaken(state, base, converted, mean_stress_ratio(p, state, base), gravity_);
 
     const std::size_t old = memory.rows();
     memory.resize(old + faults.size());
@@ -315,7 +315,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     put("y_m", [](const FaultSegment& f) { return f.centre.y; });
     put("angle_rad", [](const FaultSegment& f) { return f.angle; });
     put("slip_m", [](const FaultSegment& f) { return f.slip; });
-    put("found_at_m", [&](const FaultSegment&) { return state.clock.extension; });
+    put("found_at_m", [&](const FaultSegment&) { return state.clock.travel; });
 
     const DiscColumns d = disc_columns(state);
     std::ranges::copy(d.x, state.discs.get<double>("scanned_x").begin());

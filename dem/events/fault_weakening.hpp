@@ -33,10 +33,18 @@ struct FaultWeakeningParameters {
     double resting_rate = 1.0e-15; ///< shear strain rate of rest, 1/s: below it bonds heal [paper]
     /// Rock of weakened discs, never bonded: MAT18-W with a friction that Table 1 does not have.
     Material material{8.5e8, 3.19e8, 0.2, false};
-    double update_interval = 2.5e3;  ///< time between property updates, a
-    double mean_stress_ratio = 0.75; ///< mean stress in a fault over the weight above it
-    double largest_change = 0.05;    ///< largest relative radius change per property update
+    double update_interval = 2.5e3;            ///< time between property updates, a
+    double mean_stress_ratio = 0.75;           ///< mean stress in a fault over the weight above it
+    double shortening_mean_stress_ratio = 1.5; ///< where the wall returns: thrusts stand under more
+    double largest_change = 0.05; ///< largest relative radius change per property update
 };
+
+/// Mean stress in a fault over the weight above it, by the sense of the motion now.
+inline double mean_stress_ratio(const FaultWeakeningParameters& p, const State& state,
+                                const RigidBase& base) {
+    return base.motion.shortens(state.clock.travel) ? p.shortening_mean_stress_ratio
+                                                    : p.mean_stress_ratio;
+}
 
 /// Slip above which a plane is a fault, for discs of that mean diameter, m.
 double critical_slip(const FaultWeakeningParameters& p, double mean_diameter);

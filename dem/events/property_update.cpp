@@ -9,7 +9,8 @@ PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& parameters, doubl
 
 bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     const VolumeKeeping how{parameters_.band_diameters * state.mean_radius,
-                            parameters_.mean_stress_ratio, parameters_.largest_change};
+                            mean_stress_ratio(parameters_, state, base),
+                            parameters_.largest_change};
     return keep_volume(state, base, how, gravity_).has_value();
 }
 

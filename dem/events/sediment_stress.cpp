@@ -150,7 +150,7 @@ bool SedimentStress::apply(State& state, const RigidBase& base) {
     const auto damping = memory.get<double>("damping");
     const auto weight_after = memory.get<double>("weight_after");
     const auto contacts_after = memory.get<double>("contacts_after");
-    const double now = std::floor(state.clock.extension / window_);
+    const double now = std::floor(state.clock.travel / window_);
     const std::vector<LayerLoad> loads = layer_loads(state, base, physics_);
     for (std::size_t k = 0; k < loads.size(); ++k) {
         if (window[k] != now) {

@@ -218,10 +218,16 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
     const double smallest = 2.0 * state.mean_radius / (1.0 + radius_ratio_);
     const double largest = radius_ratio_ * smallest;
     const auto stratum =
-        static_cast<std::int32_t>(std::lround(state.clock.extension / schedule().spacing()));
-    const TargetLine line = target_.at(state.clock.extension / schedule().extension_rate);
-    const double removed = erode(state, line);
+        static_cast<std::int32_t>(std::lround(state.clock.travel / schedule().spacing()));
+    const TargetLine line = target_.at(state.clock.travel / schedule().extension_rate);
+    const double travel = state.clock.travel;
+    const SurfaceWork work = base.motion.surface_work(travel - schedule().spacing(), travel);
+    const bool erodes = work == SurfaceWork::both || work == SurfaceWork::erode;
+    const bool fills = work == SurfaceWork::both || work == SurfaceWork::fill;
+    const double removed = erodes ? erode(state, line) : 0.0;
     state.ledger.removed += removed;
+    if (!fills)
+        return removed > 0.0;
     Ground ground(state, base, largest);
     const std::vector<Placed> placed = fill(ground, line, smallest, largest, state.seed,
                                             static_cast<std::uint64_t>(stratum), step_report);
@@ -236,7 +242,7 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
         const std::size_t i = first + k;
         d.x[i] = d.start_x[i] = placed[k].centre.x;
         d.y[i] = d.start_y[i] = placed[k].centre.y;
-        d.start_extension[i] = state.clock.extension;
+        d.start_extension[i] = state.clock.travel;
         d.radius[i] = placed[k].radius;
         d.mass[i] = density * pi * placed[k].radius * placed[k].radius;
         d.material[i] = sediment;

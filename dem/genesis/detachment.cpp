@@ -15,6 +15,20 @@ Surface right_wall(double length) {
     return {"right wall", {line({length, -high}, {length, high})}, 0.0, 0.0, {1.0, 0.0}};
 }
 
+Surface backstop() { return {"backstop", {line({0.0, high}, {0.0, 0.0})}}; }
+
+/// Ends in a stub along the detachment, so that the corner at the breakaway belongs to it; all
+/// beyond is the detachment's.
+Surface footwall_top(const DetachmentParameters& detachment, const Segment& first) {
+    constexpr double stub = 1e-6; // m
+    const Point corner = first.start;
+    return {.name = "footwall top",
+            .chain = {line({corner.x - *detachment.footwall_top, corner.y}, corner),
+                      line(corner, {corner.x + stub * first.start_tangent.x,
+                                    corner.y + stub * first.start_tangent.y})},
+            .friction = detachment.footwall_friction};
+}
+
 } // namespace
 
 DetachmentSegment arc_to_dip(double end_dip, double radius, std::optional<double> start_dip) {
@@ -58,10 +72,18 @@ RigidBase make_halfgraben(const DetachmentParameters& detachment, const Extent& 
          .friction = detachment.friction,
          .conveyor = 1.0,
          .friction_rule = detachment.friction_rule},
-        {"backstop", {line({0.0, high}, {0.0, 0.0})}},
+        backstop(),
         right_wall(extent.length),
     };
+    if (detachment.footwall_top)
+        base.surfaces[1] = footwall_top(detachment, base.surfaces[0].chain.front());
     return base;
+}
+
+void stand_backstop(RigidBase& base) {
+    for (Surface& surface : base.surfaces)
+        if (surface.name == "footwall top")
+            surface = backstop();
 }
 
 RigidBase make_stretching_box(const StretchingParameters& parameters, const Extent& extent,

@@ -27,6 +27,10 @@ struct DetachmentParameters {
     double friction = 0.5;   ///< between discs and the moving base
     FrictionRule friction_rule = FrictionRule::wall;
     std::vector<DetachmentSegment> segments;
+    /// Length of level ground behind the breakaway, at rest whatever the base does, m; none: a
+    /// backstop stands there.
+    std::optional<double> footwall_top = {};
+    double footwall_friction = 0.5; ///< of that ground
 };
 
 /// A flat base that stretches uniformly between the walls, in place of a detachment: pure shear.
@@ -47,16 +51,19 @@ struct Extent {
 /// The detachment's pieces end to end, continued by a flat to x = `reach`, m.
 Chain detachment_chain(const DetachmentParameters& detachment, double reach);
 
-/// Detachment, backstop above the breakaway and right wall.
+/// Detachment, backstop above the breakaway or the footwall's top, and right wall.
 RigidBase make_halfgraben(const DetachmentParameters& detachment, const Extent& extent,
                           const Material& material, const Motion& motion);
+
+/// Puts a backstop in place of the footwall's top, for genesis.
+void stand_backstop(RigidBase& base);
 
 /// Flat base that stretches, left wall and right wall.
 RigidBase make_stretching_box(const StretchingParameters& parameters, const Extent& extent,
                               const Material& material, const Motion& motion);
 
 /// Lets the detachment of a halfgraben be the line through the state's nodes (State::base_nodes)
-/// and the backstop go with the first of them.
+/// and the backstop, or the footwall's top, go with the first of them.
 /// @param degree  of the faces between nodes
 void follow_nodes(RigidBase& base, int degree);
 

@@ -45,6 +45,7 @@ EFFECTS = (
     Effect("basin_water", "BasinWaterParameters"),
     Effect("footwall_erosion", "FootwallErosionParameters"),
     Effect("base_motion", "BaseMotionParameters"),
+    Effect("stage", "StageParameters", own="apps/scene/stages.*", trade=True),
 )
 
 

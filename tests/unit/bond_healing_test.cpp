@@ -27,7 +27,7 @@ struct Pair {
         : state(make_state({{0.0, 0.0, r}, {2.0 * r - overlap, 0.0, r}})),
           event(parameters, {}, rate) {
         event.begin(state);
-        state.clock.extension = event.schedule().spacing();
+        state.clock.travel = state.clock.extension = event.schedule().spacing();
     }
     bool heals() {
         find_contacts(state, {});
@@ -87,7 +87,7 @@ TEST(BondHealing, SlipCountsFromTheLastHealing) {
     Pair p;
     p.discs().y[1] = 5.0 * allowed;
     EXPECT_FALSE(p.heals());
-    p.state.clock.extension += p.event.schedule().spacing();
+    p.state.clock.travel = p.state.clock.extension += p.event.schedule().spacing();
     EXPECT_TRUE(p.heals()); // it has not moved since
 }
 
@@ -117,7 +117,7 @@ TEST(BondHealing, DiscsWithoutAHistoryWait) {
     Pair p;
     p.discs().start_extension[1] = 0.5 * p.state.clock.extension;
     EXPECT_FALSE(p.heals());
-    p.state.clock.extension += p.event.schedule().spacing();
+    p.state.clock.travel = p.state.clock.extension += p.event.schedule().spacing();
     EXPECT_TRUE(p.heals());
 }
 

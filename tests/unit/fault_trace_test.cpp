@@ -45,7 +45,7 @@ struct Block {
             disc.y -= 79.0 * std::sqrt(3.0) * r;
         before = make_state(discs);
         now = before;
-        now.clock.extension = 500.0;
+        now.clock.travel = now.clock.extension = 500.0;
         const DiscColumns columns = disc_columns(now);
         for (std::size_t i = 0; i < columns.x.size(); ++i) {
             const Point u = motion({columns.x[i], columns.y[i]});
@@ -322,7 +322,7 @@ struct Story {
         setting.youngest_sediment = 2e3;
         base.surfaces = {{"detachment", {line({0.0, -1e5}, {3e5, -1e5})}, 0.0}};
         now = Block([](Point) { return Point{}; }).now;
-        now.clock.extension = 0.0;
+        now.clock.travel = now.clock.extension = 0.0;
         places.emplace_back(now);
         Point pivot = middle;
         double dip = 60.0;
@@ -343,7 +343,7 @@ struct Story {
             }
             pivot.x += 500.0;
             dip += turn;
-            now.clock.extension = 500.0 * window;
+            now.clock.travel = now.clock.extension = 500.0 * window;
             if (window < windows)
                 places.emplace_back(now);
         }

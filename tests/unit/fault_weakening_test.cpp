@@ -51,7 +51,7 @@ struct Block {
         threshold = critical_slip(parameters, diameter);
         bond_all(state, {});
         event.begin(state);
-        state.clock.extension = 500.0;
+        state.clock.travel = state.clock.extension = 500.0;
     }
 
     /// Distance of a point from the plane through the block's middle, > 0 on the left of the
@@ -281,7 +281,8 @@ TEST(FaultWeakening, NothingHealsUnlessAskedFor) {
 
 TEST(FaultWeakening, YoungSedimentIsLeftAlone) {
     Block b;
-    b.state.clock.extension = 5000.0; // sediment younger than 2 km of extension is young
+    b.state.clock.travel = b.state.clock.extension =
+        5000.0; // sediment younger than 2 km of extension is young
     const DiscColumns d = disc_columns(b.state);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.y[i] > b.middle.y) {
@@ -303,7 +304,7 @@ TEST(FaultWeakening, TheWholeDomainHasLooseAndYoungSediment) {
         FaultWeakeningParameters p;
         p.whole_domain = whole;
         Block b(p);
-        b.state.clock.extension = 500.0;
+        b.state.clock.travel = b.state.clock.extension = 500.0;
         const DiscColumns d = disc_columns(b.state);
         std::ranges::fill(d.stratum, 1); // deposited when the last scan was over
         std::ranges::fill(contact_columns(b.state).bonded, std::uint8_t{0});
@@ -316,7 +317,7 @@ TEST(FaultWeakening, TheWholeDomainHasLooseAndYoungSediment) {
 TEST(FaultWeakening, LooseSedimentIsLeftAlone) {
     for (const bool loose : {true, false}) {
         Block b;
-        b.state.clock.extension = 5000.0;
+        b.state.clock.travel = b.state.clock.extension = 5000.0;
         const DiscColumns d = disc_columns(b.state);
         for (std::size_t i = 0; i < d.x.size(); ++i)
             d.stratum[i] = d.y[i] > b.middle.y ? 1 : 0;

@@ -224,7 +224,7 @@ TEST_F(PicksFile, AgesChooseTheTop) {
         d.start_extension[i] = 5e3 * d.stratum[i];
         d.start_y[i] = d.y[i] + 1000.0; // the pre-rift top was the surface
     }
-    state.clock.extension = 10e3;
+    state.clock.travel = state.clock.extension = 10e3;
     RigidBase base;
     base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
     measures::Setting setting;

@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 DiscPlaces places_at(double extension) {
     dem::State state = dem::empty_state();
-    state.clock.extension = extension;
+    state.clock.travel = state.clock.extension = extension;
     return DiscPlaces(state);
 }
 

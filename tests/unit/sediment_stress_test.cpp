@@ -103,7 +103,7 @@ TEST(SedimentStress, MeansAreOfTheLastWindow) {
     State state = lattice();
     SedimentStress event(500.0, 5.0, rate, physics);
     const auto sample = [&](double extension, double vy) {
-        state.clock.extension = extension;
+        state.clock.travel = state.clock.extension = extension;
         std::ranges::fill(disc_columns(state).vy, vy);
         EXPECT_FALSE(event.apply(state, {}));
         ++event.applied;

@@ -37,7 +37,7 @@ struct Basin {
             x += r;
         for (double& y : disc_columns(state).y)
             y += r;
-        state.clock.extension = 3.0 * event.schedule().spacing();
+        state.clock.travel = state.clock.extension = 3.0 * event.schedule().spacing();
     }
 };
 
@@ -150,7 +150,7 @@ TEST(Sedimentation, SecondHelpingIsSmall) {
     Basin b;
     b.event.apply(b.state, b.base);
     const std::size_t filled = b.state.discs.rows();
-    b.state.clock.extension += b.event.schedule().spacing();
+    b.state.clock.travel = b.state.clock.extension += b.event.schedule().spacing();
     b.event.apply(b.state, b.base);
     EXPECT_LT(b.state.discs.rows() - filled, filled / 50);
 }
@@ -204,7 +204,7 @@ TEST(Sedimentation, ErosionRemovesWhatLiesAboveAndAccountsForIt) {
     Ledger& ledger = b.state.ledger;
     const double deposited = ledger.deposited;
     Sedimentation lower({.level = level}, 1.66, rate);
-    b.state.clock.extension += lower.schedule().spacing();
+    b.state.clock.travel = b.state.clock.extension += lower.schedule().spacing();
     ASSERT_TRUE(lower.apply(b.state, b.base));
 
     const DiscColumns d = disc_columns(b.state);
@@ -244,7 +244,7 @@ TEST(Sedimentation, TheSurfaceFollowsAPolyline) {
                                     {0.7 * width, 0.5 * depth + 0.04 * width},
                                     {width, 0.5 * depth + 0.1 * width}};
     Sedimentation shaped({.target = {{0.0, points}}}, 1.66, rate);
-    b.state.clock.extension += shaped.schedule().spacing();
+    b.state.clock.travel = b.state.clock.extension += shaped.schedule().spacing();
     ASSERT_TRUE(shaped.apply(b.state, b.base));
     EXPECT_GT(b.state.ledger.removed, 0.0);
     EXPECT_NEAR(mass_of(b.state),
@@ -266,7 +266,7 @@ TEST(Sedimentation, ATargetThatFallsWithTime) {
     const double diameter = 2.0 * 2.0 * r / 2.66 * 1.66;
     for (double top : surface(b.state))
         EXPECT_NEAR(top, 0.7 * depth, diameter);
-    b.state.clock.extension = 6.0 * falling.schedule().spacing();
+    b.state.clock.travel = b.state.clock.extension = 6.0 * falling.schedule().spacing();
     falling.apply(b.state, b.base);
     for (double top : surface(b.state))
         EXPECT_NEAR(top, 0.4 * depth, diameter);

@@ -146,8 +146,8 @@ struct Halfgraben {
             b.x[i] = then.x;
             b.y[i] = then.y;
         }
-        before.clock.extension = extension - window;
-        now.clock.extension = extension;
+        before.clock.travel = before.clock.extension = extension - window;
+        now.clock.travel = now.clock.extension = extension;
         past.push_back({DiscPlaces(before), {}});
     }
 

@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Sequence
 
 from frame import Frame
-from page import add_axes, extension_text, name_distance
+from page import add_axes, extension_text, moment_text, name_distance
 from panels import panel_of
 from plot import FAINT, Figure, Order, new_figure
 
@@ -174,7 +174,7 @@ def headline_lines(frame: Frame, width: float) -> list[str]:
 
 
 def moment_text(frame: Frame) -> str:
-    return f"{extension_text(frame)} km of extension, {frame.meta['time_a'] / 1e6:.2f} Myr"
+    return f"{moment_text(frame)}, {frame.meta['time_a'] / 1e6:.2f} Myr"
 
 
 def save_print(frame: Frame, order: Order) -> tuple[str, Figure, list[str]]:

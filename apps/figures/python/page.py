@@ -30,6 +30,14 @@ def extension_text(frame: Frame) -> str:
     return str(frame.meta.get("extension_km", plain))
 
 
+def moment_text(frame: Frame) -> str:
+    """How far the wall is: "5.0 km of extension"; with stages of motion also by which way."""
+    text = f"{extension_text(frame)} km of extension"
+    if "travel_m" not in frame.meta:
+        return text
+    return f"{frame.meta['extension_m'] / 1000:.3g} km of extension after a way of {extension_text(frame)} km"
+
+
 LONGEST_TITLE = 80        # letters that fit beside the moment
 
 
@@ -41,7 +49,8 @@ def title_of(frame: Frame) -> str:
 
 def headline(frame: Frame) -> str:
     """Description and moment."""
-    return f"{title_of(frame)}: {extension_text(frame)} km, {frame.meta['time_a'] / 1e6:.2f} Myr"
+    moment = moment_text(frame) if "travel_m" in frame.meta else f"{extension_text(frame)} km"
+    return f"{title_of(frame)}: {moment}, {frame.meta['time_a'] / 1e6:.2f} Myr"
 
 
 def footer(frame: Frame) -> list[str]:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from axes import LEGEND
 from frame import Frame
 from page import (DPI, GAP, LEFT, RIGHT, ROW_ABOVE, TITLE, XLABEL, add_axes, below, extension_text,
-                  footer, name_distance, set_ticks, title_of, write_around)
+                  footer, moment_text, name_distance, set_ticks, title_of, write_around)
 from panels import PANELS
 from plot import Figure, Order, new_figure, save
 from scales import share_scales
@@ -74,7 +74,7 @@ def mark_letter(ax, letter: str) -> None:
 
 
 def name_column(ax, frame: Frame) -> None:
-    ax.annotate(f"{extension_text(frame)} km of extension", (0.5, 1), (0, 26),
+    ax.annotate(moment_text(frame), (0.5, 1), (0, 26),
                 xycoords="axes fraction", textcoords="offset points", ha="center",
                 fontsize=11.5, weight="semibold", annotation_clip=False)
 

@@ -5,6 +5,7 @@
 #include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
+#include "apps/scene/stages.hpp"
 #include "apps/support/spelling.hpp"
 #include "fem/blocks.hpp"
 #include "fem/mesh_scan.hpp"
@@ -144,7 +145,7 @@ void check(const Scene& scene, const Refuse& refuse) {
     if (!why.empty())
         refuse("elastic_base.crust_density_kg_per_m3", why);
     const dem::Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
-                             scene.extension.distance};
+                             greatest_extension(scene)};
     if (!(base.right > extent.reach()))
         refuse("elastic_base.right_m",
                fmt::format("is {}, allowed: above {}, beyond the right wall's last position",

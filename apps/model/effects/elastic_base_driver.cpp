@@ -168,7 +168,7 @@ BaseWindow ElasticBaseDriver::end_window(State& state, const RigidBase& rigid) {
         {effects::beyond_byerlee, guard.beyond_byerlee},
     };
     std::ranges::move(loads_.measures(state), std::back_inserter(end.measures));
-    end.beyond_elasticity = beyond_elasticity(guard, state.clock.extension);
+    end.beyond_elasticity = beyond_elasticity(guard, state.clock.travel);
     base_->end_window(state);
     return end;
 }

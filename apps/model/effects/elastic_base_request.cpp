@@ -1,4 +1,5 @@
 #include "apps/model/effects/elastic_base_request.hpp"
+#include "apps/scene/stages.hpp"
 
 #include "apps/model/effects/elastic_base_parameters.hpp"
 
@@ -41,7 +42,7 @@ fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts&
     request.degree = base.bending.degree;
     request.cell_size = base.cell_size;
     // Discs are left of the right wall; the last contact's face reaches a little further.
-    const double reach = scene.hanging_wall.length + scene.extension.distance;
+    const double reach = scene.hanging_wall.length + greatest_extension(scene);
     request.interface_end = reach + 3.0 * base.cell_size;
     request.fine_until = reach + 10.0 * base.cell_size;
     return request;

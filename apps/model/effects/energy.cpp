@@ -2,6 +2,7 @@
 #include "dem/events/equilibrium.hpp"
 
 #include "apps/model/effect_list.hpp"
+#include "apps/scene/stages.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,12 @@ const Effect& effect() {
         .doc = "energy budget; the cycle then takes one thread and five times as long",
         .defaults = make_defaults<P>,
         .address = address_of<P>,
+        .check =
+            [](const Scene& scene, const Refuse& refuse) {
+                if (scene.find<Stages>())
+                    refuse("energy", "is beside [[stage]], but the account of energy knows one "
+                                     "steady motion alone; leave out one of the two");
+            },
         .on_ranks = [](const Scene&) -> std::optional<Objection> {
             return Objection{"energy", "is added up contact by contact, which one process can; "
                                        "leave the table out, or start one process"};

@@ -88,6 +88,12 @@ std::vector<Parameter> weakened_parameters() {
         {"mean_stress_ratio", at<&P::mean_stress_ratio>, "", between(0.01, 2), "",
          "mean stress in a fault over the weight above it",
          "Raising it makes weakened discs larger at once; the property update corrects the rest."},
+        {"shortening_mean_stress_ratio", at<&P::shortening_mean_stress_ratio>, "", between(0.01, 4),
+         "",
+         "mean stress in a fault over the weight above it, while a [[stage]] "
+         "shortens",
+         "Raising it makes weakened discs larger in the first steps of the way back; the property "
+         "update corrects the rest."},
         {"largest_change", at<&P::largest_change>, "", between(1e-4, 0.5), "",
          "largest relative change of a radius per property update",
          "Lowering it slows the correction of the volume of weak zones."},

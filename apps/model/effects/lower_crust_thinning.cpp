@@ -2,6 +2,7 @@
 
 #include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
+#include "apps/scene/stages.hpp"
 
 #include <fmt/format.h>
 
@@ -14,14 +15,14 @@ using P = coupling::LowerCrustThinningParameters;
 coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts) {
     const auto& base = *bending_base(scene);
     const double contrast = (base.mantle_density - base.crust_density) * parts.gravity; // Pa/m
-    return coupling::lower_crust_thinning_load(*scene.find<P>(), contrast, scene.extension.distance,
-                                               scene.extension.rate);
+    return coupling::lower_crust_thinning_load(*scene.find<P>(), contrast,
+                                               greatest_extension(scene), scene.extension.rate);
 }
 
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
     const auto& base = *bending_base(scene);
-    const double thinner = coupling::lower_crust_thinning(p, scene.extension.distance);
+    const double thinner = coupling::lower_crust_thinning(p, greatest_extension(scene));
     return fmt::format(
         "    lower crust: {:g} km over {:g} km thins by {:.0f} m in the end; the mantle in its "
         "place\n    lowers a wide area by {:.0f} m\n",

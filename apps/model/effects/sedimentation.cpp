@@ -4,6 +4,7 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/pieces.hpp"
+#include "apps/scene/stages.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
 #include "dem/genesis/genesis.hpp"
@@ -73,7 +74,7 @@ std::vector<dem::TargetLine> lines_of(const P& p) {
 /// Area between the original surface and the target where that is highest, m^2.
 double area_above_surface(const Scene& scene) {
     constexpr int columns = 1000;
-    const double width = scene.hanging_wall.length + scene.extension.distance;
+    const double width = scene.hanging_wall.length + greatest_extension(scene);
     double greatest = 0.0;
     for (const dem::TargetLine& line : lines_of(*scene.find<P>())) {
         double area = 0.0;
@@ -87,7 +88,7 @@ double area_above_surface(const Scene& scene) {
 /// Fills distance times thickness, small discs up to the target, and what lies between surface and
 /// target.
 double new_area(const Scene& scene) {
-    return 1.1 * scene.extension.distance * scene.hanging_wall.thickness +
+    return 1.1 * greatest_extension(scene) * scene.hanging_wall.thickness +
            area_above_surface(scene);
 }
 

@@ -19,7 +19,7 @@ def exported_lines(snapshot, kind: str) -> list[dict]:
     if exported.is_file() and exported.stat().st_mtime >= path.stat().st_mtime:
         return read_lines(exported)
     with stand_in(snapshot, without="export") as folder:
-        call("export", kind, folder, "--format", "csv", "--at", snapshot.extension_m)
+        call("export", kind, folder, "--format", "csv", "--at", snapshot.travel_m)
         written, = (folder / "export").glob("*.csv")
         return read_lines(written)
 

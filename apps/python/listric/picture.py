@@ -32,6 +32,6 @@ def draw_section(snapshot, kind: str) -> Picture:
     if kind not in KINDS:
         raise UnknownName(kind, KINDS, "plot")
     with stand_in(snapshot, without="figures") as folder:
-        call("figures", folder, "--at", snapshot.extension_m)
+        call("figures", folder, "--at", snapshot.travel_m)
         drawn, = (folder / "figures").glob(f"{kind}-*.png")
         return Picture(drawn.read_bytes(), f"{kind} of {snapshot.path}")

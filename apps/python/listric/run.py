@@ -24,7 +24,7 @@ class Run:
     first asked for.
 
     folder     path
-    snapshots  tuple of Snapshot, by extension: the ends of windows, and the newest
+    snapshots  tuple of Snapshot, by extension, with [[stage]] by travel: the ends of windows, and the newest
     """
 
     def __init__(self, folder):
@@ -55,7 +55,7 @@ class Run:
         return _moments(sorted(found, key=lambda one: (one.named_extension_m, len(one.path.name))))
 
     def at(self, extension_m: float) -> Snapshot:
-        """The snapshot nearest to an extension, m. Throws RunError if there is none at all."""
+        """The snapshot nearest to an extension, with [[stage]] to a travel, m. Throws RunError if there is none at all."""
         return min(self._some_snapshots(), key=lambda one: abs(one.named_extension_m - extension_m))
 
     def plot(self, kind: str = "strata", at: float | None = None) -> Picture:
@@ -123,7 +123,8 @@ def _moments(found: list[Snapshot]) -> tuple[Snapshot, ...]:
     read says which these are."""
     for newest in reversed(found):
         try:
-            ends = np.asarray(newest.table("run/history")["extension_m"])
+            history = newest.table("run/history")
+            ends = np.asarray(history["travel_m" if "travel_m" in history else "extension_m"])
             scene = newest.scene
         except (RunError, UnknownName):
             continue

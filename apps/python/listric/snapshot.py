@@ -62,12 +62,20 @@ class Snapshot:
 
     @property
     def extension_m(self) -> float:
-        """Displacement of base and right wall, m."""
+        """Displacement of base and right wall, m; with [[stage]] it may shrink again."""
         return self.numbers["extension"]
 
     @property
+    def travel_m(self) -> float:
+        """Way of base and right wall back and forth, and in pauses: the run's clock, m. Without
+        [[stage]] the extension."""
+        numbers = self.numbers
+        return numbers["travel"] if "travel" in numbers else numbers["extension"]
+
+    @property
     def named_extension_m(self) -> float:
-        """Extension by the file's name, to its decimals; the file is not opened."""
+        """Extension by the file's name, to its decimals, with [[stage]] the travel; the file is not
+        opened."""
         return float(self.path.stem.removeprefix("extension-").removesuffix("m"))
 
     @property

@@ -26,7 +26,7 @@ def stand_in(snapshot, without: str):
         else:
             run = path
             Path(folder, "snapshots").mkdir()
-            name = f"extension-{snapshot.extension_m:08.2f}m.h5"
+            name = f"extension-{snapshot.travel_m:08.2f}m.h5"
             Path(folder, "snapshots", name).symlink_to(path)
             Path(folder, "scene.toml").write_text(snapshot.scene_text, encoding="utf-8")
         try:

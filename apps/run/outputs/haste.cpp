@@ -17,7 +17,7 @@ std::optional<Output> outputs::haste(const RunView&) {
     const auto warn = [has_warned = std::make_shared<bool>(false)](RunView& run) {
         const double known =
             std::min(dem::strain_window, run.target()) - run.simulation.tolerance();
-        if (*has_warned || run.extension() < known)
+        if (*has_warned || run.travel() < known)
             return;
         const Measures& measures = run.measured();
         if (measures.quasi_static.value_or(true))

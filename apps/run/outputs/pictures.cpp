@@ -44,7 +44,7 @@ public:
     }
 
     void finish(RunView& run) {
-        if (drawn_at_ != run.extension())
+        if (drawn_at_ != run.travel())
             draw(run);
     }
 
@@ -60,7 +60,7 @@ private:
     static fs::path folder(const RunView& run) { return run.options.output / "figures"; }
 
     void draw(RunView& run) {
-        drawn_at_ = run.extension();
+        drawn_at_ = run.travel();
         pending_.push_back(draw_figures(run.now(), run.faults(), folder(run), run.names()));
     }
 

@@ -26,7 +26,7 @@ public:
     /// they are known; then the stress below an elastic base is shown, too.
     void add(RunView& run) {
         const bool followed = run.knows_faults();
-        if (overflows_ || moments_.has(run.extension(), followed))
+        if (overflows_ || moments_.has(run.travel(), followed))
             return;
         attempt(run, [&] {
             const Observation now = run.now();
@@ -38,7 +38,7 @@ public:
                                                                         run.state(), run.past),
                                                           false);
             mean_radius_ = now.state.mean_radius;
-            moments_.add(now, lines_[run.extension()] = std::move(lines));
+            moments_.add(now, lines_[run.travel()] = std::move(lines));
             limit(run);
         });
     }

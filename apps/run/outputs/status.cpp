@@ -19,7 +19,7 @@ void tell(const RunView& run) {
     const double left = run.phase == Phase::finished ? 0.0 : run.seconds_left();
     write_object(run.options.output / "status.json",
                  {{"phase", name(run.phase)},
-                  {"extension_m", run.extension()},
+                  {"extension_m", run.travel()},
                   {"of_m", run.target()},
                   {"seconds_left", std::int64_t{std::llround(left)}}});
 }

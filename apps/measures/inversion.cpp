@@ -1,0 +1,168 @@
+#include "apps/measures/inversion.hpp"
+
+#include "dem/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <vector>
+
+namespace listric::measures {
+
+using namespace dem;
+
+namespace {
+
+constexpr double nothing = -std::numeric_limits<double>::infinity();
+
+/// Highest points of discs by column.
+struct Tops {
+    double left = 0.0, width = 1.0; ///< m
+    std::vector<double> height;     ///< m; minus infinity: there is none
+
+    Tops(double from, double to, double column)
+        : left(from), width(column),
+          height(static_cast<std::size_t>(std::max(1.0, std::ceil((to - from) / column))),
+                 nothing) {}
+
+    void add(double x, double top) {
+        const double k = std::floor((x - left) / width);
+        if (k >= 0.0 && k < static_cast<double>(height.size())) {
+            double& h = height[static_cast<std::size_t>(k)];
+            h = std::max(h, top);
+        }
+    }
+};
+
+/// Mean of what is there within half a width of every column.
+std::vector<double> smoothed(const Tops& tops, double width) {
+    const auto reach = static_cast<std::ptrdiff_t>(0.5 * width / tops.width);
+    const auto count = static_cast<std::ptrdiff_t>(tops.height.size());
+    std::vector<double> means(tops.height.size(), nothing);
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+        double sum = 0.0, found = 0.0;
+        for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, k - reach);
+             j <= std::min(k + reach, count - 1); ++j)
+            if (const double h = tops.height[static_cast<std::size_t>(j)]; h > nothing) {
+                sum += h;
+                found += 1.0;
+            }
+        if (found > 0.0)
+            means[static_cast<std::size_t>(k)] = sum / found;
+    }
+    return means;
+}
+
+} // namespace
+
+double area_above_regional(const State& state, double level) {
+    const ConstDiscColumns d = disc_columns(state);
+    const auto [left, right] = std::ranges::minmax(d.x);
+    Tops tops(left, right, 2.0 * state.mean_radius);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        tops.add(d.x[i], d.y[i] + d.radius[i]);
+    double area = 0.0;
+    for (const double h : tops.height)
+        area += std::max(0.0, h - level) * tops.width;
+    return area;
+}
+
+double graben_relief(const State& state) {
+    constexpr double width = 2.5e3; // m
+    const ConstDiscColumns d = disc_columns(state);
+    const auto [left, right] = std::ranges::minmax(d.x);
+    Tops tops(left, right, 2.0 * state.mean_radius);
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] == 0)
+            tops.add(d.x[i], d.y[i] + d.radius[i]);
+    double crest = nothing, relief = 0.0;
+    for (const double h : smoothed(tops, width)) {
+        if (h == nothing)
+            continue;
+        crest = std::max(crest, h);
+        relief = std::max(relief, crest - h);
+    }
+    return relief;
+}
+
+std::optional<double> null_point(const State& state, const Motion& motion, double level,
+                                 double turn, const std::optional<Decompaction>& decompaction) {
+    constexpr double from = 200.0, to = 1500.0; // m
+    const ConstDiscColumns d = disc_columns(state);
+    std::map<std::int32_t, double> deposited; // travel, m, by stratum
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] > 0 && d.start_extension[i] <= turn)
+            deposited[d.stratum[i]] = d.start_extension[i];
+    const auto porosity = decompaction && state.discs.has("porosity")
+                              ? state.discs.get<double>("porosity")
+                              : std::span<const double>();
+    std::optional<double> before; // height of the next older top, m
+    double before_at = 0.0;
+    for (const auto& [stratum, travel] : deposited) {
+        Tops tops(from, to, 2.0 * state.mean_radius);
+        for (std::size_t i = 0; i < d.x.size(); ++i)
+            if (d.stratum[i] <= stratum)
+                tops.add(d.x[i], d.y[i] + d.radius[i]);
+        double sum = 0.0, found = 0.0;
+        for (const double h : tops.height)
+            if (h > nothing) {
+                sum += h;
+                found += 1.0;
+            }
+        if (found == 0.0)
+            continue;
+        double height = sum / found - level;
+        if (!porosity.empty()) {
+            const double top = sum / found;
+            double lost = 0.0; // area of the column, m^2
+            for (std::size_t i = 0; i < d.x.size(); ++i) {
+                if (d.stratum[i] <= 0 || d.stratum[i] > stratum || d.x[i] < from || d.x[i] > to)
+                    continue;
+                const double then = decompaction->surface_porosity *
+                                    std::exp(-decompaction->decay * std::max(0.0, top - d.y[i]));
+                if (then > porosity[i])
+                    lost +=
+                        pi * d.radius[i] * d.radius[i] * ((1.0 - porosity[i]) / (1.0 - then) - 1.0);
+            }
+            constexpr double packing_porosity = 0.166; // of discs under gravity
+            height += lost / (1.0 - packing_porosity) / (to - from);
+        }
+        const double at = motion.position(travel);
+        if (before && *before < 0.0 && height >= 0.0)
+            return before_at + (at - before_at) * *before / (*before - height);
+        before = height;
+        before_at = at;
+    }
+    return std::nullopt;
+}
+
+std::optional<double> reactivated_share(const State& state) {
+    if (!state.discs.has("turn_strain") || !state.discs.has("total_strain"))
+        return std::nullopt;
+    const ConstDiscColumns d = disc_columns(state);
+    const auto total = state.discs.get<double>("total_strain"),
+               turn = state.discs.get<double>("turn_strain");
+    std::vector<std::size_t> rows;
+    double area = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < d.x.size(); ++i)
+        if (d.stratum[i] == 0) {
+            rows.push_back(i);
+            area += d.radius[i] * d.radius[i];
+            sum += (total[i] - turn[i]) * d.radius[i] * d.radius[i];
+        }
+    if (!(sum > 0.0))
+        return std::nullopt;
+    std::ranges::stable_sort(rows, std::greater{}, [&](std::size_t i) { return turn[i]; });
+    double covered = 0.0, share = 0.0;
+    for (const std::size_t i : rows) {
+        if (covered >= 0.1 * area)
+            break;
+        covered += d.radius[i] * d.radius[i];
+        share += (total[i] - turn[i]) * d.radius[i] * d.radius[i];
+    }
+    return share / sum;
+}
+
+} // namespace listric::measures

@@ -1,0 +1,223 @@
+#include "apps/scene/stages.hpp"
+
+#include "apps/measures/inversion.hpp"
+#include "apps/model/effect_list.hpp"
+#include "dem/events/stage_change.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace listric::effects::stage {
+
+namespace {
+
+/// Where shortening begins for the first time, m of travel.
+std::optional<double> turn_of(const dem::Motion& motion) {
+    const auto first = std::ranges::find_if(
+        motion.stages, [](const dem::MotionStage& one) { return one.slope < 0.0; });
+    return first == motion.stages.end() ? std::nullopt : std::optional(first->start);
+}
+
+double regional_of(const ModelParts& parts) { return parts.sediment ? parts.sediment->level : 0.0; }
+
+/// Remembers what the way back is compared with: the column `turn_strain`, and rows at the turn and
+/// a kilometre after it.
+class TurnRecord final : public dem::Observer {
+public:
+    static constexpr double start_of_balance = 1e3; ///< m after the turn
+
+    TurnRecord(double turn, double regional)
+        : Observer("turn", dem::never, dem::Stage::load), turn_(turn), regional_(regional) {}
+
+    double next_due() const override {
+        return applied == 0   ? turn_
+               : applied == 1 ? turn_ + start_of_balance
+                              : std::numeric_limits<double>::infinity();
+    }
+
+    void begin(dem::State& state) override {
+        state.discs.add<double>("turn_strain", "1", 0.0);
+        memory.add<double>("extension_m", "m", 0.0);
+        memory.add<double>("uplift_area_m2", "m2", 0.0);
+        memory.add<double>("relief_m", "m", 0.0);
+        memory.add<double>("removed_mass", "kg/m", 0.0);
+    }
+
+    bool apply(dem::State& state, const dem::RigidBase&) override {
+        if (applied == 0)
+            std::ranges::copy(std::as_const(state).discs.get<double>("total_strain"),
+                              state.discs.get<double>("turn_strain").begin());
+        memory.resize(memory.rows() + 1);
+        memory.get<double>("extension_m").back() = state.clock.extension;
+        memory.get<double>("uplift_area_m2").back() =
+            measures::area_above_regional(state, regional_);
+        memory.get<double>("relief_m").back() = measures::graben_relief(state);
+        memory.get<double>("removed_mass").back() = state.ledger.removed;
+        return false;
+    }
+
+private:
+    double turn_, regional_;
+};
+
+void add_events(const Scene&, const ModelParts& parts, dem::Events& events) {
+    const dem::Motion& motion = parts.base.motion;
+    if (std::ranges::any_of(motion.stages,
+                            [](const auto& one) { return one.sediment_friction.has_value(); }))
+        dem::add(events, std::make_unique<dem::StageChange>(motion));
+    if (const auto turn = turn_of(motion))
+        dem::add(events, std::make_unique<TurnRecord>(*turn, regional_of(parts)));
+}
+
+/// What the record of a row holds; none before.
+std::optional<double> recorded(const Observation& now, const char* name, std::size_t row) {
+    const auto* record = dem::find<const TurnRecord>(now.events);
+    if (!record || record->memory.rows() <= row)
+        return std::nullopt;
+    return record->memory.get<double>(name)[row];
+}
+
+bool has_turned(const Observation& now) {
+    return recorded(now, "extension_m", 0) &&
+           now.parts.base.motion.shortens(now.state.clock.travel);
+}
+
+/// Growth of the area above the regional since a row, what was eroded meanwhile included, m^2.
+std::optional<double> uplift_since(const Observation& now, std::size_t row) {
+    const auto before = recorded(now, "uplift_area_m2", row);
+    if (!before || !has_turned(now))
+        return std::nullopt;
+    const double eroded = (now.state.ledger.removed - *recorded(now, "removed_mass", row)) /
+                          now.scene.hanging_wall.rock_density;
+    return measures::area_above_regional(now.state, regional_of(now.parts)) - *before + eroded;
+}
+
+std::optional<double> uplift_balance(const Observation& now) {
+    const auto uplift = uplift_since(now, 1);
+    if (!uplift)
+        return std::nullopt;
+    const double shortening = *recorded(now, "extension_m", 1) - now.state.clock.extension;
+    return shortening > 0.0
+               ? std::optional(*uplift / (shortening * now.scene.hanging_wall.thickness))
+               : std::nullopt;
+}
+
+std::optional<double> pop_up(const Observation& now) {
+    const auto before = recorded(now, "relief_m", 0);
+    return before && has_turned(now) ? std::optional(*before - measures::graben_relief(now.state))
+                                     : std::nullopt;
+}
+
+std::optional<double> null_deposited_at(const Observation& now, bool decompacted) {
+    if (!has_turned(now) || !now.parts.sediment)
+        return std::nullopt;
+    std::optional<measures::Decompaction> pores;
+    if (const auto& s = *now.parts.sediment; decompacted) {
+        if (!s.porosity_decay)
+            return std::nullopt;
+        pores = {s.surface_porosity, *s.porosity_decay};
+    }
+    const dem::Motion& motion = now.parts.base.motion;
+    return measures::null_point(now.state, motion, regional_of(now.parts), *turn_of(motion), pores);
+}
+
+/// Shortening over extension that the null point tells.
+std::optional<double> inversion_ratio(const Observation& now, bool decompacted) {
+    const auto null = null_deposited_at(now, decompacted);
+    const auto extended = recorded(now, "extension_m", 0);
+    return null && *extended > 0.0 ? std::optional(1.0 - *null / *extended) : std::nullopt;
+}
+
+std::string explain(const Scene& scene, EffectList) {
+    std::string text = "stages\n";
+    const dem::Motion motion = make_motion(scene);
+    for (const dem::MotionStage& one : motion.stages) {
+        const double years = (one.end - one.start) / scene.extension.rate;
+        const double way = one.slope * (one.end - one.start);
+        text += fmt::format("  to {:g} km of travel: {}, {:g} Myr\n", one.end / 1e3,
+                            way == 0.0  ? std::string("pause")
+                            : way > 0.0 ? fmt::format("{:g} km of extension", way / 1e3)
+                                        : fmt::format("{:g} km of shortening", -way / 1e3),
+                            years / 1e6);
+    }
+    return text;
+}
+
+/// A column is there from the first row on; nothing is not a number.
+std::optional<double> or_nan(std::optional<double> value) {
+    return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+std::vector<Measure<Observation>> measures_of_stages() {
+    return {
+        {"travel_m", "m",
+         "way of base and right wall, back and forth, at extension.rate_m_per_a, and in pauses: "
+         "the run's clock, by which files are named",
+         [](const Observation& now) -> std::optional<double> { return now.state.clock.travel; }},
+        {"time_a", "a", "travel over extension.rate_m_per_a",
+         [](const Observation& now) -> std::optional<double> {
+             return now.state.clock.travel / now.scene.extension.rate;
+         }},
+        {"stage", "1", "number of the [[stage]], counted from 0",
+         [](const Observation& now) -> std::optional<double> {
+             return static_cast<double>(now.parts.base.motion.stage(now.state.clock.travel));
+         }},
+        {"uplift_area_m2", "m2",
+         "growth since the turn of the area above the regional, over the footwall, too, and of "
+         "rock eroded: thickness times shortening, less what rock and pores take up",
+         [](const Observation& now) { return or_nan(uplift_since(now, 0)); }},
+        {"uplift_balance", "1",
+         "growth of the area above the regional since 1 km after the turn, over shortening since × "
+         "thickness: the first kilometre closes what extension opened",
+         [](const Observation& now) { return or_nan(uplift_balance(now)); }},
+        {"pop_up_m", "m",
+         "fall of the pre-rift top (means over 2.5 km) from the rollover's crest into the graben, "
+         "at "
+         "the turn less now: above 0, the graben pops up",
+         [](const Observation& now) { return or_nan(pop_up(now)); }},
+        {"reactivated_share", "1",
+         "share of the shortening's shear strain in the tenth of the pre-rift area that extension "
+         "had strained most",
+         [](const Observation& now) {
+             return or_nan(has_turned(now) ? measures::reactivated_share(now.state) : std::nullopt);
+         }},
+        {"null_deposited_at_m", "m",
+         "extension at which the stratum was laid down whose top, 0.2 to 1.5 km from the "
+         "breakaway, "
+         "is at the regional now: the null point; extension less shortening without compaction",
+         [](const Observation& now) { return or_nan(null_deposited_at(now, false)); }},
+        {"null_deposited_at_decompacted_m", "m",
+         "the null point with the thickness that strata below it have lost to compaction since",
+         [](const Observation& now) { return or_nan(null_deposited_at(now, true)); }},
+        {"inversion_ratio", "1",
+         "shortening over extension from the null point: 1 less its extension over that at the "
+         "turn",
+         [](const Observation& now) { return or_nan(inversion_ratio(now, false)); }},
+        {"inversion_ratio_decompacted", "1", "the inversion ratio from the decompacted null point",
+         [](const Observation& now) { return or_nan(inversion_ratio(now, true)); }},
+    };
+}
+
+} // namespace
+
+Works works() { return {}; }
+
+const Effect& effect() {
+    static const Effect effect{
+        .name = "stage",
+        .doc = "motion in stages: extension, pauses, shortening, one after the other",
+        .defaults = make_defaults<Stages>,
+        .address = address_of<Stages>,
+        .parameters = stage_parameters(),
+        .items = items_of<StageParameters>,
+        .complete = complete_stages,
+        .add_events = add_events,
+        .explain = explain,
+        .measures = measures_of_stages(),
+    };
+    return effect;
+}
+
+} // namespace listric::effects::stage

@@ -1,0 +1,95 @@
+#include "dem/motion.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace listric::dem {
+
+namespace {
+
+/// Distance from a change of stages at which the speed falls no further, m: some cycles long. The
+/// speed there is a hundredth.
+constexpr double crawl = 1e-4 * Motion::change;
+
+} // namespace
+
+std::size_t Motion::stage(double travel) const {
+    std::size_t k = 0;
+    while (k + 1 < stages.size() && travel >= stages[k].end)
+        ++k;
+    return k;
+}
+
+MotionInstant Motion::staged_at(double time, double travel) const {
+    const std::size_t k = stage(travel);
+    const MotionStage& now = stages[k];
+    double distance = std::numeric_limits<double>::infinity(); // from the next change
+    if (k > 0)
+        distance = travel - now.start;
+    if (k + 1 < stages.size())
+        distance = std::min(distance, now.end - travel);
+    double share = time < ramp ? time / ramp : 1.0;
+    if (distance < change) // s = a t^2 / 2
+        share *= std::sqrt(std::max(distance, crawl) / change);
+    const double travel_speed = now.speed * share;
+    return {travel_speed, now.slope * travel_speed, now.base_moves ? 1.0 : 0.0,
+            now.detachment_friction};
+}
+
+double Motion::staged_position(double travel) const {
+    const MotionStage& now = stages[stage(travel)];
+    return now.start_position + now.slope * (travel - now.start);
+}
+
+bool Motion::shortens(double travel) const {
+    if (stages.empty())
+        return false;
+    for (std::size_t k = stage(travel) + 1; k-- > 0;)
+        if (stages[k].slope != 0.0)
+            return stages[k].slope < 0.0;
+    return false;
+}
+
+SurfaceWork Motion::surface_work(double from, double to) const {
+    return stages.empty() ? SurfaceWork::both : stages[stage(0.5 * (from + to))].surface;
+}
+
+double Motion::greatest_speed() const {
+    double greatest = stages.empty() ? speed : 0.0;
+    for (const MotionStage& one : stages)
+        greatest = std::max(greatest, one.speed);
+    return greatest;
+}
+
+double Motion::greatest_position(double travel) const {
+    double greatest = position(travel);
+    for (const MotionStage& one : stages)
+        if (one.end < travel)
+            greatest = std::max(greatest, position(one.end));
+    return greatest;
+}
+
+double Motion::time_at(double travel) const {
+    assert(speed > 0.0 && travel >= 0.0);
+    if (stages.empty()) {
+        const double in_ramp = 0.5 * speed * ramp;
+        return travel < in_ramp ? std::sqrt(2.0 * travel * ramp / speed)
+                                : ramp + (travel - in_ramp) / speed;
+    }
+    double time = std::min(0.5 * ramp, travel / stages.front().speed);
+    for (std::size_t k = 0; k < stages.size(); ++k) {
+        const MotionStage& one = stages[k];
+        const bool is_last = k + 1 == stages.size();
+        if (travel <= one.start && k > 0)
+            break;
+        // With constant acceleration a way takes twice the time.
+        const double past = (is_last ? travel : std::min(travel, one.end)) - one.start;
+        time += (past + (k > 0 ? std::min(past, change) : 0.0)) / one.speed;
+        if (!is_last && travel >= one.end)
+            time += change / one.speed;
+    }
+    return time;
+}
+
+} // namespace listric::dem

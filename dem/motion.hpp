@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace listric::dem {
+
+/// What sedimentation does at the surface.
+enum class SurfaceWork { both, fill, erode, none };
+
+/// Part of a run in which base and right wall move steadily, or rest.
+struct MotionStage {
+    double start = 0.0;          ///< travel, m
+    double end = 0.0;            ///< travel, m
+    double start_position = 0.0; ///< of the wall, m
+    double slope = 1.0;     ///< of the wall's position over travel; 0: it rests, < 0: it returns
+    double speed = 0.0;     ///< of travel, m/s; that of the wall is slope * speed
+    bool base_moves = true; ///< the detachment's conveyor goes with the wall
+    std::optional<double> detachment_friction = {}; ///< in place of the surface's
+    std::optional<double> sediment_friction = {};   ///< of sediment discs, in place of their own
+    SurfaceWork surface = SurfaceWork::both;
+};
+
+/// Base and right wall in a cycle.
+struct MotionInstant {
+    double travel_speed;                 ///< m/s
+    double speed;                        ///< of the wall, m/s
+    double conveyor = 1.0;               ///< factor of that speed along the detachment
+    std::optional<double> friction = {}; ///< of the detachment, in place of its own
+};
+
+/// The prescribed motion of base and right wall. Its clock is the travel, which ascends even while
+/// the wall rests or returns: metres at the geological rate of extension, so that age is travel
+/// over that rate. The wall's position, and all else of a stage, follows from the travel.
+struct Motion {
+    double speed = 0.0; ///< m/s
+    double ramp = 0.0;  ///< s over which the speed grows from rest
+
+    /// One after the other; empty: the wall is pulled on and on, and its position is the travel.
+    std::vector<MotionStage> stages = {};
+
+    /// Speed of travel where there are no stages, m/s.
+    double speed_at(double time) const { return time < ramp ? speed * (time / ramp) : speed; }
+
+    /// @param time  model time, s
+    MotionInstant at(double time, double travel) const {
+        if (!stages.empty())
+            return staged_at(time, travel);
+        const double now = speed_at(time);
+        return {now, now};
+    }
+
+    /// Displacement of the right wall since extension began, m.
+    double position(double travel) const {
+        return stages.empty() ? travel : staged_position(travel);
+    }
+
+    /// Number of the stage that a travel, m, is in; 0 where there are none.
+    std::size_t stage(double travel) const;
+
+    /// Whether the wall returns, or did so before it came to rest.
+    bool shortens(double travel) const;
+
+    /// What sedimentation does that covers the travel from `from` to `to`, m: as the stage that
+    /// holds their middle says.
+    SurfaceWork surface_work(double from, double to) const;
+
+    /// Greatest speed of travel, m/s.
+    double greatest_speed() const;
+
+    /// When it has come to a travel, m; s from rest. Where the speed passes zero between two stages
+    /// to some seconds.
+    double time_at(double travel) const;
+
+    /// Greatest displacement of the right wall up to a travel, m.
+    double greatest_position(double travel) const;
+
+    /// Travel on each side of a change of stages over which the speed falls to zero, and grows
+    /// again with a constant acceleration, m.
+    static constexpr double change = 20.0;
+
+private:
+    MotionInstant staged_at(double time, double travel) const;
+    double staged_position(double travel) const;
+};
+
+} // namespace listric::dem

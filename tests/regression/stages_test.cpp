@@ -1,0 +1,144 @@
+// Motion in stages, [[stage]], on small scenes: the bits are those of one run however it is cut and
+// by however many threads; one stage is what extension.distance_m is; bad stages are refused.
+
+#include "apps/scene/stages.hpp"
+#include "tests/program.hpp"
+#include "tests/scene_runs.hpp"
+
+#include <gmock/gmock.h>
+
+namespace listric::stages_test {
+
+using namespace dem;
+namespace {
+
+using namespace support;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class Stages : public SceneRuns {
+protected:
+    static std::string text(const std::string& stages) {
+        std::string scene = contents(test_scene("every-effect.toml"));
+        const std::string distance = "distance_m = 200.0\n";
+        EXPECT_NE(scene.find(distance), scene.npos);
+        scene.erase(scene.find(distance), distance.size());
+        const std::string detachment = "[detachment]\n";
+        scene.insert(scene.find(detachment) + detachment.size(), "footwall_top_m = 2000.0\n");
+        return scene + stages;
+    }
+
+    /// Out, a pause of 50 m of travel, and back at half the rate, pushed by the wall.
+    static std::string there_and_back() {
+        return text("[[stage]]\ndistance_m = 100.0\n"
+                    "[[stage]]\npause_a = 5000.0\nsedimentation = \"fill\"\n"
+                    "[[stage]]\ndistance_m = -50.0\nrate_m_per_a = 0.005\nbase = \"rests\"\n"
+                    "detachment_friction = 0.1\nsedimentation = \"none\"\n"
+                    "sediment_friction = 0.4\n");
+    }
+
+    std::string refusal(const std::string& scene, const std::vector<std::string>& set = {}) const {
+        try {
+            load(scene, set);
+        } catch (const SceneError& error) {
+            EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+            return error.what();
+        }
+        return "accepted";
+    }
+};
+
+TEST_F(Stages, OneStageIsTheDistance) {
+    const std::string plain = contents(test_scene("every-effect.toml"));
+    std::string staged = plain;
+    const std::string distance = "distance_m = 200.0\n";
+    staged.erase(staged.find(distance), distance.size());
+    staged += "[[stage]]\ndistance_m = 100.0\n";
+    const auto summary = run(load(staged), "staged");
+    const auto other = run(load(plain), "plain", 100.0);
+    EXPECT_EQ(summary["extension_m"], other["extension_m"]);
+    EXPECT_EQ(summary["travel_m"], other["extension_m"]);
+    EXPECT_EQ(summary["state_hash"], other["state_hash"]);
+    EXPECT_FALSE(other.contains("travel_m")); // a column of stages alone
+    EXPECT_FALSE(other.contains("stage"));
+}
+
+TEST_F(Stages, AreOneRunHoweverTheyAreCut) {
+    const Scene scene = load(there_and_back());
+    EXPECT_EQ(scene.extension.distance, 250.0);
+    const auto whole = run(scene, "whole");
+    EXPECT_NEAR(whole["extension_m"].get<double>(), 50.0, 0.1);
+    EXPECT_NEAR(whole["travel_m"].get<double>(), 250.0, 0.1);
+    EXPECT_EQ(whole["stage"], 2);
+    EXPECT_LT(whole["mass_error_fraction"].get<double>(), 1e-12);
+
+    RunOptions plain = options("plain");
+    plain.plain = true;
+    EXPECT_EQ(run(scene, plain)["state_hash"], whole["state_hash"]) << "plain cycle";
+    EXPECT_EQ(run(scene, "two", {}, false, 2)["state_hash"], whole["state_hash"]) << "threads";
+    // In every stage, and close before and behind the turns.
+    run(scene, "cut", 60.0);
+    for (const double until : {96.0, 103.0, 120.0, 147.0, 152.0, 200.0})
+        run(scene, "cut", until, true);
+    EXPECT_EQ(run(scene, "cut", {}, true)["state_hash"], whole["state_hash"]) << "resumed";
+}
+
+TEST_F(Stages, ThePauseIsARestAndLeavesSedimentationOn) {
+    const std::string tables = "[[stage]]\ndistance_m = 60.0\n[[stage]]\npause_a = 14000.0\n";
+    const auto after = run(load(text(tables)), "pause");
+    const auto before = run(load(text(tables)), "before", 60.0);
+    EXPECT_NEAR(after["extension_m"].get<double>(), before["extension_m"].get<double>(), 0.05);
+    EXPECT_NEAR(after["time_a"].get<double>() - before["time_a"].get<double>(), 14e3, 20.0);
+    EXPECT_GT(after["discs"].get<int>(), 0);
+    EXPECT_NE(after["deposited_fraction"], before["deposited_fraction"]);
+}
+
+TEST_F(Stages, ReadBackFromTheRunsRecord) {
+    const Scene scene = load(there_and_back());
+    const std::string record = to_toml(scene);
+    EXPECT_THAT(record, HasSubstr("\n[[stage]]"));
+    EXPECT_EQ(to_toml(load(record)), record);
+    EXPECT_EQ(load(there_and_back(), {"stage.2.distance_m=-40"}).extension.distance, 230.0);
+}
+
+TEST_F(Stages, AreRefusedWithTheirLine) {
+    const std::string out = "[[stage]]\ndistance_m = 100.0\n";
+    const auto of = [&](const std::string& stages) { return refusal(text(stages)); };
+    EXPECT_THAT(of("[[stage]]\n"), AllOf(HasSubstr("stage[0].distance_m"), HasSubstr("pause_a")));
+    EXPECT_THAT(of("[[stage]]\ndistance_m = 5.0\npause_a = 100.0\n"),
+                AllOf(HasSubstr("stage[0].pause_a"), HasSubstr("give one")));
+    EXPECT_THAT(of("[[stage]]\ndistance_m = 0.0\n"), HasSubstr("does nothing"));
+    EXPECT_THAT(of("[[stage]]\ndistance_m = 9.0\nrate_m_per_a = 0.1\n"),
+                AllOf(HasSubstr("stage[0].rate_m_per_a"), HasSubstr("extension.rate_m_per_a")));
+    EXPECT_THAT(of(out + "[[stage]]\npause_a = 100.0\nrate_m_per_a = 0.1\n"),
+                AllOf(HasSubstr("stage[1].rate_m_per_a"), HasSubstr("leave it out")));
+    EXPECT_THAT(of(out + "[[stage]]\nbase = \"moved\"\n"), HasSubstr("moves"));
+    EXPECT_THAT(refusal(text(out), {"extension.distance_m=300"}),
+                AllOf(HasSubstr("--set extension.distance_m=300"), HasSubstr("beside [[stage]]")));
+    EXPECT_THAT(refusal(text(out), {"energy={}"}), HasSubstr("leave out one of the two"));
+
+    const std::string lis = "inversion-lis1";
+    const auto of_lis = [&](const std::vector<std::string>& set) {
+        try {
+            load_scene({.scene = lis, .set = set});
+        } catch (const SceneError& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    EXPECT_EQ(of_lis({}), "accepted");
+    EXPECT_THAT(of_lis({"stage.1.distance_m=-27000"}),
+                AllOf(HasSubstr("stage[1].distance_m"), HasSubstr("end of the last arc")));
+    EXPECT_THAT(of_lis({"stage.1.distance_m=-8000", "detachment.footwall_top_m=2000"}),
+                HasSubstr("lengthen"));
+    std::string bare =
+        contents(std::filesystem::path(LISTRIC_SOURCE_DIR) / "apps/scenes/inversion-lis1.toml");
+    const std::size_t top = bare.find("footwall_top_m");
+    bare.erase(top, bare.find('\n', top) - top);
+    EXPECT_THAT(refusal(bare), AllOf(HasSubstr("stage[1].distance_m"), HasSubstr("-4000"),
+                                     HasSubstr("add detachment.footwall_top_m")));
+}
+
+} // namespace
+} // namespace listric::stages_test

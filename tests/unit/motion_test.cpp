@@ -1,0 +1,144 @@
+// The prescribed motion: without stages its position is the travel, bit by bit; with them wall,
+// conveyor and friction follow from the travel alone.
+
+#include "dem/base.hpp"
+#include "dem/base/contact.hpp"
+#include "dem/genesis/detachment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace listric::motion_test {
+
+using namespace dem;
+namespace {
+
+/// 500 m out at 2 m/s, a pause of 100 m of travel, 200 m back at half the rate and 1 m/s.
+Motion there_and_back() {
+    Motion motion{2.0, 0.0};
+    motion.stages = {
+        {.start = 0.0, .end = 500.0, .start_position = 0.0, .slope = 1.0, .speed = 2.0},
+        {.start = 500.0,
+         .end = 600.0,
+         .start_position = 500.0,
+         .slope = 0.0,
+         .speed = 2.0,
+         .surface = SurfaceWork::fill},
+        {.start = 600.0,
+         .end = 1000.0,
+         .start_position = 500.0,
+         .slope = -0.5,
+         .speed = 2.0,
+         .base_moves = false,
+         .detachment_friction = 0.1,
+         .surface = SurfaceWork::none},
+    };
+    return motion;
+}
+
+TEST(Motion, WithoutStagesIsTheTravel) {
+    const Motion motion{1.25, 24.0};
+    for (const double travel : {0.0, 0.1, 1.0 / 3.0, 9999.9})
+        EXPECT_EQ(motion.position(travel), travel);
+    for (const double time : {0.0, 7.0, 24.0, 1e4}) {
+        const MotionInstant now = motion.at(time, 123.4);
+        EXPECT_EQ(now.travel_speed, motion.speed_at(time));
+        EXPECT_EQ(now.speed, motion.speed_at(time));
+        EXPECT_EQ(now.conveyor, 1.0);
+        EXPECT_FALSE(now.friction);
+    }
+    EXPECT_FALSE(motion.shortens(500.0));
+    EXPECT_EQ(motion.surface_work(0.0, 500.0), SurfaceWork::both);
+}
+
+TEST(Motion, StagesSayWhereTheWallIs) {
+    const Motion motion = there_and_back();
+    EXPECT_EQ(motion.position(123.25), 123.25);
+    EXPECT_EQ(motion.position(500.0), 500.0);
+    EXPECT_EQ(motion.position(560.0), 500.0);
+    EXPECT_EQ(motion.position(800.0), 400.0);
+    EXPECT_EQ(motion.position(1000.0), 300.0);
+    EXPECT_EQ(motion.greatest_position(1000.0), 500.0);
+    EXPECT_EQ(motion.stage(499.9), 0u);
+    EXPECT_EQ(motion.stage(500.0), 1u);
+    EXPECT_EQ(motion.stage(2000.0), 2u);
+    EXPECT_FALSE(motion.shortens(550.0)); // a pause after extension
+    EXPECT_TRUE(motion.shortens(600.0));
+    EXPECT_EQ(motion.surface_work(450.0, 500.0), SurfaceWork::both);
+    EXPECT_EQ(motion.surface_work(500.0, 550.0), SurfaceWork::fill);
+    EXPECT_EQ(motion.surface_work(600.0, 650.0), SurfaceWork::none);
+}
+
+TEST(Motion, StagesSayHowWallBaseAndFrictionAre) {
+    const Motion motion = there_and_back();
+    const MotionInstant out = motion.at(100.0, 250.0), rest = motion.at(100.0, 550.0),
+                        back = motion.at(100.0, 800.0);
+    EXPECT_EQ(out.speed, 2.0);
+    EXPECT_EQ(rest.speed, 0.0);
+    EXPECT_EQ(rest.travel_speed, 2.0); // the clock goes on
+    EXPECT_EQ(back.speed, -1.0);
+    EXPECT_EQ(back.conveyor, 0.0);
+    EXPECT_EQ(back.friction, 0.1);
+
+    const Surface detachment{.name = "", .chain = {}, .friction = 0.5, .conveyor = 1.0},
+        wall{.name = "", .chain = {}, .friction = 0.0, .translation = {1.0, 0.0}};
+    const BaseInstant now = base_instant(back, 400.0);
+    EXPECT_EQ(friction_of(detachment, now), 0.1);
+    EXPECT_EQ(friction_of(wall, now), 0.0); // it is the detachment's
+    EXPECT_EQ(friction_of(detachment, base_instant(out, 250.0)), 0.5);
+    EXPECT_EQ(surface_velocity(detachment, now, 0.0, {0.0, 1.0}), (Point{0.0, 0.0}));
+    EXPECT_EQ(surface_velocity(wall, now, 0.0, {-1.0, 0.0}).x, -1.0);
+}
+
+TEST(Motion, PassesZeroWithAConstantAcceleration) {
+    // Within 20 m of a change v^2 = 2 a s: by steps as the cycle's, the change takes twice the time
+    // that it would take at full speed, and no step changes the wall's speed by more than 2 %.
+    Motion motion{1.0, 0.0};
+    motion.stages = {
+        {.end = 100.0, .speed = 1.0},
+        {.start = 100.0, .end = 200.0, .start_position = 100.0, .slope = -1.0, .speed = 1.0}};
+    const double step = 0.01;
+    double travel = 60.0, time = 0.0, before = 1.0, greatest_change = 0.0, least = 1.0;
+    while (travel < 140.0) {
+        const MotionInstant now = motion.at(time, travel);
+        greatest_change = std::max(greatest_change, std::abs(now.speed - before));
+        least = std::min(least, now.travel_speed);
+        before = now.speed;
+        travel += now.travel_speed * step;
+        time += step;
+    }
+    EXPECT_LE(greatest_change, 0.021);
+    EXPECT_GT(least, 0.009);
+    EXPECT_EQ(before, -1.0);
+    EXPECT_NEAR(time, 20.0 + 40.0 + 40.0 + 20.0, 0.01 * 120.0);
+    EXPECT_NEAR(motion.time_at(140.0) - motion.time_at(60.0), time, 0.01 * time);
+}
+
+TEST(Motion, TheFootwallsTopRestsAndHoldsTheCorner) {
+    DetachmentParameters detachment;
+    detachment.segments = {arc_to_dip(0.0, 15e3)};
+    detachment.footwall_top = 2e3;
+    RigidBase base = make_halfgraben(detachment, {.length = 40e3, .thickness = 15e3}, {}, {1.0});
+    const Surface &slides = base.surfaces[0], &top = base.surfaces[1];
+    EXPECT_EQ(top.name, "footwall top");
+    EXPECT_EQ(top.conveyor, 0.0);
+    // Every place above ground is nearest to one of the two, the corner's to the top alone.
+    const auto distance = [](const Surface& surface, Point p) {
+        const auto foot = nearest(surface, 0.0, p);
+        return foot ? foot->distance : -1.0;
+    };
+    EXPECT_NEAR(distance(top, {-500.0, 100.0}), 100.0, 1e-9);
+    EXPECT_EQ(distance(slides, {-500.0, 100.0}), -1.0);
+    EXPECT_NEAR(distance(top, {30.0, 40.0}), 50.0, 1e-5);
+    EXPECT_EQ(distance(slides, {30.0, 40.0}), -1.0);
+    EXPECT_EQ(distance(top, {60.0, -10.0}), -1.0);
+    EXPECT_NEAR(distance(slides, {60.0, -10.0}), 60.0, 0.1);
+    EXPECT_EQ(distance(top, {-2100.0, 100.0}), -1.0); // beyond its end
+    stand_backstop(base);
+    EXPECT_EQ(base.surfaces[1].name, "backstop");
+    EXPECT_NEAR(distance(base.surfaces[1], {60.0, 10.0}), 60.0, 1e-9);
+}
+
+} // namespace
+} // namespace listric::motion_test
