@@ -29,7 +29,7 @@ namespace {
 constexpr int most_seeds = 10;
 constexpr double confidence = 0.9;
 /// Measures of which a percentage alone is asked.
-constexpr std::string_view geometry[] = {"tilt", "cutoff", "area"};
+constexpr std::string_view geometry[] = {"tilt", "cutoff", "balance"};
 constexpr std::string_view levels_asked[] = {"draft", "standard", "fine"};
 
 struct Unit {
@@ -280,7 +280,7 @@ std::string one_line(const std::string& text) {
     for (const char letter : text)
         if (letter != '\n')
             line += letter;
-        else if (!line.empty())
+        else if (!line.ends_with(':'))
             line += ';';
     while (line.ends_with(';'))
         line.pop_back();

@@ -36,7 +36,7 @@ struct ErrorTarget {
 };
 
 /// Targets of "tilt=0.1deg,cutoff=0.2km": words of measures with a number and a unit, or with a
-/// percentage of the measure's mean. A percentage alone asks it of tilt, cutoff and basin area.
+/// percentage of the measure's mean. A percentage alone asks it of tilt, cutoff and area balance.
 /// Throws UsageError.
 std::vector<ErrorTarget> parse_error_targets(const std::string& text);
 
