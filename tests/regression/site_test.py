@@ -17,6 +17,24 @@ from program import PROGRAM, SOURCES
 # What a browser fetches by itself, in a page, a style or a script.
 FETCHED = re.compile(r"<(?:script|img|iframe|source|object|embed)\b[^>]*?\b(?:src|data)=[\"']([^\"']+)"
                      r"|<link\b[^>]*?\bhref=[\"']([^\"']+)|url\([\"']?([^\"')]+)|@import [\"']([^\"']+)")
+DEMO = """description = "Demonstration block"
+[hanging_wall]
+length_m = 4000.0
+thickness_m = 1500.0
+mean_radius_m = 60.0
+[detachment]
+segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 6000.0}}]
+[extension]
+distance_m = 200.0
+speed_m_per_s = 4.0
+ramp_s = 2.0
+[output]
+interval_m = 100.0
+figures_at_m = []
+series = "none"
+[gravity]
+[bonds]
+"""
 LINKED = re.compile(r"<a\b[^>]*?\bhref=[\"']([^\"'#]*)(?:#([^\"']*))?[\"']")
 
 
@@ -29,13 +47,24 @@ def build(sources, site, **environment):
                           env={**os.environ, **environment}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
+def finished_run(folder):
+    """A run of 400 discs, which takes 2 s."""
+    scene, run = folder / "demo.toml", folder / "demo"
+    scene.write_text(DEMO)
+    subprocess.run([PROGRAM, "run", scene, "--output", run, "--threads", "1", "--quiet"], check=True,
+                   env={**os.environ, "LISTRIC_PYTHON": "/bin/false", "XDG_CACHE_HOME": str(folder)},
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return run
+
+
 class Site(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.site = Path(folder.name, "site")
-        cls.built = build(SOURCES, cls.site, LISTRIC=str(PROGRAM))
+        run = finished_run(Path(folder.name))
+        cls.built = build(SOURCES, cls.site, LISTRIC=str(PROGRAM), LISTRIC_RUN=str(run))
         cls.pages = {page.relative_to(cls.site): re.sub(r"<!--.*?-->", "", page.read_text(), flags=re.DOTALL)
                      for page in sorted(cls.site.rglob("*.html"))}
 
@@ -55,6 +84,12 @@ class Site(unittest.TestCase):
     def test_a_section_is_drawn_without_installing(self):
         self.assertIn('<a href="try/lis1-drawing.html">draw a section</a>', self.pages[Path("index.html")])
         self.assertIn('"scene":"lis1"', (self.site / "try/lis1-drawing.html").read_text())
+
+    def test_a_finished_run_is_explored_without_installing(self):
+        self.assertIn('<a href="try/report.html">explore a finished run</a>', self.pages[Path("index.html")])
+        page = (self.site / "try/report.html").read_text()
+        self.assertIn("<title>Listric</title>", page)
+        self.assertIn("Demonstration block", page)
 
     def test_the_search_finds_parameters_and_measures(self):
         index = json.loads((self.site / "search/search_index.json").read_text())
@@ -80,7 +115,7 @@ class Site(unittest.TestCase):
             if page.name == "404.html":
                 continue  # its links are from the host's root
             for target in fetched(text) + [to for to, _ in LINKED.findall(text)]:
-                if re.match(r"[a-z]+:", target):
+                if re.match(r"[a-z]+:|#", target):
                     continue
                 file = Path(self.site, page).parent / target.partition("?")[0]
                 with self.subTest(f"{page}: {target}"):

@@ -56,6 +56,7 @@ TEST_F(RunFiles, HaveNamesAsTheProgramMakesThem) {
         "export/seismic-extension-00100.02m.segy",
         "export/seismic-extension-00100.02m-image.npy",
         "export/horizons-extension-00100.02m.geojson",
+        "export/burial-extension-00100.02m.csv",
         "export/discs-extension-00100.02m.csv",
         "export/discs.gsd",
     };

@@ -16,6 +16,7 @@ sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import new_figure, read_rows, run, save, without_frame
 
 COLOURS = {"sediment": "#b8860b", "water": "#1f6fb4", "empty": "#525252"}
+LABEL_HEIGHT = 90.0  # m of uplift, so that labels do not meet
 
 
 def mean(values: list[float]) -> float:
@@ -46,11 +47,14 @@ def draw_fitted(axes, fill: Fill) -> None:
     axes.plot(between, fill.uplift, "o-", color=fill.colour, lw=1.6,
               label=f"{fill.name}: breakaway")
     axes.hlines(fill.uplift, least, most, color=fill.colour, lw=4, alpha=0.3)
-    on_the_left = fill.name == "water"  # its bars end where those of the empty basin begin
+    on_the_left = fill.name != "empty"  # the empty basin's bars are to the right of all others
+    below = math.inf
     for t, x, y in zip(fill.nominal, least if on_the_left else most, fill.uplift):
-        axes.annotate(f"{t:g} km", (x, y), xytext=(-6 if on_the_left else 6, 0),
+        below = min(y, below - LABEL_HEIGHT)
+        axes.annotate(f"{t:g} km", (x, below), xytext=(-6 if on_the_left else 6, 0),
                       textcoords="offset points", ha="right" if on_the_left else "left",
-                      va="center", fontsize=8, color=fill.colour)
+                      va="bottom" if fill.name == "water" else "center", fontsize=8,
+                      color=fill.colour)
 
 
 def draw_plates(axes, fill: Fill) -> None:
@@ -75,10 +79,9 @@ def draw(rows: list[dict[str, str]]):
         draw_fitted(left, fill)
         draw_plates(right, fill)
     left.set_xlim(4.0, 80.0)
-    left.set_title("Against the thickness fitted to the detachment's deflection", fontsize=10,
-                   loc="left")
-    left.set_xlabel("fitted elastic thickness, km: bar from continuous to broken plate; "
-                    "nominal beside it")
+    left.set_title("By thickness fitted to the deflection; nominal thickness beside it",
+                   fontsize=10, loc="left")
+    left.set_xlabel("fitted elastic thickness, km (bar: continuous to broken plate)")
     right.set_title("Beside thin plates under the same spread loads", fontsize=10, loc="left")
     right.set_xlabel("nominal elastic thickness, km")
     for axes in (left, right):
