@@ -5,7 +5,6 @@
 #include "apps/scene/scene.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
-#include "dem/events/fault_weakening.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <fmt/format.h>
@@ -27,8 +26,8 @@ std::vector<Parameter> parameters() {
          "points [x, depth] of the fault, straight between them",
          "Puts weak rock where the old fault is; new faults take other places."},
         {"width_diameters", at<&F::width>, "", between(0.01, 100), "",
-         "width of its band, in mean disc diameters; default: fault_weakening.band_diameters",
-         "Raising it widens the fault.", between(2, 4)},
+         "width of its band, in mean disc diameters", "Raising it widens the fault.",
+         between(2, 4)},
         {"lines", at<&F::lines>, "", ranges::any, "",
          "content of the file of csv, written by the program",
          "Puts weak rock where the old faults are."},
@@ -47,8 +46,7 @@ void take_csv(Scene& scene, std::size_t item, const std::string& file, const Ref
 }
 
 double width_of(const Scene& scene, const F& fault) {
-    return fault.width.value_or(scene.find<dem::FaultWeakeningParameters>()->band_diameters) * 2.0 *
-           scene.hanging_wall.mean_radius;
+    return fault.width * 2.0 * scene.hanging_wall.mean_radius;
 }
 
 /// Its lines, x and depth.
@@ -104,7 +102,6 @@ void check(const Scene& scene, const Refuse& refuse) {
 
 void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
     dem::OldFaultsParameters p;
-    p.mean_stress_ratio = scene.find<dem::FaultWeakeningParameters>()->mean_stress_ratio;
     for (const F& fault : *scene.find<OldFaultList>())
         for (const auto& [name, points] : lines_of(fault)) {
             dem::OldFaultsParameters::Fault& line = p.faults.emplace_back();
