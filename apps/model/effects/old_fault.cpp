@@ -25,7 +25,7 @@ std::vector<Parameter> parameters() {
         {"points", at<&F::points>, "", ranges::height, "",
          "points [x, depth] of the fault, straight between them",
          "Puts weak rock where the old fault is; new faults take other places."},
-        {"width_diameters", at<&F::width>, "", between(0.01, 100), "",
+        {"band_width_diameters", at<&F::width>, "", between(0.01, 100), "",
          "width of its band, in mean disc diameters", "Raising it widens the fault.",
          between(2, 4)},
         {"lines", at<&F::lines>, "", ranges::any, "",
@@ -94,7 +94,7 @@ void check(const Scene& scene, const Refuse& refuse) {
                                           what, text(right)));
             if (length < width)
                 refuse(table, fmt::format("{} is {:.4g} m long, shorter than its band is wide ({} "
-                                          "m); lengthen it, or lower width_diameters",
+                                          "m); lengthen it, or lower band_width_diameters",
                                           what, length, text(width)));
         }
     }
