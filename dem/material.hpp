@@ -51,7 +51,7 @@ inline bool is_soft(std::span<const Material> materials, std::uint8_t m) {
     return is_weak(materials, m) || (m > weak && materials[m].is_soft);
 }
 
-/// What a material becomes when it is weakened; `no_material` if it cannot be, or is weak already.
+/// Weakened rock that a material becomes; `no_material` if it cannot be, or is weak already.
 inline std::uint8_t weakened(std::span<const Material> materials, std::uint8_t m) {
     if (is_weak(materials, m))
         return no_material;

@@ -244,7 +244,7 @@ void mix(std::uint64_t& h, const Table& table) {
     }
 }
 
-/// What only materials of layers have.
+/// Properties that only materials of layers have.
 void mix_of_layer(std::uint64_t& h, const Material& m) {
     for (const std::uint8_t value :
          {static_cast<std::uint8_t>(m.is_soft), static_cast<std::uint8_t>(m.is_welded), m.weak_of,

@@ -58,7 +58,7 @@ template <class AnyMaterial, class Visit> void for_each_property(AnyMaterial& m,
     visit("bondable", m.bondable);
 }
 
-/// What only materials of layers have.
+/// Properties that only materials of layers have.
 template <class AnyMaterial, class Visit>
 void for_each_property_of_layer(AnyMaterial& m, Visit&& visit) {
     visit("is_soft", m.is_soft);

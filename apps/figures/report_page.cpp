@@ -9,10 +9,10 @@
 #include "apps/figures/page_parts.hpp"
 #include "apps/figures/vocabulary.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/model/model.hpp"
 #include "apps/scene/differences.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/scene/rock_line.hpp"
-#include "apps/scene/scene_layer.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
@@ -114,9 +114,8 @@ json head_of(const ReportPage::Run& run) {
               {"summary", object_or_null(run.summary)},
               {"quality", quality_of(run)},
               {"errors", errors_of(run)}};
-    if (const auto* layers = scene.find<SceneLayers>())
-        for (const SceneLayer& layer : *layers)
-            head["rock_layers"].push_back(layer.name);
+    for (const LayerFacts& layer : make_parts(scene).layers)
+        head["rock_layers"].push_back(layer.name);
     if (scene.observed)
         head["picks"] = {{"horizons", picks_of(scene.observed->horizons)},
                          {"faults", picks_of(scene.observed->faults)}};

@@ -19,7 +19,7 @@ struct LayerThickness {
     std::vector<double> thickness; ///< m
 };
 
-/// Of every layer in the order of the scene; of a state that has the column `layer`.
+/// Thickness of every layer in the order of the scene; the state has the column `layer`.
 /// @param layers  how many there are
 std::vector<LayerThickness> layer_thickness(const dem::State& state, const dem::RigidBase& base,
                                             std::size_t layers);

@@ -3,7 +3,6 @@
 #include "apps/scene/observed.hpp"
 #include "dem/point.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,7 @@ struct OldFault {
     std::string name;
     std::vector<dem::Point> points; ///< x, depth, m
     std::vector<PickedLine> lines;  ///< of a file
-    std::optional<double> width;    ///< of its band, mean disc diameters; none: the detection's
+    double width = 2.0;             ///< of its band, mean disc diameters
 };
 
 /// The old faults of a scene.

@@ -18,7 +18,7 @@ struct SceneLayer {
     std::optional<double> density; ///< of the bulk, kg/m^3; none: the hanging wall's
     bool is_welded = true;
 
-    // Of its material's file, where the table does not say it.
+    // Properties of its rock: of its material's file, where the table does not say them.
     std::optional<double> normal_stiffness, shear_stiffness, friction;
     std::array<std::optional<double>, 4> strength = {}; ///< of bonds; none: it has no bonds
     dem::StrengthReading strength_is = dem::StrengthReading::stress;

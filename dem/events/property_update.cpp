@@ -7,6 +7,9 @@ PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& parameters, doubl
     : Event("property_update", {parameters.update_interval, extension_rate}),
       parameters_(parameters), gravity_(gravity) {}
 
+PropertyUpdate::PropertyUpdate(double extension_rate, double gravity)
+    : PropertyUpdate(FaultWeakeningParameters(), extension_rate, gravity) {}
+
 bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     const VolumeKeeping how{parameters_.band_diameters * state.mean_radius,
                             mean_stress_ratio(parameters_, state, base),

@@ -18,6 +18,9 @@ public:
     PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,
                    double gravity);
 
+    /// An update of soft layers alone, where no fault is weakened.
+    PropertyUpdate(double extension_rate, double gravity);
+
     bool apply(State& state, const RigidBase& base) override;
 
 private:

@@ -82,6 +82,8 @@ void set_masses(State& state, double rock_density, double area) {
 /// Tells discs which layer they are of, and gives them its material and density. A soft layer stays
 /// as stiff as the basement for now.
 void lay(State& state, const GenesisRequest& request) {
+    if (request.layers.empty())
+        return;
     const auto layer_of = state.discs.add<std::uint8_t>("layer", "1", 0);
     const DiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < d.x.size(); ++i) {
@@ -98,7 +100,9 @@ void lay(State& state, const GenesisRequest& request) {
 }
 
 /// Breaks bonds where rock of the layers is not to have any.
-void part_unbonded(State& state) {
+void part_unbonded(State& state, const GenesisRequest& request) {
+    if (request.layers.empty())
+        return;
     const ConstDiscColumns d = disc_columns(std::as_const(state));
     const ContactColumns c = contact_columns(state);
     for (std::size_t k = 0; k < c.first.size(); ++k)
@@ -112,6 +116,8 @@ void part_unbonded(State& state) {
 void soften(State& state, const RigidBase& base, const GenesisRequest& request,
             const CyclePhysics& physics, int crossing, const Execution& execution,
             const std::function<void(std::string_view, double)>& report) {
+    if (request.layers.empty())
+        return;
     constexpr int rounds = 40;
     constexpr double enough = 0.002; // of the volume
     const VolumeKeeping how{2.0 * state.mean_radius};
@@ -252,22 +258,19 @@ State make_hanging_wall(const GenesisRequest& request,
     grow_floaters(state, open, physics, largest, execution, report);
     trim(state, p.length);
     set_masses(state, p.rock_density, area);
-    if (!request.layers.empty())
-        lay(state, request);
+    lay(state, request);
     sort_discs(state);
     find_contacts(state, open);
     settle(
         state, open, physics, 2.5e-3, 150 * crossing,
         [&](double share) { report("second equilibrium", share); }, execution);
 
-    if (!request.layers.empty())
-        soften(state, open, request, physics, crossing, execution, report);
+    soften(state, open, request, physics, crossing, execution, report);
 
     state.materials = request.materials;
     if (request.bonds)
         bond_touching(state, *request.bonds, 0);
-    if (!request.layers.empty())
-        part_unbonded(state);
+    part_unbonded(state, request);
     begin_history(state);
     return state;
 }

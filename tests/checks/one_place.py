@@ -35,6 +35,8 @@ EFFECTS = (
     Effect("gravity", "GravityParameters", trade=True),
     Effect("bonds", "RockBonds", trade=True),
     Effect("fault_weakening", "FaultWeakeningParameters"),
+    Effect("layer", "SceneLayer", own="apps/scene/scene_layer*", trade=True),
+    Effect("old_fault", "OldFault", own="apps/scene/old_fault*"),
     Effect("bond_healing", "BondHealingParameters"),
     Effect("sedimentation", "SedimentationParameters"),
     Effect("pore_fluid", "PoreFluidParameters"),
@@ -58,6 +60,7 @@ class Exempt(NamedTuple):
 EXCEPTIONS = (
     Exempt("apps/model/effects/compaction.cpp", ".needs", "what shrinks has to be deposited"),
     Exempt("apps/model/effects/pore_fluid.cpp", ".needs", "pores that water keeps open are those of such sediment"),
+    Exempt("apps/model/effects/old_fault.cpp", ".needs", "an old fault is of weakened rock"),
     Exempt("apps/laboratory/pure_shear.cpp", "weakening_rate", "option --weakening-rates varies it"),
     Exempt("apps/laboratory/pure_shear.cpp", "healing_rate", "option --healing-rates varies it"),
 )

@@ -140,7 +140,7 @@ std::vector<std::string> names_of(Chosen run) {
     return names;
 }
 
-/// What a scene says of an effect at least, as --set takes it.
+/// The least that a scene says of an effect, as --set takes it.
 std::string tables_of(std::string_view effect) {
     if (effect == "layer")
         return R"([{name="mica", material="mica", top_m=400.0, thickness_m=300.0}])";

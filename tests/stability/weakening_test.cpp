@@ -6,6 +6,7 @@
 //   (fault_weakening.mean_stress_ratio; 0 leaves radii alone).
 // - A radius changes by no more than 5 % per update (fault_weakening.largest_change).
 
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/property_update.hpp"
 #include "tests/stability/hard_case.hpp"

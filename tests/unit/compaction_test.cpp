@@ -2,6 +2,7 @@
 // square roots and products are rounded per application, some 1e-15 relative each; twenty of them
 // stay below 1e-13.
 
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/cycle_physics.hpp"
 #include "dem/events/compaction.hpp"
 #include "dem/events/property_update.hpp"

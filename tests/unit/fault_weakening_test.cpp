@@ -6,6 +6,7 @@
 // angle is one of the twelve tried, hence within one step, 15 degrees. Where the block ends in a
 // circle, less is known: only circles wholly inside are looked at.
 
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/property_update.hpp"
 #include "tests/support.hpp"

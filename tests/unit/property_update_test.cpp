@@ -3,6 +3,7 @@
 // correction takes it back, and what all have won or lost together, a common one. Tolerances are
 // round-off of a few products.
 
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/events/property_update.hpp"
 #include "tests/support.hpp"
 #include "tests/verification/settled_packing.hpp"

@@ -61,7 +61,8 @@ std::vector<Parameter> parameters() {
          "Raising it raises the stress below the layer.", between(2200, 2600)},
         {"welded", at<&L::is_welded>, "", ranges::any, "",
          "whether bonds may join it to the rock above and below",
-         "false leaves its top and bottom without bonds for good: planes on which it may slip."},
+         "false leaves its top and bottom without bonds at all times: planes on which it may "
+         "slip."},
         {"normal_stiffness_pa", at<&L::normal_stiffness>, "Pa", ranges::stiffness, "k_n",
          "normal stiffness of one disc, if not its material's", of_file},
         {"shear_stiffness_pa", at<&L::shear_stiffness>, "Pa", ranges::stiffness, "k_s",
@@ -82,11 +83,13 @@ std::vector<Parameter> parameters() {
         {"weakens", at<&L::weakens>, "", ranges::any, "", "whether fault weakening can weaken it",
          "false is what weakens_to = \"none\" becomes."},
         {"weakened_normal_stiffness_pa", at<&L::weakened_normal_stiffness>, "Pa", ranges::stiffness,
-         "", "normal stiffness when weakened; none: as in [fault_weakening]", of_weak},
+         "", "normal stiffness when weakened; none: as of weakened rock of the hanging wall",
+         of_weak},
         {"weakened_shear_stiffness_pa", at<&L::weakened_shear_stiffness>, "Pa", ranges::stiffness,
-         "", "shear stiffness when weakened; none: as in [fault_weakening]", of_weak},
+         "", "shear stiffness when weakened; none: as of weakened rock of the hanging wall",
+         of_weak},
         {"weakened_friction", at<&L::weakened_friction>, "", ranges::friction, "",
-         "friction when weakened; none: as in [fault_weakening]", of_weak},
+         "friction when weakened; none: as of weakened rock of the hanging wall", of_weak},
     };
 }
 
@@ -211,7 +214,7 @@ void check_bounds(const L& layer, std::size_t item, const Refuse& refuse) {
                                   layer.name, bottoms == 0 ? "no bottom" : "several bottoms"));
 }
 
-/// What makes a layer at least that thick of `discs` discs.
+/// Advice that makes a layer at least that thick of `discs` discs.
 std::string cure(double thickness, double discs) {
     const double radius = 0.5 * thickness / discs;
     for (const AccuracyLevel& level : accuracy_levels())
@@ -342,7 +345,7 @@ dem::TargetLine line_of(const Scene& scene, const L& layer, double (L::*depth)(d
 }
 
 void contribute(const Scene& scene, ModelParts& parts) {
-    const auto* weakening = scene.find<dem::FaultWeakeningParameters>();
+    const bool is_weakened = parts.detection_circle.has_value();
     for (const L& layer : *scene.find<SceneLayers>()) {
         const auto index = static_cast<std::uint8_t>(parts.materials.size());
         dem::Material rock{*layer.normal_stiffness, *layer.shear_stiffness, *layer.friction};
@@ -359,9 +362,9 @@ void contribute(const Scene& scene, ModelParts& parts) {
              index,
              {line_of(scene, layer, &L::top_at), line_of(scene, layer, &L::bottom_at), index,
               layer.density.value_or(scene.hanging_wall.rock_density)}});
-        if (!weakening || !layer.weakens)
+        if (!is_weakened || !layer.weakens)
             continue;
-        dem::Material weak = weakening->material;
+        dem::Material weak = parts.materials[dem::weak];
         weak.normal_stiffness = layer.weakened_normal_stiffness.value_or(weak.normal_stiffness);
         weak.shear_stiffness = layer.weakened_shear_stiffness.value_or(weak.shear_stiffness);
         weak.friction = layer.weakened_friction.value_or(weak.friction);
@@ -375,9 +378,8 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
     const SceneLayers& layers = *scene.find<SceneLayers>();
     const bool any_soft =
         std::ranges::any_of(layers, [&](const L& layer) { return is_soft(scene, layer); });
-    if (any_soft && !has_effect(scene, "fault_weakening"))
-        dem::add(events, std::make_unique<dem::PropertyUpdate>(dem::FaultWeakeningParameters{},
-                                                               scene.extension.rate,
+    if (any_soft && !parts.detection_circle)
+        dem::add(events, std::make_unique<dem::PropertyUpdate>(scene.extension.rate,
                                                                parts.physics.gravity));
 }
 
@@ -390,12 +392,6 @@ std::string explain(const Scene& scene, EffectList) {
                              is_soft(scene, layer) ? "soft" : "stiff",
                              layer.strength[0] ? "bonded" : "unbonded", *layer.friction);
     return lines;
-}
-
-double price(const Scene& scene, const Workload& work) {
-    return has_effect(scene, "fault_weakening")
-               ? 0.0
-               : work.years / dem::FaultWeakeningParameters{}.update_interval * 18.0 * work.discs;
 }
 
 } // namespace
@@ -430,7 +426,6 @@ const Effect& effect() {
         .contribute = contribute,
         .add_events = add_events,
         .explain = explain,
-        .price = price,
     };
     return effect;
 }

@@ -5,7 +5,6 @@
 #include "apps/scene/scene.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
-#include "dem/events/fault_weakening.hpp"
 #include "dem/hypotenuse.hpp"
 
 #include <fmt/format.h>
@@ -26,9 +25,9 @@ std::vector<Parameter> parameters() {
         {"points", at<&F::points>, "", ranges::height, "",
          "points [x, depth] of the fault, straight between them",
          "Puts weak rock where the old fault is; new faults take other places."},
-        {"width_diameters", at<&F::width>, "", between(0.01, 100), "",
-         "width of its band, in mean disc diameters; default: fault_weakening.band_diameters",
-         "Raising it widens the fault.", between(2, 4)},
+        {"band_width_diameters", at<&F::width>, "", between(0.01, 100), "",
+         "width of its band, in mean disc diameters", "Raising it widens the fault.",
+         between(2, 4)},
         {"lines", at<&F::lines>, "", ranges::any, "",
          "content of the file of csv, written by the program",
          "Puts weak rock where the old faults are."},
@@ -47,8 +46,7 @@ void take_csv(Scene& scene, std::size_t item, const std::string& file, const Ref
 }
 
 double width_of(const Scene& scene, const F& fault) {
-    return fault.width.value_or(scene.find<dem::FaultWeakeningParameters>()->band_diameters) * 2.0 *
-           scene.hanging_wall.mean_radius;
+    return fault.width * 2.0 * scene.hanging_wall.mean_radius;
 }
 
 /// Its lines, x and depth.
@@ -96,7 +94,7 @@ void check(const Scene& scene, const Refuse& refuse) {
                                           what, text(right)));
             if (length < width)
                 refuse(table, fmt::format("{} is {:.4g} m long, shorter than its band is wide ({} "
-                                          "m); lengthen it, or lower width_diameters",
+                                          "m); lengthen it, or lower band_width_diameters",
                                           what, length, text(width)));
         }
     }
@@ -104,7 +102,6 @@ void check(const Scene& scene, const Refuse& refuse) {
 
 void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
     dem::OldFaultsParameters p;
-    p.mean_stress_ratio = scene.find<dem::FaultWeakeningParameters>()->mean_stress_ratio;
     for (const F& fault : *scene.find<OldFaultList>())
         for (const auto& [name, points] : lines_of(fault)) {
             dem::OldFaultsParameters::Fault& line = p.faults.emplace_back();
