@@ -15,17 +15,17 @@ using namespace dem;
 
 namespace {
 
-constexpr double nothing = -std::numeric_limits<double>::infinity();
+constexpr double no_top = -std::numeric_limits<double>::infinity();
 
 /// Highest points of discs by column.
-struct Tops {
+struct ColumnTops {
     double left = 0.0, width = 1.0; ///< m
     std::vector<double> height;     ///< m; minus infinity: there is none
 
-    Tops(double from, double to, double column)
+    ColumnTops(double from, double to, double column)
         : left(from), width(column),
-          height(static_cast<std::size_t>(std::max(1.0, std::ceil((to - from) / column))),
-                 nothing) {}
+          height(static_cast<std::size_t>(std::max(1.0, std::ceil((to - from) / column))), no_top) {
+    }
 
     void add(double x, double top) {
         const double k = std::floor((x - left) / width);
@@ -37,15 +37,15 @@ struct Tops {
 };
 
 /// Mean of what is there within half a width of every column.
-std::vector<double> smoothed(const Tops& tops, double width) {
+std::vector<double> means_of_tops(const ColumnTops& tops, double width) {
     const auto reach = static_cast<std::ptrdiff_t>(0.5 * width / tops.width);
     const auto count = static_cast<std::ptrdiff_t>(tops.height.size());
-    std::vector<double> means(tops.height.size(), nothing);
+    std::vector<double> means(tops.height.size(), no_top);
     for (std::ptrdiff_t k = 0; k < count; ++k) {
         double sum = 0.0, found = 0.0;
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, k - reach);
              j <= std::min(k + reach, count - 1); ++j)
-            if (const double h = tops.height[static_cast<std::size_t>(j)]; h > nothing) {
+            if (const double h = tops.height[static_cast<std::size_t>(j)]; h > no_top) {
                 sum += h;
                 found += 1.0;
             }
@@ -60,7 +60,7 @@ std::vector<double> smoothed(const Tops& tops, double width) {
 double area_above_regional(const State& state, double level) {
     const ConstDiscColumns d = disc_columns(state);
     const auto [left, right] = std::ranges::minmax(d.x);
-    Tops tops(left, right, 2.0 * state.mean_radius);
+    ColumnTops tops(left, right, 2.0 * state.mean_radius);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         tops.add(d.x[i], d.y[i] + d.radius[i]);
     double area = 0.0;
@@ -73,13 +73,13 @@ double graben_relief(const State& state) {
     constexpr double width = 2.5e3; // m
     const ConstDiscColumns d = disc_columns(state);
     const auto [left, right] = std::ranges::minmax(d.x);
-    Tops tops(left, right, 2.0 * state.mean_radius);
+    ColumnTops tops(left, right, 2.0 * state.mean_radius);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.stratum[i] == 0)
             tops.add(d.x[i], d.y[i] + d.radius[i]);
-    double crest = nothing, relief = 0.0;
-    for (const double h : smoothed(tops, width)) {
-        if (h == nothing)
+    double crest = no_top, relief = 0.0;
+    for (const double h : means_of_tops(tops, width)) {
+        if (h == no_top)
             continue;
         crest = std::max(crest, h);
         relief = std::max(relief, crest - h);
@@ -101,13 +101,13 @@ std::optional<double> null_point(const State& state, const Motion& motion, doubl
     std::optional<double> before; // height of the next older top, m
     double before_at = 0.0;
     for (const auto& [stratum, travel] : deposited) {
-        Tops tops(from, to, 2.0 * state.mean_radius);
+        ColumnTops tops(from, to, 2.0 * state.mean_radius);
         for (std::size_t i = 0; i < d.x.size(); ++i)
             if (d.stratum[i] <= stratum)
                 tops.add(d.x[i], d.y[i] + d.radius[i]);
         double sum = 0.0, found = 0.0;
         for (const double h : tops.height)
-            if (h > nothing) {
+            if (h > no_top) {
                 sum += h;
                 found += 1.0;
             }

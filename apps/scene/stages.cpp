@@ -13,8 +13,9 @@ using namespace dem;
 
 namespace {
 
-/// Room that the wall keeps from the end of the last arc, m.
-constexpr double least_room = 5e3;
+/// Room that the wall keeps from the end of the last arc, over the hanging wall's thickness: 5 of
+/// 15 km.
+constexpr double least_room = 1.0 / 3.0;
 
 /// x of the end of the detachment's last arc, m; 0 without one.
 double end_of_arcs(const Scene& scene) {
@@ -60,6 +61,7 @@ void check_ways(const Scene& scene, const Stages& stages, const Refuse& refuse) 
                 refuse(path_of(k, "base"), "is \"rests\", but [stretching] moves what lies on it; "
                                            "leave it out");
     const double arcs = scene.detachment ? end_of_arcs(scene) : 0.0;
+    const double room = least_room * scene.hanging_wall.thickness;
     double position = 0.0;
     for (std::size_t k = 0; k < stages.size(); ++k) {
         const double distance = stages[k].distance.value_or(0.0);
@@ -72,12 +74,12 @@ void check_ways(const Scene& scene, const Stages& stages, const Refuse& refuse) 
                 fmt::format("is {}, shortening, which needs ground behind the breakaway for what "
                             "is pushed over it; add detachment.footwall_top_m, such as 30000.0",
                             text(distance)));
-        if (const double wall = scene.hanging_wall.length + position; wall < arcs + least_room)
+        if (const double wall = scene.hanging_wall.length + position; wall < arcs + room)
             refuse(
                 path_of(k, "distance_m"),
                 fmt::format("is {}: the wall comes to x = {}, allowed: at least {}, {} m from the "
                             "end of the last arc",
-                            text(distance), text(wall), text(arcs + least_room), text(least_room)));
+                            text(distance), text(wall), text(arcs + room), text(room)));
         if (scene.detachment && -position > *scene.detachment->footwall_top)
             refuse(path_of(k, "distance_m"),
                    fmt::format("is {}: net shortening of {} m pushes rock beyond "

@@ -1,0 +1,106 @@
+// Measures of inversion on sections that are known: a raised slab, a rollover with a graben, strata
+// that shortening has lifted by what they had sunk.
+
+#include "apps/measures/inversion.hpp"
+#include "tests/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace listric::inversion_test {
+
+using namespace dem;
+using namespace measures;
+namespace {
+
+using support::Disc;
+using support::make_state;
+
+constexpr double radius = 50.0, width = 100.0; // m, of a column
+
+/// Discs in columns, each with its top at a height, m.
+template <class Top> State section(double from, double to, Top&& top) {
+    std::vector<Disc> discs;
+    for (double x = from + 0.5 * width; x < to; x += width)
+        for (int k = 0; k < 3; ++k)
+            discs.push_back({.x = x, .y = top(x) - radius - 2.0 * radius * k, .radius = radius});
+    State state = make_state(discs);
+    state.mean_radius = radius;
+    return state;
+}
+
+TEST(Inversion, AreaAboveTheRegionalIsThatOfARaisedSlab) {
+    const State state = section(-2e3, 10e3, [](double x) { return x < 4e3 ? 300.0 : -200.0; });
+    EXPECT_NEAR(area_above_regional(state, 0.0), 6e3 * 300.0, width * 300.0);
+    EXPECT_NEAR(area_above_regional(state, -200.0), 6e3 * 500.0, width * 500.0);
+    EXPECT_EQ(area_above_regional(state, 400.0), 0.0);
+}
+
+TEST(Inversion, ReliefIsTheFallFromTheCrestIntoTheGraben) {
+    // From 3 km below the breakaway up to the crest at 12 km, a graben 800 m deep from 18 to 26 km.
+    const auto top = [](double x) {
+        if (x < 12e3)
+            return -3000.0 * (1.0 - x / 12e3);
+        return x > 18e3 && x < 26e3 ? -800.0 : 0.0;
+    };
+    EXPECT_NEAR(graben_relief(section(0.0, 40e3, top)), 800.0, 1.0);
+    EXPECT_NEAR(graben_relief(section(0.0, 40e3, [](double x) { return 0.1 * x; })), 0.0, 1e-9);
+}
+
+TEST(Inversion, NullPointIsWhereStrataAreBackAtTheRegional) {
+    // Ten strata, each laid down at the regional, at 500, 1000, ... 5000 m of extension; each
+    // metre of extension has let those that were there sink by 0.5 m, and 2.2 km of shortening
+    // have lifted all of them. Tops at the regional: those of 5000 - 2200 m.
+    const double extension = 5000.0, shortening = 2200.0, sinks = 0.5;
+    std::vector<Disc> discs;
+    std::vector<double> at;
+    for (int stratum = 1; stratum <= 10; ++stratum)
+        for (double x = 150.0; x < 1600.0; x += width) {
+            const double deposited = 500.0 * stratum;
+            discs.push_back({.x = x,
+                             .y = sinks * (shortening - (extension - deposited)) - radius,
+                             .radius = radius});
+            at.push_back(deposited);
+        }
+    State state = make_state(discs);
+    state.mean_radius = radius;
+    const DiscColumns d = disc_columns(state);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        d.start_extension[i] = at[i];
+        d.stratum[i] = static_cast<std::int32_t>(std::lround(at[i] / 500.0));
+    }
+    Motion motion{1.0, 0.0};
+    motion.stages = {{.start = 0.0, .end = 5000.0},
+                     {.start = 5000.0, .end = 9000.0, .start_position = 5000.0, .slope = -1.0}};
+    EXPECT_NEAR(null_point(state, motion, 0.0, 5000.0).value(), 2800.0, 1e-6);
+    EXPECT_FALSE(null_point(state, motion, -5000.0, 5000.0)); // all tops are above
+    EXPECT_FALSE(null_point(state, motion, 5000.0, 5000.0));
+    // Nothing is lost where pores are as open as they were.
+    state.discs.add<double>("porosity", "1", 0.5);
+    EXPECT_NEAR(null_point(state, motion, 0.0, 5000.0, Decompaction{0.5, 0.0}).value(), 2800.0,
+                1e-6);
+    // Strata that have lost thickness stood higher: older ones are back at the regional.
+    for (double& porosity : state.discs.get<double>("porosity"))
+        porosity = 0.4;
+    EXPECT_LT(null_point(state, motion, 0.0, 5000.0, Decompaction{0.5, 0.0}).value(), 2800.0);
+}
+
+TEST(Inversion, ReactivatedShareIsThatOfTheMostStrainedTenth) {
+    State state = section(0.0, 10e3, [](double) { return 0.0; }); // 300 discs
+    EXPECT_FALSE(reactivated_share(state));
+    state.discs.add<double>("total_strain", "1", 0.0);
+    state.discs.add<double>("turn_strain", "1", 0.0);
+    EXPECT_FALSE(reactivated_share(state)) << "no strain since";
+    const auto total = state.discs.get<double>("total_strain"),
+               turn = state.discs.get<double>("turn_strain");
+    for (std::size_t i = 0; i < total.size(); ++i) {
+        turn[i] = i < 30 ? 2.0 : 0.1;
+        total[i] = turn[i] + (i < 30 ? 0.9 : 0.1);
+    }
+    // 30 x 0.9 of 30 x 0.9 + 270 x 0.1
+    EXPECT_NEAR(reactivated_share(state).value(), 0.5, 1e-9);
+}
+
+} // namespace
+} // namespace listric::inversion_test
