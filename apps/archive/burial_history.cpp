@@ -63,7 +63,7 @@ WellLines begin_well(const WellPlace& place, const Observation& drilled, double 
 
 void add_moment(WellLines& well, const Observation& now, double drilled_at, double grain_density) {
     const Setting setting = make_setting(now.scene, now.parts);
-    const double extension = now.state.clock.extension;
+    const dem::Clock& clock = now.state.clock;
     for (const BuriedStratum& b :
          buried_strata(setting, now.parts.base, now.state, grain_density, well.rock)) {
         Line& line = well.lines.at(b.stratum);
@@ -71,8 +71,8 @@ void add_moment(WellLines& well, const Observation& now, double drilled_at, doub
         line.points.push_back({metres(b.x), -metres(b.top)});
         line.at_points.insert(line.at_points.end(),
                               {metres(b.base), metres(b.top - b.ground), metres(b.base - b.top),
-                               b.porosity, extension, extension / setting.extension_rate,
-                               (drilled_at - extension) / setting.extension_rate});
+                               b.porosity, clock.extension, clock.travel / setting.extension_rate,
+                               (drilled_at - clock.travel) / setting.extension_rate});
     }
 }
 
@@ -105,7 +105,7 @@ LineTable burial_table(const RunFolder& run, const std::filesystem::path& drille
     {
         const Moment moment = run.read(drilled);
         const Observation now{run.scene, run.parts, moment.state, moment.events};
-        drilled_at = moment.state.clock.extension;
+        drilled_at = moment.state.clock.travel;
         for (const WellPlace& place : well_places(now, wells))
             all.push_back(begin_well(place, now, grain_density));
     }
