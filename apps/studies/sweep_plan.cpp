@@ -341,7 +341,7 @@ std::string sweep_schema() {
     varied["required"] = {"parameter"};
     varied["oneOf"] = Json::array({{{"required", {"values"}}}, {{"required", {"range"}}}});
 
-    const PlanText text;
+    const SweepPlanText text;
     Json schema = table_schema("", plan_parameters(), &text);
     schema["properties"]["measures"] =
         array_of("measures of every run", measure_schema(MeasuredAt::end_or_snapshot), 0);
