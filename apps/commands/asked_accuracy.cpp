@@ -337,6 +337,9 @@ std::vector<ErrorTarget> parse_error_targets(const std::string& text) {
         for (const std::string_view word : geometry)
             add_targets(targets, std::string(word), item);
     }
+    if (targets.empty()) // an empty text has no parts
+        throw UsageError(
+            "--error needs errors: tilt=0.1deg,cutoff=0.2km, or a percentage such as 2%");
     return targets;
 }
 
