@@ -146,15 +146,15 @@ std::span<const Quantity> error_fields() {
          "mean of the recorded runs less that of the finest, in the measure's unit; `unknown` "
          "without such runs, as in the fields that follow"},
         {"resolution_against", "", "the runs that it is compared with"},
-        {"resolution_record", "", "where these numbers come from"},
+        {"resolution_record", "", "source of these numbers"},
         {"speed", "",
          "mean at the speed less that at the slowest recorded; from coarser or faster runs where "
          "there are none at this level"},
         {"speed_against", "", "the runs that it is compared with"},
-        {"speed_record", "", "where these numbers come from"},
+        {"speed_record", "", "source of these numbers"},
         {"spread", "", "standard deviation between seeds"},
         {"spread_against", "", "number of seeds"},
-        {"spread_record", "", "where these numbers come from"}};
+        {"spread_record", "", "source of these numbers"}};
     return fields;
 }
 

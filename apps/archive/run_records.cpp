@@ -57,6 +57,14 @@ void take_cell(RecordedRun& run, const std::string& column, const std::string& c
         run.measures[column] = *value;
 }
 
+/// The name of the one measure of faults that is in diameters.
+std::string fault_width() {
+    using FaultMeasure = Measure<measures::FaultReport>;
+    return std::string(
+        std::ranges::find(measures::fault_report_measures(), "diameters", &FaultMeasure::unit)
+            ->name);
+}
+
 /// Throws SceneError unless a header names all that a run needs, and nothing else.
 void require_header(const std::vector<std::string>& header) {
     std::vector<std::string_view> needed{"seed"}, allowed;
@@ -90,7 +98,7 @@ std::span<const HeadlineMeasure> headline_measures() {
          "strain since the start in the most strained tenth"},
         {name_of<&M::basement_unbonded_fraction>(), "unbonded", "unbonded share of the basement"},
         {effects::weak_fraction, "weak", "weakened share"},
-        {"fault_width_diameters", "width", "width of faults in discs"},
+        {fault_width(), "width", "width of faults in discs"},
         {std::string(measures::antithetic_foot), "antithetic", "foot of the antithetic fault, x"}};
     return all;
 }

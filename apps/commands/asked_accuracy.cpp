@@ -15,7 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <sstream>
 #include <tuple>
 
 namespace listric {
@@ -323,8 +323,8 @@ double parse_duration(const std::string& option, const std::string& text) {
 
 std::vector<ErrorTarget> parse_error_targets(const std::string& text) {
     std::vector<ErrorTarget> targets;
-    for (const auto part : std::views::split(text, ',')) {
-        const std::string item(part.begin(), part.end());
+    std::istringstream parts(text);
+    for (std::string item; std::getline(parts, item, ',');) {
         const std::size_t equals = item.find('=');
         if (equals != item.npos) {
             add_targets(targets, item.substr(0, equals), item.substr(equals + 1));
@@ -337,6 +337,9 @@ std::vector<ErrorTarget> parse_error_targets(const std::string& text) {
         for (const std::string_view word : geometry)
             add_targets(targets, std::string(word), item);
     }
+    if (targets.empty()) // an empty text has no parts
+        throw UsageError(
+            "--error needs errors: tilt=0.1deg,cutoff=0.2km, or a percentage such as 2%");
     return targets;
 }
 

@@ -29,9 +29,9 @@ def shrink_scene(scene, fails, base, budget=200):
 
     def with_changes(kept):
         made = {table: dict(keys) for table, keys in base.items() if table in scene}
-        for table, key in kept:
-            made.setdefault(table, {})
-            if key is not None:
+        made.update({table: {} for table, key in kept if key is None})
+        for table, key in kept:   # keys of a table that is left out go with it
+            if key is not None and table in made:
                 made[table][key] = scene[table][key]
         return made
 

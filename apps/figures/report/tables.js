@@ -149,7 +149,7 @@ function drawErrors(table, [run]) {
   for (const [key, name, ...errors] of rows) {
     const row = body.appendChild(document.createElement("tr"));
     cell(row, name, page.data.definitions[key]);
-    for (const text of errors) cell(row, text);
+    for (const text of errors) cell(row, text.split(" (")[0], text); // the whole of it on hovering
   }
   return true;
 }
