@@ -104,8 +104,9 @@ json head_of(const ReportPage::Run& run) {
               {"history", run.history},
               {"summary", object_or_null(run.summary)},
               {"quality", quality_of(run)}};
-    for (const LayerFacts& layer : make_parts(scene).layers)
-        head["rock_layers"].push_back(layer.name);
+    if (has_effect(scene, "layer"))
+        for (const LayerFacts& layer : make_parts(scene).layers)
+            head["rock_layers"].push_back(layer.name);
     if (scene.observed)
         head["picks"] = {{"horizons", picks_of(scene.observed->horizons)},
                          {"faults", picks_of(scene.observed->faults)}};
