@@ -114,8 +114,9 @@ json head_of(const ReportPage::Run& run) {
               {"summary", object_or_null(run.summary)},
               {"quality", quality_of(run)},
               {"errors", errors_of(run)}};
-    for (const LayerFacts& layer : make_parts(scene).layers)
-        head["rock_layers"].push_back(layer.name);
+    if (has_effect(scene, "layer"))
+        for (const LayerFacts& layer : make_parts(scene).layers)
+            head["rock_layers"].push_back(layer.name);
     if (scene.observed)
         head["picks"] = {{"horizons", picks_of(scene.observed->horizons)},
                          {"faults", picks_of(scene.observed->faults)}};

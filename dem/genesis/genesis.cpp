@@ -139,7 +139,7 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
         report("softening of layers", static_cast<double>(round) / rounds);
         find_contacts(state, base);
         execution.packed->forget();
-        advance(state, base, physics, 4 * crossing, execution);
+        advance(state, base, physics, 20 * crossing, execution);
         if (std::abs(*keep_volume(state, base, how, physics.gravity)) < enough && round > 4)
             break;
     }

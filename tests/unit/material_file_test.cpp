@@ -184,8 +184,8 @@ TEST_F(MaterialFileTest, WrongValuesAreNamed) {
 
 TEST_F(MaterialFileTest, MissingFilesAreAnsweredWithWhatThereIs) {
     const std::string shipped = "(materials: mat18-b, mat18-b-calibrated, mat18-w, "
-                                "mat18-w-calibrated, mat18-w-frictional, mud, sand, sediment, "
-                                "silt)";
+                                "mat18-w-calibrated, mat18-w-frictional, mica, mud, salt, "
+                                "sand, sandbox-sand, sediment, shale, silt)";
     const auto missing = [&](const std::string& name) {
         return error_of([&] { load_material(name); });
     };
