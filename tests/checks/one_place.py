@@ -45,7 +45,7 @@ EFFECTS = (
     Effect("basin_water", "BasinWaterParameters"),
     Effect("footwall_erosion", "FootwallErosionParameters"),
     Effect("base_motion", "BaseMotionParameters"),
-    Effect("stage", "StageParameters", own="apps/scene/stages.*", trade=True),
+    Effect("stage", "StageParameters", own="apps/scene/stage*", trade=True),
 )
 
 
@@ -56,6 +56,7 @@ class Exempt(NamedTuple):
 
 
 EXCEPTIONS = (
+    Exempt("apps/scene/stages.cpp", "surface_work", "a stage switches deposition and erosion off"),
     Exempt("apps/model/effects/compaction.cpp", ".needs", "what shrinks has to be deposited"),
     Exempt("apps/model/effects/pore_fluid.cpp", ".needs", "pores that water keeps open are those of such sediment"),
     Exempt("apps/laboratory/pure_shear.cpp", "weakening_rate", "option --weakening-rates varies it"),
