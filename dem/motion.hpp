@@ -7,7 +7,7 @@
 
 namespace listric::dem {
 
-/// What sedimentation does at the surface.
+/// Work of sedimentation at the surface.
 enum class SurfaceWork { both, fill, erode, none };
 
 /// Part of a run in which base and right wall move steadily, or rest.
@@ -63,8 +63,8 @@ struct Motion {
     /// Whether the wall returns, or did so before it came to rest.
     bool shortens(double travel) const;
 
-    /// What sedimentation does that covers the travel from `from` to `to`, m: as the stage that
-    /// holds their middle says.
+    /// Work at the surface for the travel from `from` to `to`, m: that of the stage which holds their
+    /// middle.
     SurfaceWork surface_work(double from, double to) const;
 
     /// Greatest speed of travel, m/s.

@@ -1,5 +1,5 @@
 #include "apps/scene/picks_check.hpp"
-#include "apps/scene/stages.hpp"
+#include "apps/scene/stage.hpp"
 
 #include "apps/support/csv_records.hpp"
 #include "apps/support/error.hpp"

@@ -1,6 +1,6 @@
 #include "apps/scene/scene.hpp"
 
-#include "apps/scene/stages.hpp"
+#include "apps/scene/stage.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,42 @@ bool is_drawn_at(const Scene& scene, double extension) {
     return std::ranges::any_of(scene.output.figures, [&](double mark) {
         return std::abs(mark - extension) <= 0.5 * scene.output.interval;
     });
+}
+
+Motion make_motion(const Scene& scene) {
+    Motion motion{scene.extension.speed, scene.extension.ramp};
+    const Stages* stages = scene.find<Stages>();
+    if (!stages)
+        return motion;
+    double travel = 0.0, position = 0.0;
+    for (const auto& one : *stages) {
+        const double speed = one.speed.value_or(scene.extension.speed);
+        const double distance = one.distance.value_or(0.0);
+        const double ratio = one.rate.value_or(scene.extension.rate) / scene.extension.rate;
+        MotionStage made;
+        made.start = travel;
+        travel += one.pause ? *one.pause * scene.extension.rate : std::abs(distance) / ratio;
+        made.end = travel;
+        made.start_position = position;
+        position += distance;
+        made.slope = distance == 0.0 ? 0.0 : std::copysign(ratio, distance);
+        made.speed = distance == 0.0 ? speed : speed / ratio;
+        made.base_moves = one.base_moves;
+        made.detachment_friction = one.detachment_friction;
+        made.sediment_friction = one.sediment_friction;
+        made.surface = one.surface_work;
+        motion.stages.push_back(made);
+    }
+    return motion;
+}
+
+double greatest_extension(const Scene& scene) {
+    if (!scene.find<Stages>())
+        return scene.extension.distance;
+    double position = 0.0, greatest = 0.0;
+    for (const auto& one : *scene.find<Stages>())
+        greatest = std::max(greatest, position += one.distance.value_or(0.0));
+    return greatest;
 }
 
 RigidBase make_rigid_base(const Scene& scene) {

@@ -102,7 +102,7 @@ const std::vector<Parameter>& stage_parameters() {
          "Lets sediment fill, compact and heal while nothing moves."},
         {"rate_m_per_a", at<&P::rate>, "m/a", between(1e-9, 1), "",
          "geological rate, without sign; default: extension.rate_m_per_a",
-         "Lowering it gives sedimentation, compaction and healing more time per metre."},
+         "Lowering it gives deposition, closing pores and healing bonds more time per metre."},
         {"speed_m_per_s", at<&P::speed>, "m/s", between(1e-6, 1e3), "",
          "speed in the model; default: extension.speed_m_per_s",
          "Raising it shortens the stage in proportion, and forces balance worse.", between(0.5, 2)},
@@ -116,49 +116,14 @@ const std::vector<Parameter>& stage_parameters() {
         {"sediment_friction", at<&P::sediment_friction>, "", ranges::friction, "",
          "friction of sediment discs from this stage on; default: as before",
          "Raising it keeps young strata from running over the footwall."},
-        {"sedimentation", one_of<&P::sedimentation>({"both", "fill", "erode", "none"}), "",
+        {"sedimentation", one_of<&P::surface_work>({"both", "fill", "erode", "none"}), "",
          ranges::any, "",
-         "what [sedimentation] does in this stage: fills below its line, erodes "
-         "above it, both or none",
+         "work at the surface in this stage: it is filled up to its line, eroded down to it, both "
+         "or "
+         "none",
          "With \"none\" what rises is kept, which shows harpoons and null points."},
     };
     return parameters;
-}
-
-Motion make_motion(const Scene& scene) {
-    Motion motion{scene.extension.speed, scene.extension.ramp};
-    const Stages* stages = scene.find<Stages>();
-    if (!stages)
-        return motion;
-    double travel = 0.0, position = 0.0;
-    for (const StageParameters& one : *stages) {
-        const double speed = one.speed.value_or(scene.extension.speed);
-        const double distance = one.distance.value_or(0.0);
-        const double ratio = one.rate.value_or(scene.extension.rate) / scene.extension.rate;
-        MotionStage made;
-        made.start = travel;
-        travel += one.pause ? *one.pause * scene.extension.rate : std::abs(distance) / ratio;
-        made.end = travel;
-        made.start_position = position;
-        position += distance;
-        made.slope = distance == 0.0 ? 0.0 : std::copysign(ratio, distance);
-        made.speed = distance == 0.0 ? speed : speed / ratio;
-        made.base_moves = one.base_moves;
-        made.detachment_friction = one.detachment_friction;
-        made.sediment_friction = one.sediment_friction;
-        made.surface = one.sedimentation;
-        motion.stages.push_back(made);
-    }
-    return motion;
-}
-
-double greatest_extension(const Scene& scene) {
-    if (!scene.find<Stages>())
-        return scene.extension.distance;
-    double position = 0.0, greatest = 0.0;
-    for (const StageParameters& one : *scene.find<Stages>())
-        greatest = std::max(greatest, position += one.distance.value_or(0.0));
-    return greatest;
 }
 
 void complete_stages(Scene& scene, const IsGiven& is_given, const Refuse& refuse) {

@@ -1,5 +1,5 @@
 #include "apps/scene/target_csv.hpp"
-#include "apps/scene/stages.hpp"
+#include "apps/scene/stage.hpp"
 
 #include "apps/support/csv.hpp"
 #include "apps/support/csv_records.hpp"

@@ -23,6 +23,10 @@ inline BaseInstant base_instant(const MotionInstant& motion, double extension) {
     return {extension, motion.speed, motion.conveyor, motion.friction};
 }
 
+inline BaseInstant base_instant(const RigidBase& base, const Clock& clock) {
+    return base_instant(base.motion.at(clock.time(), clock.travel), clock.extension);
+}
+
 /// Friction of a surface now.
 inline double friction_of(const Surface& surface, const BaseInstant& now) {
     return now.friction && surface.conveyor != 0.0 ? *now.friction : surface.friction;

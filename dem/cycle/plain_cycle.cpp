@@ -31,8 +31,7 @@ void base_forces(State& state, const RigidBase& base, std::span<Force> force, Ac
             force[i].x += pushes[i].x;
             force[i].y += pushes[i].y;
         }
-    const BaseInstant now =
-        base_instant(base.motion.at(state.clock.time(), state.clock.travel), state.clock.extension);
+    const BaseInstant now = base_instant(base, state.clock);
     const BaseNodeColumns nodes = base_node_columns(state);
     const bool deforms = !nodes.x.empty();
     const auto places = deforms ? state.base_contacts.get<double>("place") : std::span<double>();
@@ -183,13 +182,12 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
     account.enter_half_step();
     around.respond(state, clock, response);
     account.enter_half_step();
-    const double node_speed = move_nodes(base_node_columns(state), clock.time_step);
-    const double base_speed =
-        greater(greatest_translation(base) * std::abs(motion.speed), node_speed);
+    const double fastest_node = move_nodes(base_node_columns(state), clock.time_step);
+    const double fastest_wall = greatest_translation(base) * std::abs(motion.speed);
     clock.travel += motion.travel_speed * clock.time_step;
     clock.extension = base.motion.position(clock.travel);
     ++clock.cycle;
-    return greater(around.after_cycle(state, disc_speed), base_speed);
+    return greater(around.after_cycle(state, disc_speed), greater(fastest_wall, fastest_node));
 }
 
 /// Adds the greatest speeds of cycles, m/s, to what is known of the displacements.

@@ -35,7 +35,7 @@ struct FaultWeakeningParameters {
     Material material{8.5e8, 3.19e8, 0.2, false};
     double update_interval = 2.5e3;            ///< time between property updates, a
     double mean_stress_ratio = 0.75;           ///< mean stress in a fault over the weight above it
-    double shortening_mean_stress_ratio = 1.5; ///< where the wall returns: thrusts stand under more
+    double shortening_mean_stress_ratio = 1.0; ///< where the wall returns: thrusts stand under more
     double largest_change = 0.05; ///< largest relative radius change per property update
 };
 

@@ -47,7 +47,7 @@ EFFECTS = (
     Effect("basin_water", "BasinWaterParameters"),
     Effect("footwall_erosion", "FootwallErosionParameters"),
     Effect("base_motion", "BaseMotionParameters"),
-    Effect("stage", "StageParameters", own="apps/scene/stages.*", trade=True),
+    Effect("stage", "StageParameters", own="apps/scene/stage*", trade=True),
 )
 
 
@@ -58,6 +58,7 @@ class Exempt(NamedTuple):
 
 
 EXCEPTIONS = (
+    Exempt("apps/scene/stages.cpp", "surface_work", "a stage switches deposition and erosion off"),
     Exempt("apps/model/effects/compaction.cpp", ".needs", "what shrinks has to be deposited"),
     Exempt("apps/model/effects/pore_fluid.cpp", ".needs", "pores that water keeps open are those of such sediment"),
     Exempt("apps/model/effects/old_fault.cpp", ".needs", "an old fault is of weakened rock"),

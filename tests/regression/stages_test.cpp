@@ -1,7 +1,7 @@
 // Motion in stages, [[stage]], on small scenes: the bits are those of one run however it is cut and
 // by however many threads; one stage is what extension.distance_m is; bad stages are refused.
 
-#include "apps/scene/stages.hpp"
+#include "apps/scene/stage.hpp"
 #include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 

@@ -1,7 +1,7 @@
 // Measures of inversion on sections that are known: a raised slab, a rollover with a graben, strata
 // that shortening has lifted by what they had sunk.
 
-#include "apps/measures/inversion.hpp"
+#include "apps/model/effects/stage_measures.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace listric::inversion_test {
 
 using namespace dem;
-using namespace measures;
+using namespace effects::stage;
 namespace {
 
 using support::Disc;

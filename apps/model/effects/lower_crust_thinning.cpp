@@ -2,7 +2,7 @@
 
 #include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
-#include "apps/scene/stages.hpp"
+#include "apps/scene/stage.hpp"
 
 #include <fmt/format.h>
 

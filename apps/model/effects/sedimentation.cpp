@@ -4,7 +4,7 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/pieces.hpp"
-#include "apps/scene/stages.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
 #include "dem/genesis/genesis.hpp"

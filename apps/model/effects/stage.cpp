@@ -1,7 +1,7 @@
 #include "apps/scene/stages.hpp"
 
-#include "apps/measures/inversion.hpp"
 #include "apps/model/effect_list.hpp"
+#include "apps/model/effects/stage_measures.hpp"
 #include "dem/events/stage_change.hpp"
 
 #include <fmt/format.h>
@@ -51,9 +51,8 @@ public:
                               state.discs.get<double>("turn_strain").begin());
         memory.resize(memory.rows() + 1);
         memory.get<double>("extension_m").back() = state.clock.extension;
-        memory.get<double>("uplift_area_m2").back() =
-            measures::area_above_regional(state, regional_);
-        memory.get<double>("relief_m").back() = measures::graben_relief(state);
+        memory.get<double>("uplift_area_m2").back() = area_above_regional(state, regional_);
+        memory.get<double>("relief_m").back() = graben_relief(state);
         memory.get<double>("removed_mass").back() = state.ledger.removed;
         return false;
     }
@@ -71,7 +70,7 @@ void add_events(const Scene&, const ModelParts& parts, dem::Events& events) {
         dem::add(events, std::make_unique<TurnRecord>(*turn, regional_of(parts)));
 }
 
-/// What the record of a row holds; none before.
+/// Number of a row of the record; none before.
 std::optional<double> recorded(const Observation& now, const char* name, std::size_t row) {
     const auto* record = dem::find<const TurnRecord>(now.events);
     if (!record || record->memory.rows() <= row)
@@ -91,7 +90,7 @@ std::optional<double> uplift_since(const Observation& now, std::size_t row) {
         return std::nullopt;
     const double eroded = (now.state.ledger.removed - *recorded(now, "removed_mass", row)) /
                           now.scene.hanging_wall.rock_density;
-    return measures::area_above_regional(now.state, regional_of(now.parts)) - *before + eroded;
+    return area_above_regional(now.state, regional_of(now.parts)) - *before + eroded;
 }
 
 std::optional<double> uplift_balance(const Observation& now) {
@@ -106,21 +105,21 @@ std::optional<double> uplift_balance(const Observation& now) {
 
 std::optional<double> pop_up(const Observation& now) {
     const auto before = recorded(now, "relief_m", 0);
-    return before && has_turned(now) ? std::optional(*before - measures::graben_relief(now.state))
+    return before && has_turned(now) ? std::optional(*before - graben_relief(now.state))
                                      : std::nullopt;
 }
 
 std::optional<double> null_deposited_at(const Observation& now, bool decompacted) {
     if (!has_turned(now) || !now.parts.sediment)
         return std::nullopt;
-    std::optional<measures::Decompaction> pores;
+    std::optional<Decompaction> pores;
     if (const auto& s = *now.parts.sediment; decompacted) {
         if (!s.porosity_decay)
             return std::nullopt;
         pores = {s.surface_porosity, *s.porosity_decay};
     }
     const dem::Motion& motion = now.parts.base.motion;
-    return measures::null_point(now.state, motion, regional_of(now.parts), *turn_of(motion), pores);
+    return stage::null_point(now.state, motion, regional_of(now.parts), *turn_of(motion), pores);
 }
 
 /// Shortening over extension that the null point tells.
@@ -181,15 +180,16 @@ std::vector<Measure<Observation>> measures_of_stages() {
          "share of the shortening's shear strain in the tenth of the pre-rift area that extension "
          "had strained most",
          [](const Observation& now) {
-             return or_nan(has_turned(now) ? measures::reactivated_share(now.state) : std::nullopt);
+             return or_nan(has_turned(now) ? reactivated_share(now.state) : std::nullopt);
          }},
         {"null_deposited_at_m", "m",
          "extension at which the stratum was laid down whose top, 0.2 to 1.5 km from the "
          "breakaway, "
-         "is at the regional now: the null point; extension less shortening without compaction",
+         "is at the regional now: the null point; extension less shortening where no pores close",
          [](const Observation& now) { return or_nan(null_deposited_at(now, false)); }},
         {"null_deposited_at_decompacted_m", "m",
-         "the null point with the thickness that strata below it have lost to compaction since",
+         "the null point with the thickness that strata below it have lost since, as their pores "
+         "closed",
          [](const Observation& now) { return or_nan(null_deposited_at(now, true)); }},
         {"inversion_ratio", "1",
          "shortening over extension from the null point: 1 less its extension over that at the "

@@ -5,10 +5,10 @@
 
 #include <optional>
 
-// What inverted basins are read by. Strata know the travel at which they were deposited; heights
+// Measures of inverted basins. Strata know the travel at which they were deposited; heights
 // are above the regional, the level that the basin was filled to.
 
-namespace listric::measures {
+namespace listric::effects::stage {
 
 /// Area between the regional and the ground above it, over the footwall, too, m^2. Columns are a
 /// mean diameter wide, so that a rough ground at the level has some.
@@ -38,4 +38,4 @@ std::optional<double> null_point(const dem::State& state, const dem::Motion& mot
 /// rock that lies in the tenth of its area which extension had strained most. None before any.
 std::optional<double> reactivated_share(const dem::State& state);
 
-} // namespace listric::measures
+} // namespace listric::effects::stage

@@ -1,4 +1,4 @@
-#include "apps/measures/inversion.hpp"
+#include "apps/model/effects/stage_measures.hpp"
 
 #include "dem/units.hpp"
 
@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-namespace listric::measures {
+namespace listric::effects::stage {
 
 using namespace dem;
 
@@ -165,4 +165,4 @@ std::optional<double> reactivated_share(const State& state) {
     return share / sum;
 }
 
-} // namespace listric::measures
+} // namespace listric::effects::stage

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "dem/motion.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace listric {
+
+struct Scene;
+
+/// A table [[stage]]: a way of the wall, or a pause.
+struct StageParameters {
+    std::optional<double> distance; ///< of the wall, m; below 0: shortening
+    std::optional<double> pause;    ///< a
+    std::optional<double> rate;     ///< m/a; none: that of [extension]
+    std::optional<double> speed;    ///< in the model, m/s; none: that of [extension]
+    bool base_moves = true;         ///< the detachment's conveyor goes with the wall
+    std::optional<double> detachment_friction;
+    std::optional<double> sediment_friction;
+    dem::SurfaceWork surface_work = dem::SurfaceWork::both;
+};
+
+using Stages = std::vector<StageParameters>;
+
+/// Motion of base and right wall.
+dem::Motion make_motion(const Scene& scene);
+
+/// Greatest displacement of the right wall in a scene, m: how far the base must reach.
+double greatest_extension(const Scene& scene);
+
+} // namespace listric
