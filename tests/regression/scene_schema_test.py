@@ -279,12 +279,13 @@ class SceneSchema(unittest.TestCase):
     def test_has_every_parameter(self):
         table = None
         for line in program("explain", "--parameters").stdout.splitlines():
-            if head := re.match(r"\[(\w+)\]", line):
+            if head := re.match(r"\[?\[(\w+)\]", line):
                 table = head[1]
             elif line.startswith("Segment"):
                 break
             elif key := re.match(r"    (\w+) = ", line):
                 place = self.schema["properties"][table] if table else self.schema
+                place = place.get("items", place)   # of a table [[name]]
                 self.assertIn(key[1], place["properties"], table)
                 self.assertTrue(place["properties"][key[1]]["description"])
         self.assertEqual(table, "base_motion")
