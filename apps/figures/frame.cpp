@@ -215,7 +215,7 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         for (const auto& [stratum, age] : laid_down)
             frame["strata_a"].push_back(age);
     if (!now.parts.base.motion.stages.empty())
-        frame["travel_m"] = state.clock.travel;
+        frame["way_m"] = state.clock.travel;
     if (now.parts.sediment)
         frame["level_m"] = now.parts.sediment->level;
     return frame;

@@ -98,7 +98,7 @@ const std::vector<Parameter>& stage_parameters() {
          "way of the wall; above 0 extension, below 0 shortening",
          "Turns the motion where its sign changes: normal faults slip back."},
         {"pause_a", at<&P::pause>, "a", ranges::years, "",
-         "in place of distance_m: time in which base and wall rest",
+         "time in which base and wall rest, in place of distance_m",
          "Lets sediment fill, compact and heal while nothing moves."},
         {"rate_m_per_a", at<&P::rate>, "m/a", between(1e-9, 1), "",
          "geological rate, without sign; default: extension.rate_m_per_a",
