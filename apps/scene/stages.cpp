@@ -114,7 +114,7 @@ const std::vector<Parameter>& stage_parameters() {
          "friction of the detachment in this stage; default: detachment.friction",
          "Lowering it lets more of the shortening go down the detachment where the base rests."},
         {"sediment_friction", at<&P::sediment_friction>, "", ranges::friction, "",
-         "friction of sediment discs from this stage on; default: as before",
+         "friction of sediment discs from this stage on; default: no change",
          "Raising it keeps young strata from running over the footwall."},
         {"sedimentation", one_of<&P::surface_work>({"both", "fill", "erode", "none"}), "",
          ranges::any, "",
