@@ -5,6 +5,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/scene/scene_file.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/text.hpp"
@@ -39,7 +40,7 @@ double snapshot_extension(const fs::path& path) {
 }
 
 std::vector<double> window_ends(const Table& history) {
-    const char* clock = history.has("travel_m") ? "travel_m" : "extension_m";
+    const char* clock = history.has(travel_column) ? travel_column : "extension_m";
     if (!history.has(clock))
         return {};
     const auto extensions = history.get<double>(clock);

@@ -223,7 +223,7 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
     for (const LayerFacts& layer : now.parts.layers)
         frame["rock_layers"].push_back(layer.name);
     if (!now.parts.base.motion.stages.empty())
-        frame["travel_m"] = state.clock.travel;
+        frame["way_m"] = state.clock.travel;
     if (now.parts.sediment)
         frame["level_m"] = now.parts.sediment->level;
     return frame;

@@ -9,6 +9,9 @@ namespace listric {
 
 struct Scene;
 
+/// Column of history.csv with the travel, m.
+inline constexpr const char* travel_column = "travel_m";
+
 /// A table [[stage]]: a way of the wall, or a pause.
 struct StageParameters {
     std::optional<double> distance; ///< of the wall, m; below 0: shortening

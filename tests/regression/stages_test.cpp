@@ -89,7 +89,7 @@ TEST_F(Stages, ThePauseIsARestAndLeavesSedimentationOn) {
     const auto after = run(load(text(tables)), "pause");
     const auto before = run(load(text(tables)), "before", 60.0);
     EXPECT_NEAR(after["extension_m"].get<double>(), before["extension_m"].get<double>(), 0.05);
-    EXPECT_NEAR(after["time_a"].get<double>() - before["time_a"].get<double>(), 14e3, 20.0);
+    EXPECT_NEAR(after["elapsed_a"].get<double>() - before["elapsed_a"].get<double>(), 14e3, 20.0);
     // The target line sinks in the meantime.
     EXPECT_GT(after["eroded_fraction"].get<double>(), before["eroded_fraction"].get<double>());
 }

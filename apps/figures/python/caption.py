@@ -39,7 +39,7 @@ def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, orde
     if said:  # with what the figure itself says of its scale
         texts = [text + (f" ({words[words.index('(') + 1:]}" if "(" in words else "") for text, words in zip(texts, said)]
     panels = "; ".join(f"({chr(ord('a') + n)}) {text}" for n, text in enumerate(texts)) if len(texts) > 1 else texts[0]
-    rate = meta.get("travel_m", meta["extension_m"]) / meta["time_a"] if meta["time_a"] else 0.0
+    rate = meta.get("way_m", meta["extension_m"]) / meta["time_a"] if meta["time_a"] else 0.0
     at = f" at {100 * rate:.3g} cm/yr" if rate else ""
     parts = [f"{order.software} model: {meta.get('title') or meta['scene']}.",
              f"After {moment_text(frame)}{at} ({meta['time_a'] / 1e6:.2f} Myr): {panels}."]

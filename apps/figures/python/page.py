@@ -33,7 +33,7 @@ def extension_text(frame: Frame) -> str:
 def moment_text(frame: Frame) -> str:
     """How far the wall is: "5.0 km of extension"; with stages of motion also by which way."""
     text = f"{extension_text(frame)} km of extension"
-    if "travel_m" not in frame.meta:
+    if "way_m" not in frame.meta:
         return text
     return f"{frame.meta['extension_m'] / 1000:.3g} km of extension after a way of {extension_text(frame)} km"
 
@@ -49,7 +49,7 @@ def title_of(frame: Frame) -> str:
 
 def headline(frame: Frame) -> str:
     """Description and moment."""
-    moment = moment_text(frame) if "travel_m" in frame.meta else f"{extension_text(frame)} km"
+    moment = moment_text(frame) if "way_m" in frame.meta else f"{extension_text(frame)} km"
     return f"{title_of(frame)}: {moment}, {frame.meta['time_a'] / 1e6:.2f} Myr"
 
 

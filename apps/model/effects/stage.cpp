@@ -151,11 +151,11 @@ std::optional<double> or_nan(std::optional<double> value) {
 
 std::vector<Measure<Observation>> measures_of_stages() {
     return {
-        {"travel_m", "m",
+        {travel_column, "m",
          "way of base and right wall, back and forth, at extension.rate_m_per_a, and in pauses: "
          "the run's clock, by which files are named",
          [](const Observation& now) -> std::optional<double> { return now.state.clock.travel; }},
-        {"time_a", "a", "travel over extension.rate_m_per_a",
+        {"elapsed_a", "a", "travel over extension.rate_m_per_a",
          [](const Observation& now) -> std::optional<double> {
              return now.state.clock.travel / now.scene.extension.rate;
          }},
