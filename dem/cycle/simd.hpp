@@ -158,8 +158,8 @@ inline void store_halves(double* to, Double4 halves) {
 
 #endif
 
-/// Of pairs of rows, first and second: the difference of their numbers 0 and 1, second less first,
-/// and the number `own` (2 or 3) of each.
+/// Columns of pairs of rows, first and second: numbers 0 and 1 of the second less those of the
+/// first, and the number `own` (2 or 3) of each.
 template <int own>
 [[gnu::always_inline]] inline Lanes4 pair_columns(const double* numbers, const std::uint32_t* first,
                                                   const std::uint32_t* second) {

@@ -70,6 +70,11 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(len(self.found("FaultWeakeningParameters p;",
                                         "apps/model/effects/bonds.cpp")), 1)
 
+    def test_a_description_says_what_its_effect_needs(self):
+        line = '        .needs = {"fault_weakening"},'
+        self.assertEqual(self.found(line, "apps/model/effects/bonds.cpp"), [])
+        self.assertEqual(len(self.found(line, "apps/run/run.cpp")), 1)
+
     def test_an_effect_that_is_not_checked(self):
         self.assertEqual(self.found("", "apps/model/effects/tides.cpp"),
                          ["apps/model/effects/tides.cpp: of no effect that this check knows"])
