@@ -16,7 +16,7 @@ Command add_fit(CLI::App& program) {
                            "docs/fit.md",
                            {{{"fit picks.csv --predict-only", "kinematics alone, without a run"},
                              {"fit picks.csv --jobs 2", "then drafts, two at a time"},
-                             {"fit picks.csv --scene my.toml --set extension.distance_m=6km",
+                             {"fit picks.csv --set extension.distance_m=6km",
                               "rock, sediment and rate of your own scene"}}}});
     command
         ->add_option("PICKS", request->picks,

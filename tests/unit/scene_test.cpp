@@ -376,7 +376,7 @@ TEST_F(SceneTest, NamesLikeNoOtherAreAnsweredWithAllNames) {
         AllOf(StartsWith("scene.toml:4: magnetism: unknown table, allowed: name, description, "),
               HasSubstr("hanging_wall, detachment"),
               EndsWith("compaction, energy, elastic_base, lower_crust_thinning, "
-                       "basin_water, footwall_erosion, base_motion")));
+                       "basin_water, footwall_erosion, base_motion, stage")));
 }
 
 TEST_F(SceneTest, FlexureIsAPlanOfItsOwn) {
