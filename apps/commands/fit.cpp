@@ -9,15 +9,15 @@ namespace listric {
 
 Command add_fit(CLI::App& program) {
     const auto request = std::make_shared<BasinFitRequest>();
-    CLI::App* command =
-        add_call(program, {"Many runs",
-                           "fit",
-                           "find the listric detachment below picked horizons",
-                           "docs/fit.md",
-                           {{{"fit picks.csv --predict-only", "kinematics alone, without a run"},
-                             {"fit picks.csv --jobs 2", "then drafts, two at a time"},
-                             {"fit picks.csv --set extension.distance_m=6km",
-                              "rock, sediment and rate of your own scene"}}}});
+    CLI::App* command = add_call(
+        program,
+        {"Many runs",
+         "fit",
+         "find the listric detachment below picked horizons",
+         "docs/fit.md",
+         {{{"fit picks.csv --predict-only", "kinematics alone, without a run"},
+           {"fit picks.csv --jobs 2", "then drafts, two at a time"},
+           {"fit picks.csv --scene my.toml", "rock, sediment and rate of your own scene"}}}});
     command
         ->add_option("PICKS", request->picks,
                      "picked horizons, a CSV file with name, x_m, depth_m and age_a")
