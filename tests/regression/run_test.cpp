@@ -567,7 +567,7 @@ TEST_F(RunTest, ADamagedLastSnapshotIsReplacedInTheEnd) {
 TEST_F(RunTest, ASnapshotOfAnotherFormatIsRefusedAndTheRunIsKept) {
     const fs::path output = run(scene(), "run", {.until = 133.7});
     fs::remove(output / "summary.json");
-    for (const auto& [digit, cure] : {std::pair{'4', "that version"}, {'7', "a newer program"}}) {
+    for (const auto& [digit, cure] : {std::pair{'4', "that version"}, {'8', "a newer program"}}) {
         for (const fs::path& file : list_snapshots(output)) {
             std::string text = contents(file);
             const auto at = text.find("listric snapshot ");
