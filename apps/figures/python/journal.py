@@ -170,10 +170,10 @@ def wrapped(text: str, height: float) -> str:
 def headline_lines(frame: Frame, width: float) -> list[str]:
     """Description, in lines, and the moment."""
     title = str(frame.meta.get("title") or frame.meta["scene"])
-    return textwrap.wrap(title, max(int(width / 0.072), 10)) + [moment_text(frame)]
+    return textwrap.wrap(title, max(int(width / 0.072), 10)) + [moment_line(frame)]
 
 
-def moment_text(frame: Frame) -> str:
+def moment_line(frame: Frame) -> str:
     return f"{moment_text(frame)}, {frame.meta['time_a'] / 1e6:.2f} Myr"
 
 
