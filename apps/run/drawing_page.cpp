@@ -160,14 +160,13 @@ Json scaled_defaults(const Effect& effect) {
         return levels;
     for (const AccuracyLevel& level : accuracy_levels()) {
         Scene scene;
-        scene.effects.push_back({&effect, effect.defaults()});
-        const std::any before = scene.effects.front().parameters;
+        scene.effects.push_back({&effect, defaults_of(effect)});
+        std::any before = scene.effects.front().parameters;
         effect.scale(scene, level);
         for (const Parameter& parameter : effect.parameters)
             if (const auto* number = std::get_if<Place<double>>(&parameter.value)) {
-                const double now =
-                    number->get(effect.address.get(scene.effects.front().parameters));
-                if (now != number->get(effect.address.get(before)))
+                const double now = number->get(object_of(effect, scene.effects.front().parameters));
+                if (now != number->get(object_of(effect, before)))
                     levels[std::string(level.name)][std::string(parameter.key)] =
                         in_key_units(now, parameter.per_si);
             }

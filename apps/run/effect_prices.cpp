@@ -17,7 +17,7 @@ constexpr std::array members{&PriceTerms::fixed, &PriceTerms::per_start_disc,
 /// A scene of nothing but the effect, with defaults.
 Scene alone(const Effect& effect) {
     Scene scene;
-    scene.effects.push_back({&effect, effect.defaults()});
+    scene.effects.push_back({&effect, defaults_of(effect)});
     return scene;
 }
 
@@ -42,7 +42,7 @@ bool differ(const PriceTerms& a, const PriceTerms& b) {
 /// The scene with a number doubled or a switch turned; none of another parameter.
 std::optional<Scene> changed(const Effect& effect, const Parameter& parameter) {
     Scene scene = alone(effect);
-    void* const object = effect.address.reach(scene.effects.front().parameters);
+    void* const object = object_of(effect, scene.effects.front().parameters);
     if (const auto* place = std::get_if<Place<double>>(&parameter.value))
         place->reach(object) *= 2.0;
     else if (const auto* count = std::get_if<Place<int>>(&parameter.value))

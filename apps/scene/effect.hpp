@@ -303,4 +303,17 @@ constexpr ItemAddress items_of{
     },
     [](std::any& parameters) { std::any_cast<std::vector<Item>&>(parameters).emplace_back(); }};
 
+/// Parameters of an effect as they are by default: of one item, where there are several.
+inline std::any defaults_of(const Effect& effect) {
+    std::any parameters = effect.defaults();
+    if (effect.items)
+        effect.items->append(parameters);
+    return parameters;
+}
+
+/// The object that the effect's parameters belong to: the first item, where there are several.
+inline void* object_of(const Effect& effect, std::any& parameters) {
+    return effect.items ? effect.items->reach(parameters, 0) : effect.address.reach(parameters);
+}
+
 } // namespace listric
