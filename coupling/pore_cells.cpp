@@ -123,7 +123,8 @@ FlowNetwork flow_network(const State& state, const PoreCells& cells,
                 continue;
             const auto m = static_cast<std::size_t>(other);
             const double length = common_length(cells, k, facet, m);
-            const int weakened = is_weak(state.materials, d.material[i]) + is_weak(state.materials, d.material[j]);
+            const int weakened =
+                is_weak(state.materials, d.material[i]) + is_weak(state.materials, d.material[j]);
             const double factor = weakened == 2   ? faults.along
                                   : weakened == 1 ? faults.across
                                                   : 1.0;

@@ -63,8 +63,8 @@ struct Motion {
     /// Whether the wall returns, or did so before it came to rest.
     bool shortens(double travel) const;
 
-    /// Work at the surface for the travel from `from` to `to`, m: that of the stage which holds their
-    /// middle.
+    /// Work at the surface for the travel from `from` to `to`, m: that of the stage which holds
+    /// their middle.
     SurfaceWork surface_work(double from, double to) const;
 
     /// Greatest speed of travel, m/s.

@@ -13,9 +13,9 @@
 // diameters the halves of a circle of five see 0.63 of its slip: 120 m are 75 m, 80 m are 50 m.
 
 #include "dem/contacts/cells.hpp"
+#include "dem/contacts/soft_discs.hpp"
 #include "dem/events/fault_weakening.hpp"
 #include "dem/events/measure_circle.hpp"
-#include "dem/contacts/soft_discs.hpp"
 #include "tests/verification/settled_packing.hpp"
 
 #include <gtest/gtest.h>
