@@ -277,7 +277,8 @@ def behaviour(discs: dict[str, np.ndarray | None]) -> np.ndarray | None:
 
 
 def view_of(frame: Frame) -> tuple[float, float, float, float]:
-    """Extent of the section (km): 1 km left of the breakaway to right of the wall."""
+    """Extent of the section (km): from left of the breakaway, and of what runs over it, to right of the wall."""
+    left = min(-1.0, np.quantile(frame.x, 0.001) - 0.5)
     tops = np.append(np.quantile(frame.y + frame.radius, 0.9999), (frame.level or 0.0, 0.0))
     bottom = min(frame.detachment[:, 1].min(), np.quantile(frame.y - frame.radius, 0.0001))
-    return (-1.0, frame.wall + 0.5, bottom - 0.6, tops.max() + 0.5)
+    return (left, frame.wall + 0.5, bottom - 0.6, tops.max() + 0.5)
