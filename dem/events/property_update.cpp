@@ -1,5 +1,7 @@
 #include "dem/events/property_update.hpp"
 
+#include "dem/contacts/soft_discs.hpp"
+
 namespace listric::dem {
 
 PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,
