@@ -19,8 +19,9 @@ constexpr double least_room = 1.0 / 3.0;
 
 /// x of the end of the detachment's last arc, m; 0 without one.
 double end_of_arcs(const Scene& scene) {
+    const RigidBase base = make_rigid_base(scene);
     double x = 0.0;
-    for (const Segment& piece : make_rigid_base(scene).surfaces.front().chain)
+    for (const Segment& piece : base.surfaces.front().chain)
         if (piece.curvature != 0.0)
             x = piece.end.x;
     return x;
