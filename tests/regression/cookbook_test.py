@@ -23,8 +23,9 @@ needs_finite_elements = unittest.skipIf(os.environ.get("LISTRIC_FEM") == "0",
 
 
 class Recipe(unittest.TestCase):
-    """Runs the commands below `heading` once."""
+    """Runs the commands below `heading` once; draws the runs whose names match `drawn`."""
     heading = None
+    drawn = "^$"
 
     @classmethod
     def setUpClass(cls):
@@ -33,7 +34,7 @@ class Recipe(unittest.TestCase):
         cls.out = Path(folder.name, "cookbook")
         cls.printed = []
         for call in commands(DOCUMENT, cls.heading):
-            ended = run(call, "out/cookbook", cls.out)
+            ended = run(call, "out/cookbook", cls.out, figures=re.search(cls.drawn, call))
             if ended.returncode:
                 raise AssertionError(f"{call}\nended with {ended.returncode}:\n{ended.stdout}")
             cls.printed.append(ended.stdout)
@@ -51,6 +52,7 @@ class Recipe(unittest.TestCase):
 
 class FaultWithAFlat(Recipe):
     heading = "1. A fault with a flat"
+    drawn = "two-ramps"
 
     def test_a_basin_beside_each_ramp(self):
         self.assertIn("correct", self.printed[0])
@@ -62,6 +64,7 @@ class FaultWithAFlat(Recipe):
 
 class OwnRock(Recipe):
     heading = "2. My own rock"
+    drawn = "press"
 
     def test_press_measures_the_rock(self):
         strength = self.summary("press")
@@ -81,6 +84,7 @@ class OwnRock(Recipe):
 @needs_finite_elements
 class Water(Recipe):
     heading = "3. Water in the basin"
+    drawn = "/wet"
 
     def test_water_holds_the_flank_down(self):
         dry, wet = self.summary("dry"), self.summary("wet")
@@ -93,6 +97,7 @@ class Water(Recipe):
 
 class HowSure(Recipe):
     heading = "4. How sure is a number?"
+    drawn = "sweep"
 
     def test_tilt_alone_is_clear(self):
         effects = {row["measure"]: (float(row["effect"]), float(row["p"]))

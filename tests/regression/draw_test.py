@@ -23,7 +23,7 @@ import jsonschema
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from browsed import Browsed, browser
-from program import PROGRAM, SOURCES
+from program import NO_FIGURES, PROGRAM, SOURCES
 
 CHAINS = os.environ.get("LISTRIC_CHAINS", "")
 SCENES = sorted((SOURCES / "apps/scenes").glob("*.toml"))
@@ -427,7 +427,8 @@ class Draw(Browsed):
         self.read_into_page(scene, *sorted(place.glob("*.csv")))
         self.assertEqual(self.script("return page.state.picks;"), picks)
         self.assertNotIn("Drop", self.text("told"))
-        ended = listric("run", scene, "--accuracy", "draft", "--until", "1km", "--output", place / "run", "--no-report", "--quiet")
+        ended = listric("run", scene, "--accuracy", "draft", "--until", "1km", "--output", place / "run", "--no-report", "--quiet",
+                        env=os.environ | NO_FIGURES)
         self.assertEqual(ended.returncode, 0, ended.stdout)
         self.assertTrue(json.loads((place / "run/summary.json").read_text())["finished"])
 

@@ -4,6 +4,7 @@
 """
 
 import json
+import os
 import resource
 import signal
 import subprocess
@@ -12,7 +13,7 @@ import time
 import unittest
 from pathlib import Path
 
-from program import PROGRAM
+from program import NO_FIGURES, PROGRAM
 
 PLAN = """scene = "lis1"
 accuracy = "draft"
@@ -46,7 +47,7 @@ figures_at_m = []
 
 def listric(*words, **options):
     return subprocess.run([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          text=True, errors="replace", timeout=60, **options)
+                          text=True, errors="replace", timeout=60, env=os.environ | NO_FIGURES, **options)
 
 
 class OddShapes(unittest.TestCase):

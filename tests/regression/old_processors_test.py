@@ -1,8 +1,9 @@
 """A program for any x86-64 processor runs on one without AVX, and on one without AVX-512, to the
 same bits as here: on processors that qemu emulates.
 
-The program is what LISTRIC_PROGRAM names. Where the emulated processor has no fused multiply-add,
-the C library here is asked to go without, too. Genesis, which would take an emulator minutes, is recalled from the run here.
+The program is what LISTRIC_PROGRAM names, or, of a build of dem alone, tests/dem_only/levels.cpp, which
+LISTRIC_LEVELS names. Where the emulated processor has no fused multiply-add, the C library here is asked
+to go without, too. Genesis, which would take an emulator minutes, is recalled from the run here.
 """
 
 import json
@@ -25,6 +26,9 @@ class OldProcessors(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.cache)
 
     def run_scene(self, *emulator, **environment):
+        if "LISTRIC_LEVELS" in os.environ:
+            return tuple(subprocess.run([*emulator, os.environ["LISTRIC_LEVELS"]], stdout=subprocess.PIPE, text=True,
+                                        check=True, env={**os.environ, **environment}).stdout.split())
         with tempfile.TemporaryDirectory() as folder:
             call = [*emulator, os.environ["LISTRIC_PROGRAM"], "run", str(SCENE), "--until", UNTIL,
                     "--threads", "1", "--output", folder + "/run"]

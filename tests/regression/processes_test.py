@@ -8,7 +8,7 @@ import time
 import unittest
 from pathlib import Path
 
-from program import PROGRAM
+from program import NO_FIGURES, PROGRAM
 
 SCENE = """[hanging_wall]
 length_m = 8000.0
@@ -48,7 +48,7 @@ class Processes(unittest.TestCase):
         self.folder = Path(folder.name)
         (self.folder / "scene.toml").write_text(SCENE)
         (self.folder / "plan.toml").write_text(PLAN)
-        self.environment = {**os.environ, "XDG_CACHE_HOME": self.cache.name}
+        self.environment = {**os.environ, **NO_FIGURES, "XDG_CACHE_HOME": self.cache.name}
 
     def call(self, *words, **other):
         return subprocess.run([PROGRAM, *words], cwd=self.folder, env=self.environment, text=True,

@@ -6,6 +6,7 @@ from pathlib import Path
 
 SOURCES = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("LISTRIC_PROGRAM", SOURCES / "build/native/listric")).resolve()
+NO_FIGURES = {"LISTRIC_PYTHON": "/bin/false"}  # they take longer than small runs
 
 # Tests may run in a shell's background or under nohup, where programs do not hear of signals that tests send.
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):

@@ -13,18 +13,18 @@ import time
 import unittest
 from pathlib import Path
 
-from program import PROGRAM, SOURCES
+from program import NO_FIGURES, PROGRAM, SOURCES
 
 # What an MPI that has started this process says to its own would confuse another; root may start one.
 ENVIRONMENT = {name: value for name, value in os.environ.items()
-               if not name.startswith(("OMPI_", "PMIX_", "PMI_"))}
+               if not name.startswith(("OMPI_", "PMIX_", "PMI_"))} | NO_FIGURES
 # mpirun says nothing of its own: of Open MPI 4, and 5.
 ENVIRONMENT |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                 "OMPI_MCA_orte_execute_quiet": "1", "PRTE_MCA_prte_execute_quiet": "1"}
 MPIRUN = ["/usr/bin/mpirun", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
 LONGEST = 60.0  # s, until a run that something has ended is gone
 LONG = "4km"  # takes seconds on any machine, so that what ends a run comes before its end
-RESUMED = "1km"  # beyond the place where a run has been ended
+RESUMED = "500m"  # beyond the place where a run has been ended
 needs_finite_elements = unittest.skipIf(os.environ.get("LISTRIC_FEM") == "0",
                                         "a build without finite elements")
 
@@ -145,6 +145,18 @@ class SameBits(Ranks):
 
 
 class Ends(Ranks):
+    @classmethod
+    def setUpClass(cls):
+        """The bits that a run must have which was ended and resumed."""
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(command(0, folder + "/whole", "lis1", "--until", RESUMED), env=ENVIRONMENT, check=True)
+            cls.whole = json.loads(Path(folder, "whole/summary.json").read_text())["state_hash"]
+
+    def assertResumes(self, ranks, *words):
+        last = self.summary(ranks, "run", "lis1", "--until", RESUMED, "--resume", *words)
+        self.assertEqual(last["state_hash"], self.whole)
+        return last
+
     def test_what_is_refused(self):
         energies = self.folder / "energies.toml"
         energies.write_text((SOURCES / "apps/scenes/lis1.toml").read_text() + "\n[energy]\n")
@@ -173,25 +185,21 @@ class Ends(Ranks):
         self.assertEndsWith(ended.returncode, ended.stdout, 3, "below the whole hanging wall")
 
     def test_a_request_to_stop(self):
-        whole = self.summary(0, "whole", "lis1", "--until", RESUMED)
         run = self.begin(2, "run", "lis1", "--until", LONG)
         run.send_signal(signal.SIGUSR1)  # which mpirun hands on
         run.communicate(timeout=LONGEST)
         self.assertEqual(run.returncode, 130)
         self.assertEqual(processes_of(self.folder / "run"), [])
         self.assertEqual(json.loads((self.folder / "run/status.json").read_text())["phase"], "stopped")
-        self.assertEqual(self.summary(0, "run", "lis1", "--until", RESUMED, "--resume")["state_hash"],
-                         whole["state_hash"])
+        self.assertResumes(0)
 
     def test_ctrl_c_where_the_program_starts_mpirun(self):
-        whole = self.summary(0, "whole", "lis1", "--until", RESUMED)
         run = self.begin(0, "run", "lis1", "--until", LONG, "--ranks=2")
         os.killpg(run.pid, signal.SIGINT)  # as a terminal does
         run.communicate(timeout=LONGEST)
         self.assertEqual(run.returncode, 130)
         self.assertEqual(processes_of(self.folder / "run"), [])
-        last = self.summary(0, "run", "lis1", "--until", RESUMED, "--resume", "--ranks=2")
-        self.assertEqual((last["ranks"], last["state_hash"]), (2, whole["state_hash"]))
+        self.assertEqual(self.assertResumes(0, "--ranks=2")["ranks"], 2)
 
     def test_more_ranks_than_mpirun_starts(self):
         ended = self.run_on(0, "run", "lis1", "--ranks=1000")
@@ -291,14 +299,13 @@ class Ends(Ranks):
             self.assertGone()
 
     def test_nohup(self):
-        run = self.begin(0, "run", "lis1", "--until", "1km", "--ranks=2",
+        run = self.begin(0, "run", "lis1", "--until", RESUMED, "--ranks=2",
                          preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
         os.killpg(run.pid, signal.SIGHUP)
         said, _ = run.communicate(timeout=LONGEST)
         self.assertEqual(run.returncode, 0, said)
 
     def test_a_rank_that_is_killed(self):
-        whole = self.summary(0, "whole", "lis1", "--until", RESUMED)
         run = self.begin(3, "run", "lis1", "--until", LONG)
         os.kill(processes_of(self.folder / "run")[-1], signal.SIGKILL)
         begun = time.monotonic()
@@ -307,8 +314,7 @@ class Ends(Ranks):
         while processes_of(self.folder / "run") and time.monotonic() < begun + 5.0:
             time.sleep(0.05)
         self.assertEqual(processes_of(self.folder / "run"), [])
-        self.assertEqual(self.summary(2, "run", "lis1", "--until", RESUMED, "--resume")["state_hash"],
-                         whole["state_hash"])
+        self.assertResumes(2)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from PIL import Image
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from browsed import Browsed, browser
-from program import PROGRAM, SOURCES
+from program import NO_FIGURES, PROGRAM, SOURCES
 
 sys.path.insert(0, str(SOURCES / "apps/figures/python"))
 import plot  # noqa: without it the modules of figures do not find Matplotlib's backend
@@ -37,8 +37,8 @@ HOSTILE = "</script><img src=x onerror=alert(1)>"
 
 
 def listric(*words, **options):
-    return subprocess.run([PROGRAM, *words], cwd=SOURCES, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, **options)
+    return subprocess.run([PROGRAM, *words], cwd=SOURCES, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, **{"env": os.environ | NO_FIGURES, **options})
 
 
 def lightness(colour, seen_by):
