@@ -14,6 +14,7 @@ SHOWN = {
     "strain": "maximum shear strain of the last {window:g} m of extension",
     "sediment": "thickness of the sediment and depth of the pre-rift top",
     "kinematics": "pre-rift top beside kinematic predictions",
+    "inversion": "height above the regional of the tops of all strata",
     "seismic": "synthetic seismic image in two-way time",
     "seismic-depth": "synthetic seismic image in depth",
     "underlay": "the model's horizons and faults over a picture of a section",
@@ -51,7 +52,7 @@ def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, orde
             break
     parts.append(f"{len(frame.x):,} discs, mean radius {meta.get('mean_radius_m', 1000 * frame.radius.mean()):.3g} m, "
                  f"accuracy {meta.get('accuracy', 'custom')}, seed {meta.get('seed', '?')}.")
-    if not said and all(name not in ("sediment", "overview", "seismic") for name in names):
+    if not said and all(name not in ("sediment", "overview", "inversion", "seismic") for name in names):
         parts.append("No vertical exaggeration.")
     return " ".join(filter(None, [*parts, order.errors, provenance_text(order)]))
 

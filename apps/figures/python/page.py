@@ -9,6 +9,7 @@ WIDTH, LEFT, RIGHT = 12.0, 0.72, 1.13
 PANEL_WIDTH = WIDTH - LEFT - RIGHT
 MAX_PANEL_HEIGHT = 8.0
 PROFILE_HEIGHT = 2.5
+TOPS_HEIGHT = 3.4         # of a panel with the tops of all strata
 ROW_ABOVE = 0.34          # description and legend above each panel
 TITLE = 0.42
 XLABEL = 0.52
