@@ -474,7 +474,9 @@ class Drawing(Folder):
         [ax, _] = sections.draw_figure(frame, ["inversion"], 20).axes
         heights = sorted(tuple(line.get_ydata()) for line in ax.lines if len(line.get_ydata()) == 2)
         np.testing.assert_allclose(heights, [(-2.4, -1.9), (-0.8, -0.2), (-0.1, 0.6), (0.0, 0.0)], atol=1e-9)
-        self.assertIn("null point: laid down at 1.23 km of extension", [text.get_text() for text in ax.texts])
+        self.assertIn("null point: laid down at 1.23 km of extension", "\n".join(text.get_text() for text in ax.texts))
+        self.assertIn("Null point: laid down at 1.23 km of extension.",
+                      caption.caption(["inversion"], None, frame, plot.Order(software="Listric 9")))
 
     def test_every_figure_can_be_drawn_of_little_and_of_much(self):
         much = {"layer_marked": [0.0, 1.0, 0.5, 0.0], "discs_behaviour": np.array([0, 2, 1, 1], dtype=np.int32),

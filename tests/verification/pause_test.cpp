@@ -1,7 +1,5 @@
 // A pause of the wall in a small halfgraben: the hanging wall comes to rest, sediment goes on, and
 // when the wall moves on, strain is where it was.
-//
-// Seconds: two.
 
 #include "tests/scene_runs.hpp"
 

@@ -9,7 +9,7 @@ from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section
                   swatch)
 from discs import draw_discs
 from frame import Frame
-from page import PANEL_WIDTH, PROFILE_HEIGHT
+from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT, null_point_text
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
 from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
@@ -385,21 +385,13 @@ def inversion_panel(ax, cax, frame: Frame) -> None:
     if frame.strata:
         handles.append((tuple(stroke(colours[k], 1.4) for k in sorted({0, frame.strata // 2, frame.strata - 1})),
                         "tops of strata"))
-    if frame.legends is None:                   # a page has room for it
+    if frame.legends is None:                   # a page has room; captions say it, too
         ax.set_ylabel("Height above the regional (km)")
-    ax.text(0.985, 0.06, "\n".join(null_point_text(frame.meta)), transform=ax.transAxes, ha="right", va="bottom",
-            fontsize=9.5, zorder=9)
+        (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+        ratio = (TOPS_HEIGHT / (high - low)) / (PANEL_WIDTH / (right - left))
+        ax.text(0.985, 0.06, "\n".join([*null_point_text(frame.meta), f"heights × {ratio:.1f}"]), transform=ax.transAxes,
+                ha="right", va="bottom", fontsize=9.5, zorder=9)
     describe(ax, frame, TOPS if frame.legends is None else f"{TOPS}, height in km", handles)
-
-
-def null_point_text(meta: dict) -> list[str]:
-    """When the stratum was laid down whose top is back at the regional beside the breakaway."""
-    text = []
-    if "null_deposited_at_m" in meta:
-        text.append(f"null point: laid down at {meta['null_deposited_at_m'] / 1000:.2f} km of extension")
-    if "null_deposited_at_decompacted_m" in meta:
-        text.append(f"decompacted: {meta['null_deposited_at_decompacted_m'] / 1000:.2f} km")
-    return text
 
 
 def layer_panel(name: str):
