@@ -48,6 +48,17 @@ TEST(Inversion, ReliefIsTheFallFromTheCrestIntoTheGraben) {
     EXPECT_NEAR(graben_relief(section(0.0, 40e3, [](double x) { return 0.1 * x; })), 0.0, 1e-9);
 }
 
+TEST(Inversion, ReliefIsNoneOfAColumnThatTheWallCuts) {
+    // Beside the wall half a column, in which a disc lies 10 km deep and none above it.
+    std::vector<Disc> discs;
+    for (double x = 0.5 * width; x < 20e3; x += width)
+        discs.push_back({.x = x, .y = -radius, .radius = radius});
+    discs.push_back({.x = 20e3, .y = -10e3, .radius = radius});
+    State state = make_state(discs);
+    state.mean_radius = radius;
+    EXPECT_NEAR(graben_relief(state), 0.0, 1e-9);
+}
+
 TEST(Inversion, NullPointIsWhereStrataAreBackAtTheRegional) {
     // Ten strata, each laid down at the regional, at 500, 1000, ... 5000 m of extension; each
     // metre of extension has let those that were there sink by 0.5 m, and 2.2 km of shortening

@@ -73,7 +73,9 @@ double graben_relief(const State& state) {
     constexpr double width = 2.5e3; // m
     const ConstDiscColumns d = disc_columns(state);
     const auto [left, right] = std::ranges::minmax(d.x);
-    ColumnTops tops(left, right, 2.0 * state.mean_radius);
+    // Whole columns alone: in the part of one beside the wall the highest disc may lie anywhere.
+    const double column = 2.0 * state.mean_radius;
+    ColumnTops tops(left, left + column * std::floor((right - left) / column), column);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.stratum[i] == 0)
             tops.add(d.x[i], d.y[i] + d.radius[i]);
