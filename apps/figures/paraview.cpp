@@ -3,6 +3,7 @@
 #include "apps/figures/vocabulary.hpp"
 #include "apps/figures/vtk_array.hpp"
 #include "apps/measures/cohesion.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
@@ -119,7 +120,7 @@ std::string discs_file(const State& state, const RigidBase& base) {
     file.array(file.points, "Points", points(d), 3);
     if (!base.motion.stages.empty()) {
         file.number("extension_m", state.clock.extension);
-        file.number("travel_m", state.clock.travel);
+        file.number(travel_column, state.clock.travel);
     }
     std::vector<std::int64_t> connectivity(n);
     for (std::size_t i = 0; i < n; ++i)

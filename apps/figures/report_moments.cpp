@@ -12,6 +12,7 @@
 #include "apps/measures/measures.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/measures/rock_behaviour.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/deflate.hpp"
 #include "apps/support/fineness.hpp"
@@ -384,7 +385,7 @@ void ReportMoments::add(const Observation& now, const SectionLines& lines) {
         for_each_shared(to_pack.size(), [&](std::size_t k) { packed[k] = to_pack[k](); });
         const std::string travel = now.parts.base.motion.stages.empty()
                                        ? ""
-                                       : fmt::format("\"travel_m\":{},", clock.travel);
+                                       : fmt::format("\"{}\":{},", travel_column, clock.travel);
         moments_.push_back(
             {fmt::format("\"extension_m\":{},{}\"time_a\":{},\"discs\":{},"
                          "\"ends\":{},\"streams\":{{{}}}",

@@ -1,6 +1,7 @@
 #include "apps/archive/json_file.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
+#include "apps/scene/stage.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -19,7 +20,7 @@ void tell(const RunView& run) {
     const double left = run.phase == Phase::finished ? 0.0 : run.seconds_left();
     JsonObject status{{"phase", name(run.phase)}, {"extension_m", run.extension()}};
     if (run.has_stages()) {
-        status["travel_m"] = run.travel(); // of_m is of the travel
+        status[travel_column] = run.travel(); // of_m is of the travel
         status["stage"] = run.simulation.base().motion.stage(run.travel());
     }
     status["of_m"] = run.target();
