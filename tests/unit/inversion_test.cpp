@@ -49,14 +49,17 @@ TEST(Inversion, ReliefIsTheFallFromTheCrestIntoTheGraben) {
 }
 
 TEST(Inversion, ReliefIsNoneOfAColumnThatTheWallCuts) {
-    // Beside the wall half a column, in which a disc lies 10 km deep and none above it.
-    std::vector<Disc> discs;
-    for (double x = 0.5 * width; x < 20e3; x += width)
-        discs.push_back({.x = x, .y = -radius, .radius = radius});
-    discs.push_back({.x = 20e3, .y = -10e3, .radius = radius});
-    State state = make_state(discs);
-    state.mean_radius = radius;
-    EXPECT_NEAR(graben_relief(state), 0.0, 1e-9);
+    // Beside the wall half a column, in which a disc lies 10 km deep and none above it. Many sizes:
+    // rounding must not make a column of its own of it.
+    for (double r = 40.0; r < 60.0; r += 0.37) {
+        std::vector<Disc> discs;
+        for (int k = 0; k < 200; ++k)
+            discs.push_back({.x = 7.3 + 2.0 * r * k, .y = -r, .radius = r});
+        discs.push_back({.x = 7.3 + 2.0 * r * 200.5, .y = -10e3, .radius = r});
+        State state = make_state(discs);
+        state.mean_radius = r;
+        EXPECT_NEAR(graben_relief(state), 0.0, 1e-9) << r;
+    }
 }
 
 TEST(Inversion, NullPointIsWhereStrataAreBackAtTheRegional) {
