@@ -25,6 +25,7 @@ from PIL import Image
 import animation
 import axes
 import base
+import caption
 import discs
 import effects
 import figures
