@@ -41,7 +41,7 @@ constexpr TopFile top_files[] = {
 };
 
 constexpr std::string_view section_pictures[] = {
-    "strata",   "bonds",    "behaviour",  "strain",  "sediment",      "kinematics",
+    "strata",   "bonds",    "behaviour",  "strain",  "sediment",      "kinematics", "inversion",
     "overview", "underlay", "experiment", "seismic", "seismic-depth", "well"};
 constexpr std::string_view layer_picture = "layer-"; ///< and the name of an effect's layer
 constexpr std::string_view base_pictures[] = {"base", "footwall", "flexure"};

@@ -22,9 +22,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 
 namespace listric {
 
@@ -171,6 +173,21 @@ void write_horizons(const FrameWriter& writer, const std::string& name,
     writer.array(name, rows, 3);
 }
 
+/// Tops of strata and of layers of rock: stratum (0: pre-rift top, below 0: layers), number of the
+/// piece, x, y.
+void write_tops(const FrameWriter& writer, const Observation& now) {
+    std::vector<double> rows;
+    double number = 0.0;
+    for (const Horizon& h : trace_horizons(archive::make_setting(now.scene, now.parts),
+                                           now.parts.base, now.state, {}, {.pre_rift_layer = 0.0}))
+        for (const Polyline& piece : h.pieces) {
+            for (const Point p : piece)
+                rows.insert(rows.end(), {static_cast<double>(h.stratum), number, p.x, p.y});
+            number += 1.0;
+        }
+    writer.array("tops", rows, 4);
+}
+
 /// Picks, and the model's tops that go with them: number of the line, x, y.
 void write_observed(const FrameWriter& writer, const Observation& now,
                     const std::vector<Horizon>& horizons) {
@@ -264,6 +281,14 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     nlohmann::json frame = frame_json(now, m);
     frame["strain_end"] = scale_end(strain);
     frame["layers"] = declared_layers(now.scene);
+    if (now.parts.base.motion.shortens(now.state.clock.travel)) {
+        write_tops(writer, now);
+        for (const EffectPart& part : now.scene.effects)
+            for (const Measure<Observation>& measure : part.effect->measures)
+                if (std::string_view(measure.name).starts_with("null_deposited_at"))
+                    if (const auto value = measure.value(now); value && std::isfinite(*value))
+                        frame[measure.name] = *value;
+    }
     const double extension = now.state.clock.travel;
     frame["extension_km"] = names.value_or(MomentNames(now.scene.output.interval, {&extension, 1}))
                                 .kilometres(extension);

@@ -3,6 +3,7 @@
 #include "apps/figures/vocabulary.hpp"
 #include "apps/figures/vtk_array.hpp"
 #include "apps/measures/cohesion.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
@@ -60,23 +61,32 @@ public:
                                           values.size() * sizeof(T)}));
     }
 
+    /// A number of the whole file.
+    void number(const std::string& name, double value) {
+        fields_ += fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" "
+                               "format=\"ascii\">\n{}\n</DataArray>\n",
+                               name, value);
+    }
+
     std::string point_data, cell_data, points, vertices, lines;
 
     std::string text() const {
         return fmt::format(
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
             "byte_order=\"LittleEndian\" header_type=\"UInt64\" "
-            "compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n"
+            "compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n{}"
             "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" "
             "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"
             "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n"
             "<Verts>\n{}</Verts>\n<Lines>\n{}</Lines>\n"
             "</Piece>\n</PolyData>\n</VTKFile>\n",
-            points_, vertices_, lines_, point_data, cell_data, points, vertices, lines);
+            fields_.empty() ? "" : fmt::format("<FieldData>\n{}</FieldData>\n", fields_), points_,
+            vertices_, lines_, point_data, cell_data, points, vertices, lines);
     }
 
 private:
     std::size_t points_, vertices_, lines_;
+    std::string fields_;
 };
 
 /// Cells of `size` consecutive points each.
@@ -108,6 +118,10 @@ std::string discs_file(const State& state, const RigidBase& base) {
     const std::size_t n = d.x.size();
     PolyData file(n, n, 0);
     file.array(file.points, "Points", points(d), 3);
+    if (!base.motion.stages.empty()) {
+        file.number("extension_m", state.clock.extension);
+        file.number(travel_column, state.clock.travel);
+    }
     std::vector<std::int64_t> connectivity(n);
     for (std::size_t i = 0; i < n; ++i)
         connectivity[i] = static_cast<std::int64_t>(i);

@@ -16,8 +16,9 @@ inline constexpr std::string_view picture_formats[] = {"png", "pdf", "svg"};
 inline constexpr std::string_view film_formats[] = {"mp4", "gif", "webp"};
 
 /// Panels that a figure can have, besides layers of effects: layer-NAME.
-inline constexpr std::string_view panel_names[] = {
-    "strata", "bonds", "behaviour", "strain", "sediment", "kinematics", "seismic", "seismic-depth"};
+inline constexpr std::string_view panel_names[] = {"strata",    "bonds",    "behaviour",
+                                                   "strain",    "sediment", "kinematics",
+                                                   "inversion", "seismic",  "seismic-depth"};
 
 /// In which formats pictures are written, and what they say of the run that they show.
 struct PictureOrder {

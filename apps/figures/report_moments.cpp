@@ -12,6 +12,7 @@
 #include "apps/measures/measures.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/measures/rock_behaviour.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/deflate.hpp"
 #include "apps/support/fineness.hpp"
@@ -382,12 +383,16 @@ void ReportMoments::add(const Observation& now, const SectionLines& lines) {
         const std::vector<Stream> to_pack = streams(now, ends);
         std::vector<std::string> packed(to_pack.size());
         for_each_shared(to_pack.size(), [&](std::size_t k) { packed[k] = to_pack[k](); });
-        moments_.push_back({fmt::format("\"extension_m\":{},\"time_a\":{},\"discs\":{},\"ends\":{},"
-                                        "\"streams\":{{{}}}",
-                                        clock.travel, clock.travel / now.scene.extension.rate,
-                                        now.state.discs.rows(), to_text(nlohmann::json(ends)),
-                                        fmt::join(packed, ",")),
-                            ""});
+        const std::string travel = now.parts.base.motion.stages.empty()
+                                       ? ""
+                                       : fmt::format("\"{}\":{},", travel_column, clock.travel);
+        moments_.push_back(
+            {fmt::format("\"extension_m\":{},{}\"time_a\":{},\"discs\":{},"
+                         "\"ends\":{},\"streams\":{{{}}}",
+                         travel.empty() ? clock.travel : clock.extension, travel,
+                         clock.travel / now.scene.extension.rate, now.state.discs.rows(),
+                         to_text(nlohmann::json(ends)), fmt::join(packed, ",")),
+             ""});
     }
     extension_ = clock.travel;
     moments_.back().lines = lines.packed;

@@ -13,6 +13,7 @@
 #include "apps/scene/differences.hpp"
 #include "apps/scene/effect.hpp"
 #include "apps/scene/rock_line.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
@@ -106,7 +107,7 @@ json head_of(const ReportPage::Run& run) {
               {"layers", declared_layers(scene)},
               {"length_m", scene.hanging_wall.length},
               {"thickness_m", scene.hanging_wall.thickness},
-              {"extension_m", scene.extension.distance},
+              {"extension_m", greatest_extension(scene)},
               {"rate_m_per_a", scene.extension.rate},
               {"mean_radius_m", run.mean_radius},
               {"scales", json::parse(report_scales(run.mean_radius))},

@@ -12,10 +12,12 @@ constexpr Quantity dilation{
     "rock_dilation_m2", "m2",
     "growth of the pre-rift discs' power cells (the part of the plane that is nearer to a disc "
     "than to any other) since the start, of those that are closed then and now, scaled to all: "
-    "dilation of the rock, measured without its surface"};
-constexpr Quantity dilation_fraction{
-    "rock_dilation_fraction", "1",
-    "`rock_dilation_m2` over extension × thickness, to compare with 1 - `area_balance`"};
+    "dilation of the rock, measured without its surface. Shortening lifts its area less by what "
+    "this falls by"};
+constexpr Quantity dilation_fraction{"rock_dilation_fraction", "1",
+                                     "`rock_dilation_m2` over extension × thickness, to compare "
+                                     "with 1 - `area_balance`; none once a "
+                                     "stage has shortened"};
 
 } // namespace
 
@@ -52,7 +54,8 @@ NamedNumbers measure_dilation(const RunSoFar& run) {
     NamedNumbers numbers; // not finite without closed cells
     const double grown = growth * all / closed;
     add(numbers, dilation, grown);
-    add(numbers, dilation_fraction, grown / (run.extension * run.setting.thickness));
+    if (!run.base.motion.shortens(run.now.clock.travel))
+        add(numbers, dilation_fraction, grown / (run.extension * run.setting.thickness));
     return numbers;
 }
 

@@ -29,8 +29,10 @@ NamedNumbers measure_evolution(const Setting& setting, const RigidBase& base, co
     const RunSoFar run(setting, base, now, past);
     NamedNumbers numbers = measure_main_faults(run, faults, measures.rollover_tilt);
     // The rest compares moments of a wall that is pulled on and on.
-    if (base.motion.shortens(now.clock.travel))
+    if (base.motion.shortens(now.clock.travel)) {
+        append(numbers, measure_dilation(run));
         return numbers;
+    }
     append(numbers, measure_block_edges(run, measures.rollover_tilt));
     append(numbers, measure_persistence(run));
     append(numbers, measure_relief(run));

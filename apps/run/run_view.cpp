@@ -94,6 +94,15 @@ void RunView::add_row() {
         history.get<double>(name).back() = value;
 }
 
+std::string RunView::place_text(std::optional<double> interval) const {
+    const auto text = [&](double length) {
+        return interval ? length_text(length, *interval) : length_text(length);
+    };
+    return has_stages()
+               ? fmt::format("{} of extension after a way of {}", text(extension()), text(travel()))
+               : fmt::format("{} of extension", text(travel()));
+}
+
 void RunView::require_elasticity() const {
     if (window_of_base.beyond_elasticity)
         throw BeyondElasticity(*window_of_base.beyond_elasticity);

@@ -54,6 +54,12 @@ public:
     double target() const { return options.end(scene.extension.distance); } ///< of travel, m
     Observation now() const { return {scene, parts, state(), simulation.events()}; }
 
+    bool has_stages() const { return !simulation.base().motion.stages.empty(); }
+
+    /// "5 km of extension"; with stages of motion "1 km of extension after a way of 9 km".
+    /// @param interval  extensions that texts tell apart, m; none: length_text()'s own
+    std::string place_text(std::optional<double> interval = {}) const;
+
     int ranks() const;
 
     /// The footwall with the field of the present moment, until that of another one is recovered;

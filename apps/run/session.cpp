@@ -35,8 +35,7 @@ RunOutcome Session::run() {
         return RunOutcome::finished;
     } catch (const Interrupted&) {
         enter(Phase::stopped);
-        run_.log.say(fmt::format("stopped at {} of extension; {}",
-                                 length_text(run_.travel(), run_.scene.output.interval),
+        run_.log.say(fmt::format("stopped at {}; {}", run_.place_text(run_.scene.output.interval),
                                  resume_hint(run_.options.output)));
         return RunOutcome::interrupted;
     }
@@ -71,9 +70,8 @@ bool Session::resume() {
         run_.kept = *path;
         run_.past = RunHistory(run_.ended_windows());
         tell(&Output::resume);
-        run_.log.say(fmt::format("resuming at {} of extension from {}",
-                                 length_text(run_.travel(), run_.scene.output.interval),
-                                 path->string()));
+        run_.log.say(fmt::format("resuming at {} from {}",
+                                 run_.place_text(run_.scene.output.interval), path->string()));
         return true;
     }
     return false;

@@ -61,6 +61,8 @@ TEST_F(Stages, OneStageIsTheDistance) {
     EXPECT_EQ(summary["travel_m"], other["extension_m"]);
     EXPECT_EQ(summary["state_hash"], other["state_hash"]);
     EXPECT_FALSE(other.contains("travel_m")); // a column of stages alone
+    EXPECT_FALSE(nlohmann::json::parse(contents(options("plain").output / "status.json"))
+                     .contains("travel_m"));
     EXPECT_FALSE(other.contains("stage"));
 }
 
@@ -71,6 +73,12 @@ TEST_F(Stages, AreOneRunHoweverTheyAreCut) {
     EXPECT_NEAR(whole["extension_m"].get<double>(), 50.0, 0.1);
     EXPECT_NEAR(whole["travel_m"].get<double>(), 250.0, 0.1);
     EXPECT_EQ(whole["stage"], 2);
+    const auto status = nlohmann::json::parse(contents(options("whole").output / "status.json"));
+    EXPECT_EQ(status["extension_m"], whole["extension_m"]);
+    EXPECT_EQ(status["travel_m"], whole["travel_m"]);
+    EXPECT_EQ(status["stage"], 2);
+    EXPECT_THAT(contents(options("whole").output / "log.txt"),
+                HasSubstr("of extension after a way of"));
     EXPECT_LT(whole["mass_error_fraction"].get<double>(), 1e-12);
 
     RunOptions plain = options("plain");

@@ -48,6 +48,20 @@ TEST(Inversion, ReliefIsTheFallFromTheCrestIntoTheGraben) {
     EXPECT_NEAR(graben_relief(section(0.0, 40e3, [](double x) { return 0.1 * x; })), 0.0, 1e-9);
 }
 
+TEST(Inversion, ReliefIsNoneOfAColumnThatTheWallCuts) {
+    // Beside the wall half a column, in which a disc lies 10 km deep and none above it. Many sizes:
+    // rounding must not make a column of its own of it.
+    for (double r = 40.0; r < 60.0; r += 0.37) {
+        std::vector<Disc> discs;
+        for (int k = 0; k < 200; ++k)
+            discs.push_back({.x = 7.3 + 2.0 * r * k, .y = -r, .radius = r});
+        discs.push_back({.x = 7.3 + 2.0 * r * 200.5, .y = -10e3, .radius = r});
+        State state = make_state(discs);
+        state.mean_radius = r;
+        EXPECT_NEAR(graben_relief(state), 0.0, 1e-9) << r;
+    }
+}
+
 TEST(Inversion, NullPointIsWhereStrataAreBackAtTheRegional) {
     // Ten strata, each laid down at the regional, at 500, 1000, ... 5000 m of extension; each
     // metre of extension has let those that were there sink by 0.5 m, and 2.2 km of shortening

@@ -25,6 +25,7 @@ from PIL import Image
 import animation
 import axes
 import base
+import caption
 import discs
 import effects
 import figures
@@ -464,6 +465,20 @@ class Drawing(Folder):
         self.assertEqual(list(known), [*overview, "kinematics", "overview"])
         self.assertEqual(known["overview"], overview)
 
+    def test_tops_after_a_turn_are_drawn_against_the_regional(self):
+        tops = [[0.0, 0.0, 0.0, -900.0], [0.0, 0.0, 3000.0, -300.0], [1.0, 1.0, 0.0, -200.0], [1.0, 1.0, 3000.0, 500.0],
+                [-1.0, 2.0, 0.0, -2500.0], [-1.0, 2.0, 3000.0, -2000.0]]
+        meta = {"level_m": -100.0, "null_deposited_at_m": 1234.0}
+        frame = self.frame(meta, tops=tops)
+        self.assertEqual(sections.figures_of(frame)["inversion"], ["strata", "inversion"])
+        self.assertNotIn("inversion", sections.figures_of(self.frame()))
+        [ax, _] = sections.draw_figure(frame, ["inversion"], 20).axes
+        heights = sorted(tuple(line.get_ydata()) for line in ax.lines if len(line.get_ydata()) == 2)
+        np.testing.assert_allclose(heights, [(-2.4, -1.9), (-0.8, -0.2), (-0.1, 0.6), (0.0, 0.0)], atol=1e-9)
+        self.assertIn("null point: laid down at 1.23 km of extension", "\n".join(text.get_text() for text in ax.texts))
+        self.assertIn("Null point: laid down at 1.23 km of extension.",
+                      caption.caption(["inversion"], None, frame, plot.Order(software="Listric 9")))
+
     def test_every_figure_can_be_drawn_of_little_and_of_much(self):
         much = {"layer_marked": [0.0, 1.0, 0.5, 0.0], "discs_behaviour": np.array([0, 2, 1, 1], dtype=np.int32),
                 "bonded": [[500.0, -500.0, 1500.0, -500.0, 0.0]],
@@ -473,12 +488,13 @@ class Drawing(Folder):
                 "layer_water": [[0.0, -50.0, 0.0], [4000.0, -50.0, 0.0]],
                 "layer_shore": [[0.0, -50.0], [4000.0, -150.0]],
                 "predicted_shear": [[0.0, 0.0], [4000.0, -300.0]],
-                "predicted_normals": [[0.0, 0.0], [300.0, -300.0]]}
+                "predicted_normals": [[0.0, 0.0], [300.0, -300.0]],
+                "tops": [[0.0, 0.0, 0.0, -900.0], [0.0, 0.0, 3000.0, -300.0]]}
         for arrays in ({}, much):
             meta = {"layers": [WATER, SHORE, MARKED] if arrays else []}
             frame = self.frame(meta, **arrays)
             known = [name for name in panels.PANELS if name not in ("underlay", "seismic", "seismic-depth")]
-            self.assertEqual(len(sections.draw_figure(frame, known, 20).axes), 12)
+            self.assertEqual(len(sections.draw_figure(frame, known, 20).axes), 14)
             rows = 4 if arrays else 2
             self.assertEqual(len(sheet.draw_sheet([frame, self.frame(meta, **arrays)]).axes), 4 * rows)
 
@@ -542,11 +558,12 @@ PRINTED = {"profile": [[1000.0, -200.0, np.nan], [2000.0, -400.0, 400.0], [3000.
            "bonded": [[500.0, -500.0, 1500.0, -500.0, 0.0]],
            "predicted_shear": [[0.0, 0.0], [4000.0, -300.0]],
            "predicted_normals": [[0.0, 0.0], [300.0, -300.0]],
+           "tops": [[0.0, 0.0, 0.0, -900.0], [0.0, 0.0, 30000.0, -300.0], [1.0, 1.0, 0.0, -200.0], [1.0, 1.0, 30000.0, 500.0]],
            "faults": [[0.0, 1000.0, -500.0, 2.0], [0.0, 1500.0, -900.0, 2.0]],
            "seismic": np.outer(np.ones(40), np.sin(np.linspace(0, 20, 50))), "seismic_axes": [50.0, 100.0, 0.0, 25.0, 0.02, 0.0],
            "seismic_depth": np.outer(np.ones(40), np.sin(np.linspace(0, 20, 50))),
            "seismic_depth_axes": [50.0, 100.0, 0.0, 25.0, 20.0, 0.0]}
-ALL_PANELS = ("strata", "bonds", "behaviour", "strain", "sediment", "kinematics", "seismic", "seismic-depth")
+ALL_PANELS = ("strata", "bonds", "behaviour", "strain", "sediment", "kinematics", "inversion", "seismic", "seismic-depth")
 
 
 def texts(figure):
@@ -585,7 +602,7 @@ class Print(Folder):
                         for inner, outer in ((page_box.x0, box.x0), (page_box.y0, box.y0), (box.x1, page_box.x1), (box.y1, page_box.y1)):
                             self.assertLessEqual(inner, outer + 2.0, (width, text.get_text()))   # of 670 pixels
                     words = [text.get_text() for text, _ in seen]
-                    self.assertLessEqual(set("abcdefgh"), set(words))
+                    self.assertLessEqual(set("abcdefghi"), set(words))
                     self.assertEqual("LIS1" in " ".join(words), not plain)
 
     def test_what_is_not_at_equal_scales_says_so(self):

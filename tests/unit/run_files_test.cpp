@@ -53,6 +53,7 @@ TEST_F(RunFiles, HaveNamesAsTheProgramMakesThem) {
         "figures/animation-2.5km.webp",
         "figures/strata-seismic-depth-strain-5.0km-85mm.pdf",
         "figures/seismic-depth-5.0km.png",
+        "figures/inversion-9.0km.png",
         "export/seismic-extension-00100.02m.segy",
         "export/seismic-extension-00100.02m-image.npy",
         "export/horizons-extension-00100.02m.geojson",

@@ -4,7 +4,7 @@ import os
 from collections.abc import Sequence
 
 from frame import Frame
-from page import moment_text
+from page import moment_text, null_point_text
 from plot import Order
 
 SHOWN = {
@@ -14,6 +14,7 @@ SHOWN = {
     "strain": "maximum shear strain of the last {window:g} m of extension",
     "sediment": "thickness of the sediment and depth of the pre-rift top",
     "kinematics": "pre-rift top beside kinematic predictions",
+    "inversion": "height above the regional of the tops of all strata",
     "seismic": "synthetic seismic image in two-way time",
     "seismic-depth": "synthetic seismic image in depth",
     "underlay": "the model's horizons and faults over a picture of a section",
@@ -49,9 +50,11 @@ def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, orde
         if name in names and axes is not None:
             parts.append(SEISMIC.format(frequency=axes[3]))
             break
+    if "inversion" in names and (null_point := null_point_text(meta)):
+        parts.append("; ".join(null_point).capitalize() + ".")
     parts.append(f"{len(frame.x):,} discs, mean radius {meta.get('mean_radius_m', 1000 * frame.radius.mean()):.3g} m, "
                  f"accuracy {meta.get('accuracy', 'custom')}, seed {meta.get('seed', '?')}.")
-    if not said and all(name not in ("sediment", "overview", "seismic") for name in names):
+    if not said and all(name not in ("sediment", "overview", "inversion", "seismic") for name in names):
         parts.append("No vertical exaggeration.")
     return " ".join(filter(None, [*parts, order.errors, provenance_text(order)]))
 

@@ -18,6 +18,8 @@ origin), n discs:
     picked_horizons, picked_faults   number of the line, x, y; only where there are picks
     horizons                         all tops of the model, likewise; only with an underlay
     compared_horizons                the model's tops that they are compared with, likewise
+    tops                             of strata and layers of rock, after a turn: stratum (0: pre-rift
+                                     top, below 0: layers), number of the piece, x, y
     predicted_shear, predicted_normals  x, y of the pre-rift top by kinematic constructions
     seismic, seismic_depth           amplitudes, a row per trace; only where they are asked for
     seismic_axes, seismic_depth_axes x of the first trace, distance of traces, height of the first
@@ -86,6 +88,7 @@ class Frame:
     picked_faults: np.ndarray | None = None
     compared_horizons: np.ndarray | None = None
     horizons: np.ndarray | None = None
+    tops: np.ndarray | None = None
     predicted_shear: np.ndarray | None = None
     predicted_normals: np.ndarray | None = None
     seismic: np.ndarray | None = None          # these four in SI units
@@ -257,6 +260,7 @@ def load_frame(folder: str) -> Frame:
         picked_fault=km(table("picked_fault", 2)),
         **{name: scaled(table(name, 3), [1.0, 1e-3, 1e-3])
            for name in ("picked_horizons", "picked_faults", "compared_horizons", "horizons")},
+        tops=scaled(table("tops", 4), [1.0, 1.0, 1e-3, 1e-3]),
         predicted_shear=km(table("predicted_shear", 2)),
         predicted_normals=km(table("predicted_normals", 2)),
         **{name: load_image(folder, name) for name in ("seismic", "seismic_depth")},

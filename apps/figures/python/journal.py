@@ -25,6 +25,7 @@ NARROW, RIGHT_OF_NARROW = 4.5, 0.74   # a figure whose colour bars have labels o
 ABOVE, XLABEL, GAP = 0.20, 0.36, 0.10
 LEGEND_LINE = 0.145
 PROFILE_SHARE = 0.24              # height of the profile of sediment over a panel's width
+TOPS_SHARE = 0.34                 # the same of the tops of strata
 LEAST_PROFILE, LEAST_TIME = 0.85, 1.1   # heights that hold the labels of their axes
 THIN = 0.6                        # of the lines of a page, which are for twice the width
 DEFAULT = ("strata", "strain")
@@ -37,7 +38,8 @@ def letters(count: int) -> list[str]:
 def sizes(frame: Frame, names: Sequence[str], width: float) -> list[tuple[float, float]]:
     """Width and height of panels."""
     across = width - LEFT - (RIGHT_OF_NARROW if width < NARROW else RIGHT)
-    own = {"sediment": max(PROFILE_SHARE * across, LEAST_PROFILE), "seismic": max(0.4 * across, LEAST_TIME)}
+    own = {"sediment": max(PROFILE_SHARE * across, LEAST_PROFILE), "seismic": max(0.4 * across, LEAST_TIME),
+           "inversion": max(TOPS_SHARE * across, LEAST_TIME)}
     return [(across, own.get(name, across * frame.rise / frame.span)) for name in names]
 
 

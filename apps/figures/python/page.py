@@ -9,6 +9,7 @@ WIDTH, LEFT, RIGHT = 12.0, 0.72, 1.13
 PANEL_WIDTH = WIDTH - LEFT - RIGHT
 MAX_PANEL_HEIGHT = 8.0
 PROFILE_HEIGHT = 2.5
+TOPS_HEIGHT = 3.4         # of a panel with the tops of all strata
 ROW_ABOVE = 0.34          # description and legend above each panel
 TITLE = 0.42
 XLABEL = 0.52
@@ -36,6 +37,16 @@ def moment_text(frame: Frame) -> str:
     if "way_m" not in frame.meta:
         return text
     return f"{frame.meta['extension_m'] / 1000:.3g} km of extension after a way of {extension_text(frame)} km"
+
+
+def null_point_text(meta: dict) -> list[str]:
+    """When the stratum was laid down whose top is back at the regional beside the breakaway."""
+    text = []
+    if "null_deposited_at_m" in meta:
+        text.append(f"null point: laid down at {meta['null_deposited_at_m'] / 1000:.2f} km of extension")
+    if "null_deposited_at_decompacted_m" in meta:
+        text.append(f"decompacted: {meta['null_deposited_at_decompacted_m'] / 1000:.2f} km")
+    return text
 
 
 LONGEST_TITLE = 80        # letters that fit beside the moment

@@ -9,7 +9,7 @@ from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section
                   swatch)
 from discs import draw_discs
 from frame import Frame
-from page import PANEL_WIDTH, PROFILE_HEIGHT
+from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT, null_point_text
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
 from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
@@ -29,6 +29,7 @@ BOND, BOND_SEDIMENT = INKS["bonds"], "#a87a10"
 UNDEFINED = "#e2e8ee"
 PICK, HORIZON, NORMALS_BLUE = INKS["picks"], INKS["horizons"], INKS["predictions"]
 LEVEL_BLUE, TOP_GREEN = INKS["target"], "#2b8a3e"
+TOPS = "Tops against the regional"
 MOST_DEPOCENTRES = 10     # that are labelled
 
 
@@ -350,6 +351,49 @@ def areas_text(meta: dict) -> list[str]:
     return text
 
 
+def inversion_panel(ax, cax, frame: Frame) -> None:
+    """Heights of the tops of all strata above the regional: shortening lifts them back through it."""
+    ax.set_xlim(*frame.view[:2])
+    distance_axis(ax, frame)
+    if frame.tops is None or not len(frame.tops):
+        cax.set_axis_off()
+        ax.set_yticks([])
+        ax.text(0.5, 0.5, "no shortening before this moment", color=FAINT, ha="center", va="center", transform=ax.transAxes)
+        describe(ax, frame, TOPS)
+        return
+    regional = frame.level or 0.0
+    heights = frame.tops[:, 3] - regional
+    lowest = heights[frame.tops[:, 0] >= 0].min(initial=-0.5)
+    ax.set_ylim(1.06 * lowest, max(heights.max(), 0.3) * 1.12)
+    colours = stratum_colours(frame.strata)
+    if frame.strata:
+        strata_bar(cax, colours, frame)
+    else:
+        cax.set_axis_off()
+    handles = [(stroke(LEVEL_BLUE, 1.2, dashes=(4, 2)), "regional")]
+    ax.axhline(0.0, color=LEVEL_BLUE, linewidth=1.2, dashes=(6, 3), zorder=8)
+    for number in np.unique(frame.tops[:, 1]):
+        piece = frame.tops[frame.tops[:, 1] == number]
+        stratum = int(piece[0, 0])
+        style = {"color": colours[stratum - 1], "linewidth": 1.1} if stratum > 0 else \
+            {"color": INK, "linewidth": 1.8} if stratum == 0 else {"color": FAINT, "linewidth": 0.9}
+        ax.plot(piece[:, 2], piece[:, 3] - regional, zorder=7 if stratum == 0 else 5, **style)
+    if (frame.tops[:, 0] == 0).any():
+        handles.append((stroke(INK, 1.8), "pre-rift top"))
+    if (frame.tops[:, 0] < 0).any():
+        handles.append((stroke(FAINT, 0.9), "boundary of layers"))
+    if frame.strata:
+        handles.append((tuple(stroke(colours[k], 1.4) for k in sorted({0, frame.strata // 2, frame.strata - 1})),
+                        "tops of strata"))
+    if frame.legends is None:                   # a page has room; captions say it, too
+        ax.set_ylabel("Height above the regional (km)")
+        (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+        ratio = (TOPS_HEIGHT / (high - low)) / (PANEL_WIDTH / (right - left))
+        ax.text(0.985, 0.06, "\n".join([*null_point_text(frame.meta), f"heights × {ratio:.1f}"]), transform=ax.transAxes,
+                ha="right", va="bottom", fontsize=9.5, zorder=9)
+    describe(ax, frame, TOPS if frame.legends is None else f"{TOPS}, height in km", handles)
+
+
 def layer_panel(name: str):
     """Panel of an effect's layer whose ink has shades."""
     def panel(ax, cax, frame: Frame) -> None:
@@ -412,6 +456,7 @@ def draw_wiggles(ax, traces: np.ndarray, left: float, right: float, top: float, 
 
 PANELS = {"strata": strata_panel, "bonds": bonds_panel, "behaviour": behaviour_panel,
           "strain": strain_panel, "sediment": sediment_panel, "kinematics": kinematics_panel,
+          "inversion": inversion_panel,
           "underlay": underlay_panel, "seismic": seismic_panel, "seismic-depth": seismic_depth_panel}
 
 

@@ -3,7 +3,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from frame import Frame
-from page import (DPI, GAP, LEFT, PROFILE_HEIGHT, ROW_ABOVE, TITLE, WIDTH, add_axes, below,
+from page import (DPI, GAP, LEFT, PROFILE_HEIGHT, ROW_ABOVE, TITLE, TOPS_HEIGHT, WIDTH, add_axes, below,
                   extension_text, footer, headline, name_distance, panel_size, set_ticks, write_around)
 from caption import caption, write_captions
 from journal import DEFAULT, save_print
@@ -17,7 +17,8 @@ LAYER_PICTURE = "layer-"   # and the layer's name
 def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI, plain: bool = False) -> Figure:
     """Figure with the panels of these names; a plain one has neither headline nor small print."""
     width, section_height = panel_size(frame)
-    heights = [PROFILE_HEIGHT if name == "sediment" else section_height for name in names]
+    own = {"sediment": PROFILE_HEIGHT, "inversion": TOPS_HEIGHT}
+    heights = [own.get(name, section_height) for name in names]
     lines = [] if plain else footer(frame)
     title = 0.0 if plain else TITLE
     total = title + below(lines) + sum(heights) + ROW_ABOVE * len(names) + GAP * (len(names) - 1)
@@ -36,17 +37,20 @@ def draw_figure(frame: Frame, names: Sequence[str], dpi: float = DPI, plain: boo
     return figure
 
 
-ON_DEMAND = ("kinematics", "underlay", "seismic", "seismic-depth")   # not on the overview
+ON_DEMAND = ("kinematics", "inversion", "underlay", "seismic", "seismic-depth")   # not on the overview
 
 
 def figures_of(frame: Frame) -> dict[str, list[str]]:
     """The figures that a frame gets, by name: their panels."""
     overview = [name for name in PANELS if name not in ON_DEMAND]
-    there = {"kinematics": frame.predicted_shear, "underlay": frame.horizons, "seismic": frame.seismic,
+    there = {"kinematics": frame.predicted_shear, "inversion": frame.tops, "underlay": frame.horizons, "seismic": frame.seismic,
              "seismic-depth": frame.seismic_depth}
     known = overview + [name for name in ON_DEMAND if there[name] is not None]
     known += [LAYER_PICTURE + layer.name for layer in frame.layers if layer.is_graded]
-    return {**{name: [name] for name in known}, "overview": overview}
+    figures = {**{name: [name] for name in known}, "overview": overview}
+    if "inversion" in figures:                   # heights below the section that they belong to
+        figures["inversion"] = ["strata", "inversion"]
+    return figures
 
 
 def save_sections(frames: Sequence[Frame], folder: str, order: Order) -> None:

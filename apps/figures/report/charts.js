@@ -6,7 +6,12 @@ function withoutCharts(host) {
   host.textContent = "Charts need Debian's package libjs-dygraphs where the report is made.";
 }
 
-/** Measures of history.csv against extension, with a cursor at the moment that is shown. */
+/** Column of history.csv that ascends: extension, with stages of motion the travel. */
+function clockOf(run) { return "travel_m" in run.history ? "travel_m" : "extension_m"; }
+
+function clockWord(run) { return clockOf(run) === "travel_m" ? "travel" : "extension"; }
+
+/** Measures of history.csv against extension, or the travel, with a cursor at the moment that is shown. */
 class HistoryChart {
   constructor(host, runs, show) {
     this.host = host;
@@ -15,12 +20,12 @@ class HistoryChart {
     this.at = 0;
   }
 
-  /** Rows of extension (km), the first measure of each run, the second of each run. */
+  /** Rows of the clock (km), the first measure of each run, the second of each run. */
   rows(names) {
     const marks = new Map();
     this.runs.forEach((run, r) => {
-      (run.history.extension_m || []).forEach((extension, k) => {
-        const key = Math.round(extension / 10) * 10;
+      (run.history[clockOf(run)] || []).forEach((travel, k) => {
+        const key = Math.round(travel / 10) * 10;
         if (!marks.has(key)) marks.set(key, new Array(names.length * this.runs.length).fill(null));
         names.forEach((name, n) => {
           const value = (run.history[name] || [])[k];
@@ -35,12 +40,12 @@ class HistoryChart {
     if (typeof Dygraph === "undefined") return withoutCharts(this.host);
     const of = r => this.runs.length > 1 ? `, ${"AB"[r]}` : "";
     const labels = names.flatMap((name, n) => this.runs.map((_, r) => `${wordsOf(name)}${page.data.measures[name]?.[1]?.length > 1 ? ` (${page.data.measures[name][1]})` : ""}${of(r)}${n && name === names[0] ? " " : ""}`));
-    const series = {};
+    const series = {}, clock = `${clockWord(this.runs[0])} (km)`;
     labels.slice(this.runs.length).forEach(label => { series[label] = {axis: "y2"}; });
     this.chart?.destroy();
     this.chart = new Dygraph(this.host, this.rows(names), {
-      labels: ["extension (km)", ...labels], series, connectSeparatedPoints: true, drawPoints: true, pointSize: 2,
-      strokeWidth: 1.6, colors: ["#1f77a8", "#c96a00", "#5f9fc4", "#d9a066"], axisLineColor: "#8a8a8a", gridLineColor: "#8a8a8a55", xlabel: "extension (km)",
+      labels: [clock, ...labels], series, connectSeparatedPoints: true, drawPoints: true, pointSize: 2,
+      strokeWidth: 1.6, colors: ["#1f77a8", "#c96a00", "#5f9fc4", "#d9a066"], axisLineColor: "#8a8a8a", gridLineColor: "#8a8a8a55", xlabel: clock,
       labelsUTC: true, digitsAfterDecimal: 3, axes: {y2: {drawGrid: false, independentTicks: true}},
       underlayCallback: (context, area, chart) => {
         const column = chart.toDomXCoord(this.at / 1000);
@@ -51,8 +56,8 @@ class HistoryChart {
     });
   }
 
-  moveTo(extension) {
-    this.at = extension;
+  moveTo(travel) {
+    this.at = travel;
     this.chart?.updateOptions({});
   }
 }

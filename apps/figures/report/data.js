@@ -119,15 +119,24 @@ class Run {
     return pairs;
   }
 
-  /** The moment nearest to an extension, m. */
-  nearest(extension) {
+  /** The moment nearest to a travel, m. */
+  nearest(travel) {
     let best = 0;
     this.moments.forEach((moment, k) => {
-      if (Math.abs(moment.extension_m - extension) < Math.abs(this.moments[best].extension_m - extension))
+      if (Math.abs(travelOf(moment) - travel) < Math.abs(travelOf(this.moments[best]) - travel))
         best = k;
     });
     return best;
   }
+}
+
+/** The clock of a run: with stages of motion the wall's way back and forth, m, else its extension. */
+function travelOf(moment) { return moment.travel_m ?? moment.extension_m; }
+
+/** "5.00 km", with stages "1.00 km after a way of 9.00 km" */
+function wayText(moment) {
+  const km = value => `${(value / 1000).toFixed(2)} km`;
+  return km(moment.extension_m) + ("travel_m" in moment ? ` after a way of ${km(moment.travel_m)}` : "");
 }
 
 /** A CSV table of numbers by its columns; an empty field is NaN. */

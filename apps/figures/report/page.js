@@ -10,7 +10,7 @@ const page = {
 const lengths = new Intl.NumberFormat("en", {maximumFractionDigits: 0});
 
 /** The moment of a run beside the one that the slider is at. */
-function momentOf(run) { return run === page.runs[0] ? page.t : run.nearest(page.runs[0].moments[page.t].extension_m); }
+function momentOf(run) { return run === page.runs[0] ? page.t : run.nearest(travelOf(page.runs[0].moments[page.t])); }
 
 // -- drawing
 
@@ -70,7 +70,7 @@ function legendItems() {
   const bar = colour => Array.from({length: 60}, (_, n) => cssColour(colour(n / 59)));
   if (page.mode === "rock") items.push(...vocabulary.rock_classes.map(({label, colour}) => ({label, colour})));
   else if (page.mode === "strata") {
-    const rate = page.runs[0].head.rate_m_per_a * 1e6, last = page.runs[0].moments.at(-1).extension_m / rate;
+    const rate = page.runs[0].head.rate_m_per_a * 1e6, last = travelOf(page.runs[0].moments.at(-1)) / rate;
     if (strata) items.push({label: `sediment laid down (Myr), ${strata} strata`, from: 0, to: digits(last, 2),
       colours: bar(share => stratumColour(Math.min(1 + Math.floor(share * strata), strata), strata, table))});
     for (const [n, name] of (page.runs[0].head.rock_layers || []).entries())
@@ -126,16 +126,16 @@ async function addFootwallLegend() {
 
 /** "5.00 km, 0.500 Myr" */
 function momentText(run) {
-  const {extension_m: extension} = run.moments[momentOf(run)];
-  return `${(extension / 1000).toFixed(2)} km, ${(extension / run.head.rate_m_per_a / 1e6).toFixed(3)} Myr`;
+  const moment = run.moments[momentOf(run)];
+  return `${wayText(moment)}, ${(travelOf(moment) / run.head.rate_m_per_a / 1e6).toFixed(3)} Myr`;
 }
 
 function tell() {
   const run = page.runs[0], moment = run.moments[page.t];
   $("slider").value = page.t;
-  $("slider").setAttribute("aria-valuetext", `${(moment.extension_m / 1000).toFixed(2)} km`);
+  $("slider").setAttribute("aria-valuetext", wayText(moment));
   $("moment").textContent = `${momentText(run)}, ${lengths.format(moment.discs)} discs`;
-  page.chart.moveTo(moment.extension_m);
+  page.chart.moveTo(travelOf(moment));
   drawFaults();
 }
 
@@ -183,7 +183,7 @@ async function describe() {
     $("picked").textContent = fault ? `${which}fault ${picked.index}: ${fault.attitude}, ${fault.sense}, dip ` +
       `${fault.dip_deg.toFixed(1)}°, ${digits(fault.rate_mm_per_a, 2)} mm/a, ${valueText(fault.length_m, "m", run.head.mean_radius_m)} long` +
       (fault.born_at_m === null ? "; its birth is known at the figures' moments and at the end"
-        : `; born at ${lengths.format(fault.born_at_m)} m of extension`) +
+        : `; born at ${lengths.format(fault.born_at_m)} m of ${clockWord(run)}`) +
       (fault.pre_rift_throw_m === null ? "" : `; pre-rift throw ${lengths.format(fault.pre_rift_throw_m)} m`) +
       throwsOf(fault).map(([stratum, metres], n) => `${n ? ", " : "; throw by stratum: "}${stratum}: ${lengths.format(metres)} m`).join("") +
       (throwsOf(fault).length ? ` (± ${lengths.format(fault.throw_error_m)} m)` : "")
@@ -383,7 +383,7 @@ function addControls() {
     .map(([name, mode]) => [name, mode.label]), page.mode);
   addOptions($("palette"), [["figures", "as in the figures"], ...Object.keys(palettes).map(name => [name, name])], page.palette);
   $("height").value = page.view.height;
-  const measures = Object.keys(run.history).filter(name => name !== "extension_m" && run.history[name].some(Number.isFinite));
+  const measures = Object.keys(run.history).filter(name => name !== clockOf(run) && run.history[name].some(Number.isFinite));
   addOptions($("column"), measures.map(name => [name, wordsOf(name)]), measures.includes("rollover_tilt_deg") ? "rollover_tilt_deg" : measures[0]);
   addOptions($("second"), [["", "nothing else"], ...measures.map(name => [name, wordsOf(name)])], "");
   $("slider").max = run.moments.length - 1;
@@ -405,7 +405,7 @@ function addControls() {
   addSaves(on);
   document.addEventListener("keydown", onKey);
   window.addEventListener("resize", () => { layOut(); draw().catch(trouble); });
-  page.chart = new HistoryChart($("history"), page.runs, extension => show(page.runs[0].nearest(extension)));
+  page.chart = new HistoryChart($("history"), page.runs, travel => show(page.runs[0].nearest(travel)));
   if (measures.length) drawCharted();
 }
 
@@ -423,7 +423,7 @@ function drawTables() {
 
 function addSaves(on) {
   const [section] = page.sections;
-  const name = kind => `${page.runs[0].head.scene}-${page.runs[0].moments[page.t].extension_m.toFixed(0)}m-${kind}`;
+  const name = kind => `${page.runs[0].head.scene}-${travelOf(page.runs[0].moments[page.t]).toFixed(0)}m-${kind}`;
   on("save_discs", "click", async () => {
     const [run] = page.runs;
     await run.load(Object.keys(run.head.scales).concat("bonds", "behaviour"));

@@ -144,7 +144,7 @@ class Section {
       for (const fault of other.faults) this.line(view, fault.points, otherInk, 1.6, [7, 4]);
     if (picked?.kind === "disc" && picked.run === this.run) this.drawPath(k, view, picked.id);
     this.lineCanvas.setAttribute("aria-label", `Section of ${this.run.head.scene} at ` +
-      `${(this.run.moments[k].extension_m / 1000).toFixed(2)} km of extension, ${lines.faults.length} faults`);
+      `${wayText(this.run.moments[k]).replace("km", "km of extension")}, ${lines.faults.length} faults`);
   }
 
   drawFaults(view, faults, picked) {

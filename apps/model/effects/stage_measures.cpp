@@ -22,10 +22,8 @@ struct ColumnTops {
     double left = 0.0, width = 1.0; ///< m
     std::vector<double> height;     ///< m; minus infinity: there is none
 
-    ColumnTops(double from, double to, double column)
-        : left(from), width(column),
-          height(static_cast<std::size_t>(std::max(1.0, std::ceil((to - from) / column))), no_top) {
-    }
+    ColumnTops(double from, double column, double count)
+        : left(from), width(column), height(static_cast<std::size_t>(count), no_top) {}
 
     void add(double x, double top) {
         const double k = std::floor((x - left) / width);
@@ -35,6 +33,16 @@ struct ColumnTops {
         }
     }
 };
+
+/// Tops of columns that cover a stretch, the last one perhaps in part.
+ColumnTops all_columns(double from, double to, double column) {
+    return {from, column, std::max(1.0, std::ceil((to - from) / column))};
+}
+
+/// Without the part of a column beside the wall: its highest disc may lie anywhere.
+ColumnTops whole_columns(double from, double to, double column) {
+    return {from, column, std::floor((to - from) / column)};
+}
 
 /// Mean of what is there within half a width of every column.
 std::vector<double> means_of_tops(const ColumnTops& tops, double width) {
@@ -60,7 +68,7 @@ std::vector<double> means_of_tops(const ColumnTops& tops, double width) {
 double area_above_regional(const State& state, double level) {
     const ConstDiscColumns d = disc_columns(state);
     const auto [left, right] = std::ranges::minmax(d.x);
-    ColumnTops tops(left, right, 2.0 * state.mean_radius);
+    ColumnTops tops = all_columns(left, right, 2.0 * state.mean_radius);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         tops.add(d.x[i], d.y[i] + d.radius[i]);
     double area = 0.0;
@@ -73,7 +81,7 @@ double graben_relief(const State& state) {
     constexpr double width = 2.5e3; // m
     const ConstDiscColumns d = disc_columns(state);
     const auto [left, right] = std::ranges::minmax(d.x);
-    ColumnTops tops(left, right, 2.0 * state.mean_radius);
+    ColumnTops tops = whole_columns(left, right, 2.0 * state.mean_radius);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.stratum[i] == 0)
             tops.add(d.x[i], d.y[i] + d.radius[i]);
@@ -101,7 +109,7 @@ std::optional<double> null_point(const State& state, const Motion& motion, doubl
     std::optional<double> before; // height of the next older top, m
     double before_at = 0.0;
     for (const auto& [stratum, travel] : deposited) {
-        ColumnTops tops(from, to, 2.0 * state.mean_radius);
+        ColumnTops tops = all_columns(from, to, 2.0 * state.mean_radius);
         for (std::size_t i = 0; i < d.x.size(); ++i)
             if (d.stratum[i] <= stratum)
                 tops.add(d.x[i], d.y[i] + d.radius[i]);

@@ -42,8 +42,8 @@ std::string place_to_look(const RunView& run) {
 }
 
 void say(RunView& run) {
-    run.log.say(fmt::format("done: {} of extension in {}", length_text(run.travel()),
-                            rough_duration(run.wall_seconds())));
+    run.log.say(
+        fmt::format("done: {} in {}", run.place_text(), rough_duration(run.wall_seconds())));
     for (const std::string& line : results_of(run))
         run.log.say("  " + line);
     run.log.repeat_warnings();

@@ -1,6 +1,7 @@
 #include "apps/archive/json_file.hpp"
 #include "apps/run/outputs.hpp"
 #include "apps/run/run_view.hpp"
+#include "apps/scene/stage.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -17,11 +18,14 @@ const char* name(Phase phase) {
 /// Writes how far the run is.
 void tell(const RunView& run) {
     const double left = run.phase == Phase::finished ? 0.0 : run.seconds_left();
-    write_object(run.options.output / "status.json",
-                 {{"phase", name(run.phase)},
-                  {"extension_m", run.travel()},
-                  {"of_m", run.target()},
-                  {"seconds_left", std::int64_t{std::llround(left)}}});
+    JsonObject status{{"phase", name(run.phase)}, {"extension_m", run.extension()}};
+    if (run.has_stages()) {
+        status[travel_column] = run.travel(); // of_m is of the travel
+        status["stage"] = run.simulation.base().motion.stage(run.travel());
+    }
+    status["of_m"] = run.target();
+    status["seconds_left"] = std::int64_t{std::llround(left)};
+    write_object(run.options.output / "status.json", status);
 }
 
 } // namespace
