@@ -3,7 +3,7 @@
 // length is six times its thickness, and off by a tenth and more for the thick one. In a scene with
 // discs the base ends at depth_m, so that a thicker plate is refused.
 
-#include "apps/scene/scene_file.hpp"
+#include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/plate.hpp"
@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace listric::fem_elastic_thickness_test {
 namespace {
