@@ -41,6 +41,17 @@ void grow_floaters(State& state, const RigidBase& base, const CyclePhysics& phys
     }
 }
 
+/// Lets the packing come to rest under its weight; without gravity it is at rest.
+void settle_under_gravity(State& state, const RigidBase& base, const CyclePhysics& physics,
+                          int crossing, std::string_view stage, const Execution& execution,
+                          const std::function<void(std::string_view, double)>& report) {
+    find_contacts(state, base);
+    if (physics.gravity > 0.0)
+        settle(
+            state, base, physics, 2.5e-3, 150 * crossing,
+            [&](double share) { report(stage, share); }, execution);
+}
+
 /// Shrinks discs in a closed space, each by half of what overlaps in the mean, until the pressure
 /// that has closed the packing is gone: without gravity nothing else would hold it together. Discs
 /// still touch, by 1e-8 of a radius, a stress far below the strength of bonds.
@@ -181,10 +192,7 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
         if (std::abs(*keep_volume(state, base, how, physics.gravity)) < enough && round > 4)
             break;
     }
-    find_contacts(state, base);
-    settle(
-        state, base, physics, 2.5e-3, 150 * crossing,
-        [&](double share) { report("third equilibrium", share); }, execution);
+    settle_under_gravity(state, base, physics, crossing, "third equilibrium", execution, report);
 }
 
 /// Motion of discs counts from here.
@@ -289,12 +297,9 @@ State make_hanging_wall(const GenesisRequest& request,
 
     // Pressure and gravity travel a layer of discs in a few cycles; settling takes many crossings.
     const int crossing = static_cast<int>(p.thickness / p.mean_radius);
-    const bool has_weight = physics.gravity > 0.0;
-    if (has_weight) {
-        find_contacts(state, open);
-        settle(
-            state, open, physics, 2.5e-3, 150 * crossing,
-            [&](double share) { report("settling under gravity", share); }, execution);
+    if (physics.gravity > 0.0) {
+        settle_under_gravity(state, open, physics, crossing, "settling under gravity", execution,
+                             report);
         grow_floaters(state, open, physics, largest, execution, report);
     } else {
         release_pressure(state, closed, physics, execution, report);
@@ -303,11 +308,7 @@ State make_hanging_wall(const GenesisRequest& request,
     set_masses(state, p.rock_density, area);
     lay(state, request);
     sort_discs(state);
-    find_contacts(state, open);
-    if (has_weight)
-        settle(
-            state, open, physics, 2.5e-3, 150 * crossing,
-            [&](double share) { report("second equilibrium", share); }, execution);
+    settle_under_gravity(state, open, physics, crossing, "second equilibrium", execution, report);
 
     soften(state, open, request, physics, crossing, execution, report);
 

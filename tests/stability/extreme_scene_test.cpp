@@ -151,7 +151,7 @@ TEST_F(ExtremeScene, LayerOfOneDisc) {
     const ConstDiscColumns a = disc_columns(std::as_const(last)),
                            b = disc_columns(std::as_const(none));
     EXPECT_TRUE(std::ranges::equal(a.x, b.x) && std::ranges::equal(a.y, b.y));
-    // Of other rock it is a layer.
+    // A layer of other rock does change the run.
     RunOptions other = options("run");
     other.force = true;
     run(layer("mica"), other);
