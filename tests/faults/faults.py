@@ -8,7 +8,6 @@ FAULT is one of
   disk    a file system (tmpfs) of random size that becomes full, and is then enlarged; needs root
   size    a limit of file sizes (RLIMIT_FSIZE), random: a write fails in the middle of a file
   memory  a limit of address space (RLIMIT_AS), random
-  read    the folder becomes read-only (a remount) at a random moment, and then writable; needs root
   clock   clocks that jump back and forth by up to a year at every reading; needs a C compiler
 
 Appends a row for each to FOLDER/faults.csv: fault, phase of the run at the fault, exit code, last line of
@@ -128,10 +127,6 @@ class Faults:
             phase = self.stopped_after(process, self.random.uniform(0.0, 1.1 * seconds),
                                        lambda p: p.send_signal(signal.SIGKILL))
             return phase or "ended before", *self.finish(process)
-        if fault == "read":
-            process = self.begin()
-            phase = self.stopped_after(process, self.random.uniform(0.0, seconds), lambda p: self.remount("ro"))
-            return phase or "ended before", *self.finish(process)
         if fault == "clock":
             library = self.folder / "clock.so"
             if not library.exists():
@@ -147,14 +142,14 @@ class Faults:
     def run(self, fault, number, table):
         expected, seconds, size = self.whole()
         print(f"whole run: {expected}, {seconds:.1f} s, {size} bytes", flush=True)
-        with_mount = fault in ("disk", "read")
+        with_mount = fault == "disk"
         for _ in range(number):
             # A killed run goes on from where it was; all others begin anew.
             if fault != "kill" or self.state_hash():
                 if self.output.exists():
                     shutil.rmtree(self.output)
             if with_mount:
-                self.mount(int(self.random.uniform(4096, size)) if fault == "disk" else 10 * size)
+                self.mount(int(self.random.uniform(4096, size)))
             try:
                 phase, code, message = self.one(fault, seconds, size)
                 if with_mount:

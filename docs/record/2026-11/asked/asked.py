@@ -22,7 +22,7 @@ import listric
 
 QUESTIONS = {
     "lis1": ["--error tilt=0.1deg", "--error cutoff=0.3km", "--error balance=0.04", "--error weak=0.2", "--within 50s"],
-    "rfr": ["--error tilt=2.5deg", "--error cutoff=0.4km", "--error balance=0.04", "--error weak=0.2", "--within 50s"],
+    "rfr": ["--error tilt=4deg", "--error cutoff=0.8km", "--error balance=0.04", "--error weak=0.2", "--within 50s"],
     "lis1-elastic": ["--error tilt=1deg", "--error cutoff=0.5km", "--error area=8km2", "--error weak=0.2",
                      "--within 60s"],
 }
