@@ -30,7 +30,7 @@ std::string number(double x) {
 
 [[noreturn]] void refuse(const std::string& message) { throw FootwallError(message); }
 
-/// What helps against a plug-in that cannot be loaded: memory, or the package that brings it; an
+/// Cure of a plug-in that cannot be loaded: memory, or the package that brings it; an
 /// installed program has its files beside it.
 std::string cure(const std::string& problem) {
     // Where memory is limited, or files of a folder may not be executed.
