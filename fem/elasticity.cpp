@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <new>
 
 namespace listric::fem {
 
@@ -400,6 +401,14 @@ GlobalVector ElasticFootwall::displacement_under(const GlobalVector& forces) {
     PetscInt iterations = 0;
     must(KSPGetConvergedReason(solver_, &reason), "no solution");
     must(KSPGetIterationNumber(solver_, &iterations), "no solution");
+    if (reason == KSP_DIVERGED_PC_FAILED) {
+        PC factors = nullptr;
+        PCFailedReason cause = PC_NOERROR;
+        must(KSPGetPC(solver_, &factors), "no solution");
+        must(PCGetFailedReason(factors, &cause), "no solution");
+        if (cause == PC_FACTOR_OUTMEMORY)
+            throw std::bad_alloc();
+    }
     if (reason < 0)
         throw FootwallError("the solver did not converge in " + std::to_string(iterations) +
                             " iterations; the solver mumps always does");

@@ -30,8 +30,12 @@ std::string number(double x) {
 
 [[noreturn]] void refuse(const std::string& message) { throw FootwallError(message); }
 
-/// Package that brings the plug-in: an installed program has its files beside it.
-std::string cure() {
+/// Cure of a plug-in that cannot be loaded: memory, or the package that brings it; an
+/// installed program has its files beside it.
+std::string cure(const std::string& problem) {
+    // Where memory is limited, or files of a folder may not be executed.
+    if (problem.find("failed to map") != problem.npos)
+        return "raise the limit of memory (ulimit -v), or allow its folder to hold programs";
     std::error_code error;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
     const auto files = program.parent_path().parent_path() / "share/listric";
@@ -51,7 +55,7 @@ MakeFootwall load_plugin() {
                                       .entry = LISTRIC_FEM_ENTRY});
     if (!plugin.problem.empty())
         refuse("the plug-in for elastic bases cannot be loaded (" + plugin.problem + "); " +
-               cure());
+               cure(plugin.problem));
     if (!plugin.entry)
         refuse(plugin.file + ": is no plug-in for elastic bases of this build; build again");
     return reinterpret_cast<MakeFootwall>(plugin.entry);

@@ -4,6 +4,7 @@
 #include "dem/contacts/monitor.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/genesis/packing.hpp"
+#include "dem/hypotenuse.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
@@ -38,6 +39,52 @@ void grow_floaters(State& state, const RigidBase& base, const CyclePhysics& phys
         execution.packed->forget();
         advance(state, base, physics, 50, execution);
     }
+}
+
+/// Lets the packing come to rest under its weight; without gravity it is at rest.
+void settle_under_gravity(State& state, const RigidBase& base, const CyclePhysics& physics,
+                          int crossing, std::string_view stage, const Execution& execution,
+                          const std::function<void(std::string_view, double)>& report) {
+    find_contacts(state, base);
+    if (physics.gravity > 0.0)
+        settle(
+            state, base, physics, 2.5e-3, 150 * crossing,
+            [&](double share) { report(stage, share); }, execution);
+}
+
+/// Shrinks discs in a closed space, each by half of what overlaps in the mean, until the pressure
+/// that has closed the packing is gone: without gravity nothing else would hold it together. Discs
+/// still touch, by 1e-8 of a radius, a stress far below the strength of bonds.
+void release_pressure(State& state, const RigidBase& base, const CyclePhysics& physics,
+                      const Execution& execution,
+                      const std::function<void(std::string_view, double)>& report) {
+    constexpr int rounds = 60;
+    constexpr double enough = 1e-8; // of a radius
+    for (int round = 0; round < rounds; ++round) {
+        report("release of pressure", static_cast<double>(round) / rounds);
+        find_contacts(state, base);
+        settle(
+            state, base, physics, 1e-2, 2000, [](double) {}, execution);
+        const DiscColumns d = disc_columns(state);
+        const ConstContactColumns c = contact_columns(std::as_const(state));
+        double sum = 0.0, count = 0.0;
+        for (std::size_t k = 0; k < c.first.size(); ++k) {
+            const auto i = static_cast<std::size_t>(c.first[k]);
+            const auto j = static_cast<std::size_t>(c.second[k]);
+            const double reach = d.radius[i] + d.radius[j];
+            const double overlap = 1.0 - hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i]) / reach;
+            if (overlap > 0.0) {
+                sum += overlap;
+                count += 1.0;
+            }
+        }
+        const double mean = count > 0.0 ? sum / count : 0.0;
+        if (mean < enough)
+            break;
+        for (double& radius : d.radius)
+            radius *= 1.0 - 0.5 * mean;
+    }
+    stop_discs(state);
 }
 
 /// Drops discs above the level, found by bisection, that brings the mean top of columns one mean
@@ -134,6 +181,8 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
     if (rows.empty())
         return;
     add_enlarged_columns(state);
+    if (physics.gravity == 0.0) // it carries nothing
+        return;
     enlarge(state, base, rows, how.mean_stress_ratio, physics.gravity);
     for (int round = 0; round < rounds; ++round) {
         report("softening of layers", static_cast<double>(round) / rounds);
@@ -143,10 +192,7 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
         if (std::abs(*keep_volume(state, base, how, physics.gravity)) < enough && round > 4)
             break;
     }
-    find_contacts(state, base);
-    settle(
-        state, base, physics, 2.5e-3, 150 * crossing,
-        [&](double share) { report("third equilibrium", share); }, execution);
+    settle_under_gravity(state, base, physics, crossing, "third equilibrium", execution, report);
 }
 
 /// Motion of discs counts from here.
@@ -251,19 +297,18 @@ State make_hanging_wall(const GenesisRequest& request,
 
     // Pressure and gravity travel a layer of discs in a few cycles; settling takes many crossings.
     const int crossing = static_cast<int>(p.thickness / p.mean_radius);
-    find_contacts(state, open);
-    settle(
-        state, open, physics, 2.5e-3, 150 * crossing,
-        [&](double share) { report("settling under gravity", share); }, execution);
-    grow_floaters(state, open, physics, largest, execution, report);
+    if (physics.gravity > 0.0) {
+        settle_under_gravity(state, open, physics, crossing, "settling under gravity", execution,
+                             report);
+        grow_floaters(state, open, physics, largest, execution, report);
+    } else {
+        release_pressure(state, closed, physics, execution, report);
+    }
     trim(state, p.length);
     set_masses(state, p.rock_density, area);
     lay(state, request);
     sort_discs(state);
-    find_contacts(state, open);
-    settle(
-        state, open, physics, 2.5e-3, 150 * crossing,
-        [&](double share) { report("second equilibrium", share); }, execution);
+    settle_under_gravity(state, open, physics, crossing, "second equilibrium", execution, report);
 
     soften(state, open, request, physics, crossing, execution, report);
 

@@ -79,7 +79,7 @@ double least_distance_on_ridge(double angle, bool remedy) {
 }
 
 TEST(Corner, NothingFallsThroughARidge) {
-    for (double angle : {1.0, 30.0, 80.0}) {
+    for (double angle : {1.0, 30.0, 80.0, 85.0, 90.0, 100.0}) {
         EXPECT_GT(least_distance_on_ridge(angle * degree, true), 0.999) << angle;
         EXPECT_LT(least_distance_on_ridge(angle * degree, false), 0.95) << angle;
     }

@@ -144,6 +144,11 @@ void check(const Scene& scene, const Refuse& refuse) {
     const std::string why = objection_to_densities(base.bending);
     if (!why.empty())
         refuse("elastic_base.crust_density_kg_per_m3", why);
+    if (base.mesh_file.empty() && base.bending.elastic_thickness > base.depth)
+        refuse(
+            "elastic_base.elastic_thickness_m",
+            fmt::format("is {}, allowed: at most depth_m = {}, where the base ends; raise depth_m",
+                        text(base.bending.elastic_thickness), text(base.depth)));
     const dem::Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
                              greatest_extension(scene)};
     if (!(base.right > extent.reach()))
