@@ -1,12 +1,13 @@
-// Prints the level of the cycle that this processor is given, and the hash of a small LIS1 at 100 m:
-// short enough for an emulator.
-
-#include <listric/dem.hpp>
+// Prints the level of the cycle that this processor is given, and the hash of a small LIS1 at 100
+// m: short enough for an emulator.
 
 #include "dem/cycle/cycle_choice.hpp"
 
+#include <listric/dem.hpp>
+
 #include <cinttypes>
 #include <cstdio>
+#include <string>
 
 using namespace listric::dem;
 
