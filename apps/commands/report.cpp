@@ -20,7 +20,7 @@ Command add_report(CLI::App& program) {
                            "write one or two runs as a page for a browser",
                            "docs/report.md",
                            {{{"report out/lis1", "write out/lis1/report.html"},
-                             {"report out/lis1 out/lis2", "two runs side by side"},
+                             {"report out/lis1 out/lis2", "two runs on one page"},
                              {"report out/lis1 --most-mb 5", "a smaller file, to send"}}}});
     command->add_option("DIR", call->request.outputs, "folders of one or two runs")
         ->type_name("DIR")

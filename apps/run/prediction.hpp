@@ -49,7 +49,8 @@ struct RunPrices {
     /// The last pictures and the sheet with all moments; earlier ones are drawn beside the cycle,
     /// and only their arrays take time.
     double early_figure_disc = 1000.0, figures = 2.2e8, figures_disc = 3000.0;
-    double figures_of_moving_base = 1.5e8;
+    double figures_of_moving_base = 1.0e8;
+    double figure_beside = 9e7; ///< of an earlier one, where no core is free for it
 };
 inline constexpr RunPrices run_prices{};
 

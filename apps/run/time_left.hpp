@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 namespace listric {
 
 /// Time that a run is expected to take, s, before anything of it has been seen.
@@ -11,6 +13,8 @@ struct Forecast {
     double windows = 0.0;      ///< part of the extension that goes at the ends of windows, s
     double window_share = 1.0; ///< of the cycles in a window
     double ramp_share = 0.0;   ///< of the cycles that the first window has more, for the ramp
+    double picture = 0.0;      ///< part of the extension that one picture drawn beside it takes, s
+    std::vector<double> pictures = {}; ///< shares of the cycles at which they begin
 
     double all() const { return before + extension + after; }
 };
@@ -38,6 +42,7 @@ public:
 private:
     double work_until(double share) const;
     double pace() const;
+    double figures() const;
 
     Forecast forecast_;
     double share_ = -1.0;                       ///< of cycles; < 0: no cycle has been seen

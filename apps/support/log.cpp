@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -30,9 +31,14 @@ bool rewrites_lines() {
 } // namespace
 
 std::string rough_duration(double seconds) {
-    const auto s = static_cast<long>(seconds);
+    const auto s = std::lround(std::min(seconds, 1e9));
     if (s < 90)
         return fmt::format("{} s", s);
+    if (s < 570) {
+        const auto tens = (s + 5) / 10;
+        return tens % 6 == 0 ? fmt::format("{} min", tens / 6)
+                             : fmt::format("{} min {} s", tens / 6, 10 * (tens % 6));
+    }
     if (s < 5400)
         return fmt::format("{} min", (s + 30) / 60);
     return fmt::format("{:.1f} h", static_cast<double>(s) / 3600.0);

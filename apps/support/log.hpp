@@ -13,7 +13,7 @@
 
 namespace listric {
 
-/// A duration, s, as people say it: "80 s", "12 min", "3.4 h".
+/// A duration, s, as people say it: "80 s", "2 min 40 s", "12 min", "3.4 h".
 std::string rough_duration(double seconds);
 
 /// "listric: warning: ..." on stderr, for work without a log.

@@ -2,6 +2,7 @@
 
 #include "apps/run/progress_line.hpp"
 #include "apps/run/time_left.hpp"
+#include "apps/support/log.hpp"
 #include "apps/support/text.hpp"
 #include "tests/small_halfgraben.hpp"
 
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace listric::progress_test {
@@ -44,6 +46,10 @@ Trace read_trace(const fs::path& file) {
         } else if (first == "windows") {
             Forecast& f = trace.forecast;
             words >> f.windows >> f.window_share >> f.ramp_share;
+        } else if (first == "picture") {
+            double begin;
+            words >> trace.forecast.picture >> begin;
+            trace.forecast.pictures = {begin};
         } else if (first == "end") {
             words >> trace.end;
         } else if (first == "over") {
@@ -157,6 +163,15 @@ TEST(Progress, AResumedRunCountsItsOwnCycles) {
         left.read(500.0 + k, 1000.0, 0.2 * k); // twice as slow as foreseen
     // The forecast counts as 1.5 % of the run beside the 10 % that were seen.
     EXPECT_NEAR(left.at(20.0), 80.0 + 10.0, 9.0);
+}
+
+TEST(Progress, DurationsAreRightToFivePercent) {
+    const std::pair<double, const char*> durations[] = {
+        {3.6, "4 s"},      {89.4, "89 s"},        {89.6, "1 min 30 s"},
+        {124.0, "2 min"},  {126.0, "2 min 10 s"}, {569.0, "9 min 30 s"},
+        {571.0, "10 min"}, {5399.0, "90 min"},    {5401.0, "1.5 h"}};
+    for (const auto& [seconds, text] : durations)
+        EXPECT_EQ(rough_duration(seconds), text) << seconds;
 }
 
 TEST(Progress, LineFitsTheTerminal) {
