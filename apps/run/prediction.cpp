@@ -63,8 +63,8 @@ struct PieceTime {
     double wall = 0.0;
 };
 
-/// Of `seconds` of pieces: the quickest by processor time, since a core that wakes up and another
-/// program's moment only add to it; by the clock, the median in proportion.
+/// Takes the quickest of the pieces of `seconds` by processor time, since a core that wakes up and
+/// another program's moment only add to it; by the clock, the median in proportion.
 PieceTime time_piece(Lattice& lattice, std::int64_t cycles, const Execution& execution,
                      double seconds) {
     const double sharing = execution.energy ? 1.0 : static_cast<double>(execution.threads);
