@@ -150,6 +150,22 @@ class Underlay(Folder):
             np.testing.assert_allclose(pixel / 255.0, [wanted[5]] * 3, atol=0.03, err_msg=name)
 
 
+    def test_a_photograph_is_turned_as_its_camera_says(self):
+        lying = np.zeros((16, 32, 3), np.uint8)
+        lying[:, 16:] = (255, 128, 0)                        # dark left, orange right
+        exif = Image.Exif()
+        exif[0x0112] = 6                                     # the camera was turned: clockwise by 90 degrees
+        Image.fromarray(lying).save(self.path("photo.png"), format="jpeg", quality=95, exif=exif)
+        found = panels.read_picture(self.path("photo.png"))  # known by what it is
+        self.assertEqual(found.shape, (32, 16, 3))
+        np.testing.assert_allclose(found[4, 8], (0, 0, 0), atol=0.03)
+        np.testing.assert_allclose(found[28, 8], (1, 128 / 255, 0), atol=0.03)
+        whole = Path(self.path("photo.png")).read_bytes()
+        Path(self.path("photo.png")).write_bytes(whole[:-40])
+        with self.assertRaisesRegex(plot.InputError, "photo.png: cannot be read as PNG or JPEG"):
+            panels.read_picture(self.path("photo.png"))
+
+
 class Reading(Folder):
     def test_a_table_has_an_array_per_column(self):
         table = plot.read_table(self.write("t.csv", "x,y\n1,2\n3,4\n"))

@@ -22,6 +22,7 @@ from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColor
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter
+from PIL import Image, ImageOps
 
 SEDIMENT, SEDIMENT_EDGE, SEDIMENT_PALE = "#fbeab4", "#b07d00", "#fdf6dc"
 WEAK = "#d7301f"
@@ -111,12 +112,20 @@ def underlay_panel(ax, cax, frame: Frame) -> None:
 
 
 def read_picture(path: str) -> np.ndarray:
-    """RGB, perhaps with opacity, each from 0 to 1; a grey picture's greys are its own."""
+    """RGB, perhaps with opacity, each from 0 to 1; a grey picture's greys are its own.
+
+    A JPEG is turned as its camera says (Exif), as browsers do.
+    """
     try:
-        picture = plt_image.imread(path, format="png")   # whatever the file's name ends with
+        with open(path, "rb") as file:
+            is_jpeg = file.read(3) == b"\xff\xd8\xff"   # whatever the file's name ends with
+        if is_jpeg:
+            with Image.open(path) as photo:
+                return np.asarray(ImageOps.exif_transpose(photo).convert("RGB")) / 255.0
+        picture = plt_image.imread(path, format="png")
     except (OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, struct.error,
             zlib.error) as failure:
-        raise InputError(f"{path}: cannot be read as PNG ({failure})") from failure
+        raise InputError(f"{path}: cannot be read as PNG or JPEG ({failure})") from failure
     return picture if picture.ndim == 3 else np.repeat(picture[:, :, np.newaxis], 3, axis=2)
 
 
