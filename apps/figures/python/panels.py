@@ -448,7 +448,7 @@ def seismic_depth_panel(ax, cax, frame: Frame) -> None:
 
 
 def draw_wiggles(ax, traces: np.ndarray, left: float, right: float, top: float, bottom: float) -> None:
-    """Amplitudes as greys, white to black, clipped where 97 of 100 samples of reflections are. A pixel
+    """Amplitudes as greys, white to black, clipped where 90 of 100 samples of reflections are. A pixel
     has the mean of its samples."""
     box = ax.get_window_extent()
     across, down = (max(int(n // max(pixels, 1)), 1) for n, pixels in zip(traces.shape, (box.width, box.height)))
@@ -457,7 +457,7 @@ def draw_wiggles(ax, traces: np.ndarray, left: float, right: float, top: float, 
     bottom = top + (bottom - top) * high / traces.shape[1]
     traces = traces[:wide, :high].reshape(wide // across, across, high // down, down).mean(axis=(1, 3))
     sizes = np.abs(traces[traces != 0.0])
-    end = float(np.quantile(sizes, 0.97)) if len(sizes) else 1.0
+    end = float(np.quantile(sizes, 0.9)) if len(sizes) else 1.0
     greys = ListedColormap(palette(VOCABULARY["layers"]["seismic"]["palette"]))
     ax.imshow(traces.T, extent=(left, right, bottom, top), cmap=greys, vmin=-end, vmax=end, aspect="auto",
               interpolation="antialiased", zorder=1.5)
