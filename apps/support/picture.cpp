@@ -216,7 +216,7 @@ private:
         if (at >= bytes_.size())
             refuse_broken("its end is missing");
         if (byte_at(at) != 0xff)
-            refuse_broken("a part of it is longer than it says");
+            refuse_broken("no part begins where the last one ends");
         while (at < bytes_.size() && byte_at(at) == 0xff)
             ++at;
         if (at == bytes_.size())
@@ -242,7 +242,7 @@ private:
         jpeg_.height = number(1);
         jpeg_.width = number(3);
         if (jpeg_.width == 0 || jpeg_.height == 0)
-            refuse_broken("it does not say its size");
+            refuse_broken("its width or height is 0");
         require_size(jpeg_.width, jpeg_.height);
     }
 

@@ -12,6 +12,7 @@ from PIL import Image, ImageDraw, ImageFont
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans{}.ttf"
 GRAINS = ("standard, mean radius 93 m", "fine, mean radius 47 m", "sandbox, mean radius 18.6 m")
 LINES = 7       # of ink in a row of panels: headline, heading, ..., label of the axis, two of small print
+WIDTH = 1600    # pixels
 HEAD = 30       # above a panel, pixels
 
 
@@ -53,4 +54,5 @@ def relabelled(picture):
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    relabelled(Image.open(sys.argv[1]).convert("RGB")).save(sys.argv[2], quality=80, method=6)
+    sheet = relabelled(Image.open(sys.argv[1]).convert("RGB"))
+    sheet.resize((WIDTH, round(sheet.height * WIDTH / sheet.width)), Image.LANCZOS).save(sys.argv[2], quality=68, method=6)
