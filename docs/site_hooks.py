@@ -101,6 +101,11 @@ def on_page_markdown(markdown, page, config, files):
     return FORMULA.sub(mark_formula, relink(markdown, page.file))
 
 
+def on_page_content(html, page, config, files):
+    """A click on a picture shows it alone, at its size; small ones stand in tables and links already."""
+    return re.sub(r'<p>(<img\b[^>]*?\bsrc="([^"]+)"[^>]*>)</p>', r'<p><a href="\2">\1</a></p>', html)
+
+
 def mark_formula(match):
     tex = match["block"] or match["line"]
     if not tex:

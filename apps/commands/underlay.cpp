@@ -2,7 +2,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/support/error.hpp"
-#include "apps/support/png.hpp"
+#include "apps/support/picture.hpp"
 #include "apps/support/text.hpp"
 
 #include <fmt/format.h>
@@ -17,11 +17,11 @@ namespace listric {
 void add_underlay(CLI::App& command, UnderlayOptions& options) {
     command
         .add_option("--underlay", options.image,
-                    "PNG of a section, over which the model's lines are drawn")
+                    "PNG or JPEG of a section, over which the model's lines are drawn")
         ->type_name("FILE")
         ->default_str("none");
     add_numbers(command, "--corners", options.corners,
-                "upper left and lower right corner of the PNG in the section, m: x0,z0,x1,z1")
+                "upper left and lower right corner of the picture in the section, m: x0,z0,x1,z1")
         ->default_str("none; required with --underlay");
 }
 
@@ -64,7 +64,7 @@ std::optional<Underlay> underlay_of(const UnderlayOptions& options) {
         throw UsageError(fmt::format("--underlay {}: no such file", shown(options.image)));
     require_corners(options.corners);
     try {
-        read_png(options.image);
+        read_picture(options.image);
     } catch (const UsageError& problem) {
         throw UsageError(fmt::format("--underlay {}", problem.what()));
     }

@@ -87,6 +87,13 @@ void write_discs(const FrameWriter& writer, const State& state) {
         const std::vector<std::int32_t> numbers(layer.begin(), layer.end());
         writer.array("discs_layer", std::span<const std::int32_t>(numbers));
     }
+    if (state.discs.has("darcy_x")) {
+        const auto x = state.discs.get<double>("darcy_x"), y = state.discs.get<double>("darcy_y");
+        std::vector<double> flow;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            flow.insert(flow.end(), {x[i], y[i]});
+        writer.array("discs_flow", flow, 2);
+    }
 }
 
 /// Bonded contacts as lines: x and y of both discs, and 1 where both are sediment.

@@ -17,7 +17,7 @@
 #include "apps/support/base64.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
-#include "apps/support/png.hpp"
+#include "apps/support/picture.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/version.hpp"
 
@@ -125,9 +125,10 @@ json head_of(const ReportPage::Run& run) {
 }
 
 json underlay_of(const Underlay& underlay) {
-    const std::string image = read_png(underlay.image).bytes;
-    const auto* const bytes = reinterpret_cast<const unsigned char*>(image.data());
-    return {{"image", "data:image/png;base64," + base64({bytes, image.size()})},
+    const Picture picture = read_picture(underlay.image);
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(picture.bytes.data());
+    return {{"image", fmt::format("data:image/{};base64,{}", picture.type,
+                                  base64({bytes, picture.bytes.size()}))},
             {"corners_m", {underlay.left, underlay.top, underlay.right, underlay.bottom}}};
 }
 

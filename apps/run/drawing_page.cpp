@@ -12,7 +12,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
-#include "apps/support/png.hpp"
+#include "apps/support/picture.hpp"
 #include "apps/support/resources.hpp"
 #include "apps/support/text.hpp"
 #include "apps/support/version.hpp"
@@ -269,19 +269,16 @@ Json picture_json(const UnderPicture& picture) {
     std::error_code error;
     if (!fs::is_regular_file(picture.file, error))
         throw UsageError(fmt::format("--over {}: no such file", name));
-    std::string bytes = read_text(picture.file);
-    const bool is_jpeg = bytes.starts_with("\xff\xd8\xff");
-    if (!is_jpeg) {
-        try {
-            bytes = read_png(picture.file).bytes;
-        } catch (const UsageError& problem) {
-            throw UsageError(fmt::format("--over {}; a JPEG is read, too", problem.what()));
-        }
+    Picture read;
+    try {
+        read = read_picture(picture.file);
+    } catch (const UsageError& problem) {
+        throw UsageError(fmt::format("--over {}", problem.what()));
     }
-    const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
+    const auto* const data = reinterpret_cast<const unsigned char*>(read.bytes.data());
     Json json{{"name", picture.file.filename().string()},
-              {"image", fmt::format("data:image/{};base64,{}", is_jpeg ? "jpeg" : "png",
-                                    base64({data, bytes.size()}))}};
+              {"image", fmt::format("data:image/{};base64,{}", read.type,
+                                    base64({data, read.bytes.size()}))}};
     if (picture.corners)
         json["corners_m"] = *picture.corners;
     return json;

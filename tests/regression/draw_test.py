@@ -264,7 +264,8 @@ class Draw(Browsed):
         self.read_into_page(picture)
         self.assertTrue(self.script("return page.section.image.getAttribute('href').startsWith('data:image/png');"))
         broken, page = self.folder / "broken.jpg", self.folder / "broken.html"
-        broken.write_bytes(b"\xff\xd8\xff and no more")
+        # The parts of a JPEG, and nothing that a browser could show.
+        broken.write_bytes(b"\xff\xd8\xff\xc0\0\x08\x08\0\x02\0\x03\0\xff\xda\0\x02\xff\xd9")
         self.assertEqual(listric("draw", "--over", broken, "-o", page, "--threads", "1").returncode, 0)
         self.open(page)
         self.assertIn("broken.jpg: is damaged", self.text("told"))

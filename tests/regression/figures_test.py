@@ -3,6 +3,7 @@
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest figures_test
 """
 
+import base64
 import fcntl
 import json
 import os
@@ -142,16 +143,26 @@ class Figures(unittest.TestCase):
         self.assertEqual(ended.returncode, 2)
         self.assertIn("LISTRIC_PYTHON", ended.stdout)
 
+    def test_a_photograph_lies_under_a_section(self):
+        run = self.copy("photograph")
+        photo = self.picture("photo.jpg")
+        corners = ("--underlay", photo, "--corners", "0,0,6000,2000")
+        self.assertIn("underlay-0.1km.png", self.listric("figures", run, *corners).stdout)
+        self.assertEqual(self.listric("report", run, *corners).returncode, 0)
+        self.assertIn("data:image/jpeg;base64," + base64.b64encode(photo.read_bytes()).decode(),
+                      (run / "report.html").read_text())
+
     def test_a_picture_that_is_none_is_refused(self):
         whole = self.picture("whole.png").read_bytes()
         (self.folder / "cut.png").write_bytes(whole[:-20])
         (self.folder / "empty.png").write_bytes(b"")
         (self.folder / "bomb.png").write_bytes(
             whole[:16] + struct.pack(">II", 2**31 - 1, 2**31 - 1) + whole[24:])
-        self.picture("photo.png", format="jpeg")
+        photo = self.picture("photo.png", format="jpeg").read_bytes()
+        (self.folder / "cut.jpg").write_bytes(photo[:-20])
         self.picture("scan.png", format="tiff")
         for name, words in (("cut.png", "is a PNG that is damaged or cut off"), ("empty.png", "is empty"),
-                            ("bomb.png", "100 million"), ("photo.png", "is a JPEG"),
+                            ("bomb.png", "100 million"), ("cut.jpg", "is a JPEG that is damaged or cut off"),
                             ("scan.png", "is a TIFF"), ("none.png", "no such file"), (".", "no such file")):
             for call in (("figures", "out"), ("report", "out", "--output", "no.html")):
                 ended = self.listric(*call, "--underlay", name, "--corners", "0,0,6000,2000")

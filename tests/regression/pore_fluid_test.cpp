@@ -5,15 +5,19 @@
 #include "apps/figures/export_run.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <map>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace listric::pore_fluid_test {
@@ -90,6 +94,56 @@ TEST_F(PoreFluidRun, HasTheSameBitsHoweverItIsRun) {
     EXPECT_GT(once["overpressure_ratio_mean"].get<double>(), 0.01);
     EXPECT_GT(once["water_eroded_m2"].get<double>(), -1e-6);
     EXPECT_THAT(contents(folder / "once/history.csv"), HasSubstr("overpressure_ratio_mean"));
+}
+
+/// Killed where water has been solved for (every 50 m) and compaction (every 25 m) has not followed
+/// it yet; what is left is the snapshot, in which pressure pushes discs.
+TEST_F(PoreFluidRun, GoesOnAfterAKillBetweenFluidAndCompaction) {
+    const std::vector<std::string> mud{"pore_fluid.permeability_m2=1e-22",
+                                       "pore_fluid.interval_a=5000", "output.interval_m=12.5"};
+    const auto once = run_with("once", mud);
+    std::vector<std::string> words{"run",
+                                   test_scene("every-effect.toml"),
+                                   "--quiet",
+                                   "--threads",
+                                   "1",
+                                   "--output",
+                                   (folder / "killed").string(),
+                                   "--set",
+                                   "sedimentation.target=[[0.0,0.0]]",
+                                   "--set",
+                                   "sedimentation.interval_a=2500"};
+    for (const std::string& set : mud)
+        words.insert(words.end(), {"--set", set});
+    const auto is_there = [&] {
+        return fs::exists(folder / "killed/snapshots") &&
+               std::ranges::any_of(list_snapshots(folder / "killed"), [](const fs::path& path) {
+                   return snapshot_extension(path) > 110.0;
+               });
+    };
+    const Program program(folder, words);
+    while (program.runs() && !is_there())
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    program.send(SIGKILL);
+    ASSERT_EQ(program.wait().code, -SIGKILL) << "ended before it was killed";
+    const State left = last_state("killed");
+    EXPECT_LT(left.clock.travel, 190.0);
+    EXPECT_GT(std::ranges::max(left.discs.get<double>("excess_pressure")), 1e5);
+    EXPECT_GT(std::ranges::max(left.discs.get<double>("push_y")), 0.0);
+
+    words.push_back("--resume");
+    EXPECT_EQ(Program(folder, words).wait().code, 0);
+    const auto summary = nlohmann::json::parse(contents(folder / "killed/summary.json"));
+    EXPECT_EQ(summary["state_hash"], once["state_hash"]);
+    // In the process itself: at both events, between them, and at compaction alone.
+    for (const double until : {100.0, 112.5, 125.0}) {
+        RunOptions o = options(fmt::format("until-{}", until));
+        o.until = until;
+        run_scene(with(mud), o);
+        o.until = {};
+        o.resume = true;
+        EXPECT_EQ(run(with(mud), o)["state_hash"], once["state_hash"]) << until;
+    }
 }
 
 TEST_F(PoreFluidRun, WaterIsConservedOverErosion) {

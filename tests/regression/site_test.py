@@ -121,6 +121,10 @@ class Site(unittest.TestCase):
                 with self.subTest(f"{page}: {target}"):
                     self.assertTrue(file.is_file() or Path(file, "index.html").is_file())
 
+    def test_a_click_shows_a_picture_at_its_size(self):
+        page = next(text for name, text in self.pages.items() if name.parts[0] == "cost-of-accuracy")
+        self.assertRegex(page, r'<a href="([^"]*pictures/grain-10km.webp)"><img [^>]*src="\1"')
+
     def test_has_what_its_styles_fetch(self):
         for style in self.site.rglob("*.css"):
             for target in fetched(style.read_text()):

@@ -222,6 +222,15 @@ def png(width=4, height=3):
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
+def jpeg():
+    """A grey JPEG of 8 x 8 pixels, its coefficients all 0."""
+    def part(mark, body):
+        return bytes([0xFF, mark]) + struct.pack(">H", len(body) + 2) + body
+    table = bytes([1] + 15 * [0] + [0])            # one code, of one bit, for one value
+    return (b"\xff\xd8" + part(0xDB, bytes(1) + bytes(64 * [1])) + part(0xC0, struct.pack(">BHHBBBB", 8, 8, 8, 1, 1, 0x11, 0))
+            + part(0xC4, b"\x00" + table) + part(0xC4, b"\x10" + table) + part(0xDA, b"\1\1\0\0\x3f\0") + b"\x3f\xff\xd9")
+
+
 Case = collections.namedtuple("Case", "reader number files calls batch")
 # files: {name: bytes} in the case's folder; calls: words, "@name" is a file of the case; batch: whether
 # its one call is `check` of a file, which takes many.
@@ -330,7 +339,7 @@ class Maker:
 
     def underlay(self, chance):
         files = {f"run/{k}": v for k, v in self.run.items()}
-        files["a.png"] = damage_bytes(png(), chance)
+        files["a.png"] = damage_bytes(chance.choice([png(), jpeg()]), chance)
         return files, [[chance.choice(["report", "report", "report", "figures"]), "@run", "--underlay", "@a.png",
                         "--corners", "0,0,4000,1500"]]
 

@@ -150,6 +150,22 @@ class Underlay(Folder):
             np.testing.assert_allclose(pixel / 255.0, [wanted[5]] * 3, atol=0.03, err_msg=name)
 
 
+    def test_a_photograph_is_turned_as_its_camera_says(self):
+        lying = np.zeros((16, 32, 3), np.uint8)
+        lying[:, 16:] = (255, 128, 0)                        # dark left, orange right
+        exif = Image.Exif()
+        exif[0x0112] = 6                                     # the camera was turned: clockwise by 90 degrees
+        Image.fromarray(lying).save(self.path("photo.png"), format="jpeg", quality=95, exif=exif)
+        found = panels.read_picture(self.path("photo.png"))  # known by what it is
+        self.assertEqual(found.shape, (32, 16, 3))
+        np.testing.assert_allclose(found[4, 8], (0, 0, 0), atol=0.03)
+        np.testing.assert_allclose(found[28, 8], (1, 128 / 255, 0), atol=0.03)
+        whole = Path(self.path("photo.png")).read_bytes()
+        Path(self.path("photo.png")).write_bytes(whole[:-40])
+        with self.assertRaisesRegex(plot.InputError, "photo.png: cannot be read as PNG or JPEG"):
+            panels.read_picture(self.path("photo.png"))
+
+
 class Reading(Folder):
     def test_a_table_has_an_array_per_column(self):
         table = plot.read_table(self.write("t.csv", "x,y\n1,2\n3,4\n"))
@@ -516,6 +532,24 @@ class Drawing(Folder):
             legend = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
             labels = {layer["label"] for layer in (WATER, SHORE, MARKED) if layer["ink"] in places}
             self.assertLessEqual(labels, set(legend))
+
+    def test_flow_of_water_is_a_mean_of_squares_of_four_discs(self):
+        x = [100.0, 900.0, 100.0, 900.0, 7100.0, 7900.0, 7100.0]    # squares of 1 km; the second has three discs
+        y = [-100.0, -100.0, -900.0, -900.0, -100.0, -100.0, -900.0]
+        per_s = 1.0 / frames.MM_PER_A
+        frame = self.frame({"layers": [{"name": "layer_overpressure", "kind": "discs", "label": "overpressure ratio", "ink": "#b71c1c"}]},
+                           layer_overpressure=[0.5] * 7, discs_x=x, discs_y=y, discs_radius=[400.0] * 7, discs_stratum=[1] * 7,
+                           discs_start_depth=[float("nan")] * 7, discs_shear_strain=[0.0] * 7,
+                           discs_flow=[[k * per_s, per_s] for k in range(7)])
+        frame.view = (0.0, 40.0, -5.0, 0.0)
+        np.testing.assert_allclose(panels.mean_flow(frame), [[0.5, -0.5, 1.5, 1.0]])
+        figure = sections.draw_figure(frame, ["layer-overpressure"], dpi=60)
+        legend = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+        self.assertIn("flow of water, up to 1.8 mm/a (lengths by its root)", legend)
+        frame.flow = None
+        self.assertEqual(len(panels.mean_flow(frame)), 0)
+        with self.assertRaisesRegex(plot.InputError, "discs_flow.npy has 1 rows, discs_x.npy 4"):
+            self.frame(discs_flow=[[0.0, 0.0]])
 
     def test_a_users_words_are_no_formulas(self):
         space = "{http://www.w3.org/2000/svg}"

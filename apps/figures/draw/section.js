@@ -76,8 +76,14 @@ class Section {
     this.view.top = -at.y - centre.row / this.view.scale / this.view.height;
   }
 
-  path(points, closed = false) {
-    return points.length ? `M${points.map(p => this.px(p.x, -p.y).map(v => v.toFixed(1)).join(",")).join("L")}${closed ? "Z" : ""}` : "";
+  /** Through points, and back along others if there are any; to a tenth of a pixel. */
+  path(points, closed = false, back = []) {
+    const {left, top, scale} = this.view, down = scale * this.view.height;
+    let d = "";
+    const add = p => { d += `${d ? "L" : "M"}${Math.round(10 * scale * (p.x - left)) / 10},${Math.round(-10 * down * (p.y + top)) / 10}`; };
+    for (const p of points) add(p);
+    for (let k = back.length; k-- > 0;) add(back[k]);
+    return closed && d ? `${d}Z` : d;
   }
 
   /** Arcs as points that are a pixel off at most. */
@@ -149,13 +155,13 @@ class Section {
       for (const path of [...this.strata, this.pre, this.top]) path.setAttribute("d", "");
       return;
     }
-    const {chain, fault, extension, angle, wall} = basin, step = Math.max(spacing, 3 / this.view.scale); // three pixels
+    const {chain, fault, extension, angle, wall} = basin, pixels = page.drag?.key ? 6 : 3, step = Math.max(spacing, pixels / this.view.scale);
     const exposed = slip => this.pointsOfChain(chain, slip);
     let below = null;
     for (let k = 0; k <= strataCount; ++k) {
       const slip = extension * (1 - k / strataCount);
       const before = exposed(slip), top = k === strataCount ? [{x: 0, y: 0}, {x: wall, y: 0}] : [...before, ...inclinedShearTop(chain, slip, angle, wall, fault, step)];
-      if (k > 0) this.strata[k - 1].setAttribute("d", this.path([...below, ...top.slice().reverse()], true));
+      if (k > 0) this.strata[k - 1].setAttribute("d", this.path(below, true, top));
       else this.top.setAttribute("d", this.path(top.slice(before.length)));
       below = top;
     }

@@ -8,6 +8,7 @@ origin), n discs:
     discs_start_depth                m, NaN for sediment
     discs_layer                      0, or the number of its layer of rock; only where there are layers
     discs_shear_strain               of the last window of extension, NaN for younger discs
+    discs_flow                       Darcy velocity of pore water, x and y, m/s; only where it flows
     discs_behaviour                  class of rock behaviour; only where there are bonds
     bonded                           contacts: x, y of both discs, 1 where both are sediment
     detachment                       x, y
@@ -42,6 +43,7 @@ import numpy as np
 
 NUMBERS = ("extension_m", "time_a", "right_wall_x_m", "strata", "strain_end", "strain_window_m")
 MOST_STRATA = 10_000
+MM_PER_A = 365.25 * 86400e3   # of a m/s
 
 COLUMNS = {"band": 3, "line": 2, "discs": None}   # of layers, by kind
 
@@ -79,6 +81,7 @@ class Frame:
     beds: np.ndarray | None = None             # layer of rock by disc, 0: none
     bed_names: tuple[str, ...] = ()
     behaviour: np.ndarray | None = None
+    flow: np.ndarray | None = None             # Darcy velocity by disc, mm/a
     bonded: np.ndarray | None = None
     profile: np.ndarray | None = None
     depocentres: np.ndarray | None = None
@@ -243,6 +246,9 @@ def load_frame(folder: str) -> Frame:
         return load_array(folder, name, columns=columns, optional=True, finite=finite)
 
     profile = km(table("profile", 3, finite=False))
+    flow = scaled(table("discs_flow", 2), MM_PER_A)
+    if flow is not None and len(flow) != len(discs["x"]):
+        raise InputError(f"{folder}: discs_flow.npy has {len(flow)} rows, discs_x.npy {len(discs['x'])}")
     level = target_level(meta)
     frame = Frame(
         meta=meta, x=km(discs["x"]), y=km(discs["y"]), radius=km(discs["radius"]),
@@ -252,7 +258,7 @@ def load_frame(folder: str) -> Frame:
         strain_end=meta["strain_end"], layers=load_layers(folder, meta, len(discs["x"])),
         beds=None if discs["layer"] is None else discs["layer"].astype(int),
         bed_names=tuple(printable(name) for name in meta.get("rock_layers", ())),
-        behaviour=behaviour(discs),
+        behaviour=behaviour(discs), flow=flow,
         bonded=scaled(table("bonded", 5), [1e-3] * 4 + [1.0]),
         profile=profile if profile is not None and len(profile) > 1 else None,
         depocentres=km(table("depocentres", 3)),

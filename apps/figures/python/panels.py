@@ -22,6 +22,7 @@ from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColor
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter
+from PIL import Image, ImageOps
 
 SEDIMENT, SEDIMENT_EDGE, SEDIMENT_PALE = "#fbeab4", "#b07d00", "#fdf6dc"
 WEAK = "#d7301f"
@@ -30,6 +31,7 @@ UNDEFINED = "#e2e8ee"
 PICK, HORIZON, NORMALS_BLUE = INKS["picks"], INKS["horizons"], INKS["predictions"]
 LEVEL_BLUE, TOP_GREEN = INKS["target"], "#2b8a3e"
 TOPS = "Tops against the regional"
+FLOW_OVER, FLOW_CELL = "overpressure", 0.025   # layer of an effect with arrows; side of their squares over the view's width
 MOST_DEPOCENTRES = 10     # that are labelled
 
 
@@ -111,12 +113,20 @@ def underlay_panel(ax, cax, frame: Frame) -> None:
 
 
 def read_picture(path: str) -> np.ndarray:
-    """RGB, perhaps with opacity, each from 0 to 1; a grey picture's greys are its own."""
+    """RGB, perhaps with opacity, each from 0 to 1; a grey picture's greys are its own.
+
+    A JPEG is turned as its camera says (Exif), as browsers do.
+    """
     try:
-        picture = plt_image.imread(path, format="png")   # whatever the file's name ends with
+        with open(path, "rb") as file:
+            is_jpeg = file.read(3) == b"\xff\xd8\xff"   # whatever the file's name ends with
+        if is_jpeg:
+            with Image.open(path) as photo:
+                return np.asarray(ImageOps.exif_transpose(photo).convert("RGB")) / 255.0
+        picture = plt_image.imread(path, format="png")
     except (OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, struct.error,
             zlib.error) as failure:
-        raise InputError(f"{path}: cannot be read as PNG ({failure})") from failure
+        raise InputError(f"{path}: cannot be read as PNG or JPEG ({failure})") from failure
     return picture if picture.ndim == 3 else np.repeat(picture[:, :, np.newaxis], 3, axis=2)
 
 
@@ -406,9 +416,39 @@ def layer_panel(name: str):
         rgb[inked] = colours(layer.rows[inked])[:, :3]
         draw_discs(ax, frame, rgb)
         bar(cax, colours, Normalize(0.0, layer.full), layer.label.capitalize())
+        flow = draw_flow(ax, frame) if name == FLOW_OVER else []
         describe(ax, frame, layer.label.capitalize(),
-                 [(swatch(UNDEFINED), "pre-rift"), *draw_faults(ax, frame.faults)])
+                 [(swatch(UNDEFINED), "pre-rift"), *flow, *draw_faults(ax, frame.faults)])
     return panel
+
+
+def draw_flow(ax, frame: Frame) -> list:
+    """Darcy velocity of pore water: arrows of its mean in squares that hold four discs of sediment or more. The root of a
+    speed is drawn, as mud of 1 km passes hundreds of times what mud of 5 km does."""
+    cells = mean_flow(frame)
+    if not len(cells):
+        return []
+    x, y, u, v = cells.T
+    speed = np.hypot(u, v)
+    fastest = speed.max()
+    length = FLOW_CELL * frame.span / np.sqrt(np.maximum(speed, 1e-30) * fastest)
+    ax.quiver(x, y, u * length, v * length, angles="xy", scale_units="xy", scale=1.0, pivot="middle",
+              color=INK, width=0.0011, headwidth=4, headlength=5, headaxislength=4.5, zorder=6.5)
+    return [(Line2D([], [], color=INK, linewidth=0.8, marker=">", markersize=3, markevery=[1]),
+             f"flow of water, up to {fastest:.2g} mm/a (lengths by its root)")]
+
+
+def mean_flow(frame: Frame) -> np.ndarray:
+    """x, y of a square's discs (km), and their mean Darcy velocity (mm/a): of water that flows."""
+    if frame.flow is None:
+        return np.zeros((0, 4))
+    wet = (frame.stratum > 0) & (np.abs(frame.flow).max(axis=1) > 0.0)
+    values = np.column_stack((frame.x, frame.y, frame.flow))[wet]
+    squares = np.floor(values[:, :2] / (FLOW_CELL * frame.span)).astype(int)
+    _, square, count = np.unique(squares, axis=0, return_inverse=True, return_counts=True)
+    sums = np.zeros((len(count), 4))
+    np.add.at(sums, square.ravel(), values)
+    return (sums / count[:, np.newaxis])[count >= 4]
 
 
 def seismic_panel(ax, cax, frame: Frame) -> None:
@@ -439,7 +479,7 @@ def seismic_depth_panel(ax, cax, frame: Frame) -> None:
 
 
 def draw_wiggles(ax, traces: np.ndarray, left: float, right: float, top: float, bottom: float) -> None:
-    """Amplitudes as greys, white to black, clipped where 97 of 100 samples of reflections are. A pixel
+    """Amplitudes as greys, white to black, clipped where 90 of 100 samples of reflections are. A pixel
     has the mean of its samples."""
     box = ax.get_window_extent()
     across, down = (max(int(n // max(pixels, 1)), 1) for n, pixels in zip(traces.shape, (box.width, box.height)))
@@ -448,7 +488,7 @@ def draw_wiggles(ax, traces: np.ndarray, left: float, right: float, top: float, 
     bottom = top + (bottom - top) * high / traces.shape[1]
     traces = traces[:wide, :high].reshape(wide // across, across, high // down, down).mean(axis=(1, 3))
     sizes = np.abs(traces[traces != 0.0])
-    end = float(np.quantile(sizes, 0.97)) if len(sizes) else 1.0
+    end = float(np.quantile(sizes, 0.9)) if len(sizes) else 1.0
     greys = ListedColormap(palette(VOCABULARY["layers"]["seismic"]["palette"]))
     ax.imshow(traces.T, extent=(left, right, bottom, top), cmap=greys, vmin=-end, vmax=end, aspect="auto",
               interpolation="antialiased", zorder=1.5)

@@ -1,4 +1,4 @@
-#include "apps/support/png.hpp"
+#include "apps/support/picture.hpp"
 
 #include "apps/support/error.hpp"
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace listric::png_test {
+namespace listric::picture_test {
 namespace {
 
 using testing::HasSubstr;
@@ -49,18 +49,38 @@ std::string png(std::uint32_t width, std::uint32_t height, std::size_t bytes, ch
            chunk("IEND", "");
 }
 
-class PngFile : public testing::Test {
+/// A part of a JPEG: mark, length, content.
+std::string segment(char mark, const std::string& data) {
+    const auto size = static_cast<std::uint32_t>(data.size() + 2);
+    return "\xff" + std::string(1, mark) + number(size).substr(2) + data;
+}
+
+/// A JPEG of 3 x 2 pixels as it lies in a file; its pixels could not be shown.
+std::string jpeg(char frame = '\xc0', char bits = 8,
+                 const std::string& size = number(2 << 16 | 3)) {
+    return "\xff\xd8" + segment('\xe0', "JFIF") + segment('\xc4', "table") + "\xff" +
+           segment(frame, bits + size + '\3') + segment('\xda', "head") +
+           std::string("pix\xff\0els\xff\xd0more", 13) + segment('\xda', "second") +
+           "pixels\xff\xd9";
+}
+
+class PictureFile : public testing::Test {
 protected:
     std::filesystem::path file = std::filesystem::path(testing::TempDir()) /
-                                 ("listric-png-" + std::to_string(getpid()) + ".png");
-    ~PngFile() override { std::filesystem::remove(file); }
+                                 ("listric-picture-" + std::to_string(getpid()) + ".dat");
+    ~PictureFile() override { std::filesystem::remove(file); }
+
+    int wanted_width = 3, wanted_height = 2; ///< of a picture that is not refused
 
     /// Why it is refused; empty if it is not.
     std::string refusal(const std::string& bytes) {
         std::ofstream(file, std::ios::binary) << bytes;
         try {
-            const Png picture = read_png(file);
+            const Picture picture = read_picture(file);
             EXPECT_EQ(picture.bytes, bytes);
+            EXPECT_EQ(picture.type, bytes.starts_with(signature) ? "png" : "jpeg");
+            EXPECT_EQ(picture.width, wanted_width);
+            EXPECT_EQ(picture.height, wanted_height);
         } catch (const UsageError& error) {
             EXPECT_THAT(error.what(), HasSubstr(file.string()));
             return error.what();
@@ -69,24 +89,24 @@ protected:
     }
 };
 
-TEST_F(PngFile, IsReadWhateverItsColours) {
+TEST_F(PictureFile, PngIsReadWhateverItsColours) {
     EXPECT_EQ(refusal(png(3, 2, 8)), "");
-    EXPECT_EQ(refusal(png(9, 2, 6, 1)), "");
     EXPECT_EQ(refusal(png(3, 2, 14, 16)), "");
     EXPECT_EQ(refusal(png(3, 2, 20, 8, 2)), "");
     EXPECT_EQ(refusal(png(3, 2, 14, 8, 4)), "");
     EXPECT_EQ(refusal(png(3, 2, 50, 16, 6)), "");
+    wanted_width = 9;
+    EXPECT_EQ(refusal(png(9, 2, 6, 1)), "");
 }
 
-TEST_F(PngFile, IsRefusedWhereItIsSomethingElse) {
+TEST_F(PictureFile, SomethingElseIsRefused) {
     EXPECT_THAT(refusal(""), HasSubstr("is empty"));
-    EXPECT_THAT(refusal("\xff\xd8\xff\xe0 JFIF"),
-                HasSubstr("is a JPEG, and a picture must be a PNG"));
-    EXPECT_THAT(refusal(std::string("II*\0....", 8)), HasSubstr("is a TIFF"));
+    EXPECT_THAT(refusal(std::string("II*\0....", 8)),
+                HasSubstr("is a TIFF, and a picture must be a PNG or JPEG"));
     EXPECT_THAT(refusal("hello"), HasSubstr("is something else"));
 }
 
-TEST_F(PngFile, IsRefusedWhereItIsCutOffOrDamaged) {
+TEST_F(PictureFile, PngIsRefusedWhereItIsCutOffOrDamaged) {
     const std::string whole = png(3, 2, 8);
     for (std::size_t length = 1; length < whole.size(); ++length)
         EXPECT_NE(refusal(whole.substr(0, length)), "") << length;
@@ -101,12 +121,37 @@ TEST_F(PngFile, IsRefusedWhereItIsCutOffOrDamaged) {
     EXPECT_THAT(refusal(png(3, 2, 8, 3)), HasSubstr("its size or its colours"));
 }
 
-TEST_F(PngFile, IsRefusedWhereItIsTooLarge) {
+TEST_F(PictureFile, PngIsRefusedWhereItIsTooLarge) {
     EXPECT_THAT(refusal(png(50000, 50000, 8)), HasSubstr("has 50000 x 50000 pixels"));
     EXPECT_THAT(refusal(png(0x7fffffff, 0x7fffffff, 8)), HasSubstr("100 million"));
     // Zeros without end behind a small size are counted, not kept.
     EXPECT_EQ(refusal(png(3, 2, 40'000'000)), "");
 }
 
+TEST_F(PictureFile, JpegIsRead) {
+    EXPECT_EQ(refusal(jpeg()), "");
+    EXPECT_EQ(refusal(jpeg('\xc2')), "") << "progressive";
+    EXPECT_EQ(refusal(jpeg() + "what a telephone writes behind the end"), "");
+}
+
+TEST_F(PictureFile, JpegIsRefusedWhereItIsCutOffOrDamaged) {
+    const std::string whole = jpeg();
+    for (std::size_t length = 3; length < whole.size(); ++length)
+        EXPECT_THAT(refusal(whole.substr(0, length)), HasSubstr("is a JPEG that is damaged or cut"))
+            << length;
+    EXPECT_THAT(refusal("\xff\xd8\xff\xd9"), HasSubstr("pixels are missing"));
+    EXPECT_THAT(refusal(jpeg('\xc0', 8, number(3))), HasSubstr("its width or height is 0"));
+    EXPECT_THAT(refusal(jpeg('\xc0', 8, number(0xffffffff))), HasSubstr("65535 x 65535 pixels"));
+    EXPECT_THAT(refusal("\xff\xd8\xff\xe0" + std::string(2, '\0') + whole.substr(2)),
+                HasSubstr("ends too early"));
+    EXPECT_THAT(refusal(whole.substr(0, 10) + "x" + whole.substr(10)),
+                HasSubstr("no part begins where"));
+}
+
+TEST_F(PictureFile, JpegThatBrowsersDoNotShowIsRefused) {
+    EXPECT_THAT(refusal(jpeg('\xc9')), HasSubstr("browsers do not show"));
+    EXPECT_THAT(refusal(jpeg('\xc0', 12)), HasSubstr("browsers do not show"));
+}
+
 } // namespace
-} // namespace listric::png_test
+} // namespace listric::picture_test
