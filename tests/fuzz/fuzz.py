@@ -35,7 +35,6 @@ SHARES = {"scenes": 4, "runs": 2, "damaged": 8, "snapshots": 4, "sequences": 1}
 KINDS = tuple(SHARES)
 LONGEST = {"check": 20.0, "explain": 20.0, "run": 60.0}
 RUN = ["--threads", "1", "--quiet", "--no-report"]
-BATCH = 12   # scenes that one call checks
 
 
 def finite(one):
@@ -48,7 +47,8 @@ def finite(one):
 
 
 class Fuzzer:
-    def __init__(self, program, scratch, keep, seed):
+    def __init__(self, program, scratch, keep, seed, batch):
+        self.batch = batch   # scenes that one call checks
         self.runner = damaged_inputs.Runner(Path(program).resolve(), scratch, keep)
         self.maker = damaged_inputs.Maker(scenes.SOURCES / "tests/scenes/every-effect-begun")
         self.scratch, self.keep, self.seed = scratch, keep, seed
@@ -84,20 +84,20 @@ class Fuzzer:
     # ------------------------------------------------------------------------------ kinds
 
     def scenes(self, number, folder):
-        """Scenes, a dozen to a call of check; those that fail are checked alone, and one is explained."""
-        made = [scenes.make_scene(random.Random(f"{self.seed}:scenes:{number}:{k}")) for k in range(BATCH)]
+        """Scenes, a batch to a call of check; those that fail are checked alone, and one is explained."""
+        made = [scenes.make_scene(random.Random(f"{self.seed}:scenes:{number}:{k}")) for k in range(self.batch)]
         for k, scene in enumerate(made):
             (folder / f"{k}.toml").write_text(scenes.to_toml(scene), encoding="utf-8")
-        why, code, said = self.call(["check", *(f"@{k}.toml" for k in range(BATCH))], folder)
-        self.add("scenes", BATCH)
+        why, code, said = self.call(["check", *(f"@{k}.toml" for k in range(self.batch))], folder)
+        self.add("scenes", self.batch)
         lines = said.decode("utf-8", "replace").splitlines()
-        valid = sum(1 for k in range(BATCH) if any(f"{k}.toml: " in line and ": correct" in line for line in lines))
+        valid = sum(1 for k in range(self.batch) if any(f"{k}.toml: " in line and ": correct" in line for line in lines))
         self.add("valid scenes", valid)
         self.tell("scenes", code)
         if why or code not in (0, 2):
             for scene in made:
                 self.shrunk_scene(scene, number, ("check",))
-        explained = made[number % BATCH]
+        explained = made[number % self.batch]
         why, code, said = self.checked(scenes.to_toml(explained), folder, ("explain",))
         self.add("explained", 1)
         self.tell("explained", code)
@@ -281,10 +281,10 @@ def seed_of_the_day():
     return datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d")
 
 
-def fuzz(program, seconds, seed, jobs=1, kinds=KINDS, keep=None, most=10 ** 9):
+def fuzz(program, seconds, seed, jobs=1, kinds=KINDS, keep=None, most=10 ** 9, batch=12):
     """Returns the fuzzer, which has what failed."""
     with tempfile.TemporaryDirectory(prefix="fuzz-") as scratch:
-        fuzzer = Fuzzer(program, Path(scratch), Path(keep or Path(scratch) / "kept").absolute(), seed)
+        fuzzer = Fuzzer(program, Path(scratch), Path(keep or Path(scratch) / "kept").absolute(), seed, batch)
         fuzzer.carry_out(seconds, jobs, kinds, most)
         return fuzzer
 
@@ -296,12 +296,13 @@ def main():
     parser.add_argument("--seed", default=None, help="a word or a number; without it the day's")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", nargs="*", choices=KINDS)
+    parser.add_argument("--batch", type=int, default=12, help="scenes that one call checks")
     parser.add_argument("--keep", default="fuzz-failures")
     call = parser.parse_args()
     seed = call.seed or seed_of_the_day()
     print(f"fuzz: seed {seed}, {call.seconds:g} s, {call.jobs} at a time, {call.program}", flush=True)
     begun = time.monotonic()
-    fuzzer = fuzz(call.program, call.seconds, seed, call.jobs, call.only or KINDS, call.keep)
+    fuzzer = fuzz(call.program, call.seconds, seed, call.jobs, call.only or KINDS, call.keep, batch=call.batch)
     print(f"{fuzzer.account()} in {time.monotonic() - begun:.0f} s")
     return 1 if fuzzer.failures else 0
 
