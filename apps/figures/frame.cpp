@@ -19,6 +19,7 @@
 #include "dem/contacts/power_cell.hpp"
 #include "dem/events/strain.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -246,6 +247,20 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
     return frame;
 }
 
+/// What effects want figures of tops against the regional to say now: of measures that declare it.
+nlohmann::json what_figures_say(const Observation& now) {
+    nlohmann::json said = nlohmann::json::array();
+    for (const EffectPart& part : now.scene.effects)
+        for (const Measure<Observation>& measure : part.effect->measures) {
+            if (measure.said.empty())
+                continue;
+            if (const auto value = measure.value(now); value && std::isfinite(*value))
+                said.push_back(fmt::format(fmt::runtime(measure.said),
+                                           fmt::format("{:.2f} km", *value / 1e3)));
+        }
+    return said;
+}
+
 } // namespace
 
 void write_frame(const Observation& now, const FaultReport& faults, const fs::path& folder,
@@ -283,11 +298,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     frame["layers"] = declared_layers(now.scene);
     if (now.parts.base.motion.shortens(now.state.clock.travel)) {
         write_tops(writer, now);
-        for (const EffectPart& part : now.scene.effects)
-            for (const Measure<Observation>& measure : part.effect->measures)
-                if (std::string_view(measure.name).starts_with("null_deposited_at"))
-                    if (const auto value = measure.value(now); value && std::isfinite(*value))
-                        frame[measure.name] = *value;
+        frame["said"] = what_figures_say(now);
     }
     const double extension = now.state.clock.travel;
     frame["extension_km"] = names.value_or(MomentNames(now.scene.output.interval, {&extension, 1}))
