@@ -247,8 +247,8 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
     return frame;
 }
 
-/// What effects want figures of tops against the regional to say now: of measures that declare it.
-nlohmann::json what_figures_say(const Observation& now) {
+/// Words of the measures that figures of tops against the regional say now.
+nlohmann::json said_in_figures(const Observation& now) {
     nlohmann::json said = nlohmann::json::array();
     for (const EffectPart& part : now.scene.effects)
         for (const Measure<Observation>& measure : part.effect->measures) {
@@ -298,7 +298,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     frame["layers"] = declared_layers(now.scene);
     if (now.parts.base.motion.shortens(now.state.clock.travel)) {
         write_tops(writer, now);
-        frame["said"] = what_figures_say(now);
+        frame["said"] = said_in_figures(now);
     }
     const double extension = now.state.clock.travel;
     frame["extension_km"] = names.value_or(MomentNames(now.scene.output.interval, {&extension, 1}))

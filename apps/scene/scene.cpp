@@ -52,10 +52,11 @@ double greatest_extension(const Scene& scene) {
 }
 
 double least_extension(const Scene& scene) {
+    if (!scene.find<Stages>())
+        return 0.0;
     double position = 0.0, least = 0.0;
-    if (const Stages* stages = scene.find<Stages>())
-        for (const StageParameters& one : *stages)
-            least = std::min(least, position += one.distance.value_or(0.0));
+    for (const auto& one : *scene.find<Stages>())
+        least = std::min(least, position += one.distance.value_or(0.0));
     return least;
 }
 

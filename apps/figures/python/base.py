@@ -22,7 +22,7 @@ EXAGGERATION = 10.0
 
 
 def load(folder: str) -> tuple[str, dict[float, np.ndarray]]:
-    """What moments are counted by, and nodes (x, y, ux, uy in m) by it in m, ascending."""
+    """The clock of the moments, and nodes (x, y, ux, uy in m) by it in m, ascending."""
     clock, moments = rows_by_moment(read_table(os.path.join(folder, "base.csv"), may_be_empty=True),
                                     "x_m", "y_m", "ux_m", "uy_m")
     if not moments:

@@ -33,7 +33,7 @@ DRAWN_UPLIFT = 5.0  # km, about, of the largest uplift
 
 
 def load(folder: str) -> tuple[str, dict[float, np.ndarray]]:
-    """What moments are counted by, and rows of (x, uplift) in m by it in m, ascending."""
+    """The clock of the moments, and rows of (x, uplift) in m by it in m, ascending."""
     clock, moments = rows_by_moment(read_table(os.path.join(folder, "footwall.csv"), may_be_empty=True),
                                     "x_m", "uplift_m")
     if not moments:

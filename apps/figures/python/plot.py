@@ -130,8 +130,8 @@ def read_table(path: str, may_be_empty: bool = False) -> dict[str, np.ndarray]:
 
 
 def rows_by_moment(table: dict[str, np.ndarray], *columns: str) -> tuple[str, dict[float, np.ndarray]]:
-    """What moments are counted by, the extension or in a scene with stages the travel, and the rows of
-    these columns by it, m, ascending."""
+    """The clock of the moments, the extension or in a scene with stages the travel, and the rows of these
+    columns by it, m, ascending."""
     clock = "travel" if "travel_m" in table else "extension"
     rows, at = np.column_stack([table[name] for name in columns]), table[f"{clock}_m"]
     return clock, {float(value): rows[at == value] for value in np.unique(at)}
