@@ -162,7 +162,7 @@ std::vector<std::map<std::string, double>> rows_of(const fs::path& csv) {
 }
 
 /// 60 m out and 120 m back, to 60 m of net shortening: the wall first takes rock off the footwall,
-/// then brings more than there was. 20 s.
+/// then brings more than there was. 6 s.
 TEST_F(ElasticBaseRun, GoesWithTheLoadThereAndBack) {
     const Scene s =
         SceneRuns::load(staged("[[stage]]\ndistance_m = 60.0\n[[stage]]\ndistance_m = -120.0\n") +
@@ -178,6 +178,7 @@ TEST_F(ElasticBaseRun, GoesWithTheLoadThereAndBack) {
     EXPECT_NEAR(end["extension_m"].get<double>(), -60.0, 0.1);
 }
 
+/// That way without the thinning crust. 4 s.
 TEST_F(ElasticBaseRun, DeflectionChangesSignWithTheLoad) {
     const Scene s =
         SceneRuns::load(staged("[[stage]]\ndistance_m = 60.0\n[[stage]]\ndistance_m = -120.0\n"));
@@ -191,7 +192,9 @@ TEST_F(ElasticBaseRun, DeflectionChangesSignWithTheLoad) {
         if (std::abs(std::abs(row.at("extension_m")) - 60.0) > 1.0)
             continue;
         ++signs;
-        EXPECT_GT(row.at("net_wall_load_n_per_m") * row.at("extension_m"), 0.0);
+        // 0.98 out, 0.92 back: discs above the breakaway lie on the level ground, some still move.
+        EXPECT_NEAR(row.at("net_wall_load_n_per_m") / row.at("weight_change_n_per_m"), 1.0, 0.15);
+        EXPECT_GT(row.at("weight_change_n_per_m") * row.at("extension_m"), 0.0);
         EXPECT_GT(row.at("footwall_uplift_m") * row.at("extension_m"), 0.0);
     }
     EXPECT_EQ(signs, 2);

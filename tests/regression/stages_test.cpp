@@ -118,8 +118,8 @@ TEST_F(Stages, ReadBackFromTheRunsRecord) {
     EXPECT_EQ(load(there_and_back(), {"stage.2.distance_m=-40"}).extension.distance, 230.0);
 }
 
-/// 300 m out, 200 m back at half the rate, while the level that is filled to rises: a pick of a
-/// stratum laid down on the way back finds that stratum by its age. 6 s.
+/// 500 m out, 100 m back at a quarter of the rate, while the level that is filled to rises: a pick
+/// of a stratum laid down on the way back finds that stratum by its age. 2 s.
 TEST_F(Stages, PicksAgesInTheShorteningFindTheirStrata) {
     std::string text = small_halfgraben();
     text.insert(text.find("[detachment]\n") + 13, "footwall_top_m = 2000.0\n");
@@ -132,28 +132,28 @@ series = "none"
 [sedimentation]
 interval_a = 10000.0
 target = [
-    {time_a = 0.0, points = [[0.0, 0.0]]},
-    {time_a = 30000.0, points = [[0.0, 0.0]]},
-    {time_a = 70000.0, points = [[0.0, 500.0]]},
+    {time_a = 0.0, points = [[0.0, -400.0]]},
+    {time_a = 50000.0, points = [[0.0, -400.0]]},
+    {time_a = 90000.0, points = [[0.0, -20.0]]},
 ]
 [[stage]]
-distance_m = 300.0
+distance_m = 500.0
 [[stage]]
-distance_m = -200.0
-rate_m_per_a = 0.005
+distance_m = -100.0
+rate_m_per_a = 0.0025
 sedimentation = "fill"
 )";
     const Scene plain = load(text);
     run(plain, "picked");
     const archive::RunFolder folder_of_run(options("picked").output);
     const State state = folder_of_run.read(folder_of_run.snapshots.back()).state;
-    EXPECT_NEAR(state.clock.travel, 700.0, 0.5);
-    EXPECT_NEAR(state.clock.extension, 100.0, 0.5);
+    EXPECT_NEAR(state.clock.travel, 900.0, 0.5);
+    EXPECT_NEAR(state.clock.extension, 400.0, 0.5);
     const ModelParts& parts = folder_of_run.parts;
     const auto horizons =
         measures::trace_horizons(archive::make_setting(plain, parts), parts.base, state, {});
-    // Picks of every stratum laid down after the turn, at 30,000 a; the run ends at 70,000.
-    constexpr double turn = 30e3, end = 70e3;
+    // Picks of every stratum laid down after the turn, at 50,000 a; the run ends at 90,000.
+    constexpr double turn = 50e3, end = 90e3;
     std::map<std::string, int> stratum_of;
     std::ofstream picks(folder / "picks.csv");
     picks << "name,x_m,depth_m,age_a\n";
