@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 
@@ -164,7 +165,7 @@ sedimentation = "fill"
         for (const measures::Polyline& piece : h.pieces)
             for (const Point& p : piece)
                 picks << fmt::format("{},{:.3f},{:.3f},{:.3f}\n", name, p.x, -p.y,
-                                     end - *h.deposited_at);
+                                     std::max(0.0, end - *h.deposited_at));
         stratum_of[name] = h.stratum;
     }
     picks.close();
