@@ -3,6 +3,7 @@
 #include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/stage.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 
