@@ -264,6 +264,18 @@ TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {
         HasSubstr("the weight of what lies on the level ground behind the breakaway"));
 }
 
+TEST_F(ElasticBaseRun, RefusesToShortenTheLowerCrustAway) {
+    const std::string crust = "[[stage]]\ndistance_m = -1500.0\n[lower_crust_thinning]\nwidth_m = ";
+    EXPECT_NO_THROW(SceneRuns::load(staged(crust + "1600.0\n")));
+    try {
+        SceneRuns::load(staged(crust + "1500.0\n"));
+        FAIL();
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("lower_crust_thinning.width_m: is 1500"),
+                                        HasSubstr("shortens it by 1500; widen it")));
+    }
+}
+
 TEST_F(ElasticBaseRun, RefusesBadInput) {
     EXPECT_THAT(refusal({"elastic_base.poisson_ratio=0.5"}), HasSubstr("below 0.5"));
     EXPECT_THAT(refusal({"elastic_base.young_modulus_pa=-7e10"}), HasSubstr("at least 1e6"));
