@@ -213,10 +213,11 @@ ElasticBase::DiscLoad ElasticBase::take_disc_load(State& state, double cycles,
         load.forces[2 * k + 1] = y - reference_y[k];
         nodes.load_x[k] = nodes.load_y[k] = 0;
     }
-    // The rock right of the wall, which has left room to the discs.
-    const double pressure = virtual_pressure(state);
-    const std::vector<double> per_pascal =
-        pressure_forces(interface_, parameters_.wall_x, parameters_.wall_x + extension);
+    // The rock right of the wall, which has left room to the discs, or in net shortening has taken
+    // some from them.
+    const double pressure = virtual_pressure(state) * (extension < 0.0 ? -1.0 : 1.0);
+    const auto [from, to] = std::minmax({parameters_.wall_x, parameters_.wall_x + extension});
+    const std::vector<double> per_pascal = pressure_forces(interface_, from, to);
     for (std::size_t k = 0; k < per_pascal.size(); ++k)
         load.forces[2 * k + 1] += pressure * per_pascal[k];
     return load;

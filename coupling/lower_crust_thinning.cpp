@@ -36,11 +36,12 @@ fem::Load lower_crust_load(const LowerCrustThinningParameters& p, double contras
 }
 
 std::vector<fem::Load> lower_crust_loads(const LowerCrustThinningParameters& parameters,
-                                         double contrast, double distance) {
+                                         double contrast, double greatest, double least) {
     std::vector<fem::Load> loads;
     for (std::size_t k = 0; k <= steps; ++k)
-        loads.push_back(lower_crust_load(
-            parameters, contrast, distance * static_cast<double>(k) / static_cast<double>(steps)));
+        loads.push_back(lower_crust_load(parameters, contrast,
+                                         least + (greatest - least) * static_cast<double>(k) /
+                                                     static_cast<double>(steps)));
     return loads;
 }
 
@@ -54,11 +55,11 @@ std::vector<double> lower_crust_amounts(double share) {
     return amounts;
 }
 
-LowerCrustThinning::LowerCrustThinning(std::vector<double> forces, double distance,
+LowerCrustThinning::LowerCrustThinning(std::vector<double> forces, double greatest, double least,
                                        double extension_rate)
     : Event("lower_crust_thinning", {interval, extension_rate}, dem::Stage::load),
-      forces_(std::move(forces)), distance_(distance) {
-    assert(forces_.size() % (steps + 1) == 0 && distance > 0.0);
+      forces_(std::move(forces)), greatest_(greatest), least_(least) {
+    assert(forces_.size() % (steps + 1) == 0 && greatest >= least);
 }
 
 void LowerCrustThinning::begin(State& state) {
@@ -66,7 +67,8 @@ void LowerCrustThinning::begin(State& state) {
 }
 
 std::vector<double> LowerCrustThinning::amounts(const State& state) const {
-    return lower_crust_amounts(state.clock.extension / distance_);
+    const double way = greatest_ - least_; // 0 where the wall only rests
+    return lower_crust_amounts(way > 0.0 ? (state.clock.extension - least_) / way : 0.0);
 }
 
 bool LowerCrustThinning::apply(State& state, const RigidBase&) {
@@ -76,10 +78,11 @@ bool LowerCrustThinning::apply(State& state, const RigidBase&) {
 }
 
 FootwallLoad lower_crust_thinning_load(const LowerCrustThinningParameters& parameters,
-                                       double contrast, double distance, double extension_rate) {
+                                       double contrast, double greatest, double least,
+                                       double extension_rate) {
     const auto make_event = [=](const LoadSolution& solution) {
         auto event =
-            std::make_unique<LowerCrustThinning>(solution.forces, distance, extension_rate);
+            std::make_unique<LowerCrustThinning>(solution.forces, greatest, least, extension_rate);
         const LowerCrustThinning& thinning = *event;
         return LoadingEvent{
             .event = std::move(event),
@@ -94,7 +97,7 @@ FootwallLoad lower_crust_thinning_load(const LowerCrustThinningParameters& param
                                         lower_crust_thinning(parameters, state.clock.extension)}};
                 }};
     };
-    return {lower_crust_loads(parameters, contrast, distance), make_event};
+    return {lower_crust_loads(parameters, contrast, greatest, least), make_event};
 }
 
 } // namespace listric::coupling

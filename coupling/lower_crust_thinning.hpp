@@ -31,21 +31,24 @@ double lower_crust_thinning(const LowerCrustThinningParameters& parameters, doub
 fem::Load lower_crust_load(const LowerCrustThinningParameters& parameters, double contrast,
                            double extension);
 
-/// Loads at extensions from 0 to `distance` in equal steps, so many that the load's change with
-/// extension, h e / (b + e), is straight between them to 1e-3.
+/// Loads at extensions from `least` to `greatest`, m, in equal steps, so many that the load's
+/// change with extension, h e / (b + e), is straight between them to 1e-3. Below 0 the crust is
+/// thicker.
 std::vector<fem::Load> lower_crust_loads(const LowerCrustThinningParameters& parameters,
-                                         double contrast, double distance);
+                                         double contrast, double greatest, double least = 0.0);
 
-/// How much of each of those loads makes that of an extension which is this share of `distance`:
-/// two neighbours interpolated.
+/// How much of each of those loads makes that of an extension which is this share of the way from
+/// the least to the greatest: two neighbours interpolated.
 std::vector<double> lower_crust_amounts(double share);
 
 /// Puts the load of the present extension on the footwall.
 class LowerCrustThinning : public dem::Event {
 public:
     /// @param forces    equivalent to lower_crust_loads(), by rows, N
-    /// @param distance  extension of the last of them, m
-    LowerCrustThinning(std::vector<double> forces, double distance, double extension_rate);
+    /// @param greatest  extension of the last of them, m
+    /// @param least     of the first, m
+    LowerCrustThinning(std::vector<double> forces, double greatest, double least,
+                       double extension_rate);
 
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
@@ -55,12 +58,14 @@ public:
 
 private:
     std::vector<double> forces_;
-    double distance_;
+    double greatest_, least_;
 };
 
 /// @param contrast  density contrast of mantle and crust times gravity, Pa/m
-/// @param distance  extension at the end, m
+/// @param greatest  extension of the run, m
+/// @param least     extension of the run, m: below 0 in net shortening
 FootwallLoad lower_crust_thinning_load(const LowerCrustThinningParameters& parameters,
-                                       double contrast, double distance, double extension_rate);
+                                       double contrast, double greatest, double least,
+                                       double extension_rate);
 
 } // namespace listric::coupling

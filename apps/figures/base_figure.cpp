@@ -29,13 +29,26 @@ namespace {
 constexpr const char* base_header = "extension_m,x_m,y_m,ux_m,uy_m\n";
 constexpr const char* uplift_header = "extension_m,x_m,uplift_m\n";
 
-/// Writes a table of the run, but not over a file of somebody's that has its name.
-void write_table(const fs::path& file, const std::string& header, const std::string& table) {
+/// Writes a table of the run, but not over a file of somebody's that has its name. In a scene with
+/// stages moments are told apart by the travel, which stands before the extension.
+void write_table(const RunFolder& run, const char* name, const std::string& header,
+                 const std::string& rows) {
+    const fs::path file = run.output / name;
     const std::string there = read_text_if_there(file);
-    if (!there.empty() && !there.starts_with(header))
+    if (!there.empty() && there.substr(0, there.find('\n') + 1).find(header) == there.npos)
         throw UsageError(file.string() + ": is no table of a run, which would be written there; "
                                          "move it or give it another name");
-    write_text(file, table);
+    const std::string_view travel = run.parts.base.motion.stages.empty() ? "" : "travel_m,";
+    write_text(file, fmt::format("{}{}{}", travel, header, rows));
+}
+
+/// First columns of a row.
+std::string moment_columns(const RunFolder& run, const State& state) {
+    const int decimals = decimals_for(run.scene.output.interval);
+    const std::string extension = fmt::format("{:.{}f},", state.clock.extension, decimals);
+    return run.parts.base.motion.stages.empty()
+               ? extension
+               : fmt::format("{:.{}f},{}", state.clock.travel, decimals, extension);
 }
 
 /// Beyond this x the picture ends, m, left of the breakaway and right of the wall.
@@ -54,11 +67,11 @@ std::vector<fs::path> shown(const std::vector<fs::path>& snapshots) {
 }
 
 /// Uplift of the footwall's surface, then of the detachment.
-std::string uplift_rows(const State& state, const fem::Field& field, int decimals) {
+std::string uplift_rows(const State& state, const fem::Field& field, const std::string& moment,
+                        int decimals) {
     std::string rows;
     const auto add = [&](double x, double uplift) {
-        rows += fmt::format("{:.{}f},{:.{}f},{:.{}f}\n", state.clock.travel, decimals, x, decimals,
-                            uplift, decimals + 2);
+        rows += fmt::format("{}{:.{}f},{:.{}f}\n", moment, x, decimals, uplift, decimals + 2);
     };
     for (std::size_t k = 0; k < field.place.size(); ++k)
         if (std::abs(field.place[k].y) < 1e-3 && field.place[k].x < 0.0 &&
@@ -101,7 +114,7 @@ bool export_footwall(const RunFolder& run, const fs::path& folder) {
     std::vector<std::unique_ptr<Event>> events;
     const std::unique_ptr<BaseDriver> driver = make_base_driver(run.scene, run.parts, events);
     const int decimals = decimals_for(run.scene.output.interval);
-    std::string table = uplift_header;
+    std::string rows;
     const std::vector<fs::path> moments = shown(run.snapshots);
     for (const fs::path& path : moments) {
         Snapshot snapshot = read_snapshot(path);
@@ -109,12 +122,13 @@ bool export_footwall(const RunFolder& run, const fs::path& folder) {
         const fem::Footwall* footwall = driver ? driver->recover(snapshot.state) : nullptr;
         if (!footwall)
             return false;
-        table += uplift_rows(snapshot.state, footwall->field(), decimals);
+        rows += uplift_rows(snapshot.state, footwall->field(), moment_columns(run, snapshot.state),
+                            decimals);
         if (path == moments.back())
             export_section({run.scene, run.parts, snapshot.state, events}, footwall->stress(),
                            folder);
     }
-    write_table(run.output / "footwall.csv", uplift_header, table);
+    write_table(run, "footwall.csv", uplift_header, rows);
     return true;
 }
 
@@ -122,16 +136,16 @@ bool export_footwall(const RunFolder& run, const fs::path& folder) {
 
 void draw_base(const RunFolder& run, const PictureOrder& order) {
     const int decimals = decimals_for(run.scene.output.interval);
-    std::string table = base_header;
+    std::string rows;
     for (const fs::path& path : run.snapshots) {
         const State state = read_snapshot(path).state;
         const ConstBaseNodeColumns nodes = base_node_columns(state);
+        const std::string moment = moment_columns(run, state);
         for (std::size_t k = 0; k < nodes.x.size(); ++k)
-            table += fmt::format("{1:.{0}f},{2:.{0}f},{3:.{0}f},{5:.{4}f},{6:.{4}f}\n", decimals,
-                                 state.clock.travel, nodes.x[k], nodes.y[k], decimals + 2,
-                                 nodes.ux[k], nodes.uy[k]);
+            rows += fmt::format("{1}{2:.{0}f},{3:.{0}f},{5:.{4}f},{6:.{4}f}\n", decimals, moment,
+                                nodes.x[k], nodes.y[k], decimals + 2, nodes.ux[k], nodes.uy[k]);
     }
-    write_table(run.output / "base.csv", base_header, table);
+    write_table(run, "base.csv", base_header, rows);
     const fs::path folder = fs::absolute(run.output), figures = folder / "figures";
     run_drawing_script("base.py", {folder.string(), figures.string(), order.text()});
     const TemporaryFolder data(figures);

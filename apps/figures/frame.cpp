@@ -19,6 +19,7 @@
 #include "dem/contacts/power_cell.hpp"
 #include "dem/events/strain.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -253,6 +254,20 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
     return frame;
 }
 
+/// Words of the measures that figures of tops against the regional say now.
+nlohmann::json said_in_figures(const Observation& now) {
+    nlohmann::json said = nlohmann::json::array();
+    for (const EffectPart& part : now.scene.effects)
+        for (const Measure<Observation>& measure : part.effect->measures) {
+            if (measure.said.empty())
+                continue;
+            if (const auto value = measure.value(now); value && std::isfinite(*value))
+                said.push_back(fmt::format(fmt::runtime(measure.said),
+                                           fmt::format("{:.2f} km", *value / 1e3)));
+        }
+    return said;
+}
+
 } // namespace
 
 void write_frame(const Observation& now, const FaultReport& faults, const fs::path& folder,
@@ -290,11 +305,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     frame["layers"] = declared_layers(now.scene);
     if (now.parts.base.motion.shortens(now.state.clock.travel)) {
         write_tops(writer, now);
-        for (const EffectPart& part : now.scene.effects)
-            for (const Measure<Observation>& measure : part.effect->measures)
-                if (std::string_view(measure.name).starts_with("null_deposited_at"))
-                    if (const auto value = measure.value(now); value && std::isfinite(*value))
-                        frame[measure.name] = *value;
+        frame["said"] = said_in_figures(now);
     }
     const double extension = now.state.clock.travel;
     frame["extension_km"] = names.value_or(MomentNames(now.scene.output.interval, {&extension, 1}))

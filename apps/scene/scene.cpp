@@ -51,6 +51,15 @@ double greatest_extension(const Scene& scene) {
     return greatest;
 }
 
+double least_extension(const Scene& scene) {
+    if (!scene.find<Stages>())
+        return 0.0;
+    double position = 0.0, least = 0.0;
+    for (const auto& one : *scene.find<Stages>())
+        least = std::min(least, position += one.distance.value_or(0.0));
+    return least;
+}
+
 RigidBase make_rigid_base(const Scene& scene) {
     const Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
                         greatest_extension(scene)};

@@ -32,4 +32,7 @@ dem::Motion make_motion(const Scene& scene);
 /// Greatest displacement of the right wall in a scene, m: how far the base must reach.
 double greatest_extension(const Scene& scene);
 
+/// Least displacement of the right wall, m: below 0 where a scene shortens more than it extends.
+double least_extension(const Scene& scene);
+
 } // namespace listric

@@ -35,6 +35,9 @@ template <class Subject> struct Measure {
     std::optional<double> (*value)(const Subject& subject) = nullptr;
     OverTime over = OverTime::last;
     std::string_view usual = {}; ///< as that of a Quantity
+    /// Words with which figures of tops against the regional say it, {} for its value in km; none:
+    /// they do not.
+    std::string_view said = {};
 
     constexpr Quantity quantity() const { return {name, unit, doc, over, usual}; }
 };

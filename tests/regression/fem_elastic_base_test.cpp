@@ -138,6 +138,68 @@ TEST_F(ElasticBaseRun, ThinningLowersTheBase) {
     EXPECT_FALSE(without.contains("lower_crust_thinning_m"));
 }
 
+/// A scene with stages of the wall in place of its distance.
+std::string staged(const std::string& stages) {
+    std::string text = scene;
+    const std::string distance = "distance_m = 60.0\n", detachment = "[detachment]\n";
+    text.erase(text.find(distance), distance.size());
+    text.insert(text.find(detachment) + detachment.size(), "footwall_top_m = 2000.0\n");
+    return text + stages;
+}
+
+std::vector<std::map<std::string, double>> rows_of(const fs::path& csv) {
+    std::ifstream file(csv);
+    std::vector<std::map<std::string, double>> rows;
+    std::string head, line, name, value;
+    std::getline(file, head);
+    while (std::getline(file, line)) {
+        std::istringstream names(head), values(line);
+        rows.emplace_back();
+        while (std::getline(names, name, ',') && std::getline(values, value, ','))
+            rows.back()[name] = std::strtod(value.c_str(), nullptr);
+    }
+    return rows;
+}
+
+/// 60 m out and 120 m back, to 60 m of net shortening: the wall first takes rock off the footwall,
+/// then brings more than there was. 6 s.
+TEST_F(ElasticBaseRun, GoesWithTheLoadThereAndBack) {
+    const Scene s =
+        SceneRuns::load(staged("[[stage]]\ndistance_m = 60.0\n[[stage]]\ndistance_m = -120.0\n") +
+                        loads.substr(0, loads.find("[footwall")));
+    const json end = run(s, "back");
+    for (const auto& row : rows_of(folder / "back" / "history.csv")) {
+        const double e = row.at("extension_m");
+        EXPECT_NEAR(row.at("lower_crust_thinning_m"), 20000.0 * e / (15000.0 + e), 1e-3) << e;
+        for (const char* error :
+             {"interface_force_error", "interface_moment_error", "interface_work_error"})
+            EXPECT_LT(row.at(error), 1e-12) << error << e;
+    }
+    EXPECT_NEAR(end["extension_m"].get<double>(), -60.0, 0.1);
+}
+
+/// That way without the thinning crust. 4 s.
+TEST_F(ElasticBaseRun, DeflectionChangesSignWithTheLoad) {
+    const Scene s =
+        SceneRuns::load(staged("[[stage]]\ndistance_m = 60.0\n[[stage]]\ndistance_m = -120.0\n"));
+    run(s, "back");
+    // By the end of the way out and of the way back; 60 m take longer than the base lags behind.
+    int signs = 0;
+    for (const auto& row : rows_of(folder / "back" / "history.csv")) {
+        std::printf("%6.1f m: weight off %.3g, load off %.3g N/m, breakaway %.3f m\n",
+                    row.at("extension_m"), row.at("weight_change_n_per_m"),
+                    row.at("net_wall_load_n_per_m"), row.at("footwall_uplift_m"));
+        if (std::abs(std::abs(row.at("extension_m")) - 60.0) > 1.0)
+            continue;
+        ++signs;
+        // 0.98 out, 0.92 back: discs above the breakaway lie on the level ground, some still move.
+        EXPECT_NEAR(row.at("net_wall_load_n_per_m") / row.at("weight_change_n_per_m"), 1.0, 0.15);
+        EXPECT_GT(row.at("weight_change_n_per_m") * row.at("extension_m"), 0.0);
+        EXPECT_GT(row.at("footwall_uplift_m") * row.at("extension_m"), 0.0);
+    }
+    EXPECT_EQ(signs, 2);
+}
+
 TEST_F(ElasticBaseRun, StopsWhereLinearElasticityEnds) {
     const Scene soft = load(loads.substr(0, loads.find("[footwall")),
                             {"elastic_base.young_modulus_pa=2e8", "elastic_base.relaxation=3"});
@@ -153,21 +215,26 @@ TEST_F(ElasticBaseRun, StopsWhereLinearElasticityEnds) {
     }
     EXPECT_FALSE(list_snapshots(folder / "soft").empty());
     // The window in which it ended is the last row: its strain or rotation is beyond.
-    std::ifstream file(folder / "soft" / "history.csv");
-    std::vector<std::map<std::string, double>> rows;
-    std::string head, line, name, value;
-    std::getline(file, head);
-    while (std::getline(file, line)) {
-        std::istringstream names(head), values(line);
-        rows.emplace_back();
-        while (std::getline(names, name, ',') && std::getline(values, value, ','))
-            rows.back()[name] = std::strtod(value.c_str(), nullptr);
-    }
+    const auto rows = rows_of(folder / "soft" / "history.csv");
     ASSERT_GT(rows.size(), 1u);
     const auto& last = rows.back();
     EXPECT_TRUE(last.at("strong_rock_strain_max") > 0.10 ||
                 last.at("relaxed_rock_strain_max") > 0.10 ||
                 last.at("rock_rotation_max_deg") > 11.4);
+}
+
+TEST_F(ElasticBaseRun, SaysOnTheWayBackWhereItEnds) {
+    const Scene soft =
+        SceneRuns::load(staged("[[stage]]\ndistance_m = 10.0\n[[stage]]\ndistance_m = -100.0\n") +
+                            loads.substr(0, loads.find("[footwall")),
+                        {"elastic_base.young_modulus_pa=2e8", "elastic_base.relaxation=3"});
+    try {
+        run(soft, "soft");
+        FAIL() << "a footwall of clay has carried it";
+    } catch (const NumericalFailure& failure) {
+        EXPECT_THAT(failure.what(), AllOf(HasSubstr(" m of extension after a way of "),
+                                          HasSubstr("linear elasticity means up to 10 %")));
+    }
 }
 
 TEST_F(ElasticBaseRun, ASecondMeshGivesTheSameBase) {
@@ -191,6 +258,22 @@ TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {
     EXPECT_THAT(
         explain(load("[basin_water]\n"), 1, program_effects()),
         AllOf(HasSubstr("basin: water of 1030 kg/m3 up to 0 m"), Not(HasSubstr("crust, water"))));
+    EXPECT_THAT(without, HasSubstr("leans on the backstop"));
+    EXPECT_THAT(
+        explain(SceneRuns::load(staged("[[stage]]\ndistance_m = 60.0\n")), 1, program_effects()),
+        HasSubstr("the weight of what lies on the level ground behind the breakaway"));
+}
+
+TEST_F(ElasticBaseRun, RefusesToShortenTheLowerCrustAway) {
+    const std::string crust = "[[stage]]\ndistance_m = -1500.0\n[lower_crust_thinning]\nwidth_m = ";
+    EXPECT_NO_THROW(SceneRuns::load(staged(crust + "1600.0\n")));
+    try {
+        SceneRuns::load(staged(crust + "1500.0\n"));
+        FAIL();
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("lower_crust_thinning.width_m: is 1500"),
+                                        HasSubstr("shortens it by 1500; widen it")));
+    }
 }
 
 TEST_F(ElasticBaseRun, RefusesBadInput) {

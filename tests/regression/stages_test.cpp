@@ -1,11 +1,20 @@
 // Motion in stages, [[stage]], on small scenes: the bits are those of one run however it is cut and
 // by however many threads; one stage is what extension.distance_m is; bad stages are refused.
 
+#include "apps/archive/observed_misfit.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/setting.hpp"
+#include "apps/measures/horizons.hpp"
 #include "apps/scene/stage.hpp"
 #include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
 
 namespace listric::stages_test {
 
@@ -108,6 +117,67 @@ TEST_F(Stages, ReadBackFromTheRunsRecord) {
     EXPECT_THAT(record, HasSubstr("\n[[stage]]"));
     EXPECT_EQ(to_toml(load(record)), record);
     EXPECT_EQ(load(there_and_back(), {"stage.2.distance_m=-40"}).extension.distance, 230.0);
+}
+
+/// 500 m out, 100 m back at a quarter of the rate, while the level that is filled to rises: a pick
+/// of a stratum laid down on the way back finds that stratum by its age. 2 s.
+TEST_F(Stages, PicksAgesInTheShorteningFindTheirStrata) {
+    std::string text = small_halfgraben();
+    text.insert(text.find("[detachment]\n") + 13, "footwall_top_m = 2000.0\n");
+    text += R"([extension]
+speed_m_per_s = 1.0
+[output]
+figures_at_m = []
+series = "none"
+[gravity]
+[sedimentation]
+interval_a = 10000.0
+target = [
+    {time_a = 0.0, points = [[0.0, -400.0]]},
+    {time_a = 50000.0, points = [[0.0, -400.0]]},
+    {time_a = 90000.0, points = [[0.0, -20.0]]},
+]
+[[stage]]
+distance_m = 500.0
+[[stage]]
+distance_m = -100.0
+rate_m_per_a = 0.0025
+sedimentation = "fill"
+)";
+    const Scene plain = load(text);
+    run(plain, "picked");
+    const archive::RunFolder folder_of_run(options("picked").output);
+    const State state = folder_of_run.read(folder_of_run.snapshots.back()).state;
+    EXPECT_NEAR(state.clock.travel, 900.0, 0.5);
+    EXPECT_NEAR(state.clock.extension, 400.0, 0.5);
+    const ModelParts& parts = folder_of_run.parts;
+    const auto horizons =
+        measures::trace_horizons(archive::make_setting(plain, parts), parts.base, state, {});
+    // Picks of every stratum laid down after the turn, at 50,000 a; the run ends at 90,000.
+    constexpr double turn = 50e3, end = 90e3;
+    std::map<std::string, int> stratum_of;
+    std::ofstream picks(folder / "picks.csv");
+    picks << "name,x_m,depth_m,age_a\n";
+    for (const measures::Horizon& h : horizons) {
+        if (!h.deposited_at || *h.deposited_at <= turn || h.pieces.empty())
+            continue;
+        const std::string name = fmt::format("of {}", h.stratum);
+        for (const measures::Polyline& piece : h.pieces)
+            for (const Point& p : piece)
+                picks << fmt::format("{},{:.3f},{:.3f},{:.3f}\n", name, p.x, -p.y,
+                                     std::max(0.0, end - *h.deposited_at));
+        stratum_of[name] = h.stratum;
+    }
+    picks.close();
+    ASSERT_GE(stratum_of.size(), 2u);
+    const Scene observed = load(text + "[observed]\nhorizons = \"picks.csv\"\n");
+    const auto rows = archive::compare_horizons(observed, state, horizons);
+    ASSERT_EQ(rows.size(), stratum_of.size());
+    for (const archive::ObservedHorizon& row : rows) {
+        ASSERT_TRUE(row.misfit) << row.objection;
+        EXPECT_EQ(row.stratum, stratum_of.at(row.name));
+        EXPECT_LT(row.misfit->mean, 1.0); // its own points; a neighbour lies tens of metres off
+    }
 }
 
 TEST_F(Stages, AreRefusedWithTheirLine) {

@@ -484,7 +484,7 @@ class Drawing(Folder):
     def test_tops_after_a_turn_are_drawn_against_the_regional(self):
         tops = [[0.0, 0.0, 0.0, -900.0], [0.0, 0.0, 3000.0, -300.0], [1.0, 1.0, 0.0, -200.0], [1.0, 1.0, 3000.0, 500.0],
                 [-1.0, 2.0, 0.0, -2500.0], [-1.0, 2.0, 3000.0, -2000.0]]
-        meta = {"level_m": -100.0, "null_deposited_at_m": 1234.0}
+        meta = {"level_m": -100.0, "said": ["null point: laid down at 1.23 km of extension"]}
         frame = self.frame(meta, tops=tops)
         self.assertEqual(sections.figures_of(frame)["inversion"], ["strata", "inversion"])
         self.assertNotIn("inversion", sections.figures_of(self.frame()))
@@ -854,9 +854,19 @@ class SmallScripts(Folder):
     def test_moments_of_the_base_ascend_and_keep_their_nodes(self):
         self.write("base.csv", "extension_m,x_m,y_m,ux_m,uy_m\n"
                                "500,0,0,0,2\n500,9,-1,0,3\n0,0,0,0,0\n0,9,-1,0,0\n")
-        moments = base.load(self.folder)
-        self.assertEqual(list(moments), [0.0, 500.0])
+        clock, moments = base.load(self.folder)
+        self.assertEqual((clock, list(moments)), ("extension", [0.0, 500.0]))
         np.testing.assert_array_equal(moments[500.0], [[0, 0, 0, 2], [9, -1, 0, 3]])
+
+    def test_with_stages_moments_are_told_apart_by_the_travel(self):
+        self.write("base.csv", "travel_m,extension_m,x_m,y_m,ux_m,uy_m\n400,400,0,0,0,2\n600,400,0,0,0,1\n")
+        self.write("footwall.csv", "travel_m,extension_m,x_m,uplift_m\n400,400,-5,2\n600,400,-5,1\n")
+        for script in (base, footwall):
+            clock, moments = script.load(self.folder)
+            self.assertEqual((clock, list(moments)), ("travel", [400.0, 600.0]))
+            self.assertEqual([rows[0, -1] for rows in moments.values()], [2.0, 1.0])
+        figure = base.draw(*base.load(self.folder))
+        self.assertEqual(figure.axes[2].get_xlabel(), "travel, km")
 
     def test_a_base_that_does_not_deform_has_no_figure(self):
         self.write("base.csv", "extension_m,x_m,y_m,ux_m,uy_m\n")

@@ -94,6 +94,23 @@ TEST(LowerCrust, WideThinningIsTheIsostaticColumn) {
     EXPECT_NEAR(subsidence / (thinner * (mantle - crust) / mantle), 1.0, 3e-3);
 }
 
+/// From 10 km of net shortening to 20 km of extension, at 4 km of shortening: the isostatic column
+/// rises by what mantle the thicker crust has replaced. 0.1 s.
+TEST(LowerCrust, NetShorteningLiftsTheIsostaticColumn) {
+    const fem::FootwallRequest request = floating_crust();
+    const auto footwall = fem::make_footwall(request);
+    const LowerCrustThinningParameters thinning{20e3, 2000e3, 0.0};
+    const LoadResponse response =
+        solve(*footwall, {lower_crust_loads(thinning, contrast, 20e3, -10e3)}).front();
+    const std::vector<double> at = superpose(lower_crust_amounts(6.0 / 30.0), response.interface);
+    const double thicker = 20e3 * 4e3 / 1996e3;
+    EXPECT_DOUBLE_EQ(lower_crust_thinning(thinning, -4e3), -thicker);
+    const double top = request.surface_spring, base = request.base_spring;
+    const double rise = contrast * thicker / (top + base + top * base / column_stiffness(request));
+    for (std::size_t i = 1; i < at.size(); i += 2)
+        EXPECT_NEAR(at[i], rise, round_off * rise);
+}
+
 TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
     fem::FootwallRequest request = floating_crust();
     request.left = -200e3;

@@ -3,8 +3,8 @@
 
 Usage: base.py RUN_DIR FIGURES_DIR ORDER
 
-Reads RUN_DIR/base.csv: extension_m, and of every node x_m, y_m at the start and its displacement
-ux_m, uy_m.  Writes base.png under a temporary name and renames it: vertical displacement along the
+Reads RUN_DIR/base.csv: extension_m, in a scene with stages also travel_m, and of every node x_m, y_m
+at the start and its displacement ux_m, uy_m.  Writes base.png under a temporary name and renames it: vertical displacement along the
 detachment, the detachment itself with its displacement ten times too large, and the breakaway's
 uplift over extension.  On bad input: one line on stderr, exit status 2.
 """
@@ -13,22 +13,21 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
-from plot import (FAINT, InputError, colormaps, moment_label, new_figure, read_order, read_table, run,
-                  save, without_frame)
+from plot import (FAINT, InputError, colormaps, moment_label, new_figure, read_order, read_table,
+                  rows_by_moment, run, save, without_frame)
 
 import numpy as np
 
 EXAGGERATION = 10.0
 
 
-def load(folder: str) -> dict[float, np.ndarray]:
-    """Nodes (x, y, ux, uy in m) by extension in m, ascending."""
-    table = read_table(os.path.join(folder, "base.csv"), may_be_empty=True)
-    nodes = np.column_stack([table[name] for name in ("x_m", "y_m", "ux_m", "uy_m")])
-    if not len(nodes):
+def load(folder: str) -> tuple[str, dict[float, np.ndarray]]:
+    """The clock of the moments, and nodes (x, y, ux, uy in m) by it in m, ascending."""
+    clock, moments = rows_by_moment(read_table(os.path.join(folder, "base.csv"), may_be_empty=True),
+                                    "x_m", "y_m", "ux_m", "uy_m")
+    if not moments:
         raise InputError("base.csv has no moment: the base does not deform")
-    extension = table["extension_m"]
-    return {float(value): nodes[extension == value] for value in np.unique(extension)}
+    return clock, moments
 
 
 def shown(extensions: list[float]) -> list[float]:
@@ -37,17 +36,17 @@ def shown(extensions: list[float]) -> list[float]:
     return extensions[::-1][::step][::-1]
 
 
-def draw(moments: dict[float, np.ndarray]):
+def draw(clock: str, moments: dict[float, np.ndarray]):
     figure = new_figure(11, 10.5, 120)
     profile, section, history = figure.subplots(3, 1, height_ratios=(1.1, 1.3, 0.8))
-    draw_displacement(profile, section, moments)
-    draw_history(history, moments)
+    draw_displacement(profile, section, clock, moments)
+    draw_history(history, clock, moments)
     without_frame(profile, section, history)
     figure.tight_layout()
     return figure
 
 
-def draw_displacement(profile, section, moments: dict[float, np.ndarray]) -> None:
+def draw_displacement(profile, section, clock: str, moments: dict[float, np.ndarray]) -> None:
     """Uplift by distance, and the detachment's shape, at about five moments."""
     extensions = list(moments)
     colours = colormaps["viridis_r"]
@@ -68,12 +67,12 @@ def draw_displacement(profile, section, moments: dict[float, np.ndarray]) -> Non
     section.set_title(f"Detachment, displacement × {EXAGGERATION:g}", loc="left", fontsize=10.5)
     for axes in (profile, section):
         axes.set_xlabel("distance from the breakaway, km")
-        axes.legend(frameon=False, fontsize=8.5, title="extension", loc="center left",
+        axes.legend(frameon=False, fontsize=8.5, title=clock, loc="center left",
                     bbox_to_anchor=(1.0, 0.5))
 
 
-def draw_history(axes, moments: dict[float, np.ndarray]) -> None:
-    """Uplift of the breakaway, and of the highest and lowest place, by extension."""
+def draw_history(axes, clock: str, moments: dict[float, np.ndarray]) -> None:
+    """Uplift of the breakaway, and of the highest and lowest place, by extension or travel."""
     extension = [e / 1e3 for e in moments]
     uplifts = [nodes[:, 3] for nodes in moments.values()]
     axes.plot(extension, [uy[0] for uy in uplifts], "o-", color="#1f6fb4", ms=3.5, lw=1.3,
@@ -82,13 +81,13 @@ def draw_history(axes, moments: dict[float, np.ndarray]) -> None:
               label="highest place")
     axes.plot(extension, [uy.min() for uy in uplifts], color="#525252", lw=1.0, ls=":",
               label="lowest place")
-    axes.set_xlabel("extension, km")
+    axes.set_xlabel(f"{clock}, km")
     axes.set_ylabel("uplift, m")
     axes.legend(frameon=False, fontsize=8.5, loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
 def main(folder: str, figures: str, order: str) -> None:
-    save(draw(load(folder)), figures, "base", read_order(order))
+    save(draw(*load(folder)), figures, "base", read_order(order))
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ import os
 from collections.abc import Sequence
 
 from frame import Frame
-from page import moment_text, null_point_text
+from page import moment_text
 from plot import Order
 
 SHOWN = {
@@ -50,8 +50,8 @@ def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, orde
         if name in names and axes is not None:
             parts.append(SEISMIC.format(frequency=axes[3]))
             break
-    if "inversion" in names and (null_point := null_point_text(meta)):
-        parts.append("; ".join(null_point).capitalize() + ".")
+    if "inversion" in names and (words := meta.get("said")):
+        parts.append("; ".join(words).capitalize() + ".")
     parts.append(f"{len(frame.x):,} discs, mean radius {meta.get('mean_radius_m', 1000 * frame.radius.mean()):.3g} m, "
                  f"accuracy {meta.get('accuracy', 'custom')}, seed {meta.get('seed', '?')}.")
     if not said and all(name not in ("sediment", "overview", "inversion", "seismic") for name in names):

@@ -4,7 +4,8 @@
 Usage: footwall.py RUN_DIR DATA_DIR FIGURES_DIR ORDER
 
 Reads, in SI units,
-  RUN_DIR/footwall.csv  extension_m, x_m (negative on the surface, else on the detachment), uplift_m
+  RUN_DIR/footwall.csv  extension_m, in a scene with stages also travel_m, x_m (negative on the
+                        surface, else on the detachment), uplift_m
   DATA_DIR/patches.npy  patches of elements: x, y, ux, uy of four corners, stresses xx, yy, xy
   DATA_DIR/end.npy      where the scale of the largest shear stress ends, MPa
   DATA_DIR/discs.npy    x, y, radius, stratum, y at the start
@@ -17,8 +18,8 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated Python does not
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from frame import load_array
-from plot import (FAINT, InputError, colormaps, moment_label, new_figure, read_order, read_table, run,
-                  save, without_frame)
+from plot import (FAINT, InputError, colormaps, moment_label, new_figure, read_order, read_table,
+                  rows_by_moment, run, save, without_frame)
 from vocabulary import VOCABULARY, layer_colours, palette, stratum_colours
 
 import numpy as np
@@ -31,14 +32,13 @@ FOOTWALL_COLOURS = ListedColormap(palette(FOOTWALL["palette"])[:round(256 * FOOT
 DRAWN_UPLIFT = 5.0  # km, about, of the largest uplift
 
 
-def load(folder: str) -> dict[float, np.ndarray]:
-    """Rows of (x, uplift) in m by extension in m, ascending."""
-    table = read_table(os.path.join(folder, "footwall.csv"), may_be_empty=True)
-    rows = np.column_stack((table["x_m"], table["uplift_m"]))
-    if not len(rows):
+def load(folder: str) -> tuple[str, dict[float, np.ndarray]]:
+    """The clock of the moments, and rows of (x, uplift) in m by it in m, ascending."""
+    clock, moments = rows_by_moment(read_table(os.path.join(folder, "footwall.csv"), may_be_empty=True),
+                                    "x_m", "uplift_m")
+    if not moments:
         raise InputError("footwall.csv has no moment")
-    extension = table["extension_m"]
-    return {float(value): rows[extension == value] for value in np.unique(extension)}
+    return clock, moments
 
 
 def exaggeration(largest: float) -> int:
@@ -94,7 +94,7 @@ def draw_discs(axes, discs: np.ndarray, uplift: np.ndarray, factor: int) -> floa
     return lifted.max() / 1e3
 
 
-def draw_uplift(axes, moments: dict[float, np.ndarray]) -> None:
+def draw_uplift(axes, clock: str, moments: dict[float, np.ndarray]) -> None:
     """Uplift by distance from the breakaway, a line per moment."""
     colours = colormaps["viridis_r"]
     last = max(moments) or 1.0
@@ -109,10 +109,11 @@ def draw_uplift(axes, moments: dict[float, np.ndarray]) -> None:
     axes.set_title("Uplift w(x)", loc="left", fontsize=11)
     axes.set_ylabel("m")
     axes.set_xlabel("distance from the breakaway, km")
-    axes.legend(frameon=False, fontsize=9, title="extension", loc="best")
+    axes.legend(frameon=False, fontsize=9, title=clock, loc="best")
 
 
-def draw(moments: dict[float, np.ndarray], patches: np.ndarray, end: float, discs: np.ndarray):
+def draw(clock: str, moments: dict[float, np.ndarray], patches: np.ndarray, end: float,
+         discs: np.ndarray):
     figure = new_figure(13, 8.0, 120)
     figure.set_layout_engine("constrained")
     section, profile = figure.subplots(2, 1, height_ratios=(1.5, 1.0))
@@ -120,11 +121,11 @@ def draw(moments: dict[float, np.ndarray], patches: np.ndarray, end: float, disc
     factor = exaggeration(np.abs(moments[last][:, 1]).max())
     draw_section(figure, section, patches, end, discs, moments[last], factor)
     scale = "true to scale" if factor == 1 else f"vertical displacement × {factor}"
-    section.set_title(f"After {moment_label(last, last)} of extension, {scale}", loc="left",
+    section.set_title(f"After {moment_label(last, last)} of {clock}, {scale}", loc="left",
                       fontsize=11)
     if factor != 1:
         section.set_ylabel("height before bending, km")
-    draw_uplift(profile, moments)
+    draw_uplift(profile, clock, moments)
     profile.set_xlim(section.get_xlim())
     without_frame(section, profile)
     return figure
@@ -134,7 +135,7 @@ def main(folder: str, data: str, figures: str, order: str) -> None:
     patches = load_array(data, "patches", columns=19, finite=False)
     discs = load_array(data, "discs", columns=5, finite=False)
     end = float(load_array(data, "end")[0])
-    save(draw(load(folder), patches, end, discs), figures, "footwall", read_order(order))
+    save(draw(*load(folder), patches, end, discs), figures, "footwall", read_order(order))
 
 
 if __name__ == "__main__":

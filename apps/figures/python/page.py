@@ -39,16 +39,6 @@ def moment_text(frame: Frame) -> str:
     return f"{frame.meta['extension_m'] / 1000:.3g} km of extension after a way of {extension_text(frame)} km"
 
 
-def null_point_text(meta: dict) -> list[str]:
-    """When the stratum was laid down whose top is back at the regional beside the breakaway."""
-    text = []
-    if "null_deposited_at_m" in meta:
-        text.append(f"null point: laid down at {meta['null_deposited_at_m'] / 1000:.2f} km of extension")
-    if "null_deposited_at_decompacted_m" in meta:
-        text.append(f"decompacted: {meta['null_deposited_at_decompacted_m'] / 1000:.2f} km")
-    return text
-
-
 LONGEST_TITLE = 80        # letters that fit beside the moment
 
 

@@ -9,7 +9,7 @@ from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section
                   swatch)
 from discs import draw_discs
 from frame import Frame
-from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT, null_point_text
+from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
 from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
@@ -399,7 +399,7 @@ def inversion_panel(ax, cax, frame: Frame) -> None:
         ax.set_ylabel("Height above the regional (km)")
         (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
         ratio = (TOPS_HEIGHT / (high - low)) / (PANEL_WIDTH / (right - left))
-        ax.text(0.985, 0.06, "\n".join([*null_point_text(frame.meta), f"heights × {ratio:.1f}"]), transform=ax.transAxes,
+        ax.text(0.985, 0.06, "\n".join([*frame.meta.get("said", []), f"heights × {ratio:.1f}"]), transform=ax.transAxes,
                 ha="right", va="bottom", fontsize=9.5, zorder=9)
     describe(ax, frame, TOPS if frame.legends is None else f"{TOPS}, height in km", handles)
 

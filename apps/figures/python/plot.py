@@ -129,6 +129,14 @@ def read_table(path: str, may_be_empty: bool = False) -> dict[str, np.ndarray]:
     return dict(zip(rows[0], columns))
 
 
+def rows_by_moment(table: dict[str, np.ndarray], *columns: str) -> tuple[str, dict[float, np.ndarray]]:
+    """The clock of the moments, the extension or in a scene with stages the travel, and the rows of these
+    columns by it, m, ascending."""
+    clock = "travel" if "travel_m" in table else "extension"
+    rows, at = np.column_stack([table[name] for name in columns]), table[f"{clock}_m"]
+    return clock, {float(value): rows[at == value] for value in np.unique(at)}
+
+
 def moment_label(extension: float, last: float) -> str:
     """An extension of at most `last`, both m: in km, or in m where 0.1 km cannot separate moments."""
     return f"{extension / 1e3:.1f} km" if last >= 1e3 or last == 0.0 else f"{extension:.3g} m"

@@ -214,9 +214,12 @@ std::string explain(const Scene& scene, EffectList list) {
     }
     std::ranges::sort(absent);
     absent.push_back("friction of the right wall");
-    return text + fmt::format("  not in the model: {};\n"
-                              "  what leans on the backstop above the breakaway\n",
-                              fmt::join(absent, ", "));
+    return text +
+           fmt::format("  not in the model: {};\n  {}\n", fmt::join(absent, ", "),
+                       scene.detachment && scene.detachment->footwall_top
+                           ? "the weight of what lies on the level ground behind the breakaway, "
+                             "which stays where it is"
+                           : "what leans on the backstop above the breakaway");
 }
 
 /// Set-up, settling of the discs, and an answer every few cycles.

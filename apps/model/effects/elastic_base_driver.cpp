@@ -54,17 +54,24 @@ std::unique_ptr<ElasticBase> make_elastic_base(const Scene& scene, const ModelPa
 }
 
 /// Why a field is not one of linear elasticity, if so.
-std::optional<std::string> beyond_elasticity(const fem::Guard& guard, double extension) {
+/// @param moment  when, as "500 m of extension"
+std::optional<std::string> beyond_elasticity(const fem::Guard& guard, const std::string& moment) {
     const double strain = std::max(guard.strong_strain, guard.relaxed_strain);
     if (!(strain > strain_allowed || guard.rotation > rotation_allowed))
         return std::nullopt;
     return fmt::format(
-        "the footwall is strained by {:.1f} % and turned by {:.1f} degrees at {:.0f} m of "
-        "extension; linear elasticity means up to {:.0f} % and {:.1f} degrees. A greater "
+        "the footwall is strained by {:.1f} % and turned by {:.1f} degrees at {}; linear "
+        "elasticity means up to {:.0f} % and {:.1f} degrees. A greater "
         "elastic_base.young_modulus_pa, elastic_thickness_m or skin_thickness_m, or a smaller "
         "relaxation, stiffens it",
-        100.0 * strain, guard.rotation * 180.0 / pi, extension, 100.0 * strain_allowed,
+        100.0 * strain, guard.rotation * 180.0 / pi, moment, 100.0 * strain_allowed,
         rotation_allowed * 180.0 / pi);
+}
+
+std::string moment_text(const Clock& clock, const Motion& motion) {
+    return motion.stages.empty() ? fmt::format("{:.0f} m of extension", clock.extension)
+                                 : fmt::format("{:.0f} m of extension after a way of {:.0f} m",
+                                               clock.extension, clock.travel);
 }
 
 class ElasticBaseDriver final : public BaseDriver {
@@ -168,7 +175,7 @@ BaseWindow ElasticBaseDriver::end_window(State& state, const RigidBase& rigid) {
         {effects::beyond_byerlee, guard.beyond_byerlee},
     };
     std::ranges::move(loads_.measures(state), std::back_inserter(end.measures));
-    end.beyond_elasticity = beyond_elasticity(guard, state.clock.travel);
+    end.beyond_elasticity = beyond_elasticity(guard, moment_text(state.clock, rigid.motion));
     base_->end_window(state);
     return end;
 }

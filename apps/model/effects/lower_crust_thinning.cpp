@@ -3,6 +3,7 @@
 #include "apps/model/bending_base.hpp"
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/stage.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,16 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
     const auto& base = *bending_base(scene);
     const double contrast = (base.mantle_density - base.crust_density) * parts.gravity; // Pa/m
     return coupling::lower_crust_thinning_load(*scene.find<P>(), contrast,
-                                               greatest_extension(scene), scene.extension.rate);
+                                               greatest_extension(scene), least_extension(scene),
+                                               scene.extension.rate);
+}
+
+void check(const Scene& scene, const Refuse& refuse) {
+    const P& p = *scene.find<P>();
+    if (const double shortening = -least_extension(scene); shortening >= p.width)
+        refuse("lower_crust_thinning.width_m",
+               fmt::format("is {}, but [[stage]] shortens it by {}; widen it", text(p.width),
+                           text(shortening)));
 }
 
 std::string explain(const Scene& scene, EffectList) {
@@ -24,7 +34,7 @@ std::string explain(const Scene& scene, EffectList) {
     const auto& base = *bending_base(scene);
     const double thinner = coupling::lower_crust_thinning(p, greatest_extension(scene));
     return fmt::format(
-        "    lower crust: {:g} km over {:g} km thins by {:.0f} m in the end; the mantle in its "
+        "    lower crust: {:g} km over {:g} km thins by {:.0f} m at most; the mantle in its "
         "place\n    lowers a wide area by {:.0f} m\n",
         p.thickness / 1e3, p.width / 1e3, thinner,
         thinner * (base.mantle_density - base.crust_density) / base.mantle_density);
@@ -52,6 +62,7 @@ const Effect& effect() {
                  "x of its middle before extension",
                  "Moves the place that sinks most: nearer to the breakaway the flank rises less."},
             },
+        .check = check,
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = "thinning of the lower crust",

@@ -186,11 +186,13 @@ std::vector<Measure<Observation>> measures_of_stages() {
          "extension at which the stratum was laid down whose top, 0.2 to 1.5 km from the "
          "breakaway, "
          "is at the regional now: the null point; extension less shortening where no pores close",
-         [](const Observation& now) { return or_nan(null_deposited_at(now, false)); }},
+         [](const Observation& now) { return or_nan(null_deposited_at(now, false)); },
+         OverTime::last, "", "null point: laid down at {} of extension"},
         {"null_deposited_at_decompacted_m", "m",
          "the null point with the thickness that strata below it have lost since, as their pores "
          "closed",
-         [](const Observation& now) { return or_nan(null_deposited_at(now, true)); }},
+         [](const Observation& now) { return or_nan(null_deposited_at(now, true)); },
+         OverTime::last, "", "decompacted: {}"},
         {"inversion_ratio", "1",
          "shortening over extension from the null point: 1 less its extension over that at the "
          "turn",
