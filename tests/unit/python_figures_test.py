@@ -861,8 +861,8 @@ class SmallScripts(Folder):
     def test_with_stages_moments_are_told_apart_by_the_travel(self):
         self.write("base.csv", "travel_m,extension_m,x_m,y_m,ux_m,uy_m\n400,400,0,0,0,2\n600,400,0,0,0,1\n")
         self.write("footwall.csv", "travel_m,extension_m,x_m,uplift_m\n400,400,-5,2\n600,400,-5,1\n")
-        for script in (base, footwall):
-            clock, moments = script.load(self.folder)
+        for reader in (base, footwall):
+            clock, moments = reader.load(self.folder)
             self.assertEqual((clock, list(moments)), ("travel", [400.0, 600.0]))
             self.assertEqual([rows[0, -1] for rows in moments.values()], [2.0, 1.0])
         figure = base.draw(*base.load(self.folder))
