@@ -6,12 +6,24 @@
 
 namespace listric::dem {
 
+namespace {
+
+bool rests(const MotionStage& one) { return one.slope == 0.0; }
+
+bool changes(const MotionStage& one) { return one.sediment_friction || rests(one); }
+
+} // namespace
+
+bool StageChange::is_needed(const Motion& motion) {
+    return std::ranges::any_of(motion.stages, changes);
+}
+
 StageChange::StageChange(const Motion& motion) : Event("stage", never) {
     if (motion.stages.empty())
         return;
     first_ = motion.stages.front().sediment_friction;
     std::copy_if(motion.stages.begin() + 1, motion.stages.end(), std::back_inserter(changes_),
-                 [](const MotionStage& one) { return one.sediment_friction.has_value(); });
+                 changes);
 }
 
 double StageChange::next_due() const {
@@ -25,8 +37,12 @@ void StageChange::begin(State& state) {
 }
 
 bool StageChange::apply(State& state, const RigidBase&) {
-    state.materials[sediment].friction =
-        *changes_[static_cast<std::size_t>(applied)].sediment_friction;
+    const MotionStage& now = changes_[static_cast<std::size_t>(applied)];
+    if (now.sediment_friction)
+        state.materials[sediment].friction = *now.sediment_friction;
+    if (rests(now) && state.discs.has("mean_vx"))
+        for (const char* mean : {"mean_vx", "mean_vy"})
+            std::ranges::fill(state.discs.get<float>(mean), 0.0f);
     return false;
 }
 

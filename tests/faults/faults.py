@@ -6,6 +6,8 @@ Usage: tests/faults/faults.py PROGRAM FOLDER FAULT NUMBER [SEED]
 FAULT is one of
   kill    SIGKILL at a random moment; the resumed run is killed again, until it ends
   disk    a file system (tmpfs) of random size that becomes full, and is then enlarged; needs root
+  read    a file system (ext4) that an error makes read-only at a random moment, so that what was not yet on the disk is
+          lost, and that is then repaired; needs root and a loop device
   size    a limit of file sizes (RLIMIT_FSIZE), random: a write fails in the middle of a file
   memory  a limit of address space (RLIMIT_AS), random
   clock   clocks that jump back and forth by up to a year at every reading; needs a C compiler
@@ -58,7 +60,7 @@ class Faults:
     def __init__(self, program, folder, seed):
         self.program, self.folder = program, folder
         self.random = random.Random(seed)
-        self.output = folder / "run"
+        self.output, self.image = folder / "run", folder / "disk.img"
         drawer = folder / "python"
         drawer.write_text("#!/bin/sh\nsleep 0.3\nexit 1\n")  # pictures take longer than these runs
         drawer.chmod(0o755)
@@ -112,13 +114,29 @@ class Faults:
             act(process)
             return phase
 
-    def mount(self, size):
+    def mount(self, fault, size):
         self.output.mkdir(exist_ok=True)
-        subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", str(self.output)], check=True)
+        if fault == "disk":
+            options = ["-t", "tmpfs", "-o", f"size={int(self.random.uniform(4096, size))}", "none"]
+        else:
+            self.image.unlink(missing_ok=True)
+            subprocess.run(["mkfs.ext4", "-q", str(self.image), "64M"], check=True, stderr=subprocess.DEVNULL)
+            options = ["-o", "loop,errors=remount-ro", str(self.image)]
+        subprocess.run(["mount", *options, str(self.output)], check=True)
+        shutil.rmtree(self.output / "lost+found", ignore_errors=True)
 
     def remount(self, options):
         return subprocess.run(["mount", "-o", f"remount,{options}", str(self.output)], check=False,
                               stderr=subprocess.DEVNULL).returncode == 0
+
+    def repair(self):
+        self.unmount()
+        subprocess.run(["e2fsck", "-fy", str(self.image)], check=False, stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL)  # its exit code says that it has repaired something
+        subprocess.run(["mount", "-o", "loop", str(self.image), str(self.output)], check=True)
+
+    def unmount(self):
+        subprocess.run(["umount", str(self.output)], check=True)
 
     def one(self, fault, seconds, size):
         """Phase, exit code and message of a run with a fault."""
@@ -126,6 +144,10 @@ class Faults:
             process = self.begin()
             phase = self.stopped_after(process, self.random.uniform(0.0, 1.1 * seconds),
                                        lambda p: p.send_signal(signal.SIGKILL))
+            return phase or "ended before", *self.finish(process)
+        if fault == "read":
+            process = self.begin()
+            phase = self.stopped_after(process, self.random.uniform(0.0, 1.1 * seconds), lambda _: self.remount("abort"))
             return phase or "ended before", *self.finish(process)
         if fault == "clock":
             library = self.folder / "clock.so"
@@ -140,27 +162,30 @@ class Faults:
         return self.phase(), *ended
 
     def run(self, fault, number, table):
+        self.whole()  # makes the hanging wall, which later runs find
         expected, seconds, size = self.whole()
         print(f"whole run: {expected}, {seconds:.1f} s, {size} bytes", flush=True)
-        with_mount = fault == "disk"
+        with_mount = fault in ("disk", "read")
         for _ in range(number):
             # A killed run goes on from where it was; all others begin anew.
             if fault != "kill" or self.state_hash():
                 if self.output.exists():
                     shutil.rmtree(self.output)
             if with_mount:
-                self.mount(int(self.random.uniform(4096, size)))
+                self.mount(fault, size)
             try:
                 phase, code, message = self.one(fault, seconds, size)
-                if with_mount:
+                if fault == "disk":
                     self.remount(f"rw,size={10 * size}")
+                elif fault == "read":
+                    self.repair()
                 resumed = ""
                 if fault != "kill" or self.state_hash():
                     resumed, _ = self.finish(self.begin())
                 equal = self.state_hash() == expected if resumed != "" else ""
             finally:
                 if with_mount:
-                    subprocess.run(["umount", "-l", str(self.output)], check=False)
+                    self.unmount()
             table.writerow(dict(zip(COLUMNS, (fault, phase, code, message, resumed, equal))))
         if fault == "kill":
             ended = self.finish(self.begin())

@@ -63,8 +63,7 @@ private:
 
 void add_events(const Scene&, const ModelParts& parts, dem::Events& events) {
     const dem::Motion& motion = parts.base.motion;
-    if (std::ranges::any_of(motion.stages,
-                            [](const auto& one) { return one.sediment_friction.has_value(); }))
+    if (dem::StageChange::is_needed(motion))
         dem::add(events, std::make_unique<dem::StageChange>(motion));
     if (const auto turn = turn_of(motion))
         dem::add(events, std::make_unique<TurnRecord>(*turn, regional_of(parts)));
