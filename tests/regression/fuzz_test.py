@@ -17,9 +17,9 @@ import shrink  # noqa: E402
 
 class Fuzz(unittest.TestCase):
     def test_cases_end_in_order(self):
-        fuzzer = fuzz.fuzz(PROGRAM, 120.0, "test", kinds=("scenes", "snapshots"), most=2)
+        fuzzer = fuzz.fuzz(PROGRAM, 120.0, "test", kinds=("scenes", "snapshots"), most=2, batch=12)
         self.assertEqual(fuzzer.failures, [])
-        self.assertEqual(fuzzer.count["scenes"], 2 * fuzz.SHARES["scenes"] * fuzz.BATCH)
+        self.assertEqual(fuzzer.count["scenes"], 2 * fuzz.SHARES["scenes"] * 12)
         self.assertGreater(fuzzer.count["valid scenes"], 10)   # else only refusals are tested
         self.assertEqual(fuzzer.count["snapshots"], 2 * fuzz.SHARES["snapshots"])
 

@@ -1,4 +1,4 @@
-// What stages of motion change where they begin.
+// Changes where a stage of motion begins: sediment gets its friction, discs forget their mean motion.
 
 #include "dem/cycle_physics.hpp"
 #include "dem/events/stage_change.hpp"
