@@ -1,4 +1,4 @@
-// Changes where a stage of motion begins: sediment gets its friction, discs forget their mean motion.
+// Changes where a stage begins: sediment gets its friction, discs forget their mean motion.
 
 #include "dem/cycle_physics.hpp"
 #include "dem/events/stage_change.hpp"
