@@ -12,8 +12,8 @@ namespace {
 constexpr double belief = 0.015;
 constexpr double early = 0.05; ///< share of the cycles before which the forecast bounds
 
-/// Cycles of a picture's seconds that pass until it is drawn: processor time is shared with them.
-constexpr double picture_shares = 1.5;
+/// How many times its own seconds of the run a picture takes to be drawn: cycles go on beside it.
+constexpr double picture_stretch = 1.5;
 
 constexpr double few_cycles = 1e-5; ///< by which the end of a window may be off its share
 
@@ -30,8 +30,9 @@ double TimeLeft::work_until(double share) const {
     const double windows = all > 0.0 ? std::clamp(std::floor(ended) / all, 0.0, 1.0) : 0.0;
     double drawn = 0.0; // pictures
     for (const double begin : forecast_.pictures)
-        drawn += std::clamp(
-            (share - begin) * forecast_.extension / (picture_shares * forecast_.picture), 0.0, 1.0);
+        drawn += std::clamp((share - begin) * forecast_.extension /
+                                (picture_stretch * forecast_.picture),
+                            0.0, 1.0);
     const double pictures = forecast_.picture * static_cast<double>(forecast_.pictures.size());
     return (forecast_.extension - forecast_.windows - pictures) * cycles +
            forecast_.windows * windows + forecast_.picture * drawn;
