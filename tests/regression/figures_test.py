@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from program import PROGRAM
+from program import PROGRAM, read_terminal
 
 DESCRIPTION = r"from $PROJ\north\line12 to $OUT"
 SCENE = f"""
@@ -209,18 +209,9 @@ class Figures(unittest.TestCase):
                                 f"wide-{columns}-{settings['TERM']}"], cwd=self.folder, env=environment,
                                stdout=subprocess.DEVNULL, stderr=follower)
         os.close(follower)
-        said = b""
-        while True:
-            try:
-                part = os.read(leader, 65536)
-            except OSError:
-                break
-            if not part:
-                break
-            said += part
-        os.close(leader)
+        said = read_terminal(leader)
         self.assertEqual(run.wait(), 0, said)
-        return said.decode()
+        return said
 
     def test_progress_fits_the_terminal(self):
         for columns, settings in ((40, {"TERM": "xterm"}), (0, {"TERM": "xterm", "COLUMNS": "30"})):

@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 import unittest
 
-from program import SOURCES
+from program import SOURCES, read_terminal
 
 NOBODY = 65534
 SCRIPTS = {
@@ -152,8 +152,7 @@ class Launcher(unittest.TestCase):
         subprocess.run([self.root / "listric", "scenes"], stdout=subprocess.DEVNULL, stderr=theirs, check=True,
                        env={"PATH": self.path, "NOTES": str(self.notes), "LISTRIC_BUILD": str(self.place / "other")})
         os.close(theirs)
-        said = os.read(ours, 1 << 16).decode()
-        os.close(ours)
+        said = read_terminal(ours)
         self.assertIn("\r\x1b[Klistric: building 40 of 40", said)
         self.assertTrue(said.endswith("\r\x1b[K"), said)
         self.assertNotIn("\n", said[said.index("building"):])

@@ -1,4 +1,4 @@
-"""The program that tests call, and where its sources are."""
+"""The program that tests call, where its sources are, and what it says on a terminal."""
 
 import os
 import signal
@@ -12,3 +12,17 @@ NO_FIGURES = {"LISTRIC_PYTHON": "/bin/false"}  # they take longer than small run
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):
     if signal.getsignal(number) == signal.SIG_IGN:
         signal.signal(number, signal.SIG_DFL)
+
+
+def read_terminal(leader):
+    """Text written to a terminal, up to where its last writer closed it. It arrives in pieces."""
+    said = b""
+    while True:
+        try:
+            part = os.read(leader, 65536)
+        except OSError:  # Linux reports the end of a terminal as an error
+            part = b""
+        if not part:
+            os.close(leader)
+            return said.decode()
+        said += part
