@@ -112,7 +112,7 @@ template <class Number> std::vector<double> inks(const Observation& now, Number&
     return rows;
 }
 
-/// Of every disc, x and y, m/s.
+/// Velocity of water through every disc, x and y, m/s.
 std::vector<double> darcy_velocities(const Observation& now) {
     std::vector<double> rows;
     if (now.state.discs.has("darcy_x")) {
