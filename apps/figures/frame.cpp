@@ -88,13 +88,6 @@ void write_discs(const FrameWriter& writer, const State& state) {
         const std::vector<std::int32_t> numbers(layer.begin(), layer.end());
         writer.array("discs_layer", std::span<const std::int32_t>(numbers));
     }
-    if (state.discs.has("darcy_x")) {
-        const auto x = state.discs.get<double>("darcy_x"), y = state.discs.get<double>("darcy_y");
-        std::vector<double> flow;
-        for (std::size_t i = 0; i < x.size(); ++i)
-            flow.insert(flow.end(), {x[i], y[i]});
-        writer.array("discs_flow", flow, 2);
-    }
 }
 
 /// Bonded contacts as lines: x and y of both discs, and 1 where both are sediment.
@@ -298,8 +291,11 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
         writer.points("picked_fault", points);
     }
     constexpr std::size_t columns[] = {3, 2, 0}; // by LayerKind
-    for (const FigureLayer& layer : figure_layers(now.scene))
+    for (const FigureLayer& layer : figure_layers(now.scene)) {
         writer.array(data_name(layer), layer.rows(now), columns[static_cast<int>(layer.kind)]);
+        if (layer.arrows)
+            writer.array(data_name(layer) + "_arrows", layer.arrows->rows(now), 2);
+    }
     nlohmann::json frame = frame_json(now, m);
     frame["strain_end"] = scale_end(strain);
     frame["layers"] = declared_layers(now.scene);

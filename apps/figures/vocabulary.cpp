@@ -72,6 +72,8 @@ nlohmann::json declared_layers(const Scene& scene) {
                         {"ink", layer.ink}});
         if (layer.full != 1.0)
             list.back()["full"] = layer.full;
+        if (layer.arrows)
+            list.back()["arrows"] = layer.arrows->label;
     }
     return list;
 }

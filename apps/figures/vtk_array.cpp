@@ -9,7 +9,7 @@
 namespace listric {
 
 std::string vtk_array(std::span<const unsigned char> bytes) {
-    constexpr int level = 6; // 9 saves 0.1 % more, 1 is 2 % larger
+    constexpr int level = 4; // 6 saves 0.4 % and takes more than twice as long, 1 is 1.7 % larger
     const std::vector<unsigned char> packed = deflated(bytes, level);
     // Number of blocks, bytes of each, bytes of a smaller last one, packed bytes of each.
     std::vector<std::uint64_t> header{1, bytes.size(), 0, packed.size()};

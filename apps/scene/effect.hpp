@@ -165,6 +165,12 @@ enum class LayerKind {
     discs ///< ink on the discs; a row per disc, the ink's share from 0 to 1
 };
 
+/// A velocity of discs, drawn as arrows over them: means of what lies close together.
+struct LayerArrows {
+    std::string_view label;                              ///< in legends
+    std::vector<double> (*rows)(const Observation& now); ///< x and y by disc, m/s; empty: none yet
+};
+
 /// Layer that an effect adds to figures and the report.
 struct FigureLayer {
     std::string_view name; ///< no other layer's
@@ -173,6 +179,7 @@ struct FigureLayer {
     std::string_view ink;                                ///< "#rrggbb"
     std::vector<double> (*rows)(const Observation& now); ///< one after the other
     double full = 1.0; ///< number that full ink on discs stands for, where ink has shades
+    std::optional<LayerArrows> arrows = {};
 };
 
 /// Factors of the prices in a prediction.

@@ -71,9 +71,11 @@ std::optional<std::string_view> nearest(std::string_view name,
     std::optional<std::string_view> best;
     std::size_t least = std::max<std::size_t>(1, typed.size() / 3) + 1;
     for (const std::string_view candidate : candidates) {
-        // People forget the unit.
-        const bool lacks_unit = typed.size() > 2 && candidate.starts_with(typed + "_");
-        const std::size_t distance = lacks_unit ? 0 : edit_distance(typed, candidate);
+        // People forget the unit at the end, or the family in front: overpressure,
+        // layer-overpressure.
+        const bool lacks_part = typed.size() > 2 && (candidate.starts_with(typed + "_") ||
+                                                     candidate.ends_with("-" + typed));
+        const std::size_t distance = lacks_part ? 0 : edit_distance(typed, candidate);
         if (distance < least) {
             least = distance;
             best = candidate;

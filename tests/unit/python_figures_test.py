@@ -537,19 +537,22 @@ class Drawing(Folder):
         x = [100.0, 900.0, 100.0, 900.0, 7100.0, 7900.0, 7100.0]    # squares of 1 km; the second has three discs
         y = [-100.0, -100.0, -900.0, -900.0, -100.0, -100.0, -900.0]
         per_s = 1.0 / frames.MM_PER_A
-        frame = self.frame({"layers": [{"name": "layer_overpressure", "kind": "discs", "label": "overpressure ratio", "ink": "#b71c1c"}]},
+        frame = self.frame({"layers": [{"name": "layer_overpressure", "kind": "discs", "label": "overpressure ratio", "ink": "#b71c1c",
+                                        "arrows": "flow of water"}]},
                            layer_overpressure=[0.5] * 7, discs_x=x, discs_y=y, discs_radius=[400.0] * 7, discs_stratum=[1] * 7,
                            discs_start_depth=[float("nan")] * 7, discs_shear_strain=[0.0] * 7,
-                           discs_flow=[[k * per_s, per_s] for k in range(7)])
+                           layer_overpressure_arrows=[[k * per_s, per_s] for k in range(7)])
         frame.view = (0.0, 40.0, -5.0, 0.0)
-        np.testing.assert_allclose(panels.mean_flow(frame), [[0.5, -0.5, 1.5, 1.0]])
+        np.testing.assert_allclose(panels.mean_velocities(frame, frame.layers[0].arrows), [[0.5, -0.5, 1.5, 1.0]])
         figure = sections.draw_figure(frame, ["layer-overpressure"], dpi=60)
         legend = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
         self.assertIn("flow of water, up to 1.8 mm/a (lengths by its root)", legend)
-        frame.flow = None
-        self.assertEqual(len(panels.mean_flow(frame)), 0)
-        with self.assertRaisesRegex(plot.InputError, "discs_flow.npy has 1 rows, discs_x.npy 4"):
-            self.frame(discs_flow=[[0.0, 0.0]])
+        marked = {**MARKED, "arrows": "drift"}
+        still = self.frame({"layers": [marked]}, layer_marked=[0.5] * 4, layer_marked_arrows=np.zeros((0, 2)))
+        self.assertIsNone(still.layers[0].arrows)
+        self.assertEqual(len(panels.mean_velocities(still, None)), 0)
+        with self.assertRaisesRegex(plot.InputError, "layer_marked_arrows.npy has 1 rows, discs_x.npy 4"):
+            self.frame({"layers": [marked]}, layer_marked=[0.5] * 4, layer_marked_arrows=[[0.0, 0.0]])
 
     def test_a_users_words_are_no_formulas(self):
         space = "{http://www.w3.org/2000/svg}"

@@ -6,7 +6,7 @@ Usage: base.py RUN_DIR FIGURES_DIR ORDER
 Reads RUN_DIR/base.csv: extension_m, in a scene with stages also travel_m, and of every node x_m, y_m
 at the start and its displacement ux_m, uy_m.  Writes base.png under a temporary name and renames it: vertical displacement along the
 detachment, the detachment itself with its displacement ten times too large, and the breakaway's
-uplift over extension.  On bad input: one line on stderr, exit status 2.
+uplift over travel.  On bad input: one line on stderr, exit status 2.
 """
 import os
 import sys
@@ -30,10 +30,10 @@ def load(folder: str) -> tuple[str, dict[float, np.ndarray]]:
     return clock, moments
 
 
-def shown(extensions: list[float]) -> list[float]:
+def shown(travels: list[float]) -> list[float]:
     """About five moments, evenly over the run, the last among them."""
-    step = max(1, round(len(extensions) / 5))
-    return extensions[::-1][::step][::-1]
+    step = max(1, round(len(travels) / 5))
+    return travels[::-1][::step][::-1]
 
 
 def draw(clock: str, moments: dict[float, np.ndarray]):
@@ -48,15 +48,15 @@ def draw(clock: str, moments: dict[float, np.ndarray]):
 
 def draw_displacement(profile, section, clock: str, moments: dict[float, np.ndarray]) -> None:
     """Uplift by distance, and the detachment's shape, at about five moments."""
-    extensions = list(moments)
+    travels = list(moments)
     colours = colormaps["viridis_r"]
-    last = extensions[-1] or 1.0
-    x, y = moments[extensions[-1]].T[:2] / 1e3
+    last = travels[-1] or 1.0
+    x, y = moments[travels[-1]].T[:2] / 1e3
     section.plot(x, y, color=FAINT, lw=1.0, ls="--", label="at the start")
-    for extension in shown(extensions):
-        x, y, ux, uy = moments[extension].T
-        options = {"color": colours(0.15 + 0.8 * extension / last), "lw": 1.6,
-                   "label": moment_label(extension, last)}
+    for travel in shown(travels):
+        x, y, ux, uy = moments[travel].T
+        options = {"color": colours(0.15 + 0.8 * travel / last), "lw": 1.6,
+                   "label": moment_label(travel, last)}
         profile.plot(x / 1e3, uy, **options)
         section.plot((x + EXAGGERATION * ux) / 1e3, (y + EXAGGERATION * uy) / 1e3, **options)
     profile.axhline(0.0, color=FAINT, lw=0.6)
@@ -72,14 +72,14 @@ def draw_displacement(profile, section, clock: str, moments: dict[float, np.ndar
 
 
 def draw_history(axes, clock: str, moments: dict[float, np.ndarray]) -> None:
-    """Uplift of the breakaway, and of the highest and lowest place, by extension or travel."""
-    extension = [e / 1e3 for e in moments]
+    """Uplift of the breakaway, and of the highest and lowest place, by travel (extension, where the wall never turns)."""
+    travel = [t / 1e3 for t in moments]
     uplifts = [nodes[:, 3] for nodes in moments.values()]
-    axes.plot(extension, [uy[0] for uy in uplifts], "o-", color="#1f6fb4", ms=3.5, lw=1.3,
+    axes.plot(travel, [uy[0] for uy in uplifts], "o-", color="#1f6fb4", ms=3.5, lw=1.3,
               label="breakaway")
-    axes.plot(extension, [uy.max() for uy in uplifts], color="#d7301f", lw=1.0, ls="--",
+    axes.plot(travel, [uy.max() for uy in uplifts], color="#d7301f", lw=1.0, ls="--",
               label="highest place")
-    axes.plot(extension, [uy.min() for uy in uplifts], color="#525252", lw=1.0, ls=":",
+    axes.plot(travel, [uy.min() for uy in uplifts], color="#525252", lw=1.0, ls=":",
               label="lowest place")
     axes.set_xlabel(f"{clock}, km")
     axes.set_ylabel("uplift, m")

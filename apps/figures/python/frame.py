@@ -8,7 +8,6 @@ origin), n discs:
     discs_start_depth                m, NaN for sediment
     discs_layer                      0, or the number of its layer of rock; only where there are layers
     discs_shear_strain               of the last window of extension, NaN for younger discs
-    discs_flow                       Darcy velocity of pore water, x and y, m/s; only where it flows
     discs_behaviour                  class of rock behaviour; only where there are bonds
     bonded                           contacts: x, y of both discs, 1 where both are sediment
     detachment                       x, y
@@ -29,6 +28,7 @@ origin), n discs:
 
     layer_NAME                       of an effect, which frame.json declares: of a band x, bottom, top,
                                      of a line x, y, of discs the share of ink from 0 to 1
+    layer_NAME_arrows                velocity of discs, x and y, m/s, where the layer has arrows; none: not yet
 
 An array that is not there says that the run knows no such thing.
 """
@@ -57,6 +57,8 @@ class Layer:
     rows: np.ndarray      # lengths in km; of discs the share of ink
     name: str = ""
     full: float = 1.0     # number that full ink stands for
+    arrows: np.ndarray | None = None   # velocity by disc, mm/a
+    arrows_label: str = ""
 
     @property
     def is_graded(self) -> bool:
@@ -81,7 +83,6 @@ class Frame:
     beds: np.ndarray | None = None             # layer of rock by disc, 0: none
     bed_names: tuple[str, ...] = ()
     behaviour: np.ndarray | None = None
-    flow: np.ndarray | None = None             # Darcy velocity by disc, mm/a
     bonded: np.ndarray | None = None
     profile: np.ndarray | None = None
     depocentres: np.ndarray | None = None
@@ -216,9 +217,14 @@ def load_layers(folder: str, meta: dict, count: int) -> tuple[Layer, ...]:
         if words["kind"] == "discs" and len(rows) != count:
             raise InputError(f"{folder}: {words['name']}.npy has {len(rows)} values, "
                              f"discs_x.npy {count}")
+        arrows = load_array(folder, f"{words['name']}_arrows", columns=2, optional=True)
+        if arrows is not None and len(arrows) not in (0, count):
+            raise InputError(f"{folder}: {words['name']}_arrows.npy has {len(arrows)} rows, discs_x.npy {count}")
         layers.append(Layer(words["kind"], printable(words["label"]), words["ink"],
                             np.clip(rows, 0.0, 1.0) if words["kind"] == "discs" else km(rows),
-                            words["name"].removeprefix("layer_"), words.get("full", 1.0)))
+                            words["name"].removeprefix("layer_"), words.get("full", 1.0),
+                            scaled(arrows, MM_PER_A) if arrows is not None and len(arrows) else None,
+                            printable(words.get("arrows", ""))))
     return tuple(layers)
 
 
@@ -246,9 +252,6 @@ def load_frame(folder: str) -> Frame:
         return load_array(folder, name, columns=columns, optional=True, finite=finite)
 
     profile = km(table("profile", 3, finite=False))
-    flow = scaled(table("discs_flow", 2), MM_PER_A)
-    if flow is not None and len(flow) != len(discs["x"]):
-        raise InputError(f"{folder}: discs_flow.npy has {len(flow)} rows, discs_x.npy {len(discs['x'])}")
     level = target_level(meta)
     frame = Frame(
         meta=meta, x=km(discs["x"]), y=km(discs["y"]), radius=km(discs["radius"]),
@@ -258,7 +261,7 @@ def load_frame(folder: str) -> Frame:
         strain_end=meta["strain_end"], layers=load_layers(folder, meta, len(discs["x"])),
         beds=None if discs["layer"] is None else discs["layer"].astype(int),
         bed_names=tuple(printable(name) for name in meta.get("rock_layers", ())),
-        behaviour=behaviour(discs), flow=flow,
+        behaviour=behaviour(discs),
         bonded=scaled(table("bonded", 5), [1e-3] * 4 + [1.0]),
         profile=profile if profile is not None and len(profile) > 1 else None,
         depocentres=km(table("depocentres", 3)),

@@ -8,7 +8,7 @@ import zlib
 from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section_axes, stroke,
                   swatch)
 from discs import draw_discs
-from frame import Frame
+from frame import Frame, Layer
 from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
@@ -31,7 +31,7 @@ UNDEFINED = "#e2e8ee"
 PICK, HORIZON, NORMALS_BLUE = INKS["picks"], INKS["horizons"], INKS["predictions"]
 LEVEL_BLUE, TOP_GREEN = INKS["target"], "#2b8a3e"
 TOPS = "Tops against the regional"
-FLOW_OVER, FLOW_CELL = "overpressure", 0.025   # layer of an effect with arrows; side of their squares over the view's width
+ARROW_CELL = 0.025   # side of the squares that have an arrow each, over the view's width
 MOST_DEPOCENTRES = 10     # that are labelled
 
 
@@ -416,35 +416,35 @@ def layer_panel(name: str):
         rgb[inked] = colours(layer.rows[inked])[:, :3]
         draw_discs(ax, frame, rgb)
         bar(cax, colours, Normalize(0.0, layer.full), layer.label.capitalize())
-        flow = draw_flow(ax, frame) if name == FLOW_OVER else []
+        arrows = draw_arrows(ax, frame, layer)
         describe(ax, frame, layer.label.capitalize(),
-                 [(swatch(UNDEFINED), "pre-rift"), *flow, *draw_faults(ax, frame.faults)])
+                 [(swatch(UNDEFINED), "pre-rift"), *arrows, *draw_faults(ax, frame.faults)])
     return panel
 
 
-def draw_flow(ax, frame: Frame) -> list:
-    """Darcy velocity of pore water: arrows of its mean in squares that hold four discs of sediment or more. The root of a
-    speed is drawn, as mud of 1 km passes hundreds of times what mud of 5 km does."""
-    cells = mean_flow(frame)
+def draw_arrows(ax, frame: Frame, layer: Layer) -> list:
+    """Arrows of a layer: mean velocity in squares that hold four discs of sediment or more. The root of a
+    speed is drawn, as mud of 1 km passes hundreds of times the water that mud of 5 km does."""
+    cells = mean_velocities(frame, layer.arrows)
     if not len(cells):
         return []
     x, y, u, v = cells.T
     speed = np.hypot(u, v)
     fastest = speed.max()
-    length = FLOW_CELL * frame.span / np.sqrt(np.maximum(speed, 1e-30) * fastest)
+    length = ARROW_CELL * frame.span / np.sqrt(np.maximum(speed, 1e-30) * fastest)
     ax.quiver(x, y, u * length, v * length, angles="xy", scale_units="xy", scale=1.0, pivot="middle",
               color=INK, width=0.0011, headwidth=4, headlength=5, headaxislength=4.5, zorder=6.5)
     return [(Line2D([], [], color=INK, linewidth=0.8, marker=">", markersize=3, markevery=[1]),
-             f"flow of water, up to {fastest:.2g} mm/a (lengths by its root)")]
+             f"{layer.arrows_label}, up to {fastest:.2g} mm/a (lengths by its root)")]
 
 
-def mean_flow(frame: Frame) -> np.ndarray:
-    """x, y of a square's discs (km), and their mean Darcy velocity (mm/a): of water that flows."""
-    if frame.flow is None:
+def mean_velocities(frame: Frame, velocity: np.ndarray | None) -> np.ndarray:
+    """x, y of a square's discs (km), and the mean of their velocity (mm/a): of discs that have one."""
+    if velocity is None:
         return np.zeros((0, 4))
-    wet = (frame.stratum > 0) & (np.abs(frame.flow).max(axis=1) > 0.0)
-    values = np.column_stack((frame.x, frame.y, frame.flow))[wet]
-    squares = np.floor(values[:, :2] / (FLOW_CELL * frame.span)).astype(int)
+    moving = (frame.stratum > 0) & (np.abs(velocity).max(axis=1) > 0.0)
+    values = np.column_stack((frame.x, frame.y, velocity))[moving]
+    squares = np.floor(values[:, :2] / (ARROW_CELL * frame.span)).astype(int)
     _, square, count = np.unique(squares, axis=0, return_inverse=True, return_counts=True)
     sums = np.zeros((len(count), 4))
     np.add.at(sums, square.ravel(), values)

@@ -112,6 +112,18 @@ template <class Number> std::vector<double> inks(const Observation& now, Number&
     return rows;
 }
 
+/// Velocity of water through every disc, x and y, m/s.
+std::vector<double> darcy_velocities(const Observation& now) {
+    std::vector<double> rows;
+    if (now.state.discs.has("darcy_x")) {
+        const auto x = now.state.discs.get<double>("darcy_x");
+        const auto y = now.state.discs.get<double>("darcy_y");
+        for (std::size_t i = 0; i < x.size(); ++i)
+            rows.insert(rows.end(), {x[i], y[i]});
+    }
+    return rows;
+}
+
 } // namespace
 
 std::vector<Measure<Observation>> pore_fluid_measures() {
@@ -180,7 +192,8 @@ std::vector<FigureLayer> pore_fluid_layers() {
     return {{"overpressure", LayerKind::discs, "overpressure ratio", "#b71c1c",
              [](const Observation& now) {
                  return inks(now, [](const WetDisc& d) { return d.ratio(); });
-             }},
+             },
+             1.0, LayerArrows{"flow of water", darcy_velocities}},
             {"undercompaction", LayerKind::discs, "undercompaction", "#4a148c",
              [](const Observation& now) {
                  return inks(
