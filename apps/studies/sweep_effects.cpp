@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -39,6 +40,13 @@ struct Columns {
     }
 };
 
+/// A parameter, or two together.
+struct Term {
+    std::string name;
+    VectorXd column;
+    bool is_reached; ///< the measure has values over its reach: its effect is no extrapolation
+};
+
 /// Values of a list, by run.
 template <class Value>
 std::vector<Value> kept(std::span<const Value> all, const std::vector<std::size_t>& runs) {
@@ -46,6 +54,18 @@ std::vector<Value> kept(std::span<const Value> all, const std::vector<std::size_
     for (std::size_t k : runs)
         result.push_back(all[k]);
     return result;
+}
+
+/// Share of a parameter's values that a measure must reach over.
+constexpr double least_reach = 0.75;
+
+/// How near to 0 the middle of a parameter's values is.
+constexpr double middle = 1e-9;
+
+/// Greatest less least place.
+double reach(const std::vector<double>& places) {
+    const auto [least, greatest] = std::ranges::minmax(places);
+    return greatest - least;
 }
 
 /// A variance, and how many independent differences it is the mean square of.
@@ -102,25 +122,27 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
 
     Columns model{{VectorXd::Ones(n)}};
     model.add_indicators(seeds);
-    std::vector<std::pair<std::string, VectorXd>> main;
+    std::vector<Term> main;
     for (const SweepFactor& factor : factors)
         if (factor.word.empty()) {
             const std::vector<double> place = kept(std::span(factor.place), runs);
-            main.emplace_back(factor.name, Eigen::Map<const VectorXd>(place.data(), n));
+            const auto [least, greatest] = std::ranges::minmax(place);
+            if (least > middle || greatest < -middle) // where all other effects are told
+                return effects;
+            main.push_back({factor.name, Eigen::Map<const VectorXd>(place.data(), n),
+                            reach(place) >= least_reach * reach(factor.place)});
         } else {
             model.add_indicators(kept(std::span(factor.word), runs));
         }
     const std::size_t first_term = model.columns.size();
-    std::vector<std::string> terms;
-    const auto add = [&](std::string term, VectorXd column) {
-        terms.push_back(std::move(term));
-        model.columns.push_back(std::move(column));
-    };
-    for (const auto& [name, column] : main)
-        add(name, column);
+    std::vector<Term> terms = main;
     for (std::size_t a = 0; a < main.size(); ++a)
         for (std::size_t b = a + 1; b < main.size(); ++b)
-            add(main[a].first + ":" + main[b].first, main[a].second.cwiseProduct(main[b].second));
+            terms.push_back({main[a].name + ":" + main[b].name,
+                             main[a].column.cwiseProduct(main[b].column),
+                             main[a].is_reached && main[b].is_reached});
+    for (const Term& term : terms)
+        model.columns.push_back(term.column);
 
     const MatrixXd m = model.matrix();
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(m);
@@ -132,9 +154,9 @@ std::vector<SweepEffect> effects_on(const std::string& measure,
         const auto j = static_cast<Eigen::Index>(first_term + k);
         VectorXd rest = told_apart.row(j);
         rest(j) -= 1.0;
-        if (rest.cwiseAbs().maxCoeff() > 1e-8)
+        if (rest.cwiseAbs().maxCoeff() > 1e-8 || !terms[k].is_reached)
             continue;
-        SweepEffect effect{measure, terms[k], 2.0 * fit(j), std::nullopt};
+        SweepEffect effect{measure, terms[k].name, 2.0 * fit(j), std::nullopt};
         if (variance)
             add_chance(effect, *variance, inverse.row(j).squaredNorm(), y.cwiseAbs().maxCoeff());
         effects.push_back(std::move(effect));

@@ -11,7 +11,8 @@ namespace listric {
 /// A parameter of many runs, as effects see it.
 struct SweepFactor {
     std::string name;
-    /// By run: from -1 at the least value to 1 at the greatest, or -1 and 1 for two words.
+    /// By run: from -1 at the least value to 1 at the greatest, or -1 and 1 for two words; by the
+    /// logarithm of values that span a factor of a hundred.
     std::vector<double> place;
     /// Number of the word, by run, where there are more than two: they have no order, so that no
     /// effect is given, but what they change is not taken for another's.
@@ -35,7 +36,9 @@ struct SweepEffect {
 
 /// Least squares on all main effects and two-way interactions with a constant for each seed, since
 /// runs of one seed begin with one packing (a block; Montgomery, Design and Analysis of
-/// Experiments, ch. 5 and 6). A term that the runs cannot tell from others is left out. Errors are
+/// Experiments, ch. 5 and 6). A term that the runs cannot tell from others is left out, and so is
+/// one of a parameter over more than a quarter of whose reach the measure has no value; all are,
+/// where it has none in the middle of one. Errors are
 /// those of repeated points: the spread between seeds once the mean difference of seeds is off,
 /// taken to be the same at all points. Of n points and s seeds, all finished, it has
 /// (n - 1) (s - 1) degrees of freedom.

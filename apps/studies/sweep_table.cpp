@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <set>
 
 namespace listric {
 
@@ -31,6 +33,14 @@ std::string cell(std::string text) {
     std::ranges::replace(text, '"', '\'');
     std::ranges::replace(text, '\n', ' ');
     return text;
+}
+
+/// Whether people list such values by their logarithm, as permeabilities: three or more, the
+/// greatest at least a hundred times the least.
+bool go_in_ratios(const std::vector<double>& numbers) {
+    const auto [least, greatest] = std::ranges::minmax(numbers);
+    return std::set(numbers.begin(), numbers.end()).size() > 2 && least > 0.0 &&
+           greatest >= 100.0 * least;
 }
 
 } // namespace
@@ -113,13 +123,19 @@ std::vector<SweepFactor> factors_of(const SweepPlan& plan, std::span<const Sweep
             continue;
         SweepFactor factor{plan.parameters[p].name, {}};
         const bool ordered = numbers.size() == points.size();
+        const bool in_ratios = ordered && go_in_ratios(numbers);
+        if (in_ratios)
+            for (double& number : numbers)
+                number = std::log(number);
         const auto [least, greatest] =
             ordered ? std::ranges::minmax(numbers) : std::ranges::minmax_result<double>{0.0, 1.0};
         for (const SweepRow& row : rows) {
             const SweepValue& value = points[row.run - 1][p];
             const auto word =
                 static_cast<std::size_t>(std::ranges::find(texts, value.text) - texts.begin());
-            const double x = ordered ? *value.number : static_cast<double>(word);
+            const double x = !ordered    ? static_cast<double>(word)
+                             : in_ratios ? std::log(*value.number)
+                                         : *value.number;
             factor.place.push_back(2.0 * (x - least) / (greatest - least) - 1.0);
             if (!ordered && texts.size() > 2)
                 factor.word.push_back(word);

@@ -276,6 +276,32 @@ TEST(SweepEffects, AFailedRunDoesNotBiasThem) {
         EXPECT_NEAR(e.effect, expected(e.term), 1e-12) << e.term;
 }
 
+// Of a grid, as the measure loses its values from one end of a on.
+TEST(SweepEffects, NoneReachesBeyondTheValuesOfItsMeasure) {
+    const std::vector<double> a{-1.0, -0.5, 0.0, 0.5, 1.0};
+    const auto terms = [&](double last) {
+        std::vector<SweepFactor> factors{{"a", {}}, {"b", {}}};
+        std::vector<std::size_t> point;
+        std::vector<std::optional<double>> values;
+        for (const double b : {-1.0, 1.0})
+            for (const double place : a) {
+                factors[0].place.push_back(place);
+                factors[1].place.push_back(b);
+                point.push_back(point.size() + 1);
+                values.push_back(place <= last ? std::optional(3.0 * place + b) : std::nullopt);
+            }
+        std::vector<std::string> told;
+        const std::vector<int> seed(point.size(), 1);
+        for (const SweepEffect& e : effects_on("y", factors, point, seed, values))
+            told.push_back(e.term);
+        return told;
+    };
+    EXPECT_EQ(terms(1.0), (std::vector<std::string>{"a", "b", "a:b"}));
+    EXPECT_EQ(terms(0.5), (std::vector<std::string>{"a", "b", "a:b"})); // three quarters are left
+    EXPECT_EQ(terms(0.0), std::vector<std::string>{"b"});
+    EXPECT_TRUE(terms(-0.5).empty()); // b is told in the middle of a
+}
+
 TEST(SweepEffects, OneSeedHasNoError) {
     const auto found = effects(made_table(1, 0.8, 1));
     ASSERT_FALSE(found.empty());
