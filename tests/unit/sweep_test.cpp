@@ -276,7 +276,7 @@ TEST(SweepEffects, AFailedRunDoesNotBiasThem) {
         EXPECT_NEAR(e.effect, expected(e.term), 1e-12) << e.term;
 }
 
-// Of a grid, as the measure loses its values from one end of a on.
+// The measure loses its values from one end of a on.
 TEST(SweepEffects, NoneReachesBeyondTheValuesOfItsMeasure) {
     const std::vector<double> a{-1.0, -0.5, 0.0, 0.5, 1.0};
     const auto terms = [&](double last) {
