@@ -33,7 +33,8 @@ import shrink  # noqa: E402
 # Kinds, and how many cases of each a round has: some take a hundred times as long as others.
 SHARES = {"scenes": 4, "runs": 2, "damaged": 8, "snapshots": 4, "sequences": 1}
 KINDS = tuple(SHARES)
-LONGEST = {"check": 20.0, "explain": 20.0, "run": 60.0}
+LONGEST = {"check": 20.0, "explain": 20.0, "run": 60.0}   # s
+EACH = 0.2   # s more for each further scene of a call
 RUN = ["--threads", "1", "--quiet", "--no-report"]
 
 
@@ -57,9 +58,9 @@ class Fuzzer:
 
     # ------------------------------------------------------------------------------ calls
 
-    def call(self, words, folder):
+    def call(self, words, folder, scenes=1):
         """What is wrong with a call, and its exit code."""
-        why, code, said = self.runner.call(words, folder, LONGEST.get(words[0], 60.0))
+        why, code, said = self.runner.call(words, folder, LONGEST.get(words[0], 60.0) + EACH * (scenes - 1))
         if not why and code in (2, 3, 4) and not said.strip():
             why = f"exit code {code} without a word"
         return why, code, said
@@ -88,7 +89,7 @@ class Fuzzer:
         made = [scenes.make_scene(random.Random(f"{self.seed}:scenes:{number}:{k}")) for k in range(self.batch)]
         for k, scene in enumerate(made):
             (folder / f"{k}.toml").write_text(scenes.to_toml(scene), encoding="utf-8")
-        why, code, said = self.call(["check", *(f"@{k}.toml" for k in range(self.batch))], folder)
+        why, code, said = self.call(["check", *(f"@{k}.toml" for k in range(self.batch))], folder, self.batch)
         self.add("scenes", self.batch)
         lines = said.decode("utf-8", "replace").splitlines()
         valid = sum(1 for k in range(self.batch) if any(f"{k}.toml: " in line and ": correct" in line for line in lines))
