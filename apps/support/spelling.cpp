@@ -73,9 +73,11 @@ std::optional<std::string_view> nearest(std::string_view name,
     for (const std::string_view candidate : candidates) {
         // People forget the unit at the end, or the family in front: overpressure,
         // layer-overpressure.
-        const bool lacks_part = typed.size() > 2 && (candidate.starts_with(typed + "_") ||
-                                                     candidate.ends_with("-" + typed));
-        const std::size_t distance = lacks_part ? 0 : edit_distance(typed, candidate);
+        const bool lacks_unit = typed.size() > 2 && candidate.starts_with(typed + "_");
+        const bool lacks_family = typed.size() > 2 && candidate.ends_with("-" + typed);
+        const std::size_t distance = lacks_unit     ? 0
+                                     : lacks_family ? 1
+                                                    : edit_distance(typed, candidate);
         if (distance < least) {
             least = distance;
             best = candidate;

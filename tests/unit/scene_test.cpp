@@ -959,8 +959,9 @@ TEST(Nearest, FindsMisspeltNames) {
     EXPECT_EQ(nearest("timestep_safety", names), "time_step_safety");
     EXPECT_EQ(nearest("length_km", names), "length_m");
     EXPECT_EQ(nearest("LENGTH", names), "length_m"); // no unit
-    const std::vector<std::string_view> panels{"strata", "layer-overpressure"};
+    const std::vector<std::string_view> panels{"layer-strain", "strain", "layer-overpressure"};
     EXPECT_EQ(nearest("overpressure", panels), "layer-overpressure"); // no family
+    EXPECT_EQ(nearest("STRAIN", panels), "strain");
     EXPECT_EQ(nearest("colour", names), std::nullopt);
     EXPECT_EQ(nearest("", names), std::nullopt);
     EXPECT_EQ(nearest(std::string(1'000'000, 'x'), names), std::nullopt);
