@@ -12,7 +12,7 @@ namespace listric {
 struct SweepFactor {
     std::string name;
     /// By run: from -1 at the least value to 1 at the greatest, or -1 and 1 for two words; by the
-    /// logarithm of values that span a factor of a hundred.
+    /// logarithm of values that go up by factors.
     std::vector<double> place;
     /// Number of the word, by run, where there are more than two: they have no order, so that no
     /// effect is given, but what they change is not taken for another's.

@@ -35,12 +35,16 @@ std::string cell(std::string text) {
     return text;
 }
 
-/// Whether people list such values by their logarithm, as permeabilities: three or more, the
-/// greatest at least a hundred times the least.
-bool go_in_ratios(const std::vector<double>& numbers) {
-    const auto [least, greatest] = std::ranges::minmax(numbers);
-    return std::set(numbers.begin(), numbers.end()).size() > 2 && least > 0.0 &&
-           greatest >= 100.0 * least;
+/// Whether values go up by factors, as those of permeability do: three or more, the greatest at
+/// least a hundred times the least, their median nearer to the ends' geometric than to their
+/// arithmetic mean. Samples of a range go up by differences.
+bool go_by_factors(std::span<const double> numbers) {
+    const std::set<double> sorted(numbers.begin(), numbers.end());
+    const double least = *sorted.begin(), greatest = *sorted.rbegin();
+    if (sorted.size() < 3 || least <= 0.0 || greatest < 100.0 * least)
+        return false;
+    const double median = *std::next(sorted.begin(), static_cast<long>(sorted.size() / 2));
+    return median * median < std::sqrt(least * greatest) * 0.5 * (least + greatest);
 }
 
 } // namespace
@@ -123,8 +127,8 @@ std::vector<SweepFactor> factors_of(const SweepPlan& plan, std::span<const Sweep
             continue;
         SweepFactor factor{plan.parameters[p].name, {}};
         const bool ordered = numbers.size() == points.size();
-        const bool in_ratios = ordered && go_in_ratios(numbers);
-        if (in_ratios)
+        const bool by_factors = ordered && go_by_factors(numbers);
+        if (by_factors)
             for (double& number : numbers)
                 number = std::log(number);
         const auto [least, greatest] =
@@ -133,9 +137,9 @@ std::vector<SweepFactor> factors_of(const SweepPlan& plan, std::span<const Sweep
             const SweepValue& value = points[row.run - 1][p];
             const auto word =
                 static_cast<std::size_t>(std::ranges::find(texts, value.text) - texts.begin());
-            const double x = !ordered    ? static_cast<double>(word)
-                             : in_ratios ? std::log(*value.number)
-                                         : *value.number;
+            const double x = !ordered     ? static_cast<double>(word)
+                             : by_factors ? std::log(*value.number)
+                                          : *value.number;
             factor.place.push_back(2.0 * (x - least) / (greatest - least) - 1.0);
             if (!ordered && texts.size() > 2)
                 factor.word.push_back(word);

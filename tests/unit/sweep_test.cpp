@@ -276,6 +276,27 @@ TEST(SweepEffects, AFailedRunDoesNotBiasThem) {
         EXPECT_NEAR(e.effect, expected(e.term), 1e-12) << e.term;
 }
 
+TEST(SweepFactors, ValuesThatGoUpByFactorsCountByTheirLogarithm) {
+    const auto places = [](const std::vector<double>& numbers) {
+        SweepPlan plan;
+        plan.parameters.emplace_back().name = "a";
+        std::vector<SweepPoint> points;
+        std::vector<SweepRow> rows;
+        for (const double number : numbers) {
+            points.push_back({{std::to_string(number * 1e12), {}, number}});
+            rows.push_back({.run = points.size()});
+        }
+        return factors_of(plan, points, rows).at(0).place;
+    };
+    EXPECT_THAT(places({1e-10, 1e-9, 1e-8}),
+                testing::Pointwise(testing::DoubleNear(1e-12), {-1.0, 0.0, 1.0}));
+    EXPECT_NEAR(places({0.001, 0.1, 0.2})[1], -0.00503, 1e-4); // listed by differences
+    std::vector<double> samples; // of 0 to 0.5, as a hypercube has them
+    for (int k = 0; k < 100; ++k)
+        samples.push_back(0.005 * (k + 0.5));
+    EXPECT_NEAR(places(samples)[50], 1.0 / 99.0, 1e-12);
+}
+
 // The measure loses its values from one end of a on.
 TEST(SweepEffects, NoneReachesBeyondTheValuesOfItsMeasure) {
     const std::vector<double> a{-1.0, -0.5, 0.0, 0.5, 1.0};
