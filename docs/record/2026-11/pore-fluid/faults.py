@@ -64,10 +64,11 @@ def main():
     found = {case: [measures(folder / f"{case}-{seed}") for seed in SEEDS] for case in CASES}
     with (Path(__file__).parent / "faults.csv").open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["case", "seed", *found["rest"][0]])
+        table.writerow(["case", "seed", "state_hash", *found["rest"][0]])
         for case, runs in found.items():
             for seed, one in zip(SEEDS, runs):
-                table.writerow([case, seed, *(f"{x:.5g}" for x in one.values())])
+                summary = json.loads((folder / f"{case}-{seed}/summary.json").read_text(encoding="utf-8"))
+                table.writerow([case, seed, summary["state_hash"], *(f"{x:.5g}" for x in one.values())])
     print("| measure |", " | ".join(CASES.values()), "|")
     for name in found["rest"][0]:
         cells = ["%.3g +- %.2g" % told([one[name] for one in found[case]]) for case in CASES]
