@@ -49,6 +49,11 @@ def finite(one):
     return not isinstance(one, float) or math.isfinite(one)
 
 
+def is_short(line):
+    """Whether `check` forecasts seconds, not minutes: "5 tables, about 175 discs, 3 s, ..."."""
+    return re.search(r" discs[^,;]*, \d+ s,", line) is not None
+
+
 class Fuzzer:
     def __init__(self, program, scratch, keep, seed, batch):
         self.batch = batch   # scenes that one call checks
@@ -89,17 +94,8 @@ class Fuzzer:
     def scenes(self, number, folder):
         """Scenes, a batch to a call of check; those that fail are checked alone, and one is explained."""
         made = [scenes.make_scene(random.Random(f"{self.seed}:scenes:{number}:{k}")) for k in range(self.batch)]
-        for k, scene in enumerate(made):
-            (folder / f"{k}.toml").write_text(scenes.to_toml(scene), encoding="utf-8")
-        why, code, said = self.call(["check", *(f"@{k}.toml" for k in range(self.batch))], folder, self.batch)
-        self.add("scenes", self.batch)
-        lines = said.decode("utf-8", "replace").splitlines()
-        valid = sum(1 for k in range(self.batch) if any(f"{k}.toml: " in line and ": correct" in line for line in lines))
-        self.add("valid scenes", valid)
-        self.tell("scenes", code)
-        if why or code not in (0, 2):
-            for scene in made:
-                self.shrunk_scene(scene, number, ("check",))
+        correct = self.correct_ones(made, number, folder, "scenes")
+        self.add("valid scenes", len(correct))
         explained = made[number % self.batch]
         why, code, said = self.checked(scenes.to_toml(explained), folder, ("explain",))
         self.add("explained", 1)
@@ -109,6 +105,19 @@ class Fuzzer:
             why = "explain tells a number that is none"
         if why:
             self.shrunk_scene(explained, number, ("explain",))
+
+    def correct_ones(self, made, number, folder, what):
+        """What one call of check says of the valid scenes, by number; where it fails each is checked alone."""
+        for k, scene in enumerate(made):
+            (folder / f"{k}.toml").write_text(scenes.to_toml(scene), encoding="utf-8")
+        why, code, said = self.call(["check", *(f"@{k}.toml" for k in range(len(made)))], folder, len(made))
+        self.add(what, len(made))
+        self.tell(f"checks of {what}", code)
+        if why or code not in (0, 2):
+            for scene in made:
+                self.shrunk_scene(scene, number, ("check",))
+        found = re.findall(r"(\d+)\.toml: correct: (.*)", said.decode("utf-8", "replace"))
+        return {int(k): line for k, line in found}
 
     def shrunk_scene(self, scene, number, words):
         folder = self.scratch / f"shrink-{words[0]}-{number}-{threading.get_ident()}"
@@ -123,18 +132,10 @@ class Fuzzer:
         """Small scenes, a third of a batch: those that are valid and short by the forecast of check are run."""
         made = [scenes.make_scene(random.Random(f"{self.seed}:runs:{number}:{k}"), share_beyond=0.0, small=True)
                 for k in range(max(1, self.batch // 3))]
-        for k, scene in enumerate(made):
-            (folder / f"{k}.toml").write_text(scenes.to_toml(scene), encoding="utf-8")
-        why, code, said = self.call(["check", *(f"@{k}.toml" for k in range(len(made)))], folder, len(made))
-        self.add("runs", len(made))
-        if why or code not in (0, 2):
-            for scene in made:
-                self.shrunk_scene(scene, number, ("check",))
-            return
-        short = {int(k) for k in re.findall(r"(\d+)\.toml: correct: [^;]* discs[^,]*, \d+ s,",
-                                            said.decode("utf-8", "replace"))}
+        correct = self.correct_ones(made, number, folder, "runs")
+        short = [k for k, line in correct.items() if is_short(line)]
         self.add("not run", len(made) - len(short))
-        for k in sorted(short):
+        for k in short:
             self.run_one(made[k], f"{number}-{k}", folder)
 
     def run_one(self, scene, name, folder):

@@ -5,7 +5,9 @@
 
 import random
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 
 from program import PROGRAM, SOURCES
 
@@ -22,6 +24,15 @@ class Fuzz(unittest.TestCase):
         self.assertEqual(fuzzer.count["scenes"], 2 * fuzz.SHARES["scenes"] * 12)
         self.assertGreater(fuzzer.count["valid scenes"], 10)   # else only refusals are tested
         self.assertEqual(fuzzer.count["snapshots"], 2 * fuzz.SHARES["snapshots"])
+
+    def test_a_small_scene_is_short_enough_to_run(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            fuzzer = fuzz.Fuzzer(PROGRAM, Path(scratch), Path(scratch) / "kept", "test", 1)
+            wrong = {**scenes.BASE, "gravity": {"acceleration": 9.81}}
+            correct = fuzzer.correct_ones([wrong, scenes.BASE], 0, Path(scratch), "runs")
+        self.assertEqual(list(correct), [1])
+        self.assertTrue(fuzz.is_short(correct[1]), correct[1])
+        self.assertFalse(fuzz.is_short("7 tables, about 176 discs, 52.0 min, 3 snapshots, 1 MB of disk"))
 
     def test_what_crashes_is_found_and_shrunk(self):
         class Broken(fuzz.Fuzzer):

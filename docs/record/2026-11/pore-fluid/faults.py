@@ -2,10 +2,11 @@
 
     python3 faults.py FOLDER
 
-FOLDER has runs named CASE-SEED (rest, 18, 19, 19dry), each with the files of `listric export faults`. What each
-run has goes into faults.csv in this script's folder; tables are printed. Dips, throws and widths are means over the traced faults of all moments from 2.5 km on, by length, so that a packing gives one
-number; differences are taken packing by packing. A difference over its standard error of 2.8 or more has one chance in
-twenty to come from five equal pairs; seven measures in three comparisons show one by chance.
+FOLDER has runs named CASE-SEED (rest, 18, 19, 19dry), each with the files of `listric export faults`. What each run has
+goes into faults.csv in this script's folder; tables are printed. Dips, throws and widths are means over the traced
+faults of all moments from 2.5 km on, by length, so that a packing gives one number; differences are taken packing by
+packing. A difference over its standard error of 2.8 or more has one chance in twenty to come from five equal pairs;
+seven measures in three comparisons show one by chance.
 """
 
 import csv
@@ -37,13 +38,14 @@ def by_length(rows, value):
 
 
 def measures(run):
+    """State hash of a run, and its numbers."""
     moments = list(lines(run))
     rows = [row for _, some in moments for row in some]
     with (run / "history.csv").open(encoding="utf-8") as file:
         history = [row for row in csv.DictReader(line for line in file if not line.startswith("#"))
                    if float(row["extension_m"]) > FROM - 1.0]
     summary = json.loads((run / "summary.json").read_text(encoding="utf-8"))
-    return {
+    return summary["state_hash"], {
         "length of traced faults, km": sum(float(r["length_m"]) for r in rows) / len(moments) / 1e3,
         "dip, degrees": by_length(rows, "dip_deg"),
         "throw, m": by_length(rows, "pre_rift_throw_m"),
@@ -54,31 +56,32 @@ def measures(run):
     }
 
 
-def told(values):
-    mean, error = statistics.mean(values), statistics.stdev(values) / len(values) ** 0.5
-    return mean, error
+def mean_and_error(values):
+    return statistics.mean(values), statistics.stdev(values) / len(values) ** 0.5
 
 
 def main():
     folder = Path(sys.argv[1])
-    found = {case: [measures(folder / f"{case}-{seed}") for seed in SEEDS] for case in CASES}
+    found = {}
     with (Path(__file__).parent / "faults.csv").open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["case", "seed", "state_hash", *found["rest"][0]])
-        for case, runs in found.items():
-            for seed, one in zip(SEEDS, runs):
-                summary = json.loads((folder / f"{case}-{seed}/summary.json").read_text(encoding="utf-8"))
-                table.writerow([case, seed, summary["state_hash"], *(f"{x:.5g}" for x in one.values())])
+        for case in CASES:
+            for seed in SEEDS:
+                state_hash, one = measures(folder / f"{case}-{seed}")
+                if not found:
+                    table.writerow(["case", "seed", "state_hash", *one])
+                table.writerow([case, seed, state_hash, *(f"{x:.5g}" for x in one.values())])
+                found.setdefault(case, []).append(one)
     print("| measure |", " | ".join(CASES.values()), "|")
     for name in found["rest"][0]:
-        cells = ["%.3g +- %.2g" % told([one[name] for one in found[case]]) for case in CASES]
+        cells = ["%.3g +- %.2g" % mean_and_error([one[name] for one in found[case]]) for case in CASES]
         print(f"| {name} |", " | ".join(cells), "|")
     print()
     print("| difference |", " | ".join(f"{CASES[a]} less {CASES[b]}" for a, b in COMPARED), "|")
     for name in found["rest"][0]:
         cells = []
         for a, b in COMPARED:
-            mean, error = told([x[name] - y[name] for x, y in zip(found[a], found[b])])
+            mean, error = mean_and_error([x[name] - y[name] for x, y in zip(found[a], found[b])])
             cells.append(f"{mean:+.2g} +- {error:.2g} ({mean / error:+.1f})")
         print(f"| {name} |", " | ".join(cells), "|")
 
