@@ -438,11 +438,13 @@ class Drawing(Folder):
                                               "accuracy draft  ·  seed 3  ·  effects: one, two"])
         self.assertIn("effects: none", page.footer(self.frame({"effects": []}))[0])
 
-    def test_a_long_description_ends_at_its_colon_or_between_words(self):
+    def test_a_long_description_loses_its_source_then_what_follows_its_colon_then_words(self):
         def shown(title):
             return page.title_of(self.frame({"title": title}))
-        short = "LIS1: 90-degree listric detachment, 10 km of extension"
+        short = "LIS1: 90-degree listric detachment, 10 km of extension [paper, experiment I]"
         self.assertEqual(shown(short), short)
+        self.assertEqual(shown("RFR: ramp, flat at 7 km and second ramp, 10 km of extension [paper, experiment III]"),
+                         "RFR: ramp, flat at 7 km and second ramp, 10 km of extension")
         self.assertEqual(shown("LIS1 filled with mud: " + 8 * "overpressure "), "LIS1 filled with mud")
         self.assertEqual(shown(8 * "overpressure "), " ".join(6 * ["overpressure"]) + "…")
 

@@ -43,11 +43,12 @@ LONGEST_TITLE = 80        # letters that fit beside the moment
 
 
 def title_of(frame: Frame) -> str:
-    """The scene's description, in at most a line: a longer one up to its colon, else some of its words;
-    a scene without one has its name."""
+    """The scene's description, in at most a line: a longer one without its source, else up to its colon,
+    else some of its words; a scene without one has its name."""
     title = str(frame.meta.get("title") or frame.meta["scene"].upper())
-    if len(title) > LONGEST_TITLE:
-        title = title.partition(": ")[0]
+    for end in (" [", ": "):
+        if len(title) > LONGEST_TITLE:
+            title = title.partition(end)[0]
     return textwrap.shorten(title, LONGEST_TITLE, placeholder="…")
 
 
