@@ -101,6 +101,15 @@ bool is_main(const ValidationFindings& f, const ValidationExperiment& x) {
            });
 }
 
+/// Verdict on a row of the first run by the run whose values stand beside it; no run where there is
+/// none.
+Verdict verdict_beside(const ValidationFindings& f, const ValidationExperiment& x,
+                       const Expectation& e) {
+    if (x.compare.empty() || e.run != x.runs.front() || !e.minus.empty())
+        return {};
+    return judge(e, f.values(e, x.compare));
+}
+
 /// Short name of an experiment: "LIS1" of "LIS1: listric detachment", or the one in the plan.
 std::string short_name(const ValidationExperiment& x) {
     return x.like.empty() ? x.title.substr(0, x.title.find(':')) : x.name;
@@ -152,6 +161,12 @@ std::string sentence(const ValidationFindings& f, const ValidationExperiment& x)
         text += fmt::format("; {} without a case", none);
     if (const int none = rows_with(count, VerdictName::no_run); none > 0)
         text += fmt::format("; {} not measured", none);
+    const auto both = std::ranges::count_if(x.expectations, [&](const Expectation& e) {
+        return f.verdict(e).name == VerdictName::shown &&
+               verdict_beside(f, x, e).name == VerdictName::shown;
+    });
+    if (both > 0)
+        text += fmt::format("; {} of those shown `{}` shows, too", both, x.compare);
     return text + fmt::format(" ({} seeds).", seeds_so_far(f, x));
 }
 
@@ -200,7 +215,9 @@ constexpr std::string_view how_to_read =
     "such a seed does not count |\n"
     "| limits | each by itself at a confidence of 95 %, exact (Clopper and Pearson 1934): 5 of 5 "
     "seeds, or 15 of 20, show; 0 of 5, or 5 of 20, do not |\n"
-    "| *kinematics*, *conservation* | the machinery; *met* where every seed has it |\n\n"
+    "| *kinematics*, *conservation* | the machinery; *met* where every seed has it |\n"
+    "| a column named by a run | its value, and how many of its seeds meet the criterion; what a "
+    "control without AFD and ICM meets, too, does not need them |\n\n"
     "A value is the mean over the seeds ± its standard deviation (smallest to largest).\n\n";
 
 /// Introduction of the document.
@@ -306,6 +323,16 @@ std::string comparisons(const ValidationFindings& f) {
     return text;
 }
 
+/// "1.00 ± 0.00 (1.00 to 1.00): 20 of 20", seeds of the run beside it that meet the row.
+std::string text_beside(const ValidationFindings& f, const ValidationExperiment& x,
+                        const Expectation& e) {
+    const Verdict v = verdict_beside(f, x, e);
+    if (v.name == VerdictName::no_run)
+        return "";
+    const std::string values = summary(e, f.values(e, x.compare));
+    return v.of > 0 && e.is_judged() ? fmt::format("{}: {} of {}", values, v.met, v.of) : values;
+}
+
 std::string table(const ValidationFindings& f, const ValidationExperiment& x) {
     const bool beside = !x.compare.empty();
     std::string text = "| kind | measure | expected | by | this program |";
@@ -315,9 +342,7 @@ std::string table(const ValidationFindings& f, const ValidationExperiment& x) {
         text += fmt::format("| {} | {} | {} | {} | {} |", name_of(e.kind), subject(f, e),
                             e.target(), origin_of(e), summary(e, f.values(e, e.run)));
         if (beside)
-            text += fmt::format(" {} |", e.run == x.runs.front() && e.minus.empty()
-                                             ? summary(e, f.values(e, x.compare))
-                                             : "");
+            text += fmt::format(" {} |", text_beside(f, x, e));
         text += fmt::format(" {} |\n", f.verdict(e).text);
     }
     return text + '\n';
@@ -386,21 +411,25 @@ std::optional<std::optional<double>> value_of(const ValidationFindings& f, const
     return value ? std::optional(*value / e.unit) : std::nullopt;
 }
 
-/// A row of the chart.
-nlohmann::ordered_json chart_row(const ValidationFindings& f, const Expectation& e) {
+/// A row of the chart; `beside`: seeds of the run beside it that meet the row, where they have a
+/// value.
+nlohmann::ordered_json chart_row(const ValidationFindings& f, const ValidationExperiment& x,
+                                 const Expectation& e) {
     std::string cells;
     for (int seed : f.seeds_of(f.plan.run(e.run))) {
         const auto value = value_of(f, e, e.run, seed);
         cells += !value || !f.is_measured(e) ? '-' : !*value ? 'o' : e.meets(**value) ? 'm' : 'x';
     }
     const Verdict v = f.verdict(e);
+    const Verdict beside = verdict_beside(f, x, e);
     const std::string subject_text = subject(f, e);
     return {{"what", subject_text.substr(0, subject_text.rfind(" (`"))},
             {"expected", e.target()},
             {"cells", cells},
             {"verdict", name_of(v.name)},
             {"met", v.met},
-            {"of", v.of}};
+            {"of", v.of},
+            {"beside", beside.of > 0 ? fmt::format("{} of {}", beside.met, beside.of) : ""}};
 }
 
 } // namespace
@@ -470,11 +499,12 @@ std::string validation_chart(const ValidationFindings& f) {
         nlohmann::ordered_json rows = nlohmann::ordered_json::array();
         for (const Expectation& e : x.expectations)
             if (e.kind == Kind::faults && e.is_judged())
-                rows.push_back(chart_row(f, e));
+                rows.push_back(chart_row(f, x, e));
         experiments.push_back({{"title", short_name(x)},
                                {"seeds", seeds_so_far(f, x)},
                                {"kinematics", held(f, x, Kind::kinematics)},
                                {"conservation", held(f, x, Kind::conservation)},
+                               {"beside", x.compare},
                                {"rows", rows}});
     }
     return to_text(nlohmann::ordered_json{{"seeds", f.seeds}, {"experiments", experiments}}, 1) +

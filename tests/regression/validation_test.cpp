@@ -58,6 +58,7 @@ at_m = [200]
 name = "first"
 title = "First"
 runs = "tiny plain"
+compare = "plain"
 expect = [
     {kind = "kinematics", measure = "extension_m", what = "reached", digits = 0, expected = 200, tolerance = 1, source = "scene"},
     {kind = "kinematics", measure = "extension_m", what = "gone since", since_m = 100, digits = 0, expected = 150, tolerance = 1, source = "nobody"},
@@ -125,9 +126,13 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
     EXPECT_THAT(document(), AllOf(HasSubstr("3 of 3 runs"), HasSubstr("## First"),
                                   HasSubstr("## Second"), HasSubstr("![all](report/all.png)")));
     // Two seeds that reached 200 m, and cannot have gone 150 m since 100.
-    EXPECT_THAT(document(), HasSubstr("| 200 ± 1 | scene | 200 ± 0 (200 to 200) | met (2 of 2) |"));
-    EXPECT_THAT(document(), HasSubstr("| 150 ± 1 | nobody | 100 ± 0 (100 to 100) | missed (0 of "));
-    EXPECT_THAT(document(), HasSubstr("| at least 0.50 | “never” (nobody) | no value | no case |"));
+    EXPECT_THAT(
+        document(),
+        HasSubstr("| 200 ± 1 | scene | 200 ± 0 (200 to 200) | 200: 1 of 1 | met (2 of 2) |"));
+    EXPECT_THAT(document(),
+                HasSubstr("| 150 ± 1 | nobody | 100 ± 0 (100 to 100) |  | missed (0 of "));
+    EXPECT_THAT(document(),
+                HasSubstr("| at least 0.50 | “never” (nobody) | no value |  | no case |"));
     EXPECT_THAT(document(), HasSubstr("| First | 2 of 2 | 0 | 0 | 0 | 1 | 1 of 2 | 1 of 1 |"));
     // Beside each other by what both expect; the control is nothing that the second has.
     EXPECT_THAT(document(), AllOf(HasSubstr("| expected | first | alike |"),
@@ -176,6 +181,31 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
     // Runs of another accuracy are no runs of this one.
     EXPECT_EQ(validate("--seeds 1 --accuracy draft"), 2);
     EXPECT_THAT(said, AllOf(HasSubstr("plain-1"), HasSubstr("standard"), HasSubstr("draft")));
+}
+
+TEST_F(ValidationTest, CriteriaThatTheControlMeetsAreCounted) {
+    std::string text = plan;
+    text.replace(text.find("seeds = 1\n"), 10, "");
+    text.replace(text.find("expect = [\n"), 11,
+                 "expect = [\n    {measure = \"extension_m\", what = \"gone\", "
+                 "least = 1, words = \"extension\"},\n");
+    std::ofstream(folder / "plan.toml") << text;
+    ASSERT_EQ(validate("--seeds 1 --only first"), 0) << said;
+    EXPECT_THAT(document(), Not(HasSubstr("shows, too")));
+
+    // Four more seeds of the same numbers.
+    std::istringstream lines(record());
+    std::ofstream more(folder / "doc/report/measures.csv", std::ios::app);
+    for (std::string line; std::getline(lines, line);)
+        if (const auto seed = line.find(",1,"); seed != line.npos && line[0] != 'r')
+            for (const char* other : {",2,", ",3,", ",4,", ",5,"})
+                more << line.substr(0, seed) << other << line.substr(seed + 3) << '\n';
+    more.close();
+    ASSERT_EQ(validate("--seeds 5 --only first --without-runs"), 0) << said;
+    EXPECT_THAT(document(), HasSubstr("1 of those shown `plain` shows, too (5 of 5 seeds)."));
+    EXPECT_THAT(document(),
+                HasSubstr("| 199.98 ± 0.00 (199.98 to 199.98): 5 of 5 | shown (5 of 5"));
+    EXPECT_THAT(contents(folder / "doc/report/verdicts.json"), HasSubstr(R"("beside": "5 of 5")"));
 }
 
 TEST_F(ValidationTest, OneExperimentAlone) {

@@ -4,8 +4,9 @@
 Usage: verdicts.py DIR
 
 DIR holds verdicts.json as `listric validate` wrote it; it gets verdicts.png: a panel per experiment, in
-it a row per criterion, in the order of the plan, with a square per seed and the verdict.  The file is
-written under a temporary name and then renamed.  On bad input: one line on stderr, exit status 2.
+it a row per criterion, in the order of the plan, with a square per seed, the verdict, and how many seeds
+of the run beside it, such as a control, meet the criterion.  The file is written under a temporary name
+and then renamed.  On bad input: one line on stderr, exit status 2.
 """
 import os
 import sys
@@ -22,7 +23,7 @@ COLOURS = {"m": "#2a7f62", "x": "#e08a4f", "o": "#c4c0b6"}
 MEANINGS = {"m": "meets it", "x": "misses it", "o": "no case"}
 VERDICTS = {"shown": "#2a7f62", "open": FAINT, "not shown": "#b4561d"}
 ROW, HEAD, FOOT = 0.21, 0.62, 0.42   # heights, inches
-LABELS, SEED, WORDS, MARGIN = 6.3, 0.19, 1.75, 0.12   # widths, inches
+LABELS, SEED, WORDS, BESIDE, MARGIN = 6.3, 0.19, 1.5, 1.0, 0.12   # widths, inches
 
 
 def panel_height(experiment: dict) -> float:
@@ -49,7 +50,7 @@ def machinery(experiment: dict) -> str:
 
 def draw_panel(axes, experiment: dict, seeds: int) -> None:
     rows = experiment["rows"]
-    axes.set_xlim(-LABELS / SEED, seeds + WORDS / SEED)
+    axes.set_xlim(-LABELS / SEED, seeds + (WORDS + BESIDE) / SEED)
     axes.set_ylim(len(rows), -HEAD / ROW)
     axes.axis("off")
     left = (MARGIN - LABELS) / SEED
@@ -66,6 +67,9 @@ def draw_panel(axes, experiment: dict, seeds: int) -> None:
         axes.text(-0.5, k + 0.52, f"{row['what']}: {row['expected']}", ha="right", va="center", fontsize=8.2, color=INK)
         axes.text(seeds + 0.5, k + 0.52, verdict_of(row), ha="left", va="center", fontsize=8.2,
                   color=VERDICTS.get(row["verdict"], FAINT))
+        axes.text(seeds + WORDS / SEED, k + 0.52, row["beside"], ha="left", va="center", fontsize=8.2, color=FAINT)
+    if any(row["beside"] for row in rows):
+        axes.text(seeds + WORDS / SEED, -0.65, f"in {experiment['beside']}", ha="left", va="center", fontsize=8.5, color=FAINT)
 
 
 def seeds_in_words(seeds: list[int]) -> str:
@@ -80,7 +84,7 @@ def draw(chart: dict):
     if not experiments or not seeds:
         return None
     heights = [panel_height(experiment) for experiment in experiments]
-    width, height = LABELS + SEED * len(seeds) + WORDS, sum(heights) + FOOT
+    width, height = LABELS + SEED * len(seeds) + WORDS + BESIDE, sum(heights) + FOOT
     figure = new_figure(width, height, 120)
     top = height
     for experiment, high in zip(experiments, heights):
