@@ -21,7 +21,7 @@ def main(folder, picture):
     figure = verdicts.draw(plot.read_json(str(Path(folder) / "verdicts.json")))
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png")
-    Image.open(buffer).convert("RGB").save(picture, quality=88, method=6)
+    Image.open(buffer).convert("RGB").save(picture, lossless=True, method=6)
 
 
 if __name__ == "__main__":
