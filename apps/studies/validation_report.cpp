@@ -101,8 +101,8 @@ bool is_main(const ValidationFindings& f, const ValidationExperiment& x) {
            });
 }
 
-/// Verdict on a row of the first run by the run whose values stand beside it; no run where there is
-/// none.
+/// Verdict on a row by the seeds of the run beside it; `no_run` for rows of another run than the
+/// first, and for differences between runs.
 Verdict verdict_beside(const ValidationFindings& f, const ValidationExperiment& x,
                        const Expectation& e) {
     if (x.compare.empty() || e.run != x.runs.front() || !e.minus.empty())
@@ -216,8 +216,9 @@ constexpr std::string_view how_to_read =
     "| limits | each by itself at a confidence of 95 %, exact (Clopper and Pearson 1934): 5 of 5 "
     "seeds, or 15 of 20, show; 0 of 5, or 5 of 20, do not |\n"
     "| *kinematics*, *conservation* | the machinery; *met* where every seed has it |\n"
-    "| a column named by a run | its value, and how many of its seeds meet the criterion; what a "
-    "control without AFD and ICM meets, too, does not need them |\n\n"
+    "| a column with a run's name | value of this run, and how many of its seeds meet the "
+    "criterion; "
+    "what a control without AFD and ICM meets, too, does not need them |\n\n"
     "A value is the mean over the seeds ± its standard deviation (smallest to largest).\n\n";
 
 /// Introduction of the document.
@@ -411,8 +412,7 @@ std::optional<std::optional<double>> value_of(const ValidationFindings& f, const
     return value ? std::optional(*value / e.unit) : std::nullopt;
 }
 
-/// A row of the chart; `beside`: seeds of the run beside it that meet the row, where they have a
-/// value.
+/// A row of the chart; `beside` counts the seeds of the run beside it that meet the row.
 nlohmann::ordered_json chart_row(const ValidationFindings& f, const ValidationExperiment& x,
                                  const Expectation& e) {
     std::string cells;
