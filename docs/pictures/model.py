@@ -81,7 +81,9 @@ def main():
         word(17.5, 16.1, "detachment: its material moves with the wall"),
         word(wall - 0.4, -1.5, "right wall, moves away", "middle"),
         word(28, -0.35, "original surface, depth 0", font_size="12"),
-        word(20, 19.2, "elastic thickness above, relaxed rock below", "middle", font_size="12"),
+        line([(-6, 18.1), (end, 18.1)], stroke="#5b6770", stroke_width=0.8, stroke_dasharray="3 4"),
+        word(20, 17.7, "elastic thickness: strong rock", "middle", font_size="12"),
+        word(20, 19.2, "relaxed rock", "middle", font_size="12"),
         word(20, 22.9, "springs of isostasy, only with an elastic footwall", "middle", font_size="12"),
     ]
     width, height = LEFT + KM * 49.5, TOP + KM * 23.6
