@@ -38,7 +38,7 @@ install(FILES docs/measures.md DESTINATION ${share} COMPONENT program)
 # Where Debian's Python looks below /usr; elsewhere PYTHONPATH names the folder (docs/python.md).
 set(LISTRIC_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the Python package goes, below the prefix")
 install(DIRECTORY apps/python/listric DESTINATION ${LISTRIC_PYTHON_FOLDER} COMPONENT program
-  FILES_MATCHING PATTERN *.py PATTERN __pycache__ EXCLUDE)
+  FILES_MATCHING PATTERN *.py PATTERN *.json PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 if(TARGET listric_fem)

@@ -57,8 +57,9 @@ std::vector<double> surface_knots(double width, double left) {
     constexpr double closest = 2e3, growth = 0.25;
     const double end = std::min(width, -left);
     std::vector<double> knots{0.0};
-    while (knots.back() < end - closest)
+    do
         knots.push_back(std::min(end, knots.back() + std::max(closest, growth * knots.back())));
+    while (knots.back() < end - closest);
     std::ranges::reverse(knots);
     for (double& x : knots)
         x = -x;

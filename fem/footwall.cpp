@@ -165,7 +165,7 @@ void write_series(const std::string& pvd, std::span<const std::pair<double, std:
     if (!out || error) {
         const std::string cause = error ? error.message() : std::strerror(errno ? errno : EIO);
         std::filesystem::remove(temporary, error);
-        refuse("cannot write " + pvd + ": " + cause);
+        throw WriteError("cannot write " + pvd + ": " + cause);
     }
 }
 

@@ -138,6 +138,7 @@ public:
     virtual void refine(double share_of_cells) = 0;
 
     /// Writes the last solution as folder/name.vtu: displacement, stress, density, elastic moduli.
+    /// The file is replaced whole or not at all. Throws WriteError.
     virtual void write(const std::string& folder, const std::string& name) const = 0;
 };
 
@@ -149,7 +150,7 @@ void check(const FootwallRequest& request);
 std::unique_ptr<Footwall> make_footwall(const FootwallRequest& request);
 
 /// A series of written fields that ParaView opens: file names beside the .pvd, and their times. The
-/// file is replaced whole or not at all. Throws FootwallError.
+/// file is replaced whole or not at all. Throws WriteError.
 void write_series(const std::string& pvd, std::span<const std::pair<double, std::string>> moments);
 
 /// The plug-in's only entry. On failure null, with the reason in `message`. Its name,

@@ -71,6 +71,11 @@ struct FootwallRequest {
     Solver solver = Solver::mumps;
 };
 
+/// A file that cannot be written.
+struct WriteError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Input that makes no footwall; what() says what is wrong and what is allowed.
 struct FootwallError : std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -6,7 +6,12 @@
 #include <deal.II/numerics/data_out.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <unistd.h>
 
 namespace listric::fem {
 
@@ -256,8 +261,20 @@ void ElasticFootwall::write(const std::string& folder, const std::string& name) 
     dealii::DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false;
     out.set_flags(flags);
+    // A good file of this name stays until the new one is whole.
     const std::string file = folder + "/" + name + ".vtu";
-    out.write_vtu_in_parallel(file, processes_);
+    const int writer = dealii::Utilities::MPI::broadcast(processes_, static_cast<int>(getpid()));
+    const std::string part = file + "." + std::to_string(writer) + ".part";
+    std::error_code error;
+    try {
+        out.write_vtu_in_parallel(part, processes_);
+        if (dealii::Utilities::MPI::this_mpi_process(processes_) == 0)
+            std::filesystem::rename(part, file);
+    } catch (const std::exception&) { // of MPI, in many lines
+        const std::string cause = std::strerror(errno ? errno : EIO);
+        std::filesystem::remove(part, error);
+        throw WriteError("cannot write " + file + ": " + cause);
+    }
 }
 
 } // namespace listric::fem

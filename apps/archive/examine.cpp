@@ -39,9 +39,11 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
             return std::abs(snapshot_extension(path) - extension);
         });
     };
-    std::map<fs::path, double> wanted;
-    for (double extension : extensions)
-        wanted[nearest_snapshot(extension)] = extension;
+    std::map<fs::path, std::vector<double>> wanted;
+    for (const double extension : extensions)
+        if (const fs::path path = nearest_snapshot(extension);
+            std::abs(snapshot_extension(path) - extension) <= run.scene.output.interval)
+            wanted[path].push_back(extension);
     std::vector<std::pair<double, NamedNumbers>> found;
     std::vector<Past> past;
     std::vector<DiscPlaces> places;
@@ -56,7 +58,8 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
             std::erase_if(numbers, [](const auto& n) { return std::isnan(n.second); });
             append(numbers, measure_evolution(setting, base, now, faults, measures,
                                               fault_segments(moment.events), past));
-            found.emplace_back(wanted[path], std::move(numbers));
+            for (const double extension : wanted[path])
+                found.emplace_back(extension, numbers);
         }
         if (!past.empty() && !setting.is_window(past.back().places.extension, now.clock.travel))
             continue;

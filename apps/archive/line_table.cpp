@@ -1,5 +1,6 @@
 #include "apps/archive/line_table.hpp"
 
+#include "apps/support/csv_records.hpp"
 #include "apps/support/json_text.hpp"
 
 #include <fmt/format.h>
@@ -22,6 +23,17 @@ std::string word(const LineValue& value, std::string_view absent) {
     if (const auto* text = std::get_if<std::string>(&value))
         return *text;
     return number(std::get<double>(value), absent);
+}
+
+/// A word in a segment's header, which knows no escapes.
+std::string gmt_word(const LineValue& value) {
+    std::string text = word(value, "NaN");
+    for (char& c : text)
+        if (c == '"')
+            c = '\'';
+        else if (c == '\n' || c == '\r')
+            c = ' ';
+    return text;
 }
 
 /// A text of JSON.
@@ -65,7 +77,7 @@ std::string to_csv(const LineTable& table) {
         const Line& line = table.lines[n];
         std::string head = fmt::format("{}", n);
         for (const LineValue& value : line.values)
-            head += fmt::format(",{}", word(value, ""));
+            head += fmt::format(",{}", csv_cell(word(value, "")));
         for_each_point(table, line, [&](dem::Point p, std::span<const double> own) {
             text += fmt::format("{},{},{}", head, number(p.x, ""), number(-p.y, ""));
             for (const double value : own)
@@ -100,12 +112,12 @@ std::string to_gmt(const LineTable& table) {
     for (const Line& line : table.lines) {
         std::string level, words;
         for (std::size_t k = 1; k < table.columns.size(); ++k) {
-            const std::string value = word(line.values[k], "NaN");
+            const std::string value = gmt_word(line.values[k]);
             if (table.columns[k] == table.level)
                 level = fmt::format(" -Z{}", value);
             words += fmt::format(" {}={}", table.columns[k], value);
         }
-        text += fmt::format(">{} -L\"{}\"{}\n", level, word(line.values.front(), ""), words);
+        text += fmt::format(">{} -L\"{}\"{}\n", level, gmt_word(line.values.front()), words);
         for_each_point(table, line, [&](dem::Point p, std::span<const double> own) {
             text += fmt::format("{}\t{}", number(p.x, "NaN"), number(-p.y, "NaN"));
             for (const double value : own)

@@ -1,5 +1,6 @@
 #include "apps/archive/output_folder.hpp"
 
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/run_files.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/scene_lines.hpp"
@@ -121,6 +122,13 @@ void keep_what_is_there(const FolderUse& use, const fs::path& output) {
                                      file->string(), output.string()));
 }
 
+/// Whether the session ended between the summary and the status, which is written last: the report
+/// in between is missing, or half of it. A folder without a status tells nothing.
+bool was_killed_at_the_end(const fs::path& output) {
+    const std::string phase = text_at(object_in(output / "status.json"), "phase");
+    return !phase.empty() && phase != "finished";
+}
+
 /// Refuses a folder that holds something else than what is asked for, or what would be lost there,
 /// before any work is done. True: the run to resume has reached its end.
 bool check_output(const FolderUse& use, const fs::path& output, ExistingRun existing) {
@@ -135,8 +143,8 @@ bool check_output(const FolderUse& use, const fs::path& output, ExistingRun exis
         keep_what_is_there(use, output);
         return false;
     }
-    const auto reached = summary_extension(summary);
-    const bool finished = reached && *reached >= use.end;
+    const auto reached = summary_travel(summary);
+    const bool finished = reached && *reached >= use.end && !was_killed_at_the_end(output);
     require_own_run(use, output, finished);
     return finished;
 }
@@ -165,8 +173,9 @@ void prepare_output(const FolderUse& use, const fs::path& output, ExistingRun ex
 } // namespace
 
 FolderUse folder_use(const Scene& scene, double target) {
+    const double interval = scene.output.interval;
     const double near =
-        std::max(0.005 * scene.output.interval, 1e-3 * scene.hanging_wall.mean_radius);
+        std::clamp(1e-3 * scene.hanging_wall.mean_radius, 0.005 * interval, 0.5 * interval);
     return {to_toml(scene), scene.files, target - near, make_parts(scene).base_moves,
             scene.output.series == SeriesFormat::paraview};
 }

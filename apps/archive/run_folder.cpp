@@ -93,20 +93,26 @@ RunMoments some_moments(const fs::path& output) {
 
 } // namespace
 
-void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> events) {
+void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> events,
+               const fs::path& path) {
+    const auto is_known = [&](const Event& event) {
+        return snapshot.event_memory.contains(event.name());
+    };
+    const auto begins_any_time = [](const Event& event) {
+        const auto* observer = dynamic_cast<const Observer*>(&event);
+        return observer && observer->begins_any_time();
+    };
+    for (const auto& event : events) // before any of them is handed its memory
+        if (!is_known(*event) && !begins_any_time(*event))
+            throw StorageError(path.string() + ": knows nothing of " + event->name());
     for (const auto& event : events) {
-        const auto memory = snapshot.event_memory.find(event->name());
-        const bool is_known = memory != snapshot.event_memory.end();
-        const auto* observer = dynamic_cast<const Observer*>(event.get());
-        if (!is_known && observer && observer->begins_any_time()) {
-            while (event->next_due() <= snapshot.state.clock.travel)
-                ++event->applied;
+        if (is_known(*event)) {
+            event->memory = std::move(snapshot.event_memory.at(event->name()));
+            event->applied = snapshot.event_applied.at(event->name());
             continue;
         }
-        if (!is_known)
-            throw StorageError("the snapshot knows nothing of " + event->name());
-        event->memory = std::move(memory->second);
-        event->applied = snapshot.event_applied.at(event->name());
+        while (event->next_due() <= snapshot.state.clock.travel)
+            ++event->applied;
     }
 }
 
@@ -147,7 +153,7 @@ Moment RunFolder::read(const fs::path& path) const {
     Snapshot snapshot = read_snapshot(path);
     require_same_run(path, snapshot.record.scene, moments.scene);
     Moment moment{{}, make_events(scene, parts)};
-    hand_over(snapshot, moment.events);
+    hand_over(snapshot, moment.events, path);
     moment.state = std::move(snapshot.state);
     return moment;
 }

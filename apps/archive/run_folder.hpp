@@ -43,8 +43,11 @@ void require_same_run(const std::filesystem::path& snapshot, const std::string& 
                       const std::string& scene);
 
 /// Gives the events of a scene back what they remembered. An observer that can begin at any time
-/// does so if the snapshot, of an earlier version, does not know it. Throws StorageError.
-void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<dem::Event>> events);
+/// does so if the snapshot, of an earlier version, does not know it. Throws StorageError, and then
+/// no event has been changed.
+/// @param path  of the snapshot, for errors
+void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<dem::Event>> events,
+               const std::filesystem::path& path);
 
 /// A state and the events that remember its past.
 struct Moment {

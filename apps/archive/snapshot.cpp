@@ -322,6 +322,8 @@ template <class Read> auto read_file(const fs::path& path, Read&& read) {
         return read_verified(path, read);
     } catch (const UsageError& error) {
         throw UsageError(path.string() + ": " + error.what());
+    } catch (const std::bad_alloc&) { // the file is good
+        throw;
     } catch (const std::exception& error) {
         throw StorageError(path.string() + ": " + error.what());
     }

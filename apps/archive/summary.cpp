@@ -5,6 +5,7 @@
 #include "apps/archive/known_errors.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/main_faults.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/support/fineness.hpp"
 
 #include <fmt/format.h>
@@ -212,9 +213,12 @@ std::string summary_json(const SummaryContent& content) {
     return to_text(json, 2) + "\n";
 }
 
-std::optional<double> summary_extension(const std::filesystem::path& summary) {
+std::optional<double> summary_travel(const std::filesystem::path& summary) {
     const JsonObject json = object_in(summary);
-    return is_true_at(json, "finished") ? number_at(json, "extension_m") : std::nullopt;
+    if (!is_true_at(json, "finished"))
+        return std::nullopt;
+    const auto travel = number_at(json, travel_column); // with stages
+    return travel ? travel : number_at(json, "extension_m");
 }
 
 } // namespace listric::archive

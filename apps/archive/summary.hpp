@@ -61,7 +61,8 @@ std::span<const HeadField> head_fields();
 /// that are not finite are left out.
 std::string summary_json(const SummaryContent& content);
 
-/// Extension that a finished run reached, m. None if the file is not a finished run's summary.
-std::optional<double> summary_extension(const std::filesystem::path& summary);
+/// Travel of the wall that a finished run reached, m. None if the file is not a finished run's
+/// summary.
+std::optional<double> summary_travel(const std::filesystem::path& summary);
 
 } // namespace listric::archive

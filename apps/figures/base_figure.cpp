@@ -118,7 +118,7 @@ bool export_footwall(const RunFolder& run, const fs::path& folder) {
     const std::vector<fs::path> moments = shown(run.snapshots);
     for (const fs::path& path : moments) {
         Snapshot snapshot = read_snapshot(path);
-        hand_over(snapshot, events);
+        hand_over(snapshot, events, path);
         const fem::Footwall* footwall = driver ? driver->recover(snapshot.state) : nullptr;
         if (!footwall)
             return false;

@@ -295,11 +295,7 @@ void write_footwall(const fs::path& output, const fem::Footwall& footwall, doubl
     auto moments = files_of_moments(output, "footwall-", "m.vtu", names, extension);
     for (auto& [time, file] : moments)
         time = time / extension_rate / 1e6;
-    try {
-        fem::write_series((output / "footwall.pvd").string(), moments);
-    } catch (const fem::FootwallError& failure) {
-        throw StorageError(failure.what());
-    }
+    fem::write_series((output / "footwall.pvd").string(), moments);
 }
 
 void copy_view(const fs::path& output) {

@@ -94,7 +94,7 @@ public:
         if (!driver_)
             return {};
         Snapshot snapshot = read_snapshot(path);
-        hand_over(snapshot, events_);
+        hand_over(snapshot, events_, path);
         const fem::Footwall* footwall = driver_->recover(snapshot.state);
         return footwall ? footwall->stress() : std::vector<fem::StressPatch>();
     }

@@ -49,10 +49,14 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
         const Moment moment = run.read(path);
         const Observation now{run.scene, run.parts, moment.state, moment.events};
         const nlohmann::ordered_json list = wells_json(now, *well, wells);
-        if (!list.empty())
-            frames.push_back({{"scene", run.scene.name},
-                              {"extension_km", run.names.kilometres(snapshot_extension(path))},
-                              {"wells", list}});
+        if (list.empty())
+            continue;
+        frames.push_back({{"scene", run.scene.name},
+                          {"extension_km", run.names.kilometres(snapshot_extension(path))},
+                          {"extension_m", moment.state.clock.extension},
+                          {"wells", list}});
+        if (!run.parts.base.motion.stages.empty())
+            frames.back()["way_m"] = moment.state.clock.travel;
     }
     if (frames.empty())
         return false;

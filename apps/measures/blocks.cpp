@@ -1,5 +1,6 @@
 #include "apps/measures/blocks.hpp"
 
+#include "apps/measures/kinematics.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
@@ -76,6 +77,9 @@ std::vector<std::size_t> block_of(const State& state, const Chain& detachment, C
     return block;
 }
 
+/// Dip of the detachment at a foot on it.
+double foot_dip(const Foot& foot) { return std::atan2(foot.normal.x, foot.normal.y); }
+
 /// Where the last piece ends that turns what slides along it, m along the chain.
 double turning_ends(const Chain& detachment) {
     constexpr double straight = 1e-12; // 1/m
@@ -135,8 +139,17 @@ std::vector<std::size_t> lower_block(const State& state, const Chain& detachment
 }
 
 std::vector<std::size_t> head_block(const State& state, const Chain& detachment, double thickness) {
+    const double turns = turning_length(detachment), still = turns - state.clock.extension;
+    const double depth = turns > 0.0 ? -point_at(detachment, turns).y : thickness;
+    const Point down = detachment.front().start_tangent;
+    const double least_dip = std::atan2(-down.y, down.x) / 3.0; // flatter, it hardly turns anything
     return block_of(state, detachment, [&](Point start, const auto& foot) {
-        return -start.y <= 0.5 * thickness && (foot ? foot->distance : start.x) < head_block_width;
+        if (-start.y > 0.5 * depth)
+            return false;
+        if (!foot)
+            return start.x < head_block_width;
+        return foot->distance < head_block_width &&
+               (turns == 0.0 || (foot->arc_length <= still && foot_dip(*foot) >= least_dip));
     });
 }
 
@@ -154,8 +167,7 @@ RampFlatRampRotations measure_ramp_flat_ramp(const State& state, const Chain& de
     double rear = end; // of the toe, m along the detachment
     const auto toe = block_of(state, detachment, [&](Point, const auto& foot) {
         const bool is_toe = foot && foot->arc_length < parts.flat_start &&
-                            std::atan2(foot->normal.x, foot->normal.y) < toe_dip &&
-                            foot->distance < block_size;
+                            foot_dip(*foot) < toe_dip && foot->distance < block_size;
         if (is_toe)
             rear = std::min(rear, foot->arc_length);
         return is_toe;

@@ -25,7 +25,9 @@ std::optional<RampFlatRamp> find_ramp_flat_ramp(const dem::Chain& detachment);
 std::vector<std::size_t> lower_block(const dem::State& state, const dem::Chain& detachment,
                                      const RampFlatRamp& parts);
 
-/// Rows of the discs that started next to the detachment in the upper half of the thickness, m.
+/// Rows of the discs that started next to the piece of the detachment that turns them, in the upper
+/// half of its depth, and are still on it.
+/// @param thickness  depth of a detachment that turns nothing, m
 std::vector<std::size_t> head_block(const dem::State& state, const dem::Chain& detachment,
                                     double thickness);
 

@@ -26,7 +26,9 @@ constexpr Measure<M> of_structure[] = {
     {"cutoff_z_m", "m", "depth of the cutoff", taken<&M::cutoff, &Point::y>},
     {"rollover_tilt_deg", "deg",
      "rotation of the least-squares rigid motion of the discs that started within 5 km of the "
-     "detachment in the upper half; ends beyond the arc",
+     "detachment, in the upper half of the piece that turns them (down to where it first dips "
+     "least) and where that dips by a third of its dip at the breakaway or more, and are still on "
+     "it",
      taken<&M::rollover_tilt>},
     {"breakaway_rotation_deg", "deg",
      "ramp-flat-ramp only: rotation of the discs that started within 1.5 km of the breakaway, as "

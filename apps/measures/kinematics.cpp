@@ -178,7 +178,7 @@ InclinedShearFit fit_inclined_shear(const Chain& detachment, double extension,
     return *std::ranges::min_element(tried, {}, &InclinedShearFit::misfit);
 }
 
-bool head_block_turns(const Chain& detachment, double extension) {
+double turning_length(const Chain& detachment) {
     constexpr double less = 0.5 * pi / 180.0, steeper = 5.0 * pi / 180.0;
     const auto dip = [](Point tangent) { return std::atan2(-tangent.y, tangent.x); };
     double at = 0.0, end = 0.0, least = dip(detachment.front().start_tangent);
@@ -196,6 +196,11 @@ bool head_block_turns(const Chain& detachment, double extension) {
         if (!take(s.end_tangent))
             break;
     }
+    return end;
+}
+
+bool head_block_turns(const Chain& detachment, double extension) {
+    const double end = turning_length(detachment);
     return end == 0.0 || extension <= end;
 }
 

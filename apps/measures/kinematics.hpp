@@ -46,8 +46,11 @@ InclinedShearFit fit_inclined_shear(const dem::Chain& detachment, double extensi
 double misfit(const dem::Chain& detachment, const std::vector<dem::Point>& prediction,
               std::span<const double> x, std::span<const double> top, double last);
 
-/// Whether some of the head block is still on its way along the detachment to where that dips
-/// least, before it steepens again by 5 degrees or more. Beyond, it has turned by as much as it
+/// Length of the detachment down to where it dips least, before it steepens again by 5 degrees or
+/// more: the piece that turns the head block, m. 0 of a plane.
+double turning_length(const dem::Chain& detachment);
+
+/// Whether some of the head block is still on that piece. Beyond, it has turned by as much as it
 /// can, whatever the extension. On a plane it never turns, which is a result.
 bool head_block_turns(const dem::Chain& detachment, double extension);
 

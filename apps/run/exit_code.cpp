@@ -52,6 +52,8 @@ Ending ending_of(const std::exception_ptr& exception) {
         return {ExitCode::numerics_failed, error.what()};
     } catch (const StorageError& error) {
         return {ExitCode::storage_failed, error.what()};
+    } catch (const fem::WriteError& error) {
+        return {ExitCode::storage_failed, error.what()};
     } catch (const MemoryError& error) {
         return {ExitCode::storage_failed, error.what()};
     } catch (const std::bad_alloc&) {

@@ -35,10 +35,14 @@ namespace fs = std::filesystem;
 
 /// All that a hanging wall depends on, as text: it is kept with it.
 std::string asked_for(const Scene& scene, const ModelParts& parts) {
-    // The time step is that of the stiffest material, also of those that discs become later.
-    return fmt::format("{}\n# {} {} {} {} {}\n", to_toml(genesis_of(scene)),
-                       stable_time_step(1.0, parts.materials, 0.0, 1.0), source_hash, compiler,
-                       build_flags, instruction_set);
+    // The time step is that of the stiffest material, also of those that discs become later; these
+    // shift the places of the layers' rocks in the list, by which kept discs name them.
+    std::string text = fmt::format("{}\n# {} {} {} {} {}\n", to_toml(genesis_of(scene)),
+                                   stable_time_step(1.0, parts.materials, 0.0, 1.0), source_hash,
+                                   compiler, build_flags, instruction_set);
+    for (const LayerFacts& layer : parts.layers)
+        text += fmt::format("# {}: material {}\n", layer.name, layer.rock.material);
+    return text;
 }
 
 /// Content of a kept file, if it is the wanted one: the name alone is no proof.

@@ -60,7 +60,7 @@ bool Session::resume() {
         drive(simulation_, run_); // its effects are handed their memories
         try {
             Snapshot snapshot = read_snapshot(*path);
-            hand_over(snapshot, simulation_.events());
+            hand_over(snapshot, simulation_.events(), *path);
             simulation_.resume(std::move(snapshot.state));
             run_.go_on_with(std::move(snapshot.record));
         } catch (const StorageError& error) {

@@ -36,10 +36,11 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
     const Clock& clock = state.clock;
     const double dt = clock.time_step;
     const Pushes pushes(state);
+    const RadiusRates radii(state);
     StoredEnergy energy;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const double inertia = std::max(d.mass[i], state.inertial_mass_floor);
-        const double surface = d.radius[i] * d.spin[i];
+        const double surface = radii.of_inertia(i, d.radius[i]) * d.spin[i];
         energy.kinetic +=
             0.5 * inertia * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i] + 0.5 * surface * surface);
         energy.potential += d.mass[i] * gravity * (d.y[i] - 0.5 * dt * d.vy[i]);
@@ -47,7 +48,6 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
                                  pushes[i].y * (d.y[i] - 0.5 * dt * d.vy[i]);
     }
 
-    const RadiusRates radii(state);
     const PairParameters pairs(state.materials, dt);
     for (std::size_t k = 0; k < c.first.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.first[k]),

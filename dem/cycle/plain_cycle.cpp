@@ -113,7 +113,7 @@ public:
     Point operator()(const DiscColumns& d, std::size_t i) const { // m/s
         if (averages_)
             return {mean_vx_[i], mean_vy_[i]};
-        if (thins_.rate > 0.0)
+        if (thins_.rate != 0.0)
             return {thins_.rate * d.x[i], -thins_.rate * (d.y[i] - thins_.floor)};
         return {0.0, 0.0};
     }

@@ -87,6 +87,11 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
     const std::vector<Point> net = net_forces(contacts, d.x.size());
     const bool relative = physics.averaging_time > 0.0;
     const auto mean_vy = relative ? state.discs.get<float>("mean_vy") : std::span<const float>();
+    Stretching thins = stretching(base, state.clock.extension);
+    thins.rate *= base.motion.at(state.clock.time(), state.clock.travel).speed;
+    const auto undamped = [&](std::size_t i) { // as in the cycle, m/s
+        return relative ? static_cast<double>(mean_vy[i]) : -thins.rate * (d.y[i] - thins.floor);
+    };
     const double surface = mean_surface(d, discs, 2.0 * state.mean_radius);
 
     const Pushes pushes(state);
@@ -103,9 +108,7 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
             const double weight = d.mass[i] * physics.gravity - pushes[i].y;
             load.weight += w * weight;
             load.damping +=
-                w * vertical_damping(net[i].y - weight,
-                                     d.vy[i] - (relative ? static_cast<double>(mean_vy[i]) : 0.0),
-                                     physics.damping);
+                w * vertical_damping(net[i].y - weight, d.vy[i] - undamped(i), physics.damping);
             if (d.stratum[i] > 0 && d.y[i] <= top && d.y[i] > top - layer_height)
                 cover += part * pi * d.radius[i] * d.radius[i];
         }

@@ -181,9 +181,9 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
     if (rows.empty())
         return;
     add_enlarged_columns(state);
-    if (physics.gravity == 0.0) // it carries nothing
-        return;
     enlarge(state, base, rows, how.mean_stress_ratio, physics.gravity);
+    if (physics.gravity == 0.0) // it carries nothing, and is as large as it was
+        return;
     for (int round = 0; round < rounds; ++round) {
         report("softening of layers", static_cast<double>(round) / rounds);
         find_contacts(state, base);

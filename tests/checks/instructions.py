@@ -23,19 +23,26 @@ FUSED = re.compile(r"vfn?m(?:add|sub)")
 
 
 def violations(disassembly):
-    """One line for every function of `objdump -d -C` with an instruction that it must not have."""
-    found, function = {}, ""
+    """One line for every function of `objdump -d -C` with an instruction that it must not have, or a line if
+    it has none at all."""
+    found, function, count = {}, "", 0
     for line in disassembly:
         if head := FUNCTION.match(line):
             function = head[1]
         elif instruction := INSTRUCTION.match(line):
-            name = instruction[1]
+            name, count = instruction[1], count + 1
             if FUSED.match(name) or (BEYOND_SSE2.match(name) and not LEVEL.search(function)):
                 found.setdefault(function, name)
-    return [f"{function}: {name}" for function, name in found.items()]
+    return [f"{function}: {name}" for function, name in found.items()] if count else ["has no instructions"]
+
+
+def violations_of(program):
+    """Those of a program, and of objdump where it fails."""
+    with subprocess.Popen(["objdump", "-d", "-C", "--no-show-raw-insn", program], text=True,
+                          stdout=subprocess.PIPE) as objdump:
+        found = violations(objdump.stdout)
+    return found + ([f"objdump fails with exit code {objdump.returncode}"] if objdump.returncode else [])
 
 
 if __name__ == "__main__":
-    with subprocess.Popen(["objdump", "-d", "-C", "--no-show-raw-insn", sys.argv[1]], text=True,
-                          stdout=subprocess.PIPE) as objdump:
-        sys.exit(report(violations(objdump.stdout)))
+    sys.exit(report(violations_of(sys.argv[1])))

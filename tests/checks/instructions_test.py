@@ -1,6 +1,6 @@
 import unittest
 
-from instructions import violations
+from instructions import violations, violations_of
 
 
 def disassembly(function, *instructions):
@@ -32,6 +32,11 @@ class PlantedViolations(unittest.TestCase):
         name = "listric::dem::fast::v4::(anonymous namespace)::sweep(Strip&)"
         self.assertEqual(violations(disassembly(name, "vfmadd231pd %zmm0,%zmm1,%zmm2")),
                          [f"{name}: vfmadd231pd"])
+
+    def test_a_program_that_cannot_be_read(self):
+        self.assertEqual(violations([]), ["has no instructions"])
+        for program in ("/nowhere", __file__):
+            self.assertEqual(violations_of(program), ["has no instructions", "objdump fails with exit code 1"])
 
 
 if __name__ == "__main__":

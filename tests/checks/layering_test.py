@@ -1,7 +1,7 @@
 import unittest
 
-from layering import violations
-from source_tree import read_tree
+from layering import ELEMENTS, RANKS, ROOF_OF_DEM, SPECIFICATION, violations
+from source_tree import read_tree, unit
 
 
 def included(path, *lines):
@@ -155,6 +155,11 @@ class Sources(unittest.TestCase):
         sources = read_tree()
         self.assertGreater(len(sources), 100, "no sources read")
         self.assertEqual(violations(sources), [])
+
+    def test_what_has_rules_of_its_own_is_there(self):
+        sources = read_tree()
+        self.assertLessEqual(SPECIFICATION, sources.keys())
+        self.assertLessEqual(ELEMENTS | RANKS | ROOF_OF_DEM, {unit(path) for path in sources})
 
 
 if __name__ == "__main__":

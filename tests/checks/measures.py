@@ -10,7 +10,7 @@ files have, too (COMMON).
 import json
 import re
 
-from source_tree import ROOT, is_cpp, read_tree, report
+from source_tree import ROOT, is_cpp, main
 
 LITERAL = re.compile(r'"((?:\\.|[^"\\\n])*)"')
 #: with what else has the name
@@ -52,4 +52,4 @@ def read_dictionary():
 
 
 if __name__ == "__main__":
-    report(violations(read_tree(), names(read_dictionary())))
+    main(lambda tree: violations(tree, names(read_dictionary())))

@@ -1,8 +1,8 @@
 import unittest
 
 from cpp_functions import functions
-from sizes import EXCEPTIONS, violations
-from source_tree import read_tree
+from sizes import EXCEPTIONS, SMALL_UNITS, violations
+from source_tree import read_tree, unit
 
 
 def body(lines):
@@ -100,6 +100,9 @@ class Functions(unittest.TestCase):
 class Sources(unittest.TestCase):
     def test_keep_to_the_limits(self):
         self.assertEqual(violations(read_tree()), [])
+
+    def test_small_units_are_there(self):
+        self.assertLessEqual(SMALL_UNITS.keys(), {unit(path) for path in read_tree()})
 
     def test_exceptions_have_reasons(self):
         for place, reason in EXCEPTIONS.items():

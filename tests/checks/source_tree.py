@@ -18,10 +18,14 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"\n]*)"|<([^>\n]*)>|(\S
 
 
 def read_tree(root=ROOT, layers=LAYERS, suffixes=CPP | PYTHON):
-    """All C++ and Python files of the layers, or those with these suffixes, in the order of their paths."""
+    """All C++ and Python files of the layers, or those with these suffixes, in the order of their paths.
+    Raises FileNotFoundError if there is none: nothing would be wrong with them."""
     files = (file for layer in layers for file in (Path(root) / layer).rglob("*"))
-    return {file.relative_to(root).as_posix(): file.read_text(encoding="utf-8")
+    tree = {file.relative_to(root).as_posix(): file.read_text(encoding="utf-8")
             for file in sorted(files) if file.suffix in suffixes}
+    if not tree:
+        raise FileNotFoundError(f"{root}: has no sources in {', '.join(layers)}")
+    return tree
 
 
 def is_cpp(path):

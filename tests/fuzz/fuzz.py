@@ -38,6 +38,7 @@ KINDS = tuple(SHARES)
 LONGEST = {"check": 20.0, "explain": 20.0, "run": 60.0}   # s
 EACH = 0.2   # s more for each further scene of a call
 RUN = ["--threads", "1", "--quiet", "--no-report"]
+NUMBERLESS = (b" nan", b" inf ", b" -nan")
 
 
 def finite(one):
@@ -75,7 +76,10 @@ class Fuzzer:
     def checked(self, text, folder, words=("check",)):
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "a.toml").write_text(text, encoding="utf-8")
-        return self.call([*words, "@a.toml"], folder)
+        why, code, said = self.call([*words, "@a.toml"], folder)
+        if not why and code == 0 and words[0] == "explain" and any(word in said for word in NUMBERLESS):
+            why = "explain tells a number that is none"
+        return why, code, said
 
     def run(self, text, folder):
         """What is wrong with a run of a scene, and its exit code."""
@@ -97,36 +101,36 @@ class Fuzzer:
         correct = self.correct_ones(made, number, folder, "scenes")
         self.add("valid scenes", len(correct))
         explained = made[number % self.batch]
-        why, code, said = self.checked(scenes.to_toml(explained), folder, ("explain",))
+        first = self.checked(scenes.to_toml(explained), folder, ("explain",))
         self.add("explained", 1)
-        self.tell("explained", code)
-        numberless = (b" nan", b" inf ", b" -nan")
-        if not why and code == 0 and any(word in said for word in numberless):
-            why = "explain tells a number that is none"
-        if why:
-            self.shrunk_scene(explained, number, ("explain",))
+        self.tell("explained", first[1])
+        if first[0] and not self.shrunk_scene(explained, number, ("explain",)):
+            self.fail(f"explain-once-{number}", first, {"a.toml": scenes.to_toml(explained).encode()},
+                      [["explain", "a.toml"]])
 
     def correct_ones(self, made, number, folder, what):
-        """What one call of check says of the valid scenes, by number; where it fails each is checked alone."""
-        for k, scene in enumerate(made):
-            (folder / f"{k}.toml").write_text(scenes.to_toml(scene), encoding="utf-8")
-        why, code, said = self.call(["check", *(f"@{k}.toml" for k in range(len(made)))], folder, len(made))
+        """What one call of check says of the valid scenes, by number; where it fails each is checked alone, and
+        if none fails, the batch has."""
+        files = {f"{k}.toml": scenes.to_toml(scene).encode() for k, scene in enumerate(made)}
+        damaged_inputs.write(folder, files)
+        why, code, said = self.call(["check", *(f"@{name}" for name in files)], folder, len(made))
         self.add(what, len(made))
         self.tell(f"checks of {what}", code)
-        if why or code not in (0, 2):
-            for scene in made:
-                self.shrunk_scene(scene, number, ("check",))
+        if why and not any([self.shrunk_scene(scene, number, ("check",)) for scene in made]):
+            self.fail(f"check-{what}-{number}", (why, code, said), files, [["check", *files]])
         found = re.findall(r"(\d+)\.toml: correct: (.*)", said.decode("utf-8", "replace"))
         return {int(k): line for k, line in found}
 
     def shrunk_scene(self, scene, number, words):
+        """Whether a scene fails; it is kept as small as it does."""
         folder = self.scratch / f"shrink-{words[0]}-{number}-{threading.get_ident()}"
         first = self.checked(scenes.to_toml(scene), folder, words)
         if not first[0]:
-            return
+            return False
         smallest = shrink.shrink_scene(scene, lambda s: self.checked(scenes.to_toml(s), folder, words)[0] == first[0],
                                        scenes.BASE)
         self.fail(f"{words[0]}-{number}", first, {"a.toml": scenes.to_toml(smallest).encode()}, [[*words, "a.toml"]])
+        return True
 
     def runs(self, number, folder):
         """Small scenes, a third of a batch: those that are valid and short by the forecast of check are run."""

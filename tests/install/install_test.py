@@ -91,11 +91,12 @@ class Installed(unittest.TestCase):
 
     def test_python_finds_the_package_and_the_package_the_program(self):
         script = ("import listric, sys; print(listric.find_program());"
-                  "print(listric.Run(sys.argv[1]).summary['state_hash'])")
+                  "run = listric.Run(sys.argv[1]); print(run.summary['state_hash']);"
+                  "print(run.snapshots[0].discs['x'].units)")
         environment = {name: value for name, value in os.environ.items() if name != "LISTRIC_PROGRAM"}
         environment["PYTHONPATH"] = str(self.prefix / "lib/python3/dist-packages")
         said = call(sys.executable, "-B", "-c", script, self.elsewhere / "out/lis1", env=environment)
-        self.assertEqual(said.split(), [str(self.prefix / "bin/listric"), self.state_hash])
+        self.assertEqual(said.split(), [str(self.prefix / "bin/listric"), self.state_hash, "m"])
 
     def test_a_project_finds_the_package(self):
         folder = self.project(HERE / "consumer")

@@ -24,6 +24,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from browsed import Browsed, browser
 from program import NO_FIGURES, PROGRAM, SOURCES
+from run_folder_test import BOX
 
 CHAINS = os.environ.get("LISTRIC_CHAINS", "")
 SCENES = sorted((SOURCES / "apps/scenes").glob("*.toml"))
@@ -433,6 +434,63 @@ class Draw(Browsed):
         self.assertEqual(ended.returncode, 0, ended.stdout)
         self.assertTrue(json.loads((place / "run/summary.json").read_text())["finished"])
 
+    def what_is_saved(self):
+        """Texts that the page would save, by their files' names."""
+        return self.script("const files = {}; download = (name, text) => { files[name] = text; }; save(); return files;")
+
+    def test_10b_a_file_of_picks_that_is_not_dropped_keeps_its_shift(self):
+        place = self.folder / "shifted"
+        place.mkdir()
+        files = {"horizons": "name,x_m,depth_m,age_a\ntop,3000.1,200,\ntop,9000.7,300,\n", "faults": "name,x_m,depth_m\nf,8000.3,100\nf,8500,900\n"}
+        for kind, text in files.items():
+            (place / f"{kind[0]}.csv").write_text(text)
+        names = {"horizons": "h.csv", "faults": "f.csv"}
+        lis1 = (SOURCES / "apps/scenes/lis1.toml").read_text()
+        observed = lis1 + '\n[observed]\nhorizons = "h.csv"\nfaults = "f.csv"\n'
+        for text, default in ((observed + "shift_x_m = -1500.0\n", 0.0),
+                              (observed.replace("[detachment]", "[detachment]\nshift_x_m = -1500.0"), -1500.0)):
+            scene = place / "s.toml"
+            scene.write_text(text)
+            self.open()
+            self.read_into_page(scene)
+            after = tomllib.loads(self.what_is_saved()["s.toml"])["observed"]
+            self.assertEqual(after.pop("shift_x_m", default), -1500.0)
+            self.assertEqual(after, names)
+            self.read_into_page(place / "h.csv")
+            self.assertEqual(self.script("return page.state.picks.horizons[0].x_m;"), [3000.1 - 1500, 9000.7 - 1500])
+            after = self.what_is_saved()
+            self.assertEqual(tomllib.loads(after["s.toml"])["observed"],
+                             {"horizons": "s-horizons.csv", "faults": "f.csv", "shift_x_m": -1500.0})
+            self.assertEqual(after["s-horizons.csv"], files["horizons"])         # as it was read
+            self.read_into_page(place / "f.csv")
+            after = self.what_is_saved()
+            self.assertEqual(tomllib.loads(after["s.toml"])["observed"].get("shift_x_m", default), 0.0)
+            rows = (after["s-horizons.csv"] + after["s-faults.csv"]).splitlines()
+            self.assertEqual([float(row.split(",")[1]) for row in rows if "_m" not in row], [1500.1, 7500.7, 6500.3, 7000])
+        # The program finds the picks where the page had them.
+        self.open()
+        scene.write_text(observed + "shift_x_m = -1500.0\n")
+        self.read_into_page(scene, place / "h.csv")
+        for name, text in self.what_is_saved().items():
+            (place / name).write_text(text)
+        picks = self.script("return page.state.picks.horizons;")
+        ended = listric("draw", scene, "-o", self.folder / "shifted.html", "--threads", "1")
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        self.open(self.folder / "shifted.html")
+        found = self.script("return page.state.picks;")
+        self.assertEqual(found["horizons"], picks)
+        self.assertEqual(found["faults"][0]["x_m"], [6500.3, 7000])
+
+    def test_10c_picks_by_hand_in_place_of_a_file_are_told_of(self):
+        scene = self.folder / "named.toml"
+        scene.write_text((SOURCES / "apps/scenes/lis1.toml").read_text() + '\n[observed]\nhorizons = "h.csv"\nshift_x_m = -1500.0\n')
+        self.open()
+        self.read_into_page(scene)
+        self.script("setTool('picks'); $('new_horizon').click(); addPick({x: 3000, y: -200}); return 0;")
+        self.assertEqual(tomllib.loads(self.what_is_saved()["named.toml"])["observed"], {"horizons": "named-horizons.csv"})
+        self.assertIn("Its horizons take the place of h.csv, which was not dropped", self.text("told"))
+        self.assertNotIn("It needs h.csv", self.text("told"))
+
     def test_11_keyboard_alone(self):
         self.open()
         controls = self.script("return [...document.querySelectorAll('button, select, input, textarea, summary, .handle')].filter(e =>"
@@ -521,6 +579,60 @@ class Draw(Browsed):
             self.script("$('undo').click(); return 0;")
         self.assertEqual(self.scene(), before)
         self.assertIn("lis1.toml", self.text("subtitle"))
+
+    def slide(self, share):
+        self.script("const slider = $('extension'); slider.value = a[0] * slider.max; slider.dispatchEvent(new Event('input')); return 0;", share)
+        self.frame()
+        return self.script("return page.extension;")
+
+    def test_14b_the_slider_reaches_every_distance(self):
+        self.open()
+        for distance in (10000, 11230, 0.07, 1234.5678901):
+            self.script("change('', state => setAt(state, 'extension.distance_m', a[0])); return 0;", distance)
+            self.assertEqual(self.script("return page.extension;"), distance)
+            self.assertAlmostEqual(self.slide(0.5), distance / 2)
+            self.assertEqual(self.slide(1.0), distance)
+        self.script("change('', state => setAt(state, 'extension.distance_m', 10000)); return 0;")
+        ActionChains(self.driver).click(self.driver.find_element("id", "extension")).perform()   # its middle
+        before = self.script("return page.extension;")
+        self.assertAlmostEqual(before, 5000, delta=100)
+        ActionChains(self.driver).send_keys(Keys.ARROW_LEFT).perform()
+        self.assertEqual(self.script("return page.extension;"), before - 50)
+
+    def test_14c_a_small_model_is_drawn_as_a_large_one(self):
+        box, page = self.folder / "box.toml", self.folder / "box.html"
+        box.write_text(BOX)
+        self.assertEqual(listric("draw", box, "-o", page, "--threads", "1").returncode, 0)
+        self.open(page)
+        self.assertAlmostEqual(self.slide(0.5), 0.02)
+        self.assertEqual(self.text("extension_told"), "20.0 mm")
+        self.assertIn("depth of 100.00 mm at x = 173.21 mm", self.text("told"))
+        found = self.script("return page.kinematics;")
+        # The whole model a hundred thousand times as large.
+        large = self.script("const shape = shapeNow(); for (const piece of shape.pieces) for (const key of ['radius', 'length'])"
+                            "if (key in piece) piece[key] *= 1e5; return predictKinematics(chainOf(shape, 66000), 2000, 30, 42000);")
+        self.assertAlmostEqual(found["tilt"], large["tilt"], delta=0.2)
+        self.assertAlmostEqual(found["deepest"]["depth"] * 1e5, large["deepest"]["depth"], delta=100)
+        radius = self.shape()["pieces"][0]["radius"]
+        self.drag("node 0", 40, 24)
+        shape, depth = self.shape(), self.script("return depthOf(shapeNow());")
+        self.assertTrue(0.2 < shape["pieces"][0]["radius"] < 0.4, shape)
+        self.assertAlmostEqual(self.scene()["hanging_wall"]["thickness_m"], depth, delta=1e-6)
+        self.assertIn("Correct", self.text("state"))
+        self.script("$('undo').click(); page.section.handles.find(h => h.dataset.key === 'node 0').focus(); return 0;")
+        self.assertEqual(self.shape()["pieces"][0]["radius"], radius)
+        self.assertIn("by 1 mm (Shift 10 mm, Alt 0.1 mm)", self.text("panel_fault"))
+        ActionChains(self.driver).send_keys(Keys.ARROW_DOWN).perform()
+        self.assertAlmostEqual(self.script("return depthOf(shapeNow());"), 0.1, delta=0.003)
+        self.assertNotEqual(self.shape()["pieces"][0]["radius"], radius)
+        self.script("$('add').click(); return 0;")
+        self.assertEqual([p["kind"] for p in self.shape()["pieces"]], ["arc", "arc", "line"])
+        self.script("setTool('picks'); $('new_horizon').click(); addPick({x: 0.1234, y: -0.0456}); return 0;")
+        self.assertEqual(self.script("const {x_m, depth_m} = lineNow(); return [x_m, depth_m];"), [[0.1234], [0.0456]])
+        self.open()     # what a basin had stays
+        self.assertIn("by 100 m (Shift 1 km, Alt 10 m)", self.text("panel_fault"))
+        self.assertEqual(self.script("return [decimalsOf(shapeNow()), leastLengthOf(shapeNow()), spacingOf(page.chain), placeDecimals()];"),
+                         [0, 10, 25, 0])
 
     def test_15_files_of_others_stay(self):
         other = self.folder / "mine.html"

@@ -51,6 +51,31 @@ class Fuzz(unittest.TestCase):
         self.assertNotIn("tensile", found[0])
         self.assertNotIn("[gravity]", found[0])
 
+    def test_a_failure_of_the_batch_alone_is_one(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            scratch = Path(scratch)
+            program = scratch / "listric"
+            for script, failures in (('[ $# -gt 2 ] && kill -SEGV $$; echo correct', [("check-scenes-7", "exit code -11")]),
+                                     ("exit 4", 2 * [("check-7", "exit code 4")]), ("echo refused; exit 2", [])):
+                program.write_text(f"#!/bin/sh\n{script}\n")
+                program.chmod(0o755)
+                fuzzer = fuzz.Fuzzer(program, scratch, scratch / "kept", "test", 2)
+                fuzzer.correct_ones([scenes.BASE, scenes.BASE], 7, scratch, "scenes")
+                self.assertEqual(fuzzer.failures, failures)
+            kept = scratch / "kept/check-scenes-7"
+            self.assertEqual((kept / "call.txt").read_text(), "check 0.toml 1.toml\nexit code -11\n")
+            self.assertTrue((kept / "1.toml").is_file())
+
+    def test_what_explain_tells_is_kept(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            scratch = Path(scratch)
+            program = scratch / "listric"
+            program.write_text('#!/bin/sh\n[ "$1" = explain ] && echo depth is nan m || echo correct\n')
+            program.chmod(0o755)
+            fuzzer = fuzz.Fuzzer(program, scratch, scratch / "kept", "test", 1)
+            fuzzer.case("scenes", 0)
+            self.assertEqual(fuzzer.failures, [("explain-0", "explain tells a number that is none")])
+
     def test_numbers_are_inside_or_beyond_their_range(self):
         kind = {"type": "number", "minimum": 0.1, "maximum": 5.0, "default": 1.0}
         chance = random.Random(1)

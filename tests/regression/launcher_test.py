@@ -204,9 +204,18 @@ class Launcher(unittest.TestCase):
             self.assertIn(f" {name} ", self.installs()[0] + " ")
             self.assertIn(f" {name}", said)
         self.assertNotIn("mkdocs", self.installs()[0])
+        for name, text in (("bends.toml", 'scene = "elastic"'), ("slides.toml", 'scene = "rigid"'),
+                           ("varies.toml", 'scene = "rigid"\n[[vary]]\nparameter = "elastic_base.order"'),
+                           ("bent/scene.toml", "[elastic_base]")):
+            file = self.place / name
+            file.parent.mkdir(exist_ok=True)
+            file.write_text(text + "\n")
         for words, asked in ((("run", "rigid"), 0), (("run", "rigid", "--ranks=1"), 0), (("scenes",), 0),
                              (("run", "rigid", "--ranks", "2"), 1), (("run", "rigid", "--ranks"), 1),
-                             (("run", "rigid", "--set=elastic_base.order=2"), 1)):
+                             (("run", "rigid", "--set=elastic_base.order=2"), 1), (("flexure",), 1),
+                             (("study", "isostasy"), 1), (("study", "speed"), 0),
+                             (("sweep", "bends.toml"), 1), (("sweep", "varies.toml"), 1),
+                             (("sweep", "slides.toml"), 0), (("report", "bent"), 1), (("report", "."), 0)):
             self.note("missing", "petsc-dev")
             self.note("calls")
             self.call(*words)

@@ -3,6 +3,8 @@
 // seconds of processor time for the four runs.
 
 #include "apps/measures/rock_layers.hpp"
+#include "apps/model/model.hpp"
+#include "apps/run/genesis_cache.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -60,6 +62,21 @@ TEST_F(LayersRun, HasEqualBitsHoweverItIsMade) {
     const auto shear = measures::bedding_shear(state);
     ASSERT_TRUE(shear);
     EXPECT_GT(shear->in_layers, 0.0);
+}
+
+/// Weak rocks stand between those of layers: a kept hanging wall names its rocks by their places.
+TEST_F(LayersRun, TakesNoHangingWallWhoseRocksHaveOtherPlaces) {
+    const auto path = [](std::vector<std::string> without) {
+        const Scene scene =
+            load_scene({.scene = test_scene("every-effect.toml"),
+                        .set = {"layer=[{name=\"upper\", material=\"mat18-b\", top_m=300.0, "
+                                "thickness_m=300.0}, {name=\"lower\", material=\"mat18-b\", "
+                                "top_m=600.0, thickness_m=400.0}]"},
+                        .without = std::move(without)});
+        return genesis_cache_path(scene, make_parts(scene));
+    };
+    EXPECT_NE(path({}), path({"fault_weakening"}));
+    EXPECT_EQ(path({}), path({"bond_healing"}));
 }
 
 TEST_F(LayersRun, KeepsNoMemoryWithoutTheTable) {

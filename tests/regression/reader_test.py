@@ -3,8 +3,10 @@
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest reader_test
 """
 
+import copy
 import json
 import os
+import pickle
 import re
 import shutil
 import subprocess
@@ -49,6 +51,8 @@ interval_a = 20000.0
 [base_motion]
 uplift = [[0, 0], [4000, 10]]
 """
+# Its sediment holds water.
+MUD = SCENE.partition("[base_motion]")[0].replace("interval_a = 20000.0", "interval_a = 20000.0\n[compaction]\n[pore_fluid]")
 
 
 def tables_of(file):
@@ -58,9 +62,9 @@ def tables_of(file):
     return found
 
 
-def made_run(folder):
+def made_run(folder, text=SCENE):
     """A run of the scene above, in folder/run."""
-    Path(folder, "scene.toml").write_text(SCENE)
+    Path(folder, "scene.toml").write_text(text)
     before = {name: os.environ.get(name) for name in ("LISTRIC_PYTHON", "XDG_CACHE_HOME")}
     os.environ |= {"LISTRIC_PYTHON": "/bin/false", "XDG_CACHE_HOME": f"{folder}/cache"}
     try:
@@ -247,6 +251,8 @@ class Reader(unittest.TestCase):
         self.assertEqual(first._repr_png_(), drawn.read_bytes())
         with self.fails(listric.UnknownName, "did you mean strain"):
             self.run_.plot("strian")
+        with self.fails(listric.UnknownName, "extension-00000.00m.h5 at 0 m", "no kinematics", "strata"):
+            self.run_.plot("kinematics", at=0)
         # A snapshot alone, as another program saves it.
         alone = shutil.copy(self.run_.snapshots[-1].path, folder / "saved.h5")
         listric.Snapshot(alone).plot().save(folder / "saved.png")
@@ -267,6 +273,53 @@ class Reader(unittest.TestCase):
                          self.run_.snapshots[-1].base_nodes["x"].tolist())
         with self.fails(listric.ProgramError, "horizon", "did you mean"):
             first.lines("horizon")
+
+    def test_lines_of_wells(self):
+        place = Path(tempfile.mkdtemp(dir=self.folder))
+        run = made_run(place, MUD)
+        wells = run.snapshots[-1].lines("well")   # beside which the program writes their burial
+        self.assertEqual(wells[0]["name"], "depocentre")
+        self.assertEqual(wells[0]["pressure_pa"].shape, wells[0]["depth_m"].shape)
+        listric.call("export", "well", run.folder)
+        self.assertEqual([line["name"] for line in listric.Run(run.folder).snapshots[-1].lines("well")],
+                         [line["name"] for line in wells])
+
+    def test_rows_that_are_too_short_or_too_long(self):
+        folder = self.copy()
+        whole = (folder / "history.csv").read_text()
+        head = whole.splitlines()[0]
+        fields = head.count(",") + 1
+        for text in (whole + "400.0,", whole + whole.splitlines()[-1] + ",1\n", whole + "\n"):
+            (folder / "history.csv").write_text(text)
+            with self.fails(listric.RunError, folder / "history.csv", "line 5 has", f"fields, the head {fields}"):
+                listric.Run(folder).history
+        for cell in ("9" * 30, "9" * 200_000):   # more than an integer, and than a field, may have
+            (folder / "history.csv").write_text(f"{head}\n0,{cell}{',' * (fields - 2)}\n")
+            with self.fails(listric.RunError, folder / "history.csv"):
+                listric.Run(folder).history
+
+    def test_cells_in_quotes(self):
+        folder = self.copy()
+        listric.call("export", "horizons", folder)
+        file = sorted((folder / "export").glob("*.csv"))[-1]
+        head = file.read_text().splitlines()[0]
+        file.write_text(f'{head}\n0,"salt, ""upper""\nand lower",1,,,5,6\n')
+        self.assertEqual([line["name"] for line in listric.Run(folder).horizons], ['salt, "upper"\nand lower'])
+        for lacks in ("line", "x_m"):
+            file.write_text(f"{head.replace(lacks, 'other')}\n0,salt,1,,,5,6\n")
+            with self.fails(listric.RunError, file, f"has no column {lacks}"):
+                listric.Run(folder).horizons
+
+    def test_errors_pass_between_processes(self):
+        for error in (listric.ListricError("a"), listric.RunError("a: is not there"), listric.ProgramError("failed", 3),
+                      listric.UnknownName("radios", ["radius", "x"], "file discs")):
+            again = pickle.loads(pickle.dumps(error))
+            self.assertIs(type(again), type(error))
+            self.assertEqual((str(again), getattr(again, "code", 0)), (str(error), getattr(error, "code", 0)))
+            self.assertEqual(str(copy.copy(error)), str(error))
+        scene = pickle.loads(pickle.dumps(self.run_.scene))
+        with self.fails(listric.UnknownName, "scene.toml [hanging_wall]", "length_m"):
+            scene["hanging_wall"]["lenght_m"]
 
     def test_raster_has_the_disc_of_the_nearest_power_cell(self):
         snapshot = self.run_.snapshots[-1]

@@ -5,6 +5,7 @@
 
 import base64
 import csv
+import io
 import json
 import os
 import random
@@ -24,6 +25,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from browsed import Browsed, browser
 from program import NO_FIGURES, PROGRAM, SOURCES
+from run_folder_test import BOX
 
 sys.path.insert(0, str(SOURCES / "apps/figures/python"))
 import plot  # noqa: without it the modules of figures do not find Matplotlib's backend
@@ -460,6 +462,26 @@ class Report(Browsed):
         finally:
             self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
+    def test_07k_colours_that_only_one_of_two_runs_has_are_not_offered(self):
+        crumbly, pair = self.folder / "crumbly", self.folder / "crumbly.html"
+        ended = listric("run", "lis1", "--accuracy", "draft", "--until", "0", "--without", "bonds", "--without", "fault_weakening",
+                        "--without", "bond_healing", "--set", "extension.distance_m=1500", "--output", crumbly, "--quiet")
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        ended = listric("report", self.run_folder, crumbly, "--output", pair)
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        self.assertEqual(self.open(pair, "#colour=rock&t=-1.5&shown=bonds,faults"), "true")
+        self.assertEqual(self.script("return [page.mode, page.t];"), ["strata", 0])
+        self.driver.find_element("tag name", "body").send_keys("4")
+        offered, hidden = self.script(
+            "const offered = [...$('colour').options].map(option => option.value);"
+            "for (page.mode of offered) for (page.t of [0, page.runs[0].moments.length - 1]) await draw();"
+            "return [offered, $('trouble').hidden];")
+        self.assertTrue(hidden)
+        self.assertIn("window", offered)
+        self.assertNotIn("rock", offered)
+        self.open()
+        self.assertIn("rock", self.script("return [...$('colour').options].map(option => option.value);"))
+
     def test_08_saved_tables_say_the_same(self):
         self.open()
         discs = self.discs(self.snapshots()[-1])
@@ -493,6 +515,43 @@ class Report(Browsed):
                       "listric "):
             self.assertIn(words, " ".join(said))
         self.assertGreater(len(list(tree.iter("{http://www.w3.org/2000/svg}polyline"))), 5)
+
+    def test_08b_a_saved_drawing_has_all_that_is_shown(self):
+        self.open(words="#shown=" + ",".join([*VOCABULARY["layers"], "shore"]))
+        legend = self.script(
+            "const [run] = page.runs, lines = await run.loadLines(page.t), canvas = document.createElement('canvas');"
+            "run.head.layers.push({name: 'shore', kind: 'line', label: 'the shore', ink: '#00ff00'});"
+            "(lines.layers ??= {}).shore = [0, -2000, 20000, -2000];"
+            "run.head.picks = {horizons: [{name: 'h', points: [[5000, 500], [9000, 700]]}], faults: [{name: 'f', points: [[1, 2], [3, 4]]}]};"
+            "lines.footwall = {corners: [-900, 3000, -100, 3000, -100, 5000, -900, 5000], shear_mpa: [2], end_mpa: 2};"
+            "lines.base = [{start_x_m: [0, 9000], start_depth_m: [100, 200], ddepth_m: [0, 0]}];"
+            "canvas.getContext('2d').fillStyle = 'red'; canvas.getContext('2d').fillRect(0, 0, 999, 999);"
+            "[page.underlay, page.data.underlay] = [canvas, {corners_m: [0, -1900, 4000, -900]}];"
+            "page.layers = layersOf(page.runs); page.picked = {kind: 'fault', run, index: 0}; await draw();"
+            "return legendItems().map(item => [item.label, item.colour]);")
+        tree = xml.etree.ElementTree.parse(self.saved("save_svg"))
+        lines = list(tree.iter("{http://www.w3.org/2000/svg}polyline"))
+        inks = {line.get("stroke") for line in lines}
+        layers = {layer["label"]: layer["ink"] for layer in VOCABULARY["layers"].values() if "ink" in layer}
+        listed = [label for label, _ in legend if label in layers or label == "the shore"]
+        self.assertGreater(len(listed), 5)
+        for label, colour in legend:
+            if label in listed:
+                self.assertIn(colour, inks, label)
+        self.assertLessEqual({layers["detachment"], layers["base before bending"], "#d4006a"}, inks)
+        self.assertIn("3 3", {line.get("stroke-dasharray") for line in lines if line.get("stroke") == layers["kinematic predictions"]})
+        discs, ground = (np.asarray(Image.open(io.BytesIO(base64.b64decode(image.get("href").split(",")[1]))))
+                         for image in tree.iter("{http://www.w3.org/2000/svg}image"))
+        self.assertEqual(discs.shape, ground.shape)
+        at = {what: ground[row, column] for what, (column, row) in self.script(
+            "const at = (x, depth) => page.sections[0].toPixel(page.view, x, depth).map(Math.round);"
+            "return {footwall: at(-500, 4000), picture: at(2000, -1400), seismic: at(9000, 9000), sky: at(9000, -1800)};").items()}
+        self.assertEqual([int(pixel[3] > 0) for pixel in at.values()], [1, 1, 1, 0])
+        self.assertEqual(list(at["picture"][:3]), [255, 0, 0])
+        self.assertFalse((ground[..., :3] == list(bytes.fromhex(layers["picks"][1:]))).all(axis=-1).any())   # no line twice
+        self.open(words="#shown=faults")
+        images = xml.etree.ElementTree.parse(self.saved("save_svg")).iter("{http://www.w3.org/2000/svg}image")
+        self.assertEqual(len(list(images)), 1)
 
     def test_09_a_hostile_description_is_text(self):
         scene = self.folder / "hostile.toml"
@@ -536,6 +595,49 @@ class Report(Browsed):
         body.send_keys("2")
         time.sleep(0.3)
         self.assertEqual(self.script("return page.mode;"), "window")
+
+    def press(self, element, *keys):
+        self.script("eval(a[0]).focus(); return 0;", element)
+        ActionChains(self.driver).send_keys(*keys).perform()
+        time.sleep(0.5)
+
+    def test_11b_keys_do_what_belongs_to_the_focus(self):
+        self.open()
+        at = self.script(
+            "const [run] = page.runs, [fault] = (await run.loadLines(page.t)).faults;"
+            "for (const k of run.moments.keys()) { const {faults} = await run.loadLines(k); while (faults.length < 4) faults.push(fault); }"
+            "await draw(); await new Promise(done => setTimeout(done, 300)); return page.t;")
+        self.press("document.querySelector('#measures summary')", Keys.SPACE)
+        self.assertEqual(self.script("return [document.querySelector('#measures details').open, $('play').textContent, page.t];"),
+                         [True, "Play", at])
+        row = "$('faults').tBodies[0].rows[1]"
+        for keys, picked in (([Keys.ENTER], 1), ([Keys.TAB, Keys.SPACE], 2)):   # the row, and the one after it
+            self.press(row, *keys)
+            self.assertEqual(self.script("return [page.picked.index, $('play').textContent, document.activeElement.rowIndex];"),
+                             [picked, "Play", picked + 1])
+        self.press(row, Keys.ARROW_LEFT)
+        self.assertEqual(self.script("return [page.t, document.activeElement.closest('table')?.id];"), [at - 1, "faults"])
+
+    def test_11c_a_link_that_is_copied_is_of_what_is_shown(self):
+        self.open()
+        writes = self.script(
+            "let writes = 0; const write = history.replaceState.bind(history);"
+            "history.replaceState = (...words) => { ++writes; write(...words); };"
+            "for (let n = 0; n < 40; ++n) { page.view.left += 10; await draw(); }"
+            "await new Promise(done => setTimeout(done, 800)); return writes;")
+        self.assertLess(writes, 10)
+        self.assertGreater(writes, 0)
+        address, view, copied, told = self.script(
+            "for (let n = 0; n < 300; ++n) history.replaceState(null, '', '#t=0');"   # more than Chromium takes
+            "Object.defineProperty(navigator, 'clipboard', {value: {writeText: async text => { page.copied = text; }}});"
+            "page.view.left += 1234; page.t = 1; await draw(); $('copy').click();"
+            "await new Promise(done => setTimeout(done, 100)); return [location.href, page.view, page.copied, $('copy').textContent];")
+        self.assertIn("t=0", address)
+        self.assertEqual(told, "copied")
+        self.visit(copied)
+        self.assertEqual(self.script("return page.t;"), 1)
+        for name, value in self.script("return page.view;").items():
+            self.assertAlmostEqual(value, view[name], delta=1e-5 * abs(view[name]), msg=name)
 
     def test_12_damage_is_said(self):
         text = (self.run_folder / "report.html").read_text()
@@ -590,6 +692,33 @@ class Report(Browsed):
         self.assertIn("warning: no report", (self.folder / "c/log.txt").read_text())
         summary = json.loads((self.folder / "c/summary.json").read_text())
         self.assertEqual(summary["state_hash"], state)
+
+    def test_13b_a_small_model_is_seen(self):
+        scene, run = self.folder / "box.toml", self.folder / "box"
+        scene.write_text(BOX)
+        ended = listric("run", scene, "--accuracy", "draft", "--until", "0.012", "--output", run, "--quiet")
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        self.assertEqual(self.open(run / "report.html"), "true")
+        self.assertTrue(self.driver.find_element("id", "moment").text.startswith("12.00 mm, 1.200 a, "))
+        share, discs, rows, marks = self.script(
+            "const [s] = page.sections, [left] = s.toPixel(page.view, 0, 0), [right] = s.toPixel(page.view, 0.4, 0);"
+            "return [(right - left) / s.discCanvas.width, new Set(s.painter.owner).size - 1, page.chart.rows(['discs']),"
+            "s.marks(page.view).across.map(mark => mark.text)];")
+        self.assertGreater(share, 0.75)
+        self.assertGreater(discs, 500)
+        np.testing.assert_allclose([row[0] for row in rows], [0, 4, 8, 12], atol=0.1)   # mm
+        self.assertEqual(marks[:3], ["0", "20", "40"])
+        closest, farthest = self.script(
+            "const scales = []; for (const factor of [1.5, 1 / 1.5]) { for (let n = 0; n < 60; ++n) zoom(factor);"
+            "scales.push(page.view.scale); } return scales;")
+        self.assertGreater(closest * 0.004, 100)     # pixels of a disc
+        self.assertGreater(farthest * 0.1, 5)        # of the model
+        self.script("whole(); await pick({kind: 'disc', run: page.runs[0], id: 300});"
+                    "await new Promise(done => setTimeout(done, 300)); return 0;")
+        self.assertRegex(self.driver.find_element("id", "picked").text, r"is at x 0\.\d{3,4} m, depth 0\.\d{3,4} m; radius 0\.00\d+ m")
+        self.open()    # what a basin had stays
+        self.assertEqual(self.script("return [page.view.top, zoomLimits()[0], page.chart.clockStep(), placeText(1500)];"),
+                         [-2000, 0.001, 10, "1.50 km"])
 
     def test_14_status_and_a_live_page(self):
         status = json.loads((self.run_folder / "status.json").read_text())

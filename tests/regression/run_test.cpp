@@ -2,6 +2,7 @@
 // Most runs are made in-process; where signals and exit codes matter, by the program.
 
 #include "apps/archive/checksum.hpp"
+#include "apps/archive/examine.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
@@ -425,6 +426,35 @@ TEST_F(RunTest, ResumeOfAFinishedRunChangesNothing) {
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_EQ(call_run(output, {"--resume", "--until", "200m"}).code, 0);
     EXPECT_TRUE(tree(output) == before);
+}
+
+TEST_F(RunTest, ARunThatWasKilledBeforeItsReportEndsOnce) {
+    const fs::path output = run(scene(), "run");
+    const auto before = tree(output);
+    std::ofstream(output / "status.json") << R"({"phase": "extension"})"; // the end comes last
+    EXPECT_EQ(call_run(output, {"--resume"}).code, 0);
+    EXPECT_THAT(contents(output / "status.json"), HasSubstr("\"finished\""));
+    EXPECT_EQ(summary(output)["finished"], true);
+    EXPECT_EQ(tree(output).size(), before.size());
+}
+
+TEST_F(RunTest, ARunShorterThanAThousandthOfADiscGoesOn) {
+    const Scene tiny = scene({"extension.distance_m=0.01", "extension.rate_m_per_a=1e-6",
+                              "extension.speed_m_per_s=1e-4", "output.interval_m=0.0005"});
+    run(tiny, "tiny", {.until = 0.001});
+    const fs::path output = run(tiny, "tiny", {.until = {}, .resume = true});
+    EXPECT_NEAR(summary(output)["extension_m"].get<double>(), 0.01, 1e-4);
+}
+
+TEST_F(RunTest, MomentsNearOneSnapshotAreMeasuredEachAndThoseBeyondTheEndAreNot) {
+    const fs::path output = run(scene(), "run");
+    const double end = summary(output)["extension_m"];
+    const double at[] = {end - 1.0, end, end + 5e3};
+    const auto found = examine_run(output, at);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].first, end - 1.0);
+    EXPECT_EQ(found[1].first, end);
+    EXPECT_EQ(found[0].second, found[1].second);
 }
 
 TEST_F(RunTest, ResumeWithNothingThereStartsFromTheBeginning) {

@@ -101,6 +101,25 @@ TEST_F(Stages, AreOneRunHoweverTheyAreCut) {
     EXPECT_EQ(run(scene, "cut", {}, true)["state_hash"], whole["state_hash"]) << "resumed";
 }
 
+TEST_F(Stages, AFinishedRunIsKnownByItsTravel) {
+    const auto resumed = [&](const Scene& scene, const std::string& name) {
+        const std::filesystem::path summary = options(name).output / "summary.json";
+        const auto before = std::filesystem::last_write_time(summary);
+        run(scene, name, {}, true);
+        return std::filesystem::last_write_time(summary) != before;
+    };
+    // The wall ends nearer to the breakaway than it has travelled.
+    const Scene back = load(text("[[stage]]\ndistance_m = 60.0\n[[stage]]\ndistance_m = -40.0\n"));
+    run(back, "back");
+    EXPECT_FALSE(resumed(back, "back"));
+    // Half way the extension is already more than the whole travel.
+    const Scene fast = load(text("[[stage]]\ndistance_m = 20.0\n"
+                                 "[[stage]]\ndistance_m = 80.0\nrate_m_per_a = 0.04\n"));
+    ASSERT_EQ(fast.extension.distance, 40.0);
+    EXPECT_GT(run(fast, "fast", 35.0)["extension_m"].get<double>(), 40.0);
+    EXPECT_TRUE(resumed(fast, "fast"));
+}
+
 TEST_F(Stages, ThePauseIsARestAndLeavesSedimentationOn) {
     const std::string tables = "[[stage]]\ndistance_m = 60.0\n[[stage]]\npause_a = 14000.0\n";
     const auto after = run(load(text(tables)), "pause");

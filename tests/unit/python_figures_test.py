@@ -6,6 +6,7 @@ Usage: tests/unit/python_figures_test.py
 import contextlib
 import io
 import json
+import math
 import os
 import subprocess
 import sys
@@ -42,6 +43,7 @@ import sections
 import sheet
 import study
 import vocabulary
+import wells
 
 META = {"scene": "lis1", "title": "a title", "extension_m": 2000.0, "time_a": 2e5,
         "level_m": -100.0, "right_wall_x_m": 4000.0, "strata": 2, "strain_end": 0.2,
@@ -182,6 +184,10 @@ class Reading(Folder):
         for text in ("x,y\n1,two\n", "x,y\n1,2\n3\n"):
             with self.assertRaisesRegex(plot.InputError, "not a table of numbers"):
                 plot.read_table(self.write("t.csv", text))
+        for text in ("x,y\n1,2\n3\n", "x,y\n1,2\n3,4,5\n"):
+            with self.assertRaisesRegex(plot.InputError, "t.csv: line 3 has more or fewer fields than the head"):
+                plot.read_rows(self.write("t.csv", text))
+        self.assertEqual(plot.read_rows(self.write("t.csv", 'x,y\n"a, b",\n')), [{"x": "a, b", "y": ""}])
 
     def test_a_missing_file_is_named(self):
         for read in (plot.read_table, plot.read_rows, plot.read_json):
@@ -341,14 +347,46 @@ class Frames(Folder):
         self.assertEqual(self.frame().level, -0.1)
         self.assertIsNone(self.frame({"level_m": None}).level)
 
+    def scaled(self, factor, meta=()):
+        """A frame of that size over the one of a model 1 km thick; a wall at 4 km there."""
+        arrays = {name: (factor * np.array(ARRAYS[name])).tolist() for name in ARRAYS
+                  if name not in ("discs_stratum", "discs_shear_strain")}
+        return self.frame({"right_wall_x_m": 4000.0 * factor, "level_m": -100.0 * factor,
+                           "extension_m": 2000.0 * factor, **dict(meta)}, **arrays)
+
     def test_the_view_holds_all_discs_and_the_detachment(self):
-        frame = self.frame()
-        xmin, xmax, ymin, ymax = frame.view
-        self.assertEqual((xmin, xmax), (-1.0, 4.5))
-        self.assertAlmostEqual(ymin, -1.6)
-        self.assertAlmostEqual(ymax, 0.5)
-        self.assertAlmostEqual(frame.span, 5.5)
-        self.assertAlmostEqual(frame.rise, 2.1)
+        frame = self.scaled(15.0)
+        np.testing.assert_allclose(frame.view, (-1.0, 60.5, -15.6, 0.5), rtol=1e-12)
+        self.assertAlmostEqual(frame.span, 61.5)
+        self.assertAlmostEqual(frame.rise, 16.1)
+
+    def test_margins_are_a_share_of_the_model(self):
+        large = self.scaled(15.0)
+        for factor in (1e-4, 0.015, 1.5):
+            np.testing.assert_allclose(np.array(self.scaled(factor).view) / factor, np.array(large.view) / 15.0, rtol=0.01)
+
+    def test_a_model_of_centimetres_has_numbers_on_its_axes(self):
+        [ax, _] = sections.draw_figure(self.scaled(1e-4), ["strata"], dpi=50).axes
+        ax.figure.canvas.draw()
+        self.assertEqual([label.get_text() for label in ax.get_yticklabels()][1:-1], ["0.1", "0.08", "0.06", "0.04", "0.02", "0"])
+        self.assertEqual([label.get_text() for label in ax.get_xticklabels()][1:-1], ["0", "0.1", "0.2", "0.3", "0.4"])
+        self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("Distance from the breakaway (m)", "Depth (m)"))
+        [ax, _] = sections.draw_figure(self.scaled(15.0), ["strata"], dpi=50).axes
+        self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("Distance from the breakaway (km)", "Depth (km)"))
+
+    def test_what_a_thin_model_has_is_not_flat(self):
+        profile = {"profile": [[0.05, -0.01, np.nan], [0.2, -0.04, 0.04], [0.35, -0.01, 0.01]]}
+        tops = {"tops": [[0.0, 0.0, 0.0, -0.03], [0.0, 0.0, 0.3, -0.01]]}
+        for panel, arrays in (("sediment", profile), ("inversion", tops)):
+            frame = self.frame({"right_wall_x_m": 0.4, "level_m": -0.01},
+                               **{name: (1e-4 * np.array(ARRAYS[name])).tolist() for name in
+                                  ("discs_x", "discs_y", "discs_radius", "discs_start_depth", "detachment")}, **arrays)
+            low, high = sections.draw_figure(frame, [panel], dpi=50).axes[0].get_ylim()
+            self.assertLess(high - low, 1e-4, panel)   # km
+
+    def test_steps_of_axes_are_plain_numbers(self):
+        self.assertEqual([axes.plain_step(x) for x in (1.0, 1.01, 2.3, 7.0, 0.5, 30.0)], [1.0, 2.0, 5.0, 10.0, 0.5, 50.0])
+        np.testing.assert_allclose([axes.plain_step(x) for x in (1.9e-5, 3e-7)], [2e-5, 5e-7])
 
     def test_bad_numbers_of_the_frame_are_named(self):
         for key, value in (("time_a", None), ("time_a", "1"), ("strata", True),
@@ -405,6 +443,19 @@ class Scales(Folder):
         np.testing.assert_allclose(vocabulary.layer_colours(np.array([0.5, 1.5, 2.5])),
                                    [names["layer_colour"](k, 20) for k in (-1, -2, -3)])
 
+    def test_paraview_tells_rock_above_the_surface_from_sediment(self):
+        text = Path(script.__file__).with_name("paraview.py").read_text(encoding="utf-8")
+        names = {"LOOK": vocabulary.VOCABULARY}
+        exec(text[text.index("def layer_formula"):text.index("def colour_by_layer")], names)
+        formula = names["layer_formula"]().replace("if(", "choose(")
+
+        def layer(stratum, depth):
+            return eval(formula, {"choose": lambda condition, yes, no: yes if condition else no, "max": max,
+                                  "floor": math.floor, "stratum": stratum, "start_depth_m": depth})
+
+        self.assertEqual([layer(0, depth) for depth in (-1500.0, -20.0, 0.0, 999.0, 1000.0)], [-1, -1, -1, -1, -2])
+        self.assertEqual(layer(3, 0.0), 3)
+
     def test_frames_share_the_largest_scale(self):
         first = self.frame({"strata": 0}, discs_stratum=[0] * 4)
         first.strain_end = 1.0
@@ -430,6 +481,39 @@ class Drawing(Folder):
     def test_extension_has_two_decimals_only_where_one_is_not_enough(self):
         self.assertEqual(page.extension_text(self.frame()), "2.0")
         self.assertEqual(page.extension_text(self.frame({"extension_m": 2250.0})), "2.25")
+
+    STAGES = ({"extension_m": 5000.0, "way_m": 5000.0, "extension_km": "5.0"},
+              {"extension_m": 1000.0, "way_m": 9000.0, "extension_km": "9.0"})   # 5 km out, 4 km back
+
+    def test_headlines_tell_the_way_from_the_extension(self):
+        after = ["5 km of extension after a way of 5.0 km", "1 km of extension after a way of 9.0 km"]
+        frames_ = [self.frame(meta) for meta in self.STAGES]
+        self.assertEqual([page.moment_text(frame) for frame in frames_], after)
+        [headline] = [text.get_text() for text in sheet.draw_sheet(frames_).texts if text.get_text().startswith("a title")]
+        self.assertEqual(headline, f"a title: {after[0]} and {after[1]}")
+        plain = [self.frame({"extension_m": 1000.0 * km}) for km in (5.0, 10.0)]
+        self.assertIn("a title: 5.0 and 10.0 km of extension", [text.get_text() for text in sheet.draw_sheet(plain).texts])
+        columns = {name: [1.0, 2.0] for name in ("depth_m", *(line[0] for _, lines in wells.PANELS for line in lines))}
+        well = {"scene": "lis1", "wells": [{"name": "depocentre", "x_m": 100.0, "columns": columns}]}
+        self.assertEqual(wells.draw({**well, **self.STAGES[1]}).texts[0].get_text(), f"LIS1, {after[1]}")
+        self.assertEqual(wells.draw({**well, "extension_km": "2.0"}).texts[0].get_text(), "LIS1, 2.0 km of extension")
+
+    def test_the_window_of_strain_has_its_own_ends(self):
+        for meta, words in (({}, "last 500 m of extension"), ({"extension_m": 2000.02}, "last 500 m of extension"),
+                            ({"extension_m": 1999.98}, "last 500 m of extension"),
+                            ({"extension_m": 2300.0}, "1.5 to 2 km of extension"),
+                            ({"extension_m": 499.0}, "since the start"), ({"extension_m": 0.0}, "since the start"),
+                            ({"extension_m": 300.0, "strain_until_m": 0.0}, "since the start"),
+                            ({"extension_m": 2000.0, "strain_until_m": 1500.0}, "1 to 1.5 km of extension"),
+                            ({"extension_m": 1000.0, "way_m": 9000.0}, "last 500 m of the way"),
+                            ({"extension_m": 1000.0, "way_m": 9100.0}, "8.5 to 9 km of the way")):
+            frame = self.frame(meta, faults=[[0.0, 1000.0, -500.0, 2.0], [0.0, 1500.0, -900.0, 2.0]])
+            self.assertEqual(page.window_text(frame), words, meta)
+        [ax, _] = sections.draw_figure(frame, ["strain"], 20).axes
+        self.assertIn(f"Shear strain, {words}", [text.get_text() for text in ax.texts])
+        told = caption.caption(["strain"], None, frame, plot.Order())
+        self.assertIn(f"maximum shear strain, {words}.", told)
+        self.assertIn("faults active since the previous snapshot", told)   # which may be any way before
 
     def test_the_footer_says_what_was_computed(self):
         frame = self.frame({"accuracy": "draft", "seed": 3, "effects": ["one", "two"],
@@ -461,7 +545,7 @@ class Drawing(Folder):
         self.assertEqual(set(np.unique(owner)), {-1, 0, 1, 2, 3})
         cell = frame.span / owner.shape[1]
         for index, (x, y) in enumerate(zip(frame.x, frame.y)):
-            self.assertEqual(owner[int((frame.view[3] - y) / cell), int((x + 1.0) / cell)], index)
+            self.assertEqual(owner[int((frame.view[3] - y) / cell), int((x - frame.view[0]) / cell)], index)
 
     def test_lines_are_painted_from_end_to_end(self):
         image = np.zeros((10, 10, 4), dtype=np.uint8)
@@ -477,7 +561,7 @@ class Drawing(Folder):
 
     def test_a_curve_is_cut_where_it_jumps(self):
         curve = np.array([[0.0, 0.0], [0.1, 0.0], [2.0, 0.0], [2.1, 0.0], [5.0, 0.0]])
-        self.assertEqual([len(piece) for piece in panels.pieces(curve)], [2, 2])
+        self.assertEqual([len(piece) for piece in panels.pieces(curve, 0.5)], [2, 2])
 
     def test_labels_are_moved_below_each_other(self):
         self.assertEqual(panels.free_height([], 0.0, -1.0, 2.0, 0.5), -1.0)
@@ -529,8 +613,9 @@ class Drawing(Folder):
         frame = self.frame({"layers": [WATER, SHORE, MARKED]}, layer_marked=[0.0, 1.0, 0.0, 0.0],
                            layer_water=[[0.0, -50.0, 300.0], [4000.0, -50.0, 300.0]],
                            layer_shore=[[0.0, -1300.0], [4000.0, -1300.0]],
+                           detachment=[[0.0, 0.0], [1000.0, -2000.0], [4000.0, -2000.0]],
                            bonded=[[500.0, -500.0, 1500.0, -500.0, 0.0]])
-        for panel, places in (("strata", {WATER["ink"]: (2.0, 0.1), SHORE["ink"]: (2.0, -1.3)}),
+        for panel, places in (("strata", {WATER["ink"]: (2.0, 0.03), SHORE["ink"]: (2.0, -1.3)}),
                               ("bonds", {MARKED["ink"]: (1.5, -0.7)})):
             figure = sections.draw_figure(frame, [panel], dpi=100)
             figure.canvas.draw()
@@ -769,6 +854,16 @@ class Animation(Folder):
                 footwall.append(set(map(tuple, corner.reshape(-1, 3))))
         self.assertEqual(footwall[0], footwall[1])
         self.assertEqual(footwall[1], footwall[2])
+
+    def test_every_picture_shows_what_any_of_them_shows(self):
+        walls = (4000.0, 5500.0, 4500.0)   # out and back
+        shown = [self.frame({"right_wall_x_m": wall}, discs_y=[-500.0, -500.0, -500.0, highest])
+                 for wall, highest in zip(walls, (-100.0, 0.0, 500.0))]
+        views = [frame.view for frame in shown]
+        with mock.patch.object(animation, "ANIMATION_DPI", 10), mock.patch.object(animation, "SHOWN", ("strain",)):
+            self.assertEqual(len(animation.draw_pictures(shown, self.folder)), 3)
+        whole = (views[0][0], views[1][1], views[0][2], views[2][3])
+        self.assertEqual([frame.view for frame in shown], [whole] * 3)
 
     def test_a_webp_holds_every_frame(self):
         self.assertEqual(self.film("webp", ("webp",), 3), ["animation-3.0km.webp"])

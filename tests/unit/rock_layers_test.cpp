@@ -84,6 +84,25 @@ TEST(RockLayers, HaveTheirThicknessTimesLengthAfterGenesis) {
               std::ranges::count(state.discs.get<std::uint8_t>("layer"), 1));
 }
 
+/// With a radius of their rock, which the property update keeps; of zero they would shrink away.
+TEST(RockLayers, SoftOnesStayAsTheyAreWithoutGravity) {
+    GenesisRequest weightless = request(soft);
+    weightless.physics.gravity = 0.0;
+    State state = settled(weightless);
+    const std::vector<double> radius_before(disc_columns(state).radius.begin(),
+                                            disc_columns(state).radius.end());
+    const auto layer = state.discs.get<std::uint8_t>("layer");
+    const auto rock_radius = state.discs.get<double>("rock_radius");
+    for (std::size_t i = 0; i < layer.size(); ++i)
+        if (layer[i] == 1) {
+            EXPECT_EQ(rock_radius[i], radius_before[i]);
+        }
+    for (int update = 0; update < 5; ++update)
+        keep_volume(state, weightless.base, VolumeKeeping{2.0 * state.mean_radius}, 0.0);
+    for (std::size_t i = 0; i < layer.size(); ++i)
+        EXPECT_NEAR(disc_columns(state).radius[i], radius_before[i], 0.02 * radius_before[i]);
+}
+
 TEST(RockLayers, HaveTheirDensity) {
     const State light = settled(request(Material{}, 1300.0)), equal = settled(request(Material{}));
     const auto layer = light.discs.get<std::uint8_t>("layer");

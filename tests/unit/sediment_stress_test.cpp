@@ -58,6 +58,16 @@ TEST(SedimentStress, DampingIsAgainstTheMeanMotionWhereTheCycleIs) {
     EXPECT_NEAR(load.damping, -0.7 * load.weight, 1e-12 * load.weight);
 }
 
+TEST(SedimentStress, DampingIsAgainstTheThinningOfAStretchingBase) {
+    const State state = lattice(); // it sinks more slowly than it would thin
+    RigidBase base;
+    base.surfaces = {{"floor", {line({0.0, -10e3}, {10e3, -10e3})}, 0.5}};
+    base.surfaces[0].stretched_length = 1e3;
+    base.motion.speed = 1.0;
+    const LayerLoad load = layer_loads(state, base, physics).front();
+    EXPECT_NEAR(load.damping, -0.7 * load.weight, 1e-12 * load.weight);
+}
+
 TEST(SedimentStress, BasementAndVoidAreNotMeasured) {
     State state = lattice();
     std::ranges::fill(disc_columns(state).stratum, 0);

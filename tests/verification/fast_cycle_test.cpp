@@ -83,6 +83,17 @@ TEST(FastCycle, OnAStretchingBase) {
     EXPECT_NE(hash(unstretched), hash(plain));
 }
 
+TEST(FastCycle, OnABaseThatShortens) {
+    Heap heap(20, 3e9f);
+    heap.base.surfaces[1].conveyor = 0.0;
+    heap.base.surfaces[1].stretched_length = 62.0 * 93.1;
+    heap.base.motion.speed *= -1.0;
+    State plain = heap.state, fast = heap.state;
+    advance(plain, heap.base, physics, 1500, {1, Cycle::plain});
+    advance(fast, heap.base, physics, 1500, {2, fast_cycle()});
+    EXPECT_EQ(hash(fast), hash(plain));
+}
+
 TEST(FastCycle, WithoutBondsAndWithoutFriction) {
     for (float strength : {-1.0f, 3e9f})
         for (double friction : {0.0, 0.3}) {

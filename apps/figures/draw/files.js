@@ -16,19 +16,32 @@ function readScene(text, name, picks = {horizons: [], faults: []}, faultPoints =
   return true;
 }
 
+const pickKinds = ["horizons", "faults"];
+
+/** What the program adds to every x of a picked fault, and of picks that have no shift of their own. */
+function faultShift(scene) { return Number(scene.detachment?.shift_x_m) || 0; }
+
 /** Takes [observed] out of a scene: lines, names of files that are asked for, and the shift of both. */
 function takePicks(scene) {
-  const observed = typeof scene.observed === "object" ? scene.observed : {}, table = scene.detachment;
-  const shift = Number(observed.shift_x_m ?? table?.shift_x_m ?? 0), asked = {};
+  const observed = typeof scene.observed === "object" ? scene.observed : {};
+  const shift = Number(observed.shift_x_m ?? faultShift(scene)) || 0, asked = {};
   const good = faultsBySchema(schema.properties.observed, observed).length === 0;
   const lines = {horizons: good ? observed.horizon_lines || [] : [], faults: good ? observed.fault_lines || [] : []};
-  for (const kind of ["horizons", "faults"]) if (good && observed[kind]) asked[kind] = observed[kind];
+  for (const kind of pickKinds) if (good && observed[kind]) asked[kind] = observed[kind];
   if (good) delete scene.observed;
   return {shift, asked, lines};
 }
 
+function hasPicks(kind) { return page.state.picks[kind].some(line => line.x_m.length); }
+
+/** Kinds of picks that stay in a file that nobody has dropped. */
+function kindsInFiles() { return pickKinds.filter(kind => page.state.asked[kind] && !hasPicks(kind)); }
+
+/** What the program is to add to every x of the picks that it reads: a file that nobody has dropped needs it. */
+function shiftOfPicks() { return kindsInFiles().length ? page.state.asked.shift : 0; }
+
 function missingFiles() {
-  const {asked, scene} = page.state, table = scene.detachment, names = Object.values(asked).filter(name => typeof name === "string");
+  const {asked, scene} = page.state, table = scene.detachment, names = kindsInFiles().map(kind => asked[kind]);
   if (table?.csv || table?.svg) names.push(table.csv || table.svg);
   return names;
 }
@@ -44,7 +57,7 @@ function readCsv(text) {
 }
 
 /** Picked lines of a CSV file. Throws Error. */
-function picksIn(text, name, shift) {
+function picksIn(text, name) {
   const {head, rows} = readCsv(text), lines = new Map();
   for (const needed of ["x_m", "depth_m"])
     if (!head.includes(needed)) throw new Error(`${name}: has no column ${needed}, ${adviceOn(needed, head)}`);
@@ -55,14 +68,15 @@ function picksIn(text, name, shift) {
     if (!lines.has(title)) lines.set(title, {name: title, x_m: [], depth_m: []});
     const line = lines.get(title);
     if (age !== undefined) line.age_a = age;
-    line.x_m.push(x + shift);
+    line.x_m.push(x);
     line.depth_m.push(depth);
   });
-  return {lines: [...lines.values()], hasNames: head.includes("name"), hasAges: head.includes("age_a")};
+  return {lines: [...lines.values()], hasNames: head.includes("name")};
 }
 
 function takeCsv(text, name) {
-  const {asked} = page.state, {lines, hasNames} = picksIn(text, name, asked.shift || 0);
+  const {asked, scene} = page.state, {lines, hasNames} = picksIn(text, name), shift = hasNames ? asked.shift : faultShift(scene);
+  for (const line of lines) line.x_m = line.x_m.map(x => x + shift);
   if (!hasNames) {
     change("", state => { state.faultPoints = {x_m: lines[0].x_m, depth_m: lines[0].depth_m}; });
     tell(`${name}: ${lines[0].x_m.length} points, drawn as dots. Drag the nodes onto them.`);
@@ -134,21 +148,21 @@ function takeSceneFile(text, name) {
 
 /** The scene with picks as files of their own beside it. */
 function sceneText() {
-  const scene = structuredClone(page.state.scene), {horizons, faults} = page.state.picks, name = baseName();
-  const observed = {};
-  if (horizons.some(line => line.x_m.length)) observed.horizons = `${name}-horizons.csv`;
-  if (faults.some(line => line.x_m.length)) observed.faults = `${name}-faults.csv`;
-  if (Object.keys(observed).length && scene.detachment?.shift_x_m) observed.shift_x_m = 0;
-  for (const kind of ["horizons", "faults"]) observed[kind] ??= page.state.asked[kind]; // a file that nobody has dropped
-  if (observed.horizons || observed.faults) scene.observed = JSON.parse(JSON.stringify(observed));
+  const scene = structuredClone(page.state.scene), {asked} = page.state, shift = shiftOfPicks(), observed = {};
+  for (const kind of pickKinds) if (hasPicks(kind) || asked[kind]) observed[kind] = hasPicks(kind) ? picksFile(kind) : asked[kind];
+  if (Object.keys(observed).length) scene.observed = {...observed, ...(shift || faultShift(scene) ? {shift_x_m: shift} : {})};
   return `# Drawn with ${facts.program}.\n\n${writeToml(scene, schema)}`;
 }
 
+function picksFile(kind) { return `${baseName()}-${kind}.csv`; }
+
 function baseName() { return (page.state.scene.name || page.state.file.replace(/\.toml$/i, "") || "drawn").replace(/[^\w.-]+/g, "-"); }
 
-function picksText(lines, withAges) {
+/** Picks as the program reads them, which adds the shift. */
+function picksText(kind) {
+  const lines = page.state.picks[kind], withAges = kind === "horizons", shift = shiftOfPicks();
   const quoted = text => /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
-  const rows = lines.flatMap(line => line.x_m.map((x, k) => [quoted(line.name), x, line.depth_m[k], ...(withAges ? [line.age_a ?? ""] : [])].join(",")));
+  const rows = lines.flatMap(line => line.x_m.map((x, k) => [quoted(line.name), roundLength(x - shift, 6), line.depth_m[k], ...(withAges ? [line.age_a ?? ""] : [])].join(",")));
   return [["name", "x_m", "depth_m", ...(withAges ? ["age_a"] : [])].join(","), ...rows].join("\n") + "\n";
 }
 
@@ -161,7 +175,8 @@ function download(name, text, type) {
 }
 
 function save() {
-  const faults = showState(), missing = missingFiles();
+  const faults = showState(), missing = missingFiles(), {asked} = page.state;
+  const replaced = pickKinds.filter(kind => asked[kind] && hasPicks(kind)).map(kind => `. Its ${kind} take the place of ${asked[kind]}, which was not dropped`);
   if (faults.length) {
     tell(`Not saved: ${faults[0].path}: ${faults[0].message}`);
     $("state").scrollIntoView({block: "nearest"});
@@ -171,11 +186,9 @@ function save() {
   download(`${baseName()}.toml`, sceneText(), "application/toml");
   if (!$("save_picks").disabled) savePicks();
   tell(`Saved ${baseName()}.toml. Next: listric check ${baseName()}.toml, then listric run ${baseName()}.toml --accuracy draft` +
-    (missing.length ? `. It needs ${missing.join(" and ")} beside it.` : ""));
+    (missing.length ? `. It needs ${missing.join(" and ")} beside it.` : "") + replaced.join(""));
 }
 
 function savePicks() {
-  const {horizons, faults} = page.state.picks;
-  if (horizons.some(line => line.x_m.length)) download(`${baseName()}-horizons.csv`, picksText(horizons, true), "text/csv");
-  if (faults.some(line => line.x_m.length)) download(`${baseName()}-faults.csv`, picksText(faults, false), "text/csv");
+  for (const kind of pickKinds.filter(hasPicks)) download(picksFile(kind), picksText(kind), "text/csv");
 }

@@ -3,7 +3,6 @@
 
 const degree = Math.PI / 180;
 const leastTurn = 0.5;      // of an arc, degrees
-const leastLength = 10;     // of a line and radius of an arc, m
 const largestRadius = 1e6;  // that a hand makes, m
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
@@ -170,9 +169,18 @@ function dipBounds(shape, k) {
   return [clamp(Math.min(low, high), 0, 90), clamp(high, 0, 90)];
 }
 
-const rounded = (x, step) => Math.round(x / step) * step;
-const roundDip = dip => Number(rounded(dip, 0.01).toFixed(2));
-const roundLength = length => Number(rounded(length, 1).toFixed(0));
+const roundDip = dip => Number(dip.toFixed(2));
+
+/** Decimals of lengths, m, that a hand makes in a section of a length: none in a basin, more in a smaller model. */
+function decimalsIn(length) { return clamp(Math.ceil(Math.log10(1e4 / length)), 0, 9); }
+
+/** The same of a shape: by its longest piece. */
+function decimalsOf(shape) { return decimalsIn(Math.max(...shape.pieces.map(piece => piece.radius ?? piece.length))); }
+
+/** Least length of a line and radius of an arc, m: 10 m in a basin, never less than the program takes. */
+function leastLengthOf(shape) { return Math.max(10 ** (1 - decimalsOf(shape)), 1e-3); }
+
+const roundLength = (length, decimals) => Number(length.toFixed(decimals));
 
 /** Gives the last arc the radius with which the detachment soles out at a depth; false: there is no such radius. */
 function setDepth(shape, depth) {
@@ -180,8 +188,8 @@ function setDepth(shape, depth) {
     if (shape.pieces[k].kind !== "arc") continue;
     const segment = chainOf(shape)[k], drop = Math.cos(segment.endDip * degree) - Math.cos(segment.startDip * degree);
     const radius = shape.pieces[k].radius + (depth - depthOf(shape)) / drop;
-    if (!(radius >= leastLength && radius <= largestRadius)) return false;
-    shape.pieces[k].radius = Number(radius.toFixed(2));
+    if (!(radius >= leastLengthOf(shape) && radius <= largestRadius)) return false;
+    shape.pieces[k].radius = roundLength(radius, 2 + decimalsOf(shape));
     return true;
   }
   return false;
@@ -198,23 +206,24 @@ function dragNode(shape, k, target) {
 }
 
 function dragArcEnd(shape, k, segment, target, isLast) {
-  const piece = shape.pieces[k], t = segment.startTangent, a = segment.startDip;
+  const piece = shape.pieces[k], t = segment.startTangent, a = segment.startDip, least = leastLengthOf(shape);
   const d = {x: target.x - segment.start.x, y: target.y - segment.start.y};
   let endDip = piece.endDip;
   if (!isLast) {
-    const along = Math.max(d.x * t.x + d.y * t.y, leastLength);
+    const along = Math.max(d.x * t.x + d.y * t.y, least);
     endDip = roundDip(clamp(a - 2 * Math.atan2(t.x * d.y - t.y * d.x, along) / degree, ...dipBounds(shape, k)));
   }
   // The chord from the arc's start dips by the mean of the dips at its ends.
   const chord = 0.5 * (a + endDip) * degree, length = d.x * Math.cos(chord) - d.y * Math.sin(chord);
   piece.endDip = endDip;
-  piece.radius = roundLength(clamp(length / (2 * Math.sin(0.5 * Math.abs(a - endDip) * degree)), leastLength, largestRadius));
+  piece.radius = roundLength(clamp(length / (2 * Math.sin(0.5 * Math.abs(a - endDip) * degree)), least, largestRadius), decimalsOf(shape));
 }
 
 function dragLineEnd(shape, k, segment, target) {
   const piece = shape.pieces[k], before = shape.pieces[k - 1], isFlat = k > lastSloping(shape);
+  const least = leastLengthOf(shape), decimals = decimalsOf(shape);
   const project = (start, dip) => roundLength(Math.max((target.x - start.x) * Math.cos(dip * degree) -
-    (target.y - start.y) * Math.sin(dip * degree), leastLength));
+    (target.y - start.y) * Math.sin(dip * degree), least), decimals);
   if (!isFlat && (k === 0 || "startDip" in piece)) {
     const dip = roundDip(clamp(-Math.atan2(target.y - segment.start.y, target.x - segment.start.x) / degree, ...dipBounds(shape, k)));
     if (k === 0) shape.startDip = dip;
@@ -272,11 +281,12 @@ function addNode(shape, k, share = 0.5) {
     return next;
   }
   const dip = segment.startDip, turn = dip > 80 ? -10 : 10, sine = Math.sin(10 * degree);
-  const radius = roundLength(Math.min(5000, 0.15 * piece.length / sine)), width = 2 * radius * sine;
-  const first = roundLength(clamp(share * piece.length - 0.5 * width, leastLength, piece.length - width - leastLength));
-  if (radius < leastLength || !(first >= leastLength)) return null;
+  const least = leastLengthOf(shape), round = length => roundLength(length, decimalsOf(shape));
+  const radius = round(Math.min(5000, 0.15 * piece.length / sine)), width = 2 * radius * sine;
+  const first = round(clamp(share * piece.length - 0.5 * width, least, piece.length - width - least));
+  if (radius < least || !(first >= least)) return null;
   next.pieces.splice(k, 1, {kind: "line", length: first, ...kink}, {kind: "arc", radius, endDip: dip + turn},
-    {kind: "arc", radius, endDip: dip}, {kind: "line", length: Math.max(roundLength(piece.length - width - first), leastLength)});
+    {kind: "arc", radius, endDip: dip}, {kind: "line", length: Math.max(round(piece.length - width - first), least)});
   return next;
 }
 
@@ -296,7 +306,7 @@ function removeNode(shape, k) {
       next.pieces[n - 1].length += next.pieces[n].length;
       next.pieces.splice(n, 1);
     }
-  if (!next.pieces.length || objectionToShape(next) || !(depthOf(next) >= leastLength)) return null;
+  if (!next.pieces.length || objectionToShape(next) || !(depthOf(next) >= leastLengthOf(next))) return null;
   setDepth(next, depth);
   return next;
 }

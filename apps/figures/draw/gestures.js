@@ -10,12 +10,15 @@ function chooseHandle(key, focus = false) {
   if (focus) page.section.handles.find(handle => handle.dataset.key === key)?.focus({preventScroll: true});
 }
 
+/** x and depth of a point, rounded as a hand makes them. */
+function pickedPlace({x, y}) { return [x, -y].map(metres => roundLength(metres, placeDecimals()) || 0); }
+
 /** What becomes of a state when a handle comes to a place. */
 function moveHandle(state, key, p) {
   const [kind, which] = key.split(" ");
   if (kind === "pick") {
     const line = lineNow(state);
-    [line.x_m[which], line.depth_m[which]] = [Math.round(p.x), Math.round(-p.y)];
+    [line.x_m[which], line.depth_m[which]] = pickedPlace(p);
   } else if (kind === "reference") {
     const k = "ab".indexOf(which), picture = {...page.pictureImage, points: state.picture};
     state.picture[k] = {...pixelAt(picture, p), x: p.x, depth: -p.y};
@@ -97,10 +100,10 @@ function addPick(p) {
   }
   let place = 0;
   change("", state => {
-    const line = lineNow(state), x = Math.round(p.x);
+    const line = lineNow(state), [x, depth] = pickedPlace(p);
     place = page.line.kind === "horizons" ? line.x_m.filter(other => other <= x).length : line.x_m.length;
     line.x_m.splice(place, 0, x);
-    line.depth_m.splice(place, 0, Math.round(-p.y));
+    line.depth_m.splice(place, 0, depth);
   });
   chooseHandle(`pick ${place}`, true);
 }
@@ -159,9 +162,9 @@ function pressKey(event) {
   if (isTyping || event.ctrlKey || event.metaKey) return;
   const handle = event.target.closest?.(".handle"), arrow = {arrowleft: [-1, 0], arrowright: [1, 0], arrowup: [0, 1], arrowdown: [0, -1]}[key];
   if (handle && arrow) {
-    const step = event.shiftKey ? 1000 : event.altKey ? 10 : 100, name = handle.dataset.key;
+    const steps = event.shiftKey ? 10 : event.altKey ? 0.1 : 1, name = handle.dataset.key;
     page.chosen = name;
-    nudge(name, handle, arrow.map(x => x * step));
+    nudge(name, arrow.map(x => x * steps));
     event.preventDefault();
   } else if (!event.target.closest?.("#section") && event.target !== document.body) return;
   else if (key === "delete" || key === "backspace") removeHere();
@@ -171,16 +174,26 @@ function pressKey(event) {
   else if (key === "enter" && handle) chooseHandle(handle.dataset.key, true);
 }
 
-/** Moves a handle by metres; the dip by degrees. */
-function nudge(name, handle, [dx, dy]) {
+/** What an arrow key moves a node by, m: 100 m in a basin. */
+function keyStep() { return 10 ** (2 - placeDecimals()); }
+
+/** "100 m (Shift 1 km, Alt 10 m)" */
+function keyStepsText() {
+  const text = metres => `${Number((metres >= 1000 ? metres / 1000 : metres >= 1 ? metres : 1000 * metres).toPrecision(3))} ` +
+    (metres >= 1000 ? "km" : metres >= 1 ? "m" : "mm");
+  return `${text(keyStep())} (Shift ${text(10 * keyStep())}, Alt ${text(0.1 * keyStep())})`;
+}
+
+/** Moves a handle by so many steps; the dip by degrees. */
+function nudge(name, [dx, dy]) {
   const [kind, which] = name.split(" "), keep = () => page.section.handles.find(one => one.dataset.key === name)?.focus({preventScroll: true});
   if (kind === "turn") {
-    const turned = (Math.abs(dx) >= Math.abs(dy) ? -dx : -dy) / 100;
+    const turned = Math.abs(dx) >= Math.abs(dy) ? -dx : -dy;
     changeShape(`turn ${which}`, before => turnStart(before, chainOf(before)[which].startDip + turned, Number(which)));
   } else {
     const place = kind === "node" ? chainOf(shapeNow())[which].end : kind === "pick" ? {x: lineNow().x_m[which], y: -lineNow().depth_m[which]}
       : {x: page.state.picture["ab".indexOf(which)].x, y: -page.state.picture["ab".indexOf(which)].depth};
-    change(`move ${name}`, state => moveHandle(state, name, {x: place.x + dx, y: place.y + dy}));
+    change(`move ${name}`, state => moveHandle(state, name, {x: place.x + keyStep() * dx, y: place.y + keyStep() * dy}));
   }
   chooseHandle(name);
   keep();

@@ -1,6 +1,7 @@
 // Where rigid footwall and slip alone put the basin, as apps/measures/kinematics.cpp has it: y up, metres, degrees.
 
-const spacing = 25; // of samples, m
+/** Spacing of samples, m: the program's, in models of less than a few kilometres finer. */
+function spacingOf(chain) { return Math.min(25, lengthOf(chain) / 200); }
 
 function tangentAt(chain, arcLength) {
   const h = 1e-3, from = clamp(arcLength, 0, lengthOf(chain) - h), a = pointAt(chain, from), b = pointAt(chain, from + h);
@@ -11,7 +12,7 @@ function tangentAt(chain, arcLength) {
 /** Height of the detachment against u = x + depth tan(angle): where a shear plane meets it. */
 class ShearCoordinate {
   constructor(chain, tangent) {
-    const end = lengthOf(chain);
+    const end = lengthOf(chain), spacing = spacingOf(chain);
     this.u = [];
     this.y = [];
     for (let s = 0; s <= end; s += spacing) {
@@ -39,7 +40,7 @@ class ShearCoordinate {
 
 /** Top of a hanging wall that shears on planes inclined by an angle from the vertical (White et al. 1986), from its cutoff
  * to x = right. */
-function inclinedShearTop(chain, extension, angle, right, fault = new ShearCoordinate(chain, Math.tan(angle * degree)), step = spacing) {
+function inclinedShearTop(chain, extension, angle, right, fault = new ShearCoordinate(chain, Math.tan(angle * degree)), step = spacingOf(chain)) {
   const tangent = Math.tan(angle * degree), deepest = -pointAt(chain, lengthOf(chain)).y, top = [];
   for (let u = extension; u <= right + deepest * tangent; u += step) {
     const y = fault.height(u) - fault.height(u - extension), x = u + y * tangent;
@@ -64,7 +65,7 @@ function inclinedShearLayer(extension, angle, right, fault, depth, step) {
 
 /** Top of a hanging wall whose lines normal to the detachment stay normal (Braun et al. 1994). */
 function normalsTop(chain, extension, right) {
-  const end = lengthOf(chain), top = [];
+  const end = lengthOf(chain), spacing = spacingOf(chain), top = [];
   for (let x = 0; x + extension <= right; x += spacing) {
     const foot = footPoint(chain, {x, y: 0}), s = foot ? foot.arcLength : 0, distance = foot ? foot.distance : x;
     if (s + extension > end) break;

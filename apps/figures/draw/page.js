@@ -76,7 +76,7 @@ function addListeners() {
   on("whole", showWhole);
   on("opacity", drawSoon, "oninput");
   on("angle", drawSoon, "oninput");
-  on("extension", () => { page.extension = Number($("extension").value); drawSoon(); }, "oninput");
+  on("extension", () => { page.extension = settings().distance * $("extension").value / $("extension").max; drawSoon(); }, "oninput");
   on("height", () => { page.section.view.height = Number($("height").value); showWhole(); }, "onchange");
   on("find", () => find(false), "oninput");
   $("find").addEventListener("keydown", event => { if (event.key === "Enter") find(true); });
@@ -111,9 +111,6 @@ async function begin() {
     defaultOf: path => path.includes(".") ? defaultAt(facts, schema, page.state.scene, path) : schemaAt(schema, path)?.default});
   readScene(facts.toml, `${facts.scene}.toml`, facts.observed, facts.fault_points || null);
   page.description = facts.on_shelf ? page.state.scene.description : null; // which will not fit what is drawn
-  const {distance} = settings();
-  $("extension").max = distance;
-  $("extension").value = page.extension = distance;
   if (window.innerWidth < 640) $("height").value = "2";
   page.section.view.height = Number($("height").value);
   addListeners();

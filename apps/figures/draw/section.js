@@ -93,7 +93,7 @@ class Section {
   }
 
   drawAxes(length) {
-    const {width, height, view} = this, drawn = JSON.stringify([width, height, view, length]);
+    const {width, height, view} = this, unit = lengthUnit(), drawn = JSON.stringify([width, height, view, length]);
     if (drawn === this.drawnAxes) return;
     this.drawnAxes = drawn;
     const step = (metresPerPixel, least) => {
@@ -108,16 +108,16 @@ class Section {
       const [column] = this.px(x, 0);
       if (column > width - 12) break;
       d += `M${column.toFixed(1)},${height}v-6`;
-      if (column > 12) word(column, height - 9, shortNumber(Number((x / 1000).toPrecision(6))), "middle");
+      if (column > 12) word(column, height - 9, shortNumber(Number((x / unit.metres).toPrecision(6))), "middle");
     }
-    word(width - 6, height - 24, "x, km", "end");
+    word(width - 6, height - 24, `x, ${unit.name}`, "end");
     for (let z = Math.ceil(view.top / down) * down; ; z += down) {
       const [, row] = this.px(0, z);
       if (row > height - 30) break;
       d += `M0,${row.toFixed(1)}h6`;
-      if (row > 26) word(9, row + 4, shortNumber(Number((z / 1000).toPrecision(6))), "start");
+      if (row > 26) word(9, row + 4, shortNumber(Number((z / unit.metres).toPrecision(6))), "start");
     }
-    word(6, 15, `depth, km${view.height > 1 ? ` (×${view.height})` : ""}`, "start");
+    word(6, 15, `depth, ${unit.name}${view.height > 1 ? ` (×${view.height})` : ""}`, "start");
     const [, ground] = this.px(0, 0);
     this.axis.setAttribute("d", `${d}M${this.px(0, 0)[0].toFixed(1)},${ground.toFixed(1)}H${this.px(length, 0)[0].toFixed(1)}`);
   }
@@ -155,7 +155,7 @@ class Section {
       for (const path of [...this.strata, this.pre, this.top]) path.setAttribute("d", "");
       return;
     }
-    const {chain, fault, extension, angle, wall} = basin, pixels = page.drag?.key ? 6 : 3, step = Math.max(spacing, pixels / this.view.scale);
+    const {chain, fault, extension, angle, wall} = basin, pixels = page.drag?.key ? 6 : 3, step = Math.max(spacingOf(chain), pixels / this.view.scale);
     const exposed = slip => this.pointsOfChain(chain, slip);
     let below = null;
     for (let k = 0; k <= strataCount; ++k) {
@@ -172,7 +172,7 @@ class Section {
 
   /** The detachment from the breakaway to an arc length. */
   pointsOfChain(chain, end) {
-    const step = Math.max(end / 40, 25), points = [];
+    const step = Math.max(end / 40, spacingOf(chain)), points = [];
     for (let s = 0; s < end; s += step) points.push(pointAt(chain, s));
     return points;
   }

@@ -12,7 +12,18 @@ const page = {
 
 const copyState = state => structuredClone(state);
 const shapeNow = () => shapeOf(page.state.scene.detachment);
-const km = (x, digits = 2) => `${(x / 1000).toFixed(digits)} km`;
+
+/** Unit in which the page tells places, by the length of the hanging wall. */
+function lengthUnit() {
+  const {length} = settings();
+  return length < 1 ? {name: "mm", metres: 0.001} : length < 1000 ? {name: "m", metres: 1} : {name: "km", metres: 1000};
+}
+
+/** "5.00 km" */
+function placeText(metres, digits = 2) { return `${(metres / lengthUnit().metres).toFixed(digits)} ${lengthUnit().name}`; }
+
+/** Decimals of places, m, that a hand makes in the section. */
+function placeDecimals() { return decimalsIn(settings().length); }
 
 // -- changes and undo
 
@@ -49,7 +60,7 @@ function setAt({scene, floats}, path, value) {
 /** Puts a shape into the scene; the hanging wall is as thick as it is deep. */
 function putShape(state, shape) {
   Object.assign(state.scene.detachment, tableOf(shape));
-  (state.scene.hanging_wall ??= {}).thickness_m = Number(depthOf(shape).toFixed(2));
+  (state.scene.hanging_wall ??= {}).thickness_m = roundLength(depthOf(shape), 2 + decimalsOf(shape));
   if (state.scene.description === page.description) state.scene.description = `drawn, from ${facts.scene}`;
 }
 

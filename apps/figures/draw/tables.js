@@ -30,7 +30,7 @@ function pictureNow() { return page.pictureImage && page.state.picture ? {...pag
 function handlesNow(shape, chain) {
   if (page.tool === "picks") return pickHandles();
   if (page.tool === "picture") return pictureNow()?.points.map((p, k) => ({key: `reference ${"ab"[k]}`, kind: "reference", x: p.x, y: -p.depth,
-    label: `Reference point ${"AB"[k]} at x ${km(p.x)}, depth ${km(p.depth)}`})) || [];
+    label: `Reference point ${"AB"[k]} at x ${placeText(p.x)}, depth ${placeText(p.depth)}`})) || [];
   if (!shape) return [];
   const handles = [];
   const turn = k => {
@@ -49,22 +49,22 @@ function handlesNow(shape, chain) {
 function pickHandles() {
   const line = lineNow();
   return line ? line.x_m.map((x, k) => ({key: `pick ${k}`, kind: "pick", x, y: -line.depth_m[k],
-    label: `Point ${k + 1} of ${line.name} at x ${km(x)}, depth ${km(line.depth_m[k])}`})) : [];
+    label: `Point ${k + 1} of ${line.name} at x ${placeText(x)}, depth ${placeText(line.depth_m[k])}`})) : [];
 }
 
 function lineNow(state = page.state) { return page.line ? state.picks[page.line.kind]?.[page.line.index] : undefined; }
 
 function tellPiece(k, chain = page.chain) {
   const s = chain[k], shape = shapeNow(), piece = shape.pieces[k];
-  const kind = piece.kind === "arc" ? `arc of radius ${km(piece.radius)}, dip ${s.startDip.toFixed(1)}° to ${s.endDip.toFixed(1)}°`
-    : `line of ${km(piece.length)}, dip ${s.startDip.toFixed(1)}°`;
-  return `x ${km(s.end.x)}, depth ${km(-s.end.y)}; ${kind}, from the node before`;
+  const kind = piece.kind === "arc" ? `arc of radius ${placeText(piece.radius)}, dip ${s.startDip.toFixed(1)}° to ${s.endDip.toFixed(1)}°`
+    : `line of ${placeText(piece.length)}, dip ${s.startDip.toFixed(1)}°`;
+  return `x ${placeText(s.end.x)}, depth ${placeText(-s.end.y)}; ${kind}, from the node before`;
 }
 
 /** Where the detachment soles out, in a sentence. */
 function tellSole(chain = page.chain, shape = shapeNow()) {
   const s = chain[lastSloping(shape)];
-  return `Soles out at a depth of ${km(-s.end.y)} at x = ${km(s.end.x)}.`;
+  return `Soles out at a depth of ${placeText(-s.end.y)} at x = ${placeText(s.end.x)}.`;
 }
 
 function tellChosen() {
@@ -80,15 +80,16 @@ function tellChosen() {
 }
 
 function showKinematics(chain, length, angle, fault) {
-  const {extension} = page;
-  $("extension_told").textContent = km(extension, 1);
+  const {extension} = page, {name: unit, metres} = lengthUnit();
+  $("extension_told").textContent = placeText(extension, 1);
+  $("extension").setAttribute("aria-valuetext", placeText(extension, 1));
   $("angle_told").textContent = `${angle}°`;
   const found = extension > 0 ? predictKinematics(chain, extension, angle, length + extension, fault) : null;
   page.kinematics = found;
   const rows = [["Tilt of the head block", found?.tilt != null ? `${found.tilt.toFixed(1)}°` : "-"],
-    ["Cutoff of the head block", found?.cutoff ? `x ${km(found.cutoff.x)}, depth ${km(found.cutoff.depth)}` : "-"],
-    ["Deepest drawn basin", found ? `${km(found.deepest.depth)} at x ${km(found.deepest.x)}` : "-"],
-    ["Area of the basin", found ? `${(found.area / 1e6).toFixed(1)} km²` : "-"]];
+    ["Cutoff of the head block", found?.cutoff ? `x ${placeText(found.cutoff.x)}, depth ${placeText(found.cutoff.depth)}` : "-"],
+    ["Deepest drawn basin", found ? `${placeText(found.deepest.depth)} at x ${placeText(found.deepest.x)}` : "-"],
+    ["Area of the basin", found ? `${(found.area / metres ** 2).toFixed(1)} ${unit}²` : "-"]];
   const table = $("kinematics");
   if (!table.rows.length) for (const [name] of rows) table.append(element("tr", {}, element("td", {}, name), element("td", {className: "number"})));
   rows.forEach(([, text], k) => { table.rows[k].cells[1].textContent = text; });
@@ -140,11 +141,11 @@ function showPieces() {
     keepRows(table, "none", () => []);
     return;
   }
-  const last = lastSloping(shape);
-  keepRows(table, JSON.stringify([last, ...shape.pieces.map(piece => [piece.kind, "startDip" in piece])]), () =>
-    [headOf(["", "Piece", "Radius or length, m", "Dip, °", "", "Ends at x, km", "depth, km"]), ...shape.pieces.map((piece, k) => rowOfPiece(piece, k, last))]);
-  const put = (cell, value) => {
-    const field = cell.querySelector("input"), text = String(Number(value.toFixed(2)));
+  const last = lastSloping(shape), unit = lengthUnit();
+  keepRows(table, JSON.stringify([last, unit.name, ...shape.pieces.map(piece => [piece.kind, "startDip" in piece])]), () =>
+    [headOf(["", "Piece", "Radius or length, m", "Dip, °", "", `Ends at x, ${unit.name}`, `depth, ${unit.name}`]), ...shape.pieces.map((piece, k) => rowOfPiece(piece, k, last))]);
+  const put = (cell, value, digits = 2) => {
+    const field = cell.querySelector("input"), text = String(Number(value.toFixed(digits)));
     if (!field) cell.lastChild.textContent = text;
     else if (field.value !== text) field.value = text;
     field?.setAttribute("aria-invalid", false);
@@ -152,10 +153,10 @@ function showPieces() {
   shape.pieces.forEach((piece, k) => {
     const row = table.rows[k + 1], {startDip, endDip, end} = chain[k];
     row.className = page.chosen === `node ${k}` ? "chosen" : "";
-    put(row.cells[2], piece.radius ?? piece.length);
+    put(row.cells[2], piece.radius ?? piece.length, 2 + decimalsOf(shape));
     put(row.cells[3], startDip);
     if (piece.kind === "arc") put(row.cells[4], endDip);
-    [end.x, -end.y].forEach((x, column) => { row.cells[5 + column].textContent = (x / 1000).toFixed(2); });
+    [end.x, -end.y].forEach((x, column) => { row.cells[5 + column].textContent = (x / unit.metres).toFixed(2); });
   });
 }
 
@@ -254,8 +255,8 @@ function showReferences() {
     };
     return element("label", {}, `${"AB"[k]}: ${key}, m `, input);
   })));
-  picture.points.forEach((p, k) => ["x", "depth"].forEach(key => { $(`reference_${"ab"[k]}_${key}`).value = Number(p[key].toFixed(1)); }));
-  const corners = cornersOf(picture).map(x => x.toFixed(0)).join(",");
+  const decimals = placeDecimals(), corners = cornersOf(picture).map(x => x.toFixed(decimals)).join(",");
+  picture.points.forEach((p, k) => ["x", "depth"].forEach(key => { $(`reference_${"ab"[k]}_${key}`).value = Number(p[key].toFixed(1 + decimals)); }));
   $("corners").textContent = `Later, over the run: listric figures DIR --underlay ${picture.name} --corners ${corners}`;
 }
 
@@ -270,6 +271,13 @@ function showState() {
   return faults;
 }
 
+/** The slider is at a share of the distance; at its end it stays there when the distance changes. */
+function showExtension(distance) {
+  const slider = $("extension"), isAtEnd = slider.value === slider.max;
+  page.extension = isAtEnd ? distance : Math.min(page.extension, distance);
+  if (!isAtEnd && distance > 0) slider.value = slider.max * page.extension / distance;
+}
+
 function showAll() {
   const {scene, picks} = page.state, {distance} = settings();
   $("title").textContent = scene.description || "Draw a section";
@@ -277,10 +285,8 @@ function showAll() {
   $("undo").disabled = !page.past.length;
   $("redo").disabled = !page.future.length;
   $("save_picks").disabled = !picks.horizons.length && !picks.faults.length;
-  const slider = $("extension"), atEnd = Number(slider.value) >= Number(slider.max);
-  slider.max = distance;
-  if (atEnd || page.extension > distance) slider.value = distance;
-  page.extension = Number(slider.value);
+  $("key_steps").textContent = keyStepsText();
+  showExtension(distance);
   for (const tool of ["fault", "picks", "picture"]) $(`panel_${tool}`).hidden = page.tool !== tool;
   showSection();
   showPieces();

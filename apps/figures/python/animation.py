@@ -1,11 +1,11 @@
-"""An animation of a run: one picture per frame, all at the last one's scale."""
+"""An animation of a run: one picture per frame, all of one view."""
 import os
 import shutil
 import subprocess
 import tempfile
 from collections.abc import Sequence
 
-from frame import Frame
+from frame import Frame, share_view
 from page import extension_text
 from plot import InputError, Order
 from scales import share_scales
@@ -33,9 +33,9 @@ def save_animation(frames: Sequence[Frame], folder: str, order: Order) -> None:
 def draw_pictures(frames: Sequence[Frame], folder: str) -> list[str]:
     """Paths of one PNG per frame."""
     share_scales(frames)
+    share_view(frames)
     pictures = []
     for frame in frames:
-        frame.view = frames[-1].view
         figure = draw_figure(frame, SHOWN, ANIMATION_DPI)
         pictures.append(os.path.join(folder, f"{len(pictures):05d}.png"))
         figure.savefig(pictures[-1])

@@ -2,7 +2,7 @@
 import math
 
 from frame import Frame
-from plot import FAINT, INK
+from plot import FAINT, INK, length_unit
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -35,9 +35,9 @@ def section_axes(ax, frame: Frame) -> None:
             color=FOOTWALL, linewidth=0, zorder=1)
     ax.plot((xmin, line[0, 0]), (line[0, 1],) * 2, color=FAINT, linewidth=0.8, zorder=5)
     ax.plot(*line.T, color=INK, linewidth=1.5, zorder=5, solid_joinstyle="round")
-    ax.plot((frame.wall,) * 2, (line[-1, 1], ymax - 0.3), color=FAINT, linewidth=1.0,
+    ax.plot((frame.wall,) * 2, (line[-1, 1], ymax - 0.3 * frame.unit), color=FAINT, linewidth=1.0,
             zorder=5)
-    ax.text(xmin + 0.3, ymin + 0.25, "footwall", color=FAINT, fontsize=9,
+    ax.text(xmin + 0.3 * frame.unit, ymin + 0.25 * frame.unit, "footwall", color=FAINT, fontsize=9,
             style="italic", va="bottom", zorder=6)
     ax.set_xlim(xmin, xmax)
     ax.set_ylim(ymin, ymax)
@@ -47,26 +47,37 @@ def section_axes(ax, frame: Frame) -> None:
 
 
 def depth_axis(ax, label: str) -> None:
-    """Label a y-up axis in km as depth, positive down."""
+    """Label a y-up axis in km as depth, positive down; in m where it is short."""
     span = abs(ax.get_ylim()[1] - ax.get_ylim()[0])
-    step = next((s for s in (0.1, 0.2, 0.5, 1, 2, 5, 10) if span / s <= 7), 20)
+    step = min(plain_step(span / 7), 20)
     ax.yaxis.set_major_locator(MultipleLocator(step))
     if step >= 1:
         ax.yaxis.set_minor_locator(MultipleLocator(1 if step <= 5 else step / 5))
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: depth_text(value)))
-    ax.set_ylabel(label)
+    unit, per_km = length_unit(span)
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: depth_text(per_km * value)))
+    ax.set_ylabel(label.replace("(km)", f"({unit})"))
 
 
 def depth_text(height: float) -> str:
-    """A height in km as depth, with a true minus and no minus zero."""
+    """A height as depth, with a true minus and no minus zero."""
     return f"{0.0 - height + 0.0:g}".replace("-", "−") if abs(height) > 1e-9 else "0"
 
 
+def plain_step(least: float) -> float:
+    """The least of ..., 0.5, 1, 2, 5, 10, ... that is no smaller."""
+    power = 10.0 ** math.floor(math.log10(least))
+    return next(digit * power for digit in (1, 2, 5, 10) if digit * power >= least * (1 - 1e-9))
+
+
 def distance_axis(ax, frame: Frame) -> None:
-    """x ticks in km from the breakaway."""
-    step = 5 if 15 < frame.span <= 80 else (20 if frame.span > 80 else 2)
+    """x ticks in km from the breakaway; in m where the axis is short."""
+    step = 5 if 15 < frame.span <= 80 else 20 if frame.span > 80 else min(2, plain_step(frame.span / 7))
     ax.xaxis.set_major_locator(MultipleLocator(step))
-    ax.xaxis.set_minor_locator(MultipleLocator(1 if step < 20 else 5))
+    if step >= 2:
+        ax.xaxis.set_minor_locator(MultipleLocator(1 if step < 20 else 5))
+    unit, per_km = length_unit(frame.span)
+    if unit != "km":
+        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{per_km * value:g}"))
 
 
 def describe(ax, frame: Frame, text: str, handles=()) -> None:

@@ -4,14 +4,14 @@ import os
 from collections.abc import Sequence
 
 from frame import Frame
-from page import moment_text
+from page import moment_text, window_text
 from plot import Order
 
 SHOWN = {
     "strata": "syn-rift strata by age and pre-rift layers by depth at the start",
     "bonds": "intact bonds between discs",
     "behaviour": "rock behaviour by the share of broken bonds",
-    "strain": "maximum shear strain of the last {window:g} m of extension",
+    "strain": "maximum shear strain, {window}",
     "sediment": "thickness of the sediment and depth of the pre-rift top",
     "kinematics": "pre-rift top beside kinematic predictions",
     "inversion": "height above the regional of the tops of all strata",
@@ -30,7 +30,7 @@ def shown_text(name: str, frame: Frame) -> str:
     for layer in frame.layers:
         if name == f"layer-{layer.name}":
             return layer.label
-    return SHOWN.get(name, name).format(window=frame.meta["strain_window_m"])
+    return SHOWN.get(name, name).format(window=window_text(frame))
 
 
 def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, order: Order) -> str:
@@ -45,7 +45,7 @@ def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, orde
     parts = [f"{order.software} model: {meta.get('title') or meta['scene']}.",
              f"After {moment_text(frame)}{at} ({meta['time_a'] / 1e6:.2f} Myr): {panels}."]
     if any(name in FAULTS for name in names) and frame.faults is not None and len(frame.faults):
-        parts.append(f"Black lines: faults active in the last {meta['strain_window_m']:g} m, wider where they slip faster.")
+        parts.append("Black lines: faults active since the previous snapshot, wider where they slip faster.")
     for name, axes in (("seismic", frame.seismic_axes), ("seismic-depth", frame.seismic_depth_axes)):
         if name in names and axes is not None:
             parts.append(SEISMIC.format(frequency=axes[3]))

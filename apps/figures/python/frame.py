@@ -7,7 +7,7 @@ origin), n discs:
     discs_stratum                    0 before the rift, then 1 for the oldest stratum
     discs_start_depth                m, NaN for sediment
     discs_layer                      0, or the number of its layer of rock; only where there are layers
-    discs_shear_strain               of the last window of extension, NaN for younger discs
+    discs_shear_strain               of the last whole window of extension, NaN for younger discs
     discs_behaviour                  class of rock behaviour; only where there are bonds
     bonded                           contacts: x, y of both discs, 1 where both are sediment
     detachment                       x, y
@@ -34,6 +34,7 @@ An array that is not there says that the run knows no such thing.
 """
 import math
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from plot import InputError, read_json
@@ -43,6 +44,7 @@ import numpy as np
 
 NUMBERS = ("extension_m", "time_a", "right_wall_x_m", "strata", "strain_end", "strain_window_m")
 MOST_STRATA = 10_000
+USUAL_THICKNESS = 15.0        # km, of a model
 MM_PER_A = 365.25 * 86400e3   # of a m/s
 
 COLUMNS = {"band": 3, "line": 2, "discs": None}   # of layers, by kind
@@ -111,6 +113,13 @@ class Frame:
     @property
     def wall(self) -> float:
         return self.meta["right_wall_x_m"] / 1000.0
+
+    @property
+    def unit(self) -> float:
+        """Length of margins (km): 1 km in a model of USUAL_THICKNESS, as large a share of others. Two digits
+        of it, so that a base that bends changes no margin."""
+        thickness = max(-self.detachment[:, 1].min(), 2.0 * self.radius.max())
+        return float(f"{thickness / USUAL_THICKNESS:.2g}")
 
     @property
     def span(self) -> float:
@@ -291,7 +300,15 @@ def behaviour(discs: dict[str, np.ndarray | None]) -> np.ndarray | None:
 
 def view_of(frame: Frame) -> tuple[float, float, float, float]:
     """Extent of the section (km): from left of the breakaway, and of what runs over it, to right of the wall."""
-    left = min(-1.0, np.quantile(frame.x, 0.001) - 0.5)
+    unit = frame.unit
+    left = min(-unit, np.quantile(frame.x, 0.001) - 0.5 * unit)
     tops = np.append(np.quantile(frame.y + frame.radius, 0.9999), (frame.level or 0.0, 0.0))
     bottom = min(frame.detachment[:, 1].min(), np.quantile(frame.y - frame.radius, 0.0001))
-    return (left, frame.wall + 0.5, bottom - 0.6, tops.max() + 0.5)
+    return (left, frame.wall + 0.5 * unit, bottom - 0.6 * unit, tops.max() + 0.5 * unit)
+
+
+def share_view(frames: Sequence[Frame]) -> None:
+    """Lets all frames show what any of them shows: with stages the wall is not furthest at the last one."""
+    left, right, bottom, top = zip(*(frame.view for frame in frames))
+    for frame in frames:
+        frame.view = (min(left), max(right), min(bottom), max(top))

@@ -1,8 +1,10 @@
 """A page of sections: its measures in inches, its headline and its small print."""
+import math
 import textwrap
+from collections.abc import Sequence
 
 from frame import Frame
-from plot import FAINT, Figure
+from plot import FAINT, Figure, length_unit
 
 DPI = 150
 WIDTH, LEFT, RIGHT = 12.0, 0.72, 1.13
@@ -33,10 +35,38 @@ def extension_text(frame: Frame) -> str:
 
 def moment_text(frame: Frame) -> str:
     """How far the wall is: "5.0 km of extension"; with stages of motion also by which way."""
-    text = f"{extension_text(frame)} km of extension"
-    if "way_m" not in frame.meta:
-        return text
-    return f"{frame.meta['extension_m'] / 1000:.3g} km of extension after a way of {extension_text(frame)} km"
+    return moment_words(frame.meta, extension_text(frame))
+
+
+def moments_text(frames: Sequence[Frame]) -> str:
+    """How far the wall is in each of the frames: "5.0 and 10.0 km of extension"."""
+    if any("way_m" in frame.meta for frame in frames):
+        return " and ".join(moment_text(frame) for frame in frames)
+    return " and ".join(extension_text(frame) for frame in frames) + " km of extension"
+
+
+def moment_words(meta: dict, way: str) -> str:
+    """How far the wall is after a way in km, where `meta` has its extension_m and way_m, or no way_m."""
+    if "way_m" not in meta:
+        return f"{way} km of extension"
+    return f"{meta['extension_m'] / 1000:.3g} km of extension after a way of {way} km"
+
+
+WINDOW_END = 2e-4   # share of a window: a moment as near as that to its end is its end
+
+
+def window_text(frame: Frame) -> str:
+    """The window of the frame's strain, which ends at its multiples whenever a frame is made: "last 500 m of
+    extension", and some way after its end "1.5 to 2 km of extension"."""
+    meta = frame.meta
+    window, way = meta["strain_window_m"], meta.get("way_m", meta["extension_m"])
+    until = meta.get("strain_until_m", window * math.floor(way / window + WINDOW_END))
+    if until < window * (1.0 - WINDOW_END):
+        return "since the start"
+    of = "the way" if "way_m" in meta else "extension"
+    if way - until <= WINDOW_END * window:
+        return f"last {window:g} m of {of}"
+    return f"{(until - window) / 1000:g} to {until / 1000:g} km of {of}"
 
 
 LONGEST_TITLE = 80        # letters that fit beside the moment
@@ -100,6 +130,7 @@ def set_ticks(ax) -> None:
 def name_distance(ax, lowest: bool) -> None:
     """Numbers and name of the x axis, under the lowest panel only."""
     if lowest:
-        ax.set_xlabel("Distance from the breakaway (km)")
+        left, right = ax.get_xlim()
+        ax.set_xlabel(f"Distance from the breakaway ({length_unit(right - left)[0]})")
     else:
         ax.tick_params(labelbottom=False)

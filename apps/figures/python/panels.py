@@ -9,7 +9,7 @@ from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section
                   swatch)
 from discs import draw_discs
 from frame import Frame, Layer
-from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT
+from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT, window_text
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
 from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
@@ -206,7 +206,7 @@ def behaviour_panel(ax, cax, frame: Frame) -> None:
 
 
 def strain_panel(ax, cax, frame: Frame) -> None:
-    """Shear strain (no unit) of the last window of extension."""
+    """Shear strain (no unit) of the last whole window of extension."""
     section_axes(ax, frame)
     limit = frame.strain_end
     finite = np.isfinite(frame.strain)
@@ -223,8 +223,7 @@ def strain_panel(ax, cax, frame: Frame) -> None:
                 zorder=6)
         handles.append((stroke(TOP_GREEN, 1.0), "pre-rift top"))
     handles += draw_faults(ax, frame.faults)
-    window = frame.meta["strain_window_m"]
-    describe(ax, frame, f"Shear strain, last {window:g} m of extension", handles)
+    describe(ax, frame, f"Shear strain, {window_text(frame)}", handles)
 
 
 def strain_bar(cax, limit: float, highest: float) -> None:
@@ -250,7 +249,7 @@ def sediment_panel(ax, cax, frame: Frame) -> None:
     x, top, thickness = frame.profile.T
     known = np.isfinite(thickness)
     shown = -np.where(known, thickness, np.nan)
-    deepest = max(np.nanmax(-shown, initial=0.0), np.nanmax(-top, initial=0.0), 0.5)
+    deepest = max(np.nanmax(-shown, initial=0.0), np.nanmax(-top, initial=0.0), 0.5 * frame.unit)
     highest = max(np.nanmax(top, initial=0.0), 0.0)
     # Room for the numbers of depocentres; a small panel has less of it.
     ax.set_ylim(-(1.32 if frame.legends is None else 1.6) * deepest, highest + 0.10 * deepest)
@@ -325,7 +324,7 @@ def kinematics_panel(ax, cax, frame: Frame) -> None:
         handles.append((stroke(INK, 1.8), "pre-rift top"))
     if frame.predicted_normals is not None and len(frame.predicted_normals) > 1:
         ax.add_collection(LineCollection(
-            pieces(frame.predicted_normals), colors=NORMALS_BLUE, linewidths=1.8,
+            pieces(frame.predicted_normals, 0.5 * frame.unit), colors=NORMALS_BLUE, linewidths=1.8,
             linestyles=(0, (6, 2)), zorder=7), autolim=False)
         label = "normals stay normal"
         if "predicted_tilt_deg" in meta and "rollover_tilt_deg" in meta:
@@ -342,7 +341,7 @@ def kinematics_panel(ax, cax, frame: Frame) -> None:
     describe(ax, frame, "Kinematics", handles)
 
 
-def pieces(curve: np.ndarray, gap: float = 0.5) -> list[np.ndarray]:
+def pieces(curve: np.ndarray, gap: float) -> list[np.ndarray]:
     """The curve without its steps above gap (km): where normals part, nothing is predicted."""
     step = np.hypot(*np.diff(curve, axis=0).T)
     return [p for p in np.split(curve, np.flatnonzero(step > gap) + 1) if len(p) > 1]
@@ -373,8 +372,8 @@ def inversion_panel(ax, cax, frame: Frame) -> None:
         return
     regional = frame.level or 0.0
     heights = frame.tops[:, 3] - regional
-    lowest = heights[frame.tops[:, 0] >= 0].min(initial=-0.5)
-    ax.set_ylim(1.06 * lowest, max(heights.max(), 0.3) * 1.12)
+    lowest = heights[frame.tops[:, 0] >= 0].min(initial=-0.5 * frame.unit)
+    ax.set_ylim(1.06 * lowest, max(heights.max(), 0.3 * frame.unit) * 1.12)
     colours = stratum_colours(frame.strata)
     if frame.strata:
         strata_bar(cax, colours, frame)

@@ -60,6 +60,11 @@ def rgb(digits):
     return [part / 255 for part in bytes.fromhex(digits)]
 
 
+def layer_formula():
+    """A disc's stratum or band of rock, for ParaView's calculator; discs above the surface are in the first band."""
+    return f"if(stratum > 0, stratum, -1 - floor(max(start_depth_m, 0) / {LOOK['pre_rift']['layer_m']}))"
+
+
 def colour_by_layer(display, layers):
     """A colour for every band of rock (..., -2, -1) and every stratum (1, 2, ...)."""
     low, high = (int(end) for end in layers.PointData["layer"].GetRange())
@@ -74,9 +79,7 @@ def colour_by_layer(display, layers):
 def show_discs(series, view, array):
     """Discs; the sole and the walls; unbroken bonds, which are hidden."""
     discs = pv.Calculator(registrationName="layers", Input=part(series, "discs"),
-                          ResultArrayName="layer",
-                          Function="if(stratum > 0, stratum, -1 - floor(start_depth_m / "
-                                   f"{LOOK['pre_rift']['layer_m']}))")
+                          ResultArrayName="layer", Function=layer_formula())
     discs.UpdatePipeline(max(series.TimestepValues))
     display = pv.Show(discs, view)
     display.SetRepresentationType("Point Gaussian")

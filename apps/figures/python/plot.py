@@ -102,11 +102,18 @@ def read_json(path: str) -> dict:
 
 def read_rows(path: str) -> list[dict[str, str]]:
     """The rows of a CSV file below its head, of which there is at least one."""
+    rows = []
     try:
         with open(path, encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
+            reader = csv.DictReader(file)
+            for row in reader:
+                if None in row or None in row.values():
+                    raise InputError(f"{path}: line {reader.line_num} has more or fewer fields than the head")
+                rows.append(row)
     except OSError as failure:
         raise InputError(f"{path}: {failure.strerror or failure}") from failure
+    except (ValueError, csv.Error) as failure:
+        raise InputError(f"{path}: not a table ({failure})") from failure
     if not rows:
         raise InputError(f"{path}: an empty table")
     return rows
@@ -120,7 +127,7 @@ def read_table(path: str, may_be_empty: bool = False) -> dict[str, np.ndarray]:
         columns = np.array(rows[1:], dtype=float).T
     except OSError as failure:
         raise InputError(f"{path}: {failure.strerror or failure}") from failure
-    except (ValueError, IndexError) as failure:
+    except (ValueError, IndexError, csv.Error) as failure:
         raise InputError(f"{path}: not a table of numbers ({failure})") from failure
     if len(rows) == 1 and may_be_empty:
         return {key: np.empty(0) for key in rows[0]}
@@ -135,6 +142,11 @@ def rows_by_moment(table: dict[str, np.ndarray], *columns: str) -> tuple[str, di
     clock = "travel" if "travel_m" in table else "extension"
     rows, at = np.column_stack([table[name] for name in columns]), table[f"{clock}_m"]
     return clock, {float(value): rows[at == value] for value in np.unique(at)}
+
+
+def length_unit(span: float) -> tuple[str, float]:
+    """Unit of the numbers on an axis that is so many km long, and how many of it a km has."""
+    return ("km", 1.0) if span >= 0.1 else ("m", 1000.0)
 
 
 def moment_label(extension: float, last: float) -> str:

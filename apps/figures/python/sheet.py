@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from axes import LEGEND
 from frame import Frame
 from page import (DPI, GAP, LEFT, RIGHT, ROW_ABOVE, TITLE, XLABEL, add_axes, below, extension_text,
-                  footer, moment_text, name_distance, set_ticks, title_of, write_around)
+                  footer, moment_text, moments_text, name_distance, set_ticks, title_of, write_around)
 from panels import PANELS
 from plot import Figure, Order, new_figure, save
 from scales import share_scales
@@ -33,9 +33,7 @@ def draw_sheet(frames: Sequence[Frame]) -> Figure:
     total = TITLE + LABELS + below(lines) + len(kinds) * (height + ROW_ABOVE) \
         + GAP * (len(kinds) - 1)
     figure = new_figure(SHEET_WIDTH, total, DPI)
-    write_around(figure, f"{title_of(frames[-1])}: "
-                 + " and ".join(extension_text(frame) for frame in frames)
-                 + " km of extension", lines)
+    write_around(figure, f"{title_of(frames[-1])}: {moments_text(frames)}", lines)
     y = total - TITLE - LABELS
     for row, name in enumerate(kinds):
         y -= ROW_ABOVE + height

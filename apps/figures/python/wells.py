@@ -3,9 +3,10 @@
 
 Usage: wells.py DATA_DIR FIGURES_DIR ORDER
 
-Reads DATA_DIR/wells.json: frames, each with scene, extension_km and wells; a well has a name, x_m and
-columns of numbers from the ground down.  Writes well-<extension>km under a temporary name and renames
-it.  On bad input: one line on stderr, exit status 2.
+Reads DATA_DIR/wells.json: frames, each with scene, extension_km, in a scene with stages also
+extension_m and way_m, and wells; a well has a name, x_m and columns of numbers from the ground down.
+Writes well-<extension>km under a temporary name and renames it.  On bad input: one line on stderr,
+exit status 2.
 """
 import os
 import sys
@@ -14,6 +15,8 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated P
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import (FAINT, INK, STYLE, InputError, matplotlib, new_figure, read_json, read_order, run,
                   save, without_frame)
+
+from page import moment_words
 
 import numpy as np
 
@@ -80,7 +83,7 @@ def draw(frame: dict):
     wells = frame["wells"]
     figure = new_figure(11.5, 0.5 + 4.4 * len(wells), 120)
     figure.text(0.01, 1.0 - 0.1 / (0.5 + 4.4 * len(wells)),
-                f"{frame['scene'].upper()}, {frame['extension_km']} km of extension", fontsize=13,
+                f"{frame['scene'].upper()}, {moment_words(frame, frame['extension_km'])}", fontsize=13,
                 weight="bold", va="top", color=INK)
     rows = figure.subplots(len(wells), len(PANELS), squeeze=False)
     top = 1.03 * KILOMETRE * max(max(columns_of(well)["depth_m"]) for well in wells)

@@ -20,12 +20,19 @@ class HistoryChart {
     this.at = 0;
   }
 
-  /** Rows of the clock (km), the first measure of each run, the second of each run. */
+  /** Clocks of runs are rounded to it, m, so that their rows meet: a plain part of the finest interval. */
+  clockStep() {
+    const clocks = this.runs.map(run => run.history[clockOf(run)] || []);
+    const intervals = clocks.flatMap(clock => clock.slice(1).map((travel, k) => travel - clock[k])).filter(interval => interval > 0);
+    return Math.min(10 ** Math.floor(Math.log10(Math.min(...intervals) / 40)), 10);
+  }
+
+  /** Rows of the clock in the page's unit, the first measure of each run, the second of each run. */
   rows(names) {
-    const marks = new Map();
+    const marks = new Map(), step = this.clockStep();
     this.runs.forEach((run, r) => {
       (run.history[clockOf(run)] || []).forEach((travel, k) => {
-        const key = Math.round(travel / 10) * 10;
+        const key = Math.round(travel / step);
         if (!marks.has(key)) marks.set(key, new Array(names.length * this.runs.length).fill(null));
         names.forEach((name, n) => {
           const value = (run.history[name] || [])[k];
@@ -33,14 +40,14 @@ class HistoryChart {
         });
       });
     });
-    return [...marks.entries()].sort((a, b) => a[0] - b[0]).map(([key, values]) => [key / 1000, ...values]);
+    return [...marks.entries()].sort((a, b) => a[0] - b[0]).map(([key, values]) => [key * step / lengthUnit().metres, ...values]);
   }
 
   draw(names) {
     if (typeof Dygraph === "undefined") return withoutCharts(this.host);
     const of = r => this.runs.length > 1 ? `, ${"AB"[r]}` : "";
     const labels = names.flatMap((name, n) => this.runs.map((_, r) => `${wordsOf(name)}${page.data.measures[name]?.[1]?.length > 1 ? ` (${page.data.measures[name][1]})` : ""}${of(r)}${n && name === names[0] ? " " : ""}`));
-    const series = {}, clock = `${clockWord(this.runs[0])} (km)`;
+    const series = {}, unit = lengthUnit(), clock = `${clockWord(this.runs[0])} (${unit.name})`;
     labels.slice(this.runs.length).forEach(label => { series[label] = {axis: "y2"}; });
     this.chart?.destroy();
     this.chart = new Dygraph(this.host, this.rows(names), {
@@ -48,11 +55,11 @@ class HistoryChart {
       strokeWidth: 1.6, colors: ["#1f77a8", "#c96a00", "#5f9fc4", "#d9a066"], axisLineColor: "#8a8a8a", gridLineColor: "#8a8a8a55", xlabel: clock,
       labelsUTC: true, digitsAfterDecimal: 3, axes: {y2: {drawGrid: false, independentTicks: true}},
       underlayCallback: (context, area, chart) => {
-        const column = chart.toDomXCoord(this.at / 1000);
+        const column = chart.toDomXCoord(this.at / unit.metres);
         context.fillStyle = cursorInk;
         context.fillRect(column - 1, area.y, 2, area.h);
       },
-      clickCallback: (_, x) => this.show(1000 * x),
+      clickCallback: (_, x) => this.show(unit.metres * x),
     });
   }
 

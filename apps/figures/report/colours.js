@@ -35,6 +35,9 @@ const modes = {
   displacement: {label: "displacement (m)", needs: ["start_x_m", "start_depth_m"], end: "displacement_m"},
 };
 
+/** What all of these runs can be coloured by. */
+function modesOf(runs) { return Object.keys(modes).filter(name => modes[name].needs.every(stream => runs.every(run => run.has(stream)))); }
+
 function displacement(run, k) {
   const x = run.values(k, "x_m"), z = run.values(k, "depth_m");
   const x0 = run.values(k, "start_x_m"), z0 = run.values(k, "start_depth_m");

@@ -135,8 +135,7 @@ function travelOf(moment) { return moment.travel_m ?? moment.extension_m; }
 
 /** "5.00 km", with stages "1.00 km after a way of 9.00 km" */
 function wayText(moment) {
-  const km = value => `${(value / 1000).toFixed(2)} km`;
-  return km(moment.extension_m) + ("travel_m" in moment ? ` after a way of ${km(moment.travel_m)}` : "");
+  return placeText(moment.extension_m) + ("travel_m" in moment ? ` after a way of ${placeText(moment.travel_m)}` : "");
 }
 
 /** A CSV table of numbers by its columns; an empty field is NaN. */

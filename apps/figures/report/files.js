@@ -94,7 +94,7 @@ async function pictureOf(section) {
   context.translate(12 * ratio, top + height / 2);
   context.rotate(-Math.PI / 2);
   context.textAlign = "center";
-  context.fillText("depth (km)", 0, 0);
+  context.fillText(`depth (${lengthUnit().name})`, 0, 0);
   context.restore();
   context.textAlign = "left";
   for (const [item, x, line] of legend) {
@@ -116,38 +116,58 @@ async function pictureOf(section) {
 
 function escaped(text) { return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;"); }
 
-/** Discs as an image; axes, lines, faults with their numbers, legend and words as text and lines. */
-function svgOf(section, view, lines) {
-  const {width, height} = section.discCanvas, ratio = section.ratio, words = wordsAround(section), p = paper;
-  const [w, h] = [width / ratio, height / ratio], left = p.margin, top = p.above + 18;
-  const place = (x, depth) => section.toPixel(view, x, depth).map(v => v / ratio);
-  const path = (points, ink, thick, dash = "") => `<polyline fill="none" stroke="${ink}" stroke-width="${thick}"${dash} points="` +
-    points.map(([x, depth]) => place(x, depth).map(v => v.toFixed(1)).join(",")).join(" ") + `"/>`;
-  const text = (x, y, said, more = "") => `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" ${more}>${escaped(said)}</text>`;
-  const shown = (name, list) => page.shown.has(name) ? list : [];
+function svgText(x, y, said, more = "") {
+  return `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" ${more}>${escaped(said)}</text>`;
+}
+
+/** A line of a section, and its label on a white rim. */
+function svgStroke(section, view, {points, ink, width, dash, label, at}) {
+  const place = (x, depth) => section.toPixel(view, x, depth).map(v => v / section.ratio);
+  const line = points.length < 2 ? "" : `<polyline fill="none" stroke="${ink}" stroke-width="${width.toFixed(2)}" stroke-linejoin="round"` +
+    `${dash ? ` stroke-dasharray="${dash.join(" ")}"` : ""} points="` +
+    points.map(point => place(...point).map(v => v.toFixed(1)).join(",")).join(" ") + `"/>`;
+  const [x, y] = at ? place(...at) : [];
+  return line + (at ? svgText(x + 4, y - 4, label, `fill="${ink}" stroke="#fff" stroke-width="3" paint-order="stroke"`) : "");
+}
+
+/** Discs, and what is painted over them, as images; lines with their labels as lines and text. */
+function svgSection(section, k, view, lines, other) {
+  const {width, height} = section.discCanvas, ground = section.groundPicture(k, view, lines, page.shown);
+  const strokes = [...section.strokes(lines, page.shown), ...section.upperStrokes(k, view, lines, page.shown, page.picked, other)];
+  const images = [section.discCanvas, ground].filter(Boolean).map(canvas =>
+    `<image width="${width / section.ratio}" height="${height / section.ratio}" href="${canvas.toDataURL()}"/>`);
+  return [...images, ...strokes.map(stroke => svgStroke(section, view, stroke))].join("\n");
+}
+
+/** Numbers along a frame of so many pixels. */
+function svgAxes(section, view, height) {
+  const {across, down} = section.marks(view), {ratio} = section;
+  return across.filter(({at}) => at >= 0).map(({at, text}) => svgText(at / ratio, -5, text, 'text-anchor="middle"')).join("") +
+    down.map(({at, text}) => svgText(-5, at / ratio + 4, text, 'text-anchor="end"')).join("") +
+    svgText(0, 0, `depth (${lengthUnit().name})`, `text-anchor="middle" transform="translate(-34,${height / 2}) rotate(-90)"`);
+}
+
+function svgLegendEntry(item, x, y) {
+  const all = item.colours || [item.colour], each = item.colours ? 120 / all.length : 12;
+  return all.map((colour, n) => `<rect x="${(x + n * each).toFixed(2)}" y="${y - 10}" width="${(each + (item.colours ? 0.3 : 0)).toFixed(2)}" height="12" fill="${colour}"/>`).join("") +
+    svgText(x + (item.colours ? 126 : 16), y, legendText(item));
+}
+
+/** The section with all that a picture needs to stand alone, as SVG. */
+function svgOf(section, k, view, lines, other) {
+  const {width, height} = section.discCanvas, words = wordsAround(section), p = paper;
+  const [w, h] = [width / section.ratio, height / section.ratio], left = p.margin, top = p.above + 18;
   const measure = document.createElement("canvas").getContext("2d");
   measure.font = `${p.font}px "DejaVu Sans", sans-serif`;
   const legend = placedLegend(legendItems(), w, said => measure.measureText(said).width);
   const total = h + top + 26 + p.line * (2 + Math.max(...legend.map(([, , line]) => line), 0));
-  const {across, down} = section.marks(view);
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${w + 2 * left}" height="${total}" viewBox="0 0 ${w + 2 * left} ${total}" ` +
     `font-family="DejaVu Sans, sans-serif" font-size="${p.font}" fill="#1a1a1a">\n<title>${escaped(words.title)}</title>\n` +
     `<desc>${escaped(words.foot)}</desc>\n<rect width="100%" height="100%" fill="#fff"/>\n` +
-    text(left, 20, words.title, 'font-size="15" font-weight="bold"') + text(left, 40, words.moment) +
+    svgText(left, 20, words.title, 'font-size="15" font-weight="bold"') + svgText(left, 40, words.moment) +
     `\n<clipPath id="frame"><rect width="${w}" height="${h}"/></clipPath>\n<g transform="translate(${left},${top})">\n<g clip-path="url(#frame)">\n` +
-    `<image width="${w}" height="${h}" href="${section.discCanvas.toDataURL()}"/>\n` +
-    [...shown("detachment", lines.surfaces.filter(line => line.name !== "target line")).map(line => path(line.points, inkOf("detachment"), 1.5)),
-      ...shown("target", lines.surfaces.filter(line => line.name === "target line")).map(line => path(line.points, inkOf("target"), 1.4, ' stroke-dasharray="8 4"')),
-      ...shown("horizons", lines.horizons || []).map(line => path(line.points, inkOf("horizons"), line.stratum === 0 ? 2 : 1)),
-      ...shown("faults", lines.faults).map((line, n) => path(line.points, "#fff", 4) + path(line.points, inkOf("faults"), 2) +
-        text(place(...line.points[0])[0] + 4, place(...line.points[0])[1] - 4, n))].join("\n") +
-    `\n</g>\n<rect width="${w}" height="${h}" fill="none" stroke="#1a1a1a"/>\n` +
-    across.filter(({at}) => at >= 0).map(({at, text: said}) => text(at / ratio, -5, said, 'text-anchor="middle"')).join("") +
-    down.map(({at, text: said}) => text(-5, at / ratio + 4, said, 'text-anchor="end"')).join("") +
-    text(0, 0, "depth (km)", `text-anchor="middle" transform="translate(-34,${h / 2}) rotate(-90)"`) + "\n</g>\n" +
-    legend.map(([item, x, line]) => {
-      const row = top + h + 22 + p.line * line, all = item.colours || [item.colour], each = item.colours ? 120 / all.length : 12;
-      return all.map((colour, n) => `<rect x="${(left + x + n * each).toFixed(2)}" y="${row - 10}" width="${(each + (item.colours ? 0.3 : 0)).toFixed(2)}" height="12" fill="${colour}"/>`).join("") +
-        text(left + x + (item.colours ? 126 : 16), row, legendText(item));
-    }).join("\n") + "\n" + text(left, total - 8, words.foot, 'font-size="10" fill="#595959"') + "\n</svg>\n";
+    svgSection(section, k, view, lines, other) +
+    `\n</g>\n<rect width="${w}" height="${h}" fill="none" stroke="#1a1a1a"/>\n` + svgAxes(section, view, h) + "\n</g>\n" +
+    legend.map(([item, x, line]) => svgLegendEntry(item, left + x, top + h + 22 + p.line * line)).join("\n") + "\n" +
+    svgText(left, total - 8, words.foot, 'font-size="10" fill="#595959"') + "\n</svg>\n";
 }

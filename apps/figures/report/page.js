@@ -7,19 +7,28 @@ const page = {
   view: {left: 0, top: 0, scale: 1, height: 1},
 };
 
-const lengths = new Intl.NumberFormat("en", {maximumFractionDigits: 0});
+const counts = new Intl.NumberFormat("en", {maximumFractionDigits: 0});
 
 /** The moment of a run beside the one that the slider is at. */
 function momentOf(run) { return run === page.runs[0] ? page.t : run.nearest(travelOf(page.runs[0].moments[page.t])); }
 
 // -- drawing
 
+/** A fifteenth of the thickest model, as in the figures: a kilometre of one of 15 km. */
+function marginUnit() { return Math.max(...page.runs.map(run => run.head.thickness_m)) / 15; }
+
+/** Room around the models, m: a footwall with stresses reaches far below and to the left of them. */
+function margins() {
+  const unit = marginUnit();
+  return {above: 2 * unit, below: (hasFootwall() ? 9 : 1) * unit, left: (hasFootwall() ? 20 : 1) * unit, right: unit};
+}
+
 function layOut() {
+  const {above, below, left, right} = margins();
   for (const section of page.sections) {
     const width = section.host.clientWidth, ratio = Math.min(window.devicePixelRatio || 1, 2);
     const {length_m: length, extension_m: extension, thickness_m: depth} = section.run.head;
-    const [below, beside] = hasFootwall() ? [11000, 21000] : [3000, 2000];
-    const height = Math.round(Math.max(Math.min(width * page.view.height * (depth + below) / (length + extension + beside),
+    const height = Math.round(Math.max(Math.min(width * page.view.height * (above + depth + below) / (left + length + extension + right),
       window.innerHeight * 0.75), 140));
     section.host.style.aspectRatio = `${width} / ${height}`;
     section.host.style.setProperty("--ratio", width / height);
@@ -30,27 +39,31 @@ function layOut() {
 function hasFootwall() { return page.shown.has("footwall") && "footwall" in page.layers; }
 
 function showWhole() {
-  const canvas = page.sections[0].discCanvas;
-  const flank = hasFootwall() ? 20000 : 1000;
-  const longest = Math.max(...page.runs.map(run => run.head.length_m + run.head.extension_m)) + flank + 1000;
-  const deepest = Math.max(...page.runs.map(run => run.head.thickness_m)) + (hasFootwall() ? 11000 : 3000);
+  const canvas = page.sections[0].discCanvas, {above, below, left, right} = margins();
+  const longest = Math.max(...page.runs.map(run => run.head.length_m + run.head.extension_m)) + left + right;
+  const deepest = Math.max(...page.runs.map(run => run.head.thickness_m)) + above + below;
   const scale = Math.min(canvas.width / longest, canvas.height / deepest / page.view.height);
-  Object.assign(page.view, {left: -flank - (canvas.width / scale - longest) / 2, top: -2000, scale});
+  Object.assign(page.view, {left: -left - (canvas.width / scale - longest) / 2, top: -above, scale});
 }
 
 let drawing = 0;
 
+/** Lines of the second run, whose faults are drawn over the first one; null without one. */
+async function linesOfOther() {
+  const other = page.runs[1];
+  return other ? other.loadLines(momentOf(other)) : null;
+}
+
 /** Paints the sections; what is around them follows. */
 async function draw() {
   const turn = ++drawing;
-  const needs = modes[page.mode].needs.filter(name => page.runs[0].has(name));
   const inked = run => shownLayers(run, "discs", page.shown);
-  await Promise.all(page.runs.map(run => run.load([...needs, ...(page.shown.has("bonds") ? bondStreams : []),
+  await Promise.all(page.runs.map(run => run.load([...modes[page.mode].needs, ...(page.shown.has("bonds") ? bondStreams : []),
     ...inked(run).map(([name]) => name), ...(page.mode === "strata" ? ["layer"] : [])])));
   if (turn !== drawing) return;
   const top = scaleEnd(page.runs, page.mode);
   const strata = Math.max(...page.runs.map(run => run.codes.at(-1).stratum.reduce((a, b) => Math.max(a, b), 0)));
-  const others = page.runs.length > 1 ? await page.runs[1].loadLines(momentOf(page.runs[1])) : null;
+  const others = await linesOfOther();
   for (const section of page.sections) {
     const k = momentOf(section.run);
     const colours = discColours(section.run, k, page.mode, page.palette, top, strata);
@@ -61,7 +74,7 @@ async function draw() {
   drawLegend();
   await addFootwallLegend();
   tell();
-  writeAddress();
+  writeAddressSoon();
 }
 
 /** Entries of the legend of what is shown: a colour, or colours from one number to another, and a label. */
@@ -70,11 +83,11 @@ function legendItems() {
   const bar = colour => Array.from({length: 60}, (_, n) => cssColour(colour(n / 59)));
   if (page.mode === "rock") items.push(...vocabulary.rock_classes.map(({label, colour}) => ({label, colour})));
   else if (page.mode === "strata") {
-    const rate = page.runs[0].head.rate_m_per_a * 1e6, last = travelOf(page.runs[0].moments.at(-1)) / rate;
-    if (strata) items.push({label: `sediment laid down (Myr), ${strata} strata`, from: 0, to: digits(last, 2),
+    const [run] = page.runs, last = timeOf(run, travelOf(run.moments.at(-1)));
+    if (strata) items.push({label: `sediment laid down (${timeUnit().name}), ${strata} strata`, from: 0, to: digits(last, 2),
       colours: bar(share => stratumColour(Math.min(1 + Math.floor(share * strata), strata), strata, table))});
-    for (const [n, name] of (page.runs[0].head.rock_layers || []).entries())
-      items.push({colour: layerColour(n + 1), label: name});
+    const beds = page.runs.flatMap(one => (one.head.rock_layers || []).map((label, n) => ({colour: layerColour(n + 1), label})));
+    items.push(...new Map(beds.map(bed => [bed.colour + bed.label, bed])).values());
     vocabulary.pre_rift.colours.forEach((colour, n) =>
       items.push({colour, label: n ? "by turns" : `pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km`}));
   } else items.push({label: modes[page.mode].label, from: 0, to: `${plain(top / (unit || 1))} or more`,
@@ -127,14 +140,14 @@ async function addFootwallLegend() {
 /** "5.00 km, 0.500 Myr" */
 function momentText(run) {
   const moment = run.moments[momentOf(run)];
-  return `${wayText(moment)}, ${(travelOf(moment) / run.head.rate_m_per_a / 1e6).toFixed(3)} Myr`;
+  return `${wayText(moment)}, ${timeOf(run, travelOf(moment)).toFixed(3)} ${timeUnit().name}`;
 }
 
 function tell() {
   const run = page.runs[0], moment = run.moments[page.t];
   $("slider").value = page.t;
   $("slider").setAttribute("aria-valuetext", wayText(moment));
-  $("moment").textContent = `${momentText(run)}, ${lengths.format(moment.discs)} discs`;
+  $("moment").textContent = `${momentText(run)}, ${counts.format(moment.discs)} discs`;
   page.chart.moveTo(travelOf(moment));
   drawFaults();
 }
@@ -155,10 +168,10 @@ async function drawFaults() {
 }
 
 async function drawUplift(run) {
-  const [line] = (await run.loadLines(momentOf(run))).base;
+  const [line] = (await run.loadLines(momentOf(run))).base, {name, metres} = lengthUnit();
   $("uplift_part").hidden = !line;
-  if (line) drawPlain($("uplift"), line.start_x_m.map((x, i) => [x / 1000, -line.ddepth_m[i]]), ["x (km)", "uplift (m)"],
-    {xlabel: "x before extension (km)", ylabel: "uplift (m)", drawPoints: false});
+  if (line) drawPlain($("uplift"), line.start_x_m.map((x, i) => [x / metres, -line.ddepth_m[i]]), [`x (${name})`, "uplift (m)"],
+    {xlabel: `x before extension (${name})`, ylabel: "uplift (m)", drawPoints: false});
 }
 
 /** Words for what was clicked. */
@@ -174,8 +187,8 @@ async function describe() {
     const value = name => run.has(name) ? run.values(k, name)[id] : NaN;
     const say = (text, name, unit = 1, suffix = "") => run.has(name) ? `; ${text} ${plain(value(name) / unit)}${suffix}` : "";
     $("picked").textContent = `${which}disc ${id}: stratum ${run.codes[k].stratum[id]}, ` +
-      `began at x ${lengths.format(value("start_x_m"))} m, depth ${lengths.format(value("start_depth_m"))} m; is at x ` +
-      `${lengths.format(value("x_m"))} m, depth ${lengths.format(value("depth_m"))} m; radius ${value("radius_m").toFixed(1)} m` +
+      `began at x ${metresText(value("start_x_m"))}, depth ${metresText(value("start_depth_m"))}; is at x ` +
+      `${metresText(value("x_m"))}, depth ${metresText(value("depth_m"))}; radius ${value("radius_m").toFixed(1 + metreDecimals())} m` +
       say("strain of the window", "window_strain") + say("total strain", "total_strain") + say("bonds", "bonds") +
       say("mean stress", "mean_stress_pa", 1e6, " MPa") + say("shear stress", "shear_stress_pa", 1e6, " MPa");
   } else if (picked.kind === "fault") {
@@ -183,10 +196,10 @@ async function describe() {
     $("picked").textContent = fault ? `${which}fault ${picked.index}: ${fault.attitude}, ${fault.sense}, dip ` +
       `${fault.dip_deg.toFixed(1)}°, ${digits(fault.rate_mm_per_a, 2)} mm/a, ${valueText(fault.length_m, "m", run.head.mean_radius_m)} long` +
       (fault.born_at_m === null ? "; its birth is known at the figures' moments and at the end"
-        : `; born at ${lengths.format(fault.born_at_m)} m of ${clockWord(run)}`) +
-      (fault.pre_rift_throw_m === null ? "" : `; pre-rift throw ${lengths.format(fault.pre_rift_throw_m)} m`) +
-      throwsOf(fault).map(([stratum, metres], n) => `${n ? ", " : "; throw by stratum: "}${stratum}: ${lengths.format(metres)} m`).join("") +
-      (throwsOf(fault).length ? ` (± ${lengths.format(fault.throw_error_m)} m)` : "")
+        : `; born at ${metresText(fault.born_at_m)} of ${clockWord(run)}`) +
+      (fault.pre_rift_throw_m === null ? "" : `; pre-rift throw ${metresText(fault.pre_rift_throw_m)}`) +
+      throwsOf(fault).map(([stratum, metres], n) => `${n ? ", " : "; throw by stratum: "}${stratum}: ${metresText(metres)}`).join("") +
+      (throwsOf(fault).length ? ` (± ${metresText(fault.throw_error_m)})` : "")
       : `${which}fault ${picked.index}: not active at this moment`;
   } else {
     $("picked").textContent = picked.text;
@@ -195,8 +208,11 @@ async function describe() {
 
 // -- what the user does
 
+/** The number of a moment that there is. */
+function momentWithin(t) { return Math.min(Math.max(Math.trunc(t) || 0, 0), page.runs[0].moments.length - 1); }
+
 function show(t) {
-  page.t = Math.min(Math.max(t, 0), page.runs[0].moments.length - 1);
+  page.t = momentWithin(t);
   return draw().catch(trouble);
 }
 
@@ -205,11 +221,14 @@ function pick(picked) {
   return draw().catch(trouble);
 }
 
+/** Least and greatest pixels per metre: a model is a dot, a disc is larger than the section. */
+function zoomLimits() { return [1 / marginUnit(), 1000 / Math.min(...page.runs.map(run => run.head.mean_radius_m))]; }
+
 function zoom(factor, column, row) {
   const canvas = page.sections[0].discCanvas, {view} = page;
   const at = [column ?? canvas.width / 2, row ?? canvas.height / 2];
-  const [x, depth] = page.sections[0].toMetres(view, ...at);
-  view.scale = Math.min(Math.max(view.scale * factor, 1e-3), 5);
+  const [x, depth] = page.sections[0].toMetres(view, ...at), [least, greatest] = zoomLimits();
+  view.scale = Math.min(Math.max(view.scale * factor, least), greatest);
   view.left = x - at[0] / view.scale;
   view.top = depth - at[1] / view.scale / view.height;
   draw().catch(trouble);
@@ -240,10 +259,10 @@ const keys = {
 };
 
 function onKey(event) {
-  if (event.ctrlKey || event.altKey || event.metaKey) return;
+  if (event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey) return;
   const {tagName, type} = event.target, own = tagName === "SELECT" || type === "range" || tagName === "INPUT";
   if (own && (event.key.startsWith("Arrow") || event.key === "Home" || event.key === "End" || event.key === " ")) return;
-  if (tagName === "BUTTON" && event.key === " ") return;
+  if ((tagName === "BUTTON" || tagName === "SUMMARY") && event.key === " ") return;
   const choice = Object.keys(modes)[Number(event.key) - 1];
   if (keys[event.key]) keys[event.key]();
   else if (choice && [...$("colour").options].some(option => option.value === choice)) {
@@ -297,14 +316,15 @@ function listenTo(section) {
 /** Says beside the pointer where it is and what is there. */
 function readOut(section, column, row) {
   const {run, readout} = section, k = momentOf(run), [x, depth] = section.toMetres(page.view, column, row);
-  const id = section.painter.ownerAt(column, row), mode = modes[page.mode], words = [`x ${(x / 1000).toFixed(2)} km, ${(depth / 1000).toFixed(2)} km deep`];
+  const id = section.painter.ownerAt(column, row), mode = modes[page.mode], words = [`x ${placeText(x)}, ${placeText(depth)} deep`];
   if (id !== nobody) {
     const stratum = run.codes[k].stratum[id];
-    const from = !stratum && run.codes[k].start_depth_m ? `, from ${(run.values(k, "start_depth_m")[id] / 1000).toFixed(1)} km` : "";
+    const from = !stratum && run.codes[k].start_depth_m ? `, from ${placeText(run.values(k, "start_depth_m")[id], 1)}` : "";
     const layer = run.codes[k].layer && run.codes[k].layer[id];
     words.push(stratum ? stratumName(stratum) : layer ? `${run.head.rock_layers[layer - 1]}${from}` : `pre-rift${from}`);
-    if (page.mode === "rock") words.push(vocabulary.rock_classes[run.codes[k].behaviour[id]].label);
-    else if (mode.end && mode.needs.every(name => run.codes[k][name])) {
+    const isRead = mode.needs.every(name => run.codes[k][name]);
+    if (page.mode === "rock" && isRead) words.push(vocabulary.rock_classes[run.codes[k].behaviour[id]].label);
+    else if (mode.end && isRead) {
       const value = page.mode === "displacement" ? displacement(run, k)[id] : run.values(k, mode.needs[0])[id];
       words.push(`${mode.label.replace(/ \(.*/, "")} ${digits(value / (mode.unit || 1), 2)}${mode.unit ? " MPa" : page.mode === "displacement" ? " m" : ""}`);
     }
@@ -321,24 +341,38 @@ function readOut(section, column, row) {
 async function measureLine(section, from, to) {
   const [x0, z0] = section.toMetres(page.view, ...from), [x1, z1] = section.toMetres(page.view, ...to);
   await section.draw(momentOf(section.run), page.view, page.shown, page.picked, null);
-  section.line(page.view, [[x0, z0], [x1, z1]], "#d4006a", 2);
+  section.line(page.view, [[x0, z0], [x1, z1]], pickedInk, 2);
   const dip = Math.atan2(Math.abs(z1 - z0), Math.abs(x1 - x0)) * 180 / Math.PI;
-  page.picked = {kind: "line", run: section.run, text: `Measured: ${lengths.format(Math.hypot(x1 - x0, z1 - z0))} m, dip ` +
-    `${dip.toFixed(1)}°, ${lengths.format(Math.abs(x1 - x0))} m across, ${lengths.format(Math.abs(z1 - z0))} m down`};
+  page.picked = {kind: "line", run: section.run, text: `Measured: ${metresText(Math.hypot(x1 - x0, z1 - z0))}, dip ` +
+    `${dip.toFixed(1)}°, ${metresText(Math.abs(x1 - x0))} across, ${metresText(Math.abs(z1 - z0))} down`};
   describe();
 }
 
-function writeAddress() {
+/** What the address says of the page, after its "#". */
+function addressWords() {
   const {view} = page, words = new URLSearchParams({t: page.t, colour: page.mode, palette: page.palette,
     view: [view.left, view.top, view.scale * page.sections[0].host.clientWidth / page.sections[0].discCanvas.width, view.height]
-      .map(value => Number(value.toPrecision(6))).join(","), shown: [...page.shown].join(",")});
-  try { history.replaceState(null, "", `#${words}`); } catch { /* a browser that keeps a file's address */ }
+      .map(value => Number(value.toPrecision(8))).join(","), shown: [...page.shown].join(",")});
+  return String(words);
+}
+
+function writeAddress() {
+  try { history.replaceState(null, "", `#${addressWords()}`); } catch { /* a browser that keeps a file's address */ }
+}
+
+let addressTimer = 0;
+
+/** Browsers ignore addresses that change hundreds of times in seconds: this one is written when the view rests. */
+function writeAddressSoon() {
+  $("copy").textContent = "copy link";
+  clearTimeout(addressTimer);
+  addressTimer = setTimeout(writeAddress, 400);
 }
 
 function readAddress() {
   const words = new URLSearchParams(location.hash.slice(1) || location.search);
-  page.t = words.has("t") ? Math.min(Number(words.get("t")) || 0, page.runs[0].moments.length - 1) : page.runs[0].moments.length - 1;
-  if (words.get("colour") in modes) page.mode = words.get("colour");
+  page.t = momentWithin(words.has("t") ? Number(words.get("t")) : Infinity);
+  if (modesOf(page.runs).includes(words.get("colour"))) page.mode = words.get("colour");
   if (Object.hasOwn(palettes, words.get("palette"))) page.palette = words.get("palette");
   page.shown = new Set(words.has("shown") ? words.get("shown").split(",")
     : Object.keys(page.layers).filter(name => page.layers[name].on));
@@ -379,8 +413,7 @@ function addLayers() {
 
 function addControls() {
   const [run] = page.runs;
-  addOptions($("colour"), Object.entries(modes).filter(([, mode]) => mode.needs.every(name => run.has(name)))
-    .map(([name, mode]) => [name, mode.label]), page.mode);
+  addOptions($("colour"), modesOf(page.runs).map(name => [name, modes[name].label]), page.mode);
   addOptions($("palette"), [["figures", "as in the figures"], ...Object.keys(palettes).map(name => [name, name])], page.palette);
   $("height").value = page.view.height;
   const measures = Object.keys(run.history).filter(name => name !== clockOf(run) && run.history[name].some(Number.isFinite));
@@ -423,7 +456,7 @@ function drawTables() {
 
 function addSaves(on) {
   const [section] = page.sections;
-  const name = kind => `${page.runs[0].head.scene}-${travelOf(page.runs[0].moments[page.t]).toFixed(0)}m-${kind}`;
+  const name = kind => `${page.runs[0].head.scene}-${travelOf(page.runs[0].moments[page.t]).toFixed(metreDecimals())}m-${kind}`;
   on("save_discs", "click", async () => {
     const [run] = page.runs;
     await run.load(Object.keys(run.head.scales).concat("bonds", "behaviour"));
@@ -434,10 +467,10 @@ function addSaves(on) {
   on("save_horizons", "click", lines("horizons"));
   on("save_history", "click", () => save(`${page.runs[0].head.scene}-history.csv`, page.runs[0].head.history, "text/csv"));
   on("save_png", "click", async () => (await pictureOf(section)).toBlob(blob => save(name("section.png"), blob)));
-  on("save_svg", "click", async () => save(name("section.svg"), svgOf(section, page.view, await page.runs[0].loadLines(page.t)), "image/svg+xml"));
+  on("save_svg", "click", async () => save(name("section.svg"), svgOf(section, page.t, page.view, await page.runs[0].loadLines(page.t), await linesOfOther()), "image/svg+xml"));
   on("copy", "click", async () => {
     writeAddress();
-    try { await navigator.clipboard.writeText(location.href); $("copy").textContent = "copied"; }
+    try { await navigator.clipboard.writeText(`${location.href.split("#")[0]}#${addressWords()}`); $("copy").textContent = "copied"; }
     catch { $("copy").textContent = "copy it from the address bar"; }
   });
 }
@@ -468,7 +501,7 @@ async function start() {
   $("trouble").hidden = true;
   (page.data.lacks || []).forEach(say);
   page.runs = page.data.runs.map(head => new Run(head));
-  if (page.runs[0].moments.length === 0) throw new Error("there is no snapshot yet");
+  if (page.runs.some(run => run.moments.length === 0)) throw new Error("there is no snapshot yet");
   await Promise.all(page.runs.map(run => run.loadKnown()));
   page.layers = layersOf(page.runs);
   const view = readAddress();

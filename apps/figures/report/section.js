@@ -25,6 +25,7 @@ function shownLayers(run, kind, shown) {
 }
 
 const otherInk = "#b35900"; // of faults of the other run
+const pickedInk = "#d4006a";
 
 function inkOf(name) { return vocabulary.layers[name].ink; }
 
@@ -106,74 +107,93 @@ class Section {
     pen.fillText(text, column + 4 * this.ratio, row - 4 * this.ratio);
   }
 
-  /** Lines of moment k in the order in which they cover each other. */
+  /** Moment k: pictures and fills, lines over them, axes, faults over these. */
   async draw(k, view, shown, picked, other) {
-    const lines = await this.run.loadLines(k), pen = this.pen;
-    pen.clearRect(0, 0, this.lineCanvas.width, this.lineCanvas.height);
-    if (shown.has("footwall") && lines.footwall) this.drawFootwall(view, lines.footwall);
-    if (shown.has("underlay") && page.underlay) this.drawUnderlay(view);
-    if (shown.has("seismic") && lines.seismic) this.drawSeismic(view, lines.seismic);
+    const lines = await this.run.loadLines(k);
+    this.pen.clearRect(0, 0, this.lineCanvas.width, this.lineCanvas.height);
     for (const [name, {ink}] of shownLayers(this.run, "band", shown)) this.drawBand(view, lines.layers[name], ink);
-    if (shown.has("bonds") && this.run.has("bonds_left")) this.drawBonds(k, view);
-    const surfaces = name => lines.surfaces.filter(line => line.name === name);
-    if (shown.has("horizons"))
-      for (const line of lines.horizons || [])
-        this.line(view, line.points, inkOf("horizons"), line.stratum === 0 ? 2 : 0.9);
-    if (shown.has("detachment"))
-      for (const name of ["detachment", "floor", "original surface"])
-        for (const line of surfaces(name)) this.line(view, line.points, inkOf("detachment"), 1.6);
-    if (shown.has("unbent"))
-      for (const line of lines.base)
-        this.line(view, line.start_x_m.map((x, i) => [x, line.start_depth_m[i]]), inkOf("unbent"), 1.2, [6, 4]);
-    if (shown.has("target"))
-      for (const line of surfaces("target line")) this.line(view, line.points, inkOf("target"), 1.4, [8, 4]);
-    if (shown.has("predictions"))
-      for (const line of lines.predictions || []) {
-        this.line(view, line.points, inkOf("predictions"), 1.6, [3, 3]);
-        const end = line.points[Math.floor(line.points.length / 2)];
-        this.label(view, line.name, end[0], end[1], inkOf("predictions"));
-      }
-    if (shown.has("picks") && this.run.head.picks)
-      for (const line of [...this.run.head.picks.horizons, ...this.run.head.picks.faults])
-        this.line(view, line.points, inkOf("picks"), 2, [2, 3]);
-    for (const [name, {ink}] of shownLayers(this.run, "line", shown))
-      this.line(view, rowsOf(lines.layers[name], 2).map(([x, height]) => [x, -height]), ink, 1.6);
+    for (const paint of this.grounds(k, view, lines, shown)) paint();
+    this.drawStrokes(view, this.strokes(lines, shown));
     this.drawAxes(view);
-    if (shown.has("faults")) this.drawFaults(view, lines.faults, picked);
-    if (shown.has("faults") && other)
-      for (const fault of other.faults) this.line(view, fault.points, otherInk, 1.6, [7, 4]);
-    if (picked?.kind === "disc" && picked.run === this.run) this.drawPath(k, view, picked.id);
+    this.drawStrokes(view, this.upperStrokes(k, view, lines, shown, picked, other));
     this.lineCanvas.setAttribute("aria-label", `Section of ${this.run.head.scene} at ` +
-      `${wayText(this.run.moments[k]).replace("km", "km of extension")}, ${lines.faults.length} faults`);
+      `${wayText(this.run.moments[k]).replace(lengthUnit().name, "$& of extension")}, ${lines.faults.length} faults`);
   }
 
-  drawFaults(view, faults, picked) {
+  /** What paints below the lines: pictures, fills, and bonds, which are too many for lines of a drawing. */
+  grounds(k, view, lines, shown) {
+    const painters = {
+      footwall: lines.footwall && (() => this.drawFootwall(view, lines.footwall)),
+      underlay: page.underlay && (() => this.drawUnderlay(view)),
+      seismic: lines.seismic && (() => this.drawSeismic(view, lines.seismic)),
+      bonds: this.run.has("bonds_left") && (() => this.drawBonds(k, view)),
+    };
+    return Object.keys(painters).filter(name => painters[name] && shown.has(name)).map(name => painters[name]);
+  }
+
+  /** The grounds alone, as a canvas; null where there are none. */
+  groundPicture(k, view, lines, shown) {
+    const painters = this.grounds(k, view, lines, shown), canvas = document.createElement("canvas"), {pen} = this;
+    if (painters.length === 0) return null;
+    [canvas.width, canvas.height] = [this.lineCanvas.width, this.lineCanvas.height];
+    this.pen = canvas.getContext("2d");
+    for (const paint of painters) paint();
+    this.pen = pen;
+    return canvas;
+  }
+
+  /** Lines in the order in which they cover each other: points, ink and width, some with a dash or a label. */
+  strokes(lines, shown) {
+    const all = [], {picks} = this.run.head, surfaces = name => lines.surfaces.filter(line => line.name === name);
+    const add = (name, list, width, more = {}) => {
+      if (shown.has(name)) for (const {points} of list) all.push({points, ink: inkOf(name), width, ...more});
+    };
+    for (const line of lines.horizons || []) add("horizons", [line], line.stratum === 0 ? 2 : 0.9);
+    for (const name of ["detachment", "floor", "original surface"]) add("detachment", surfaces(name), 1.6);
+    for (const {start_x_m: x, start_depth_m: depth} of lines.base)
+      add("unbent", [{points: x.map((one, i) => [one, depth[i]])}], 1.2, {dash: [6, 4]});
+    add("target", surfaces("target line"), 1.4, {dash: [8, 4]});
+    for (const line of lines.predictions || [])
+      add("predictions", [line], 1.6, {dash: [3, 3], label: line.name, at: line.points[Math.floor(line.points.length / 2)]});
+    add("picks", picks ? [...picks.horizons, ...picks.faults] : [], 2, {dash: [2, 3]});
+    for (const [name, {ink}] of shownLayers(this.run, "line", shown))
+      all.push({points: rowsOf(lines.layers[name], 2).map(([x, height]) => [x, -height]), ink, width: 1.6});
+    return all;
+  }
+
+  /** Lines over the axes: faults, those of the other run, and where a picked disc came from. */
+  upperStrokes(k, view, lines, shown, picked, other) {
+    const isMine = picked?.run === this.run;
+    return [...(shown.has("faults") ? this.faultStrokes(lines.faults, isMine && picked.kind === "fault" ? picked.index : -1) : []),
+      ...(shown.has("faults") && other ? other.faults.map(({points}) => ({points, ink: otherInk, width: 1.6, dash: [7, 4]})) : []),
+      ...(isMine && picked.kind === "disc" ? this.pathStrokes(k, view, picked.id) : [])];
+  }
+
+  faultStrokes(faults, chosen) {
     const fastest = Math.max(...faults.map(fault => fault.rate_mm_per_a), 1e-9);
-    faults.forEach((fault, index) => {
-      const chosen = picked?.kind === "fault" && picked.run === this.run && picked.index === index;
-      this.line(view, fault.points, "#fff", 2.5 + 3 * fault.rate_mm_per_a / fastest);
-      this.line(view, fault.points, chosen ? "#d4006a" : inkOf("faults"),
-        (chosen ? 2 : 1) + 2 * fault.rate_mm_per_a / fastest);
-      const [x, depth] = fault.points[0];
-      this.label(view, String(index), x, depth, chosen ? "#d4006a" : inkOf("faults"));
+    return faults.flatMap(({points, rate_mm_per_a: rate}, index) => {
+      const ink = index === chosen ? pickedInk : inkOf("faults"), share = rate / fastest;
+      return [{points, ink: "#fff", width: 2.5 + 3 * share},
+        {points, ink, width: (index === chosen ? 2 : 1) + 2 * share, label: String(index), at: points[0]}];
     });
   }
 
-  drawPath(k, view, id) {
-    const path = [];
-    this.run.moments.forEach((_, m) => {
-      if (id < this.run.codes[m].present.length && this.run.codes[m].present[id])
-        path.push([this.run.values(m, "x_m")[id], this.run.values(m, "depth_m")[id]]);
-    });
-    this.line(view, path, "#fff", 4);
-    this.line(view, path, "#d4006a", 2);
-    if (!this.run.codes[k].present[id]) return;
-    const [column, row] = this.toPixel(view, this.run.values(k, "x_m")[id], this.run.values(k, "depth_m")[id]);
-    this.pen.beginPath();
-    this.pen.arc(column, row, Math.max(this.run.values(k, "radius_m")[id] * view.scale, 5 * this.ratio), 0, 7);
-    this.pen.strokeStyle = "#d4006a";
-    this.pen.lineWidth = 2.5 * this.ratio;
-    this.pen.stroke();
+  pathStrokes(k, view, id) {
+    const {run} = this, points = [], placeAt = m => [run.values(m, "x_m")[id], run.values(m, "depth_m")[id]];
+    run.codes.forEach(({present}, m) => { if (id < present.length && present[id]) points.push(placeAt(m)); });
+    const path = [{points, ink: "#fff", width: 4}, {points, ink: pickedInk, width: 2}];
+    if (!run.codes[k].present[id]) return path;
+    const reach = Math.max(run.values(k, "radius_m")[id], 5 * this.ratio / view.scale), [x, depth] = placeAt(k);
+    const ring = Array.from({length: 49}, (_, n) => [x + reach * Math.cos(n * Math.PI / 24),
+      depth + reach * Math.sin(n * Math.PI / 24) / view.height]);
+    return [...path, {points: ring, ink: pickedInk, width: 2.5}];
+  }
+
+  drawStrokes(view, strokes) {
+    for (const {points, ink, width, dash, label, at} of strokes) {
+      this.line(view, points, ink, width, dash);
+      if (at) this.label(view, label, ...at, ink);
+    }
   }
 
   drawBonds(k, view) {
@@ -224,24 +244,21 @@ class Section {
     this.pen.globalAlpha = 1;
   }
 
-  /** Marks along the upper and left edge at plain numbers of kilometres: place in pixels and text. */
+  /** Marks along the upper and left edge at plain numbers of the page's unit: place in pixels and text. */
   marks(view) {
-    const {width, height} = this.lineCanvas, ratio = this.ratio;
-    const step = pixelsPerKilometre => [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].find(s => s * pixelsPerKilometre > 55 * ratio) || 100;
-    const across = step(1000 * view.scale), down = step(1000 * view.scale * view.height);
-    const number = (value, by) => (Math.abs(value) < 1e-9 ? 0 : value).toFixed(by < 1 ? 1 : 0);
-    const list = (first, by, end, place) => {
-      const marks = [];
-      for (let value = Math.ceil(first / 1000 / by) * by; place(1000 * value) <= end; value += by)
-        marks.push({at: place(1000 * value), text: number(value, by)});
+    const {width, height} = this.lineCanvas, ratio = this.ratio, {metres} = lengthUnit();
+    const list = (first, pixelsPerMetre, end, place) => {
+      const marks = [], by = plainStep(55 * ratio / pixelsPerMetre / metres), decimals = Math.max(-Math.floor(Math.log10(by)), 0);
+      for (let n = Math.ceil(first / metres / by); place(n * by * metres) <= end; ++n)
+        marks.push({at: place(n * by * metres), text: (n * by || 0).toFixed(decimals)});
       return marks;
     };
-    return {across: list(view.left, across, width, x => this.toPixel(view, x, 0)[0]),
-      down: list(view.top, down, height, depth => this.toPixel(view, 0, depth)[1]).filter(({at}) => at > 24 * ratio)};
+    return {across: list(view.left, view.scale, width, x => this.toPixel(view, x, 0)[0]),
+      down: list(view.top, view.scale * view.height, height, depth => this.toPixel(view, 0, depth)[1]).filter(({at}) => at > 24 * ratio)};
   }
 
   drawAxes(view) {
-    const pen = this.pen, {width} = this.lineCanvas, ratio = this.ratio, {across, down} = this.marks(view);
+    const pen = this.pen, {width} = this.lineCanvas, ratio = this.ratio, {across, down} = this.marks(view), unit = lengthUnit().name;
     pen.fillStyle = pen.strokeStyle = "#595959";
     pen.font = `${11 * ratio}px "DejaVu Sans", sans-serif`;
     pen.lineWidth = ratio;
@@ -249,14 +266,14 @@ class Section {
     for (const {at, text} of across) {
       pen.moveTo(at, 0);
       pen.lineTo(at, 5 * ratio);
-      const words = `${text} km`, room = pen.measureText(words).width + 3 * ratio;
+      const words = `${text} ${unit}`, room = pen.measureText(words).width + 3 * ratio;
       if (!this.numbersOutside && at > 30 * ratio && at + room < width) pen.fillText(words, at + 3 * ratio, 11 * ratio);
     }
     down.forEach(({at, text}, n) => {
       pen.moveTo(0, at);
       pen.lineTo(5 * ratio, at);
       if (this.numbersOutside) return;
-      const words = n ? text : `${text} km`;
+      const words = n ? text : `${text} ${unit}`;
       pen.lineWidth = 3 * ratio;
       pen.strokeStyle = "#fff";
       pen.strokeText(words, 7 * ratio, at + 4 * ratio);

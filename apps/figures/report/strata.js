@@ -1,9 +1,14 @@
 // What strata tell of faults and time: throw and growth at cutoffs, deposition over the section.
 
+/** The least plain number that is not below a rough one. */
+function plainStep(rough) {
+  const power = 10 ** Math.floor(Math.log10(rough));
+  return [1, 2, 5, 10].find(s => s * power >= rough) * power;
+}
+
 /** Numbers at a plain distance from each other between two ends. */
 function plainSteps(low, high, wanted) {
-  const rough = (high - low) / wanted, power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].find(s => s * power >= rough) * power, all = [];
+  const step = plainStep((high - low) / wanted), all = [];
   for (let value = Math.ceil(low / step - 1e-9) * step; value <= high + 1e-9 * step; value += step)
     all.push(Math.abs(value) < 1e-9 * step ? 0 : value);
   return all.map(value => ({value, text: String(Number(value.toPrecision(6))).replace("-", "−")}));
@@ -117,19 +122,20 @@ function expansionPoints(cutoffs, diameter) {
 function nothingWords(fault, cutoffs, diameter, sides) {
   if (!fault) return "No fault is active now.";
   if (!cutoffs) return "Known at the figures' moments and at the end.";
-  return `Nothing: no stratum younger than this fault is three discs (${lengths.format(3 * diameter)} m) thick ${sides}.`;
+  return `Nothing: no stratum younger than this fault is three discs (${metresText(3 * diameter)}) thick ${sides}.`;
 }
 
 function drawThrows(host, run, fault, cutoffs, strata) {
   const diameter = 2 * run.head.mean_radius_m, points = fault && cutoffs ? throwPoints(cutoffs) : [];
   if (points.length === 0) return void (host.textContent = nothingWords(fault, cutoffs, diameter, "beside it"));
-  const error = fault.throw_error_m || diameter, depths = endsOf(points.map(p => p.depth / 1000), 0.2, points[0].depth / 1000);
+  const {name, metres} = lengthUnit(), error = fault.throw_error_m || diameter;
+  const depths = endsOf(points.map(p => p.depth / metres), 0.2 * marginUnit() / metres, points[0].depth / metres);
   const axes = new Axes(host, "throw against depth", {label: "throw (m), ± a disc", ...endsOf(points.map(p => p.throw), error, 0)},
-    {label: "depth (km)", low: depths.high, high: depths.low});
+    {label: `depth (${name})`, low: depths.high, high: depths.low});
   axes.rule(axes.toX(0), axes.box.top, axes.toX(0), axes.box.bottom, axes.ink, 1);
   const table = paletteOf("strata", "figures");
   for (const p of points)
-    axes.point(p.throw, p.depth / 1000, error, p.stratum ? cssColour(stratumColour(p.stratum, strata, table)) : vocabulary.pre_rift.colours[0],
+    axes.point(p.throw, p.depth / metres, error, p.stratum ? cssColour(stratumColour(p.stratum, strata, table)) : vocabulary.pre_rift.colours[0],
       stratumName(p.stratum));
 }
 
@@ -163,19 +169,19 @@ function drawWheeler(host, run, k) {
   const tell = text => { $("wheeler_says").textContent = text; };
   tell("");
   if (numbers.length === 0) return void (host.textContent = "Nothing: no sediment has been laid down.");
-  const rate = run.head.rate_m_per_a * 1e6, ages = numbers.map(n => strata[n].extension / rate);
+  const {name, metres} = lengthUnit(), ages = numbers.map(n => timeOf(run, strata[n].extension));
   const step = numbers.length > 1 ? (ages.at(-1) - ages[0]) / (numbers.at(-1) - numbers[0]) : ages[0] || 1;
   const all = numbers.flatMap(n => [...strata[n].thickness]).filter(value => value > 0).sort((a, b) => a - b);
   const top = all[Math.floor(0.99 * (all.length - 1))], table = paletteOf("window", "figures");
-  const end = (run.head.length_m + run.moments[k].extension_m) / 1000;
-  const axes = new Axes(host, "time over the section", {label: "x (km)", low: 0, high: end},
-    {label: "time (Myr)", low: Math.max(ages[0] - step, 0), high: ages.at(-1)});
+  const end = (run.head.length_m + run.moments[k].extension_m) / metres;
+  const axes = new Axes(host, "time over the section", {label: `x (${name})`, low: 0, high: end},
+    {label: `time (${timeUnit().name})`, low: Math.max(ages[0] - step, 0), high: ages.at(-1)});
   axes.pen.fillStyle = "#fff"; // paper, in the dark, too: dark is thick
   axes.pen.fillRect(axes.box.left, axes.box.top, axes.box.right - axes.box.left, axes.box.bottom - axes.box.top);
   const least = 0.1 * width / 2; // of a disc's diameter: less is no layer
   numbers.forEach((n, row) => strata[n].thickness.forEach((value, column) => {
     if (value < least) return;
-    const [x0, x1] = [column, column + 1].map(c => axes.toX(Math.min(c * width / 1000, end)));
+    const [x0, x1] = [column, column + 1].map(c => axes.toX(Math.min(c * width / metres, end)));
     const [y1, y0] = [ages[row] - step, ages[row]].map(age => axes.toY(Math.max(age, axes.y.low)));
     axes.pen.fillStyle = cssColour(table[Math.round(25 + 200 * Math.min(value / top, 1))]);
     axes.pen.fillRect(x0, y0, x1 - x0 + 0.5, y1 - y0 + 0.5);
@@ -183,8 +189,8 @@ function drawWheeler(host, run, k) {
   tell(`Light: thin; dark: ${valueText(top, "m", run.head.mean_radius_m)} or more, as thick as it is now. Blank: nothing was laid down, or it is gone.`);
   axes.canvas.addEventListener("pointermove", event => {
     const x = axes.xAt(event.offsetX), time = axes.yAt(event.offsetY), row = ages.findIndex(age => age >= time);
-    const value = row < 0 ? undefined : strata[numbers[row]].thickness[Math.floor(1000 * x / width)];
+    const value = row < 0 ? undefined : strata[numbers[row]].thickness[Math.floor(metres * x / width)];
     if (x >= 0 && x <= end && value !== undefined)
-      tell(`x ${x.toFixed(1)} km, ${time.toFixed(2)} Myr, ${stratumName(numbers[row])}: ${value < least ? "nothing" : valueText(value, "m", run.head.mean_radius_m)}`);
+      tell(`x ${x.toFixed(1)} ${name}, ${time.toFixed(2)} ${timeUnit().name}, ${stratumName(numbers[row])}: ${value < least ? "nothing" : valueText(value, "m", run.head.mean_radius_m)}`);
   });
 }

@@ -27,12 +27,14 @@ function plain(value) {
 function faultText(value, name, radius) {
   if (typeof value !== "number") return plain(value);
   if (name.endsWith("_deg")) return value.toFixed(name.startsWith("footwall") ? 1 : 0);
-  if (name.endsWith("_m")) return String(Math.round(value / lengthStep(radius)) * lengthStep(radius));
+  if (name.endsWith("_m")) return roundedMetres(value, radius);
   if (name.endsWith("_diameters")) return value.toFixed(1);
   return Number.isInteger(value) ? String(value) : digits(value, 2);
 }
 
+/** Rows are made anew, and the focus goes to the one in the place of that which had it. */
 function drawFaultTable(table, faults, chosen, choose, radius) {
+  const focused = [...table.rows].indexOf(document.activeElement);
   table.textContent = "";
   const columns = page.data.fault_columns;
   head(table, columns.map(column => column.label), Object.fromEntries(columns.map(column => [column.label, column.doc])));
@@ -43,9 +45,14 @@ function drawFaultTable(table, faults, chosen, choose, radius) {
     row.classList.toggle("chosen", index === chosen);
     for (const {name} of columns) cell(row, faultText(fault[name], name, radius));
     row.addEventListener("click", () => choose(index));
-    row.addEventListener("keydown", event => { if (event.key === "Enter") choose(index); });
+    row.addEventListener("keydown", event => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      choose(index);
+      event.preventDefault();
+    });
   });
   if (faults.length === 0) cell(body.appendChild(document.createElement("tr")), "none is active");
+  if (focused >= 0) table.rows[Math.min(focused, table.rows.length - 1)].focus({preventScroll: true});
 }
 
 /** Numbers of summary.json by their names, of objects as object.name. */

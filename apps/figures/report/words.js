@@ -20,8 +20,42 @@ function digits(value, count) {
   return value.toFixed(Math.min(decimals, 6));
 }
 
+/** Unit in which the page tells places and ways, by its longest model. */
+function lengthUnit() {
+  const longest = Math.max(...page.runs.map(run => run.head.length_m));
+  return longest >= 1000 ? {name: "km", metres: 1000} : longest >= 1 ? {name: "m", metres: 1} : {name: "mm", metres: 0.001};
+}
+
+/** "5.00 km" */
+function placeText(metres, decimals = 2) { return `${(metres / lengthUnit().metres).toFixed(decimals)} ${lengthUnit().name}`; }
+
+/** Unit in which the page tells time, by its longest run. */
+function timeUnit() {
+  const longest = Math.max(...page.runs.map(run => run.head.extension_m / run.head.rate_m_per_a));
+  return longest >= 1e4 ? {name: "Myr", years: 1e6} : {name: "a", years: 1};
+}
+
+/** How long the wall of a run has been on a way, in the page's unit. */
+function timeOf(run, travel) { return travel / run.head.rate_m_per_a / timeUnit().years; }
+
+/** Decimals of lengths in metres: none for discs of 10 m and more, as in the program's tables. */
+function metreDecimals() {
+  return Math.max(...page.runs.map(run => Math.ceil(Math.log10(10 / run.head.mean_radius_m))), 0);
+}
+
+/** "12,345 m", of small models "0.0123 m" */
+function metresText(metres) {
+  return `${new Intl.NumberFormat("en", {maximumFractionDigits: metreDecimals()}).format(metres)} m`;
+}
+
 /** Lengths are known to a fraction of a disc: the power of ten below a fifth of its diameter, m. */
 function lengthStep(radius) { return 10 ** Math.floor(Math.log10(0.4 * radius)); }
+
+/** A length in metres with no more digits than are known. */
+function roundedMetres(value, radius) {
+  const step = lengthStep(radius);
+  return (Math.round(value / step) * step).toFixed(Math.max(-Math.round(Math.log10(step)), 0));
+}
 
 /** A value and its unit, with the digits that it deserves: ["9.31", "km"]. */
 function valueOf(value, unit, radius) {
@@ -30,10 +64,8 @@ function valueOf(value, unit, radius) {
   if (typeof value !== "number") return [String(value), ""];
   if (!Number.isFinite(value)) return ["", ""];
   if (unit === "m") {
-    const step = lengthStep(radius), rounded = Math.round(value / step) * step;
-    const decimals = Math.max(-Math.round(Math.log10(step)), 0);
-    return Math.abs(value) >= 1000 ? [(rounded / 1000).toFixed(Math.max(3 - Math.round(Math.log10(step)), 0)), "km"]
-      : [rounded.toFixed(decimals), "m"];
+    const rounded = roundedMetres(value, radius), decimals = Math.max(3 - Math.round(Math.log10(lengthStep(radius))), 0);
+    return Math.abs(value) >= 1000 ? [(rounded / 1000).toFixed(decimals), "km"] : [rounded, "m"];
   }
   if (unit === "m2") return Math.abs(value) >= 1e5 ? [digits(value / 1e6, 3), "km²"] : [digits(value, 3), "m²"];
   if (unit === "deg") return [value.toFixed(1), "°"];

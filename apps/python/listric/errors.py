@@ -18,11 +18,16 @@ class UnknownName(ListricError, KeyError):
 
     def __init__(self, name, among, where):
         """`among` are the names that there are; `where` says of what."""
-        among = [str(one) for one in among]
-        close = difflib.get_close_matches(str(name), among, n=3)
+        self._made_of = str(name), [str(one) for one in among], str(where)
+        name, among, where = self._made_of
+        close = difflib.get_close_matches(name, among, n=3)
         cure = (f"did you mean {' or '.join(close)}?" if close
                 else f"there are {', '.join(among)}" if among else "there are none")
         super().__init__(f"{where}: no {name}; {cure}")
+
+    def __reduce__(self):
+        """Makes it again from what it was made of: a worker process hands it on by pickle."""
+        return type(self), self._made_of
 
 
 class ProgramError(ListricError):

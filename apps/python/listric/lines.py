@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .errors import RunError
 from .program import call
 from .stand_in import stand_in
 from .table import read_csv
@@ -20,7 +21,7 @@ def exported_lines(snapshot, kind: str) -> list[dict]:
         return read_lines(exported)
     with stand_in(snapshot, without="export") as folder:
         call("export", kind, folder, "--format", "csv", "--at", snapshot.travel_m)
-        written, = (folder / "export").glob("*.csv")
+        written, = (folder / "export").glob(f"{kind}-*.csv")  # beside those of a well is its burial
         return read_lines(written)
 
 
@@ -28,6 +29,8 @@ def read_lines(path: Path) -> list[dict]:
     """A dict per line of an exported CSV file: values of the line, and arrays of shape (points,) of
     what the columns from x_m on say of its points. Throws RunError."""
     table = read_csv(path)
+    if missing := [name for name in ("line", "x_m") if name not in table]:
+        raise RunError(f"{path}: has no column {missing[0]}; export it again")
     columns = {name: np.asarray(table[name]) for name in table}
     of_points = list(columns)[list(columns).index("x_m"):]
     number = columns.pop("line")

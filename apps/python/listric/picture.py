@@ -28,10 +28,14 @@ class Picture:
 
 
 def draw_section(snapshot, kind: str) -> Picture:
-    """One of KINDS, as `listric figures` draws it. Throws UnknownName, ProgramError."""
+    """One of KINDS, as `listric figures` draws it. Throws UnknownName, where the moment has no such
+    section, too, and ProgramError."""
     if kind not in KINDS:
         raise UnknownName(kind, KINDS, "plot")
     with stand_in(snapshot, without="figures") as folder:
         call("figures", folder, "--at", snapshot.travel_m)
-        drawn, = (folder / "figures").glob(f"{kind}-*.png")
-        return Picture(drawn.read_bytes(), f"{kind} of {snapshot.path}")
+        drawn = {path.name.split("-")[0]: path for path in (folder / "figures").glob("*-*.png")}
+        if kind not in drawn:
+            there = [one for one in KINDS if one in drawn]
+            raise UnknownName(kind, there, f"plot of {snapshot.path} at {snapshot.travel_m:g} m")
+        return Picture(drawn[kind].read_bytes(), f"{kind} of {snapshot.path}")

@@ -126,7 +126,7 @@ class Snapshot:
 
     def lines(self, kind: str) -> list[dict]:
         """Lines of `listric export KIND` at this moment: "horizons", "faults", "surfaces", "base",
-        "layers".
+        "layers", "well".
 
         A dict per line with the columns of docs/export.md: one value for those of a line, an array of
         shape (points,) for those of a point, among them x_m and depth_m (positive down). Read from the

@@ -109,15 +109,25 @@ def read_csv(path: Path, units: Callable[[str], str | None] = unit_of) -> Table:
     column counts; words, as objects, where it has no number. Throws RunError."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
-            names, *rows = csv.reader(file)
+            names, *rows = _rows(csv.reader(file))
         columns = {name: _values(name, cells)
                    for name, cells in zip(names, zip(*rows) if rows else [()] * len(names))}
     except FileNotFoundError:
         raise RunError(f"{path}: is not there") from None
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, OverflowError, csv.Error) as error:
         raise RunError(f"{path}: cannot be read as a table: {error}") from error
     return Table(str(path), len(rows), {name: units(name) for name in names},
                  lambda name: columns[name].copy())
+
+
+def _rows(reader):
+    """Rows of a CSV reader, all as long as the first. Throws ValueError."""
+    width = None
+    for row in reader:
+        width = len(row) if width is None else width
+        if len(row) != width:
+            raise ValueError(f"line {reader.line_num} has {len(row)} fields, the head {width}")
+        yield row
 
 
 def _values(name: str, cells) -> np.ndarray:

@@ -1,0 +1,34 @@
+// Lines as files of other programs: whatever a name holds, a line stays a line.
+
+#include "apps/archive/line_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace listric::archive {
+namespace {
+
+using testing::HasSubstr;
+
+LineTable layers() {
+    return {.name = "layers",
+            .level = "",
+            .columns = {"name", "area_m2"},
+            .lines = {{.values = {"salt, \"lower\"\nZechstein", 12.5},
+                       .points = {{1000.0, -2000.0}, {3000.0, -2500.0}}}}};
+}
+
+TEST(LineTable, NamesWithCommasQuotesAndLineEndsStayOneCellOfCsv) {
+    const std::string text = to_csv(layers());
+    EXPECT_EQ(text, "line,name,area_m2,x_m,depth_m\n"
+                    "0,\"salt, \"\"lower\"\"\nZechstein\",12.5,1000,2000\n"
+                    "0,\"salt, \"\"lower\"\"\nZechstein\",12.5,3000,2500\n");
+}
+
+TEST(LineTable, NamesStayInTheirHeaderOfGmt) {
+    EXPECT_THAT(to_gmt(layers()), HasSubstr("> -L\"salt, 'lower' Zechstein\" area_m2=12.5\n"
+                                            "1000\t2000\n"));
+}
+
+} // namespace
+} // namespace listric::archive
