@@ -22,9 +22,8 @@ measures::FaultReport report_faults(const measures::Setting& setting, const dem:
 measures::FaultReport active_faults(const measures::Setting& setting, const dem::RigidBase& base,
                                     const dem::State& now, const RunHistory& history);
 
-/// All measures of a finished run at the given extensions (m; the nearest snapshots, at most a
-/// window of output away),
-/// recomputed from its snapshots. Throws SceneError, StorageError.
+/// All measures of a finished run at the given extensions (m; of the nearest snapshots, at most a
+/// window of output away), recomputed from its snapshots. Throws SceneError, StorageError.
 std::vector<std::pair<double, NamedNumbers>> examine_run(const std::filesystem::path& output,
                                                          std::span<const double> extensions);
 
