@@ -8,4 +8,4 @@ test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-gsd python3-se
     python3-paraview xvfb xauth)
 fem_packages=(libdeal.ii-dev petsc-dev libopenmpi-dev openmpi-bin gmsh)
 ranks_packages=(petsc-dev libopenmpi-dev openmpi-bin)
-ci_packages=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 pyflakes3 ccache git qemu-user)
+ci_packages=(clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 pyflakes3 ccache git qemu-user zsh fish ffmpeg)

@@ -10,6 +10,7 @@ namespace {
 
 constexpr const char* modes_name = "modes";
 constexpr const char* reference = "reference";
+constexpr const char* checksum_name = "mesh_checksum"; // in table "reference"
 constexpr const char* window = "window";
 constexpr const char* window_means = "window_means";
 constexpr const char* last_window = "last_window";
@@ -49,6 +50,11 @@ ModeColumns mode_columns(State& state) {
     return {motion.get<double>("displacement"), motion.get<double>("velocity")};
 }
 
+std::size_t mode_count(const State& state) {
+    const auto motion = state.base_memory.find(modes_name);
+    return motion == state.base_memory.end() ? 0 : motion->second.rows();
+}
+
 void set_virtual_pressure(State& state, double pressure) {
     Table& row = state.base_memory[reference];
     row.resize(1);
@@ -57,6 +63,18 @@ void set_virtual_pressure(State& state, double pressure) {
 
 double virtual_pressure(const State& state) {
     return table(state, reference).get<double>("virtual_pressure")[0];
+}
+
+void set_mesh_checksum(State& state, std::uint64_t checksum) {
+    table(state, reference).add<std::int64_t>(checksum_name, "1", 0)[0] =
+        static_cast<std::int64_t>(checksum);
+}
+
+std::optional<std::uint64_t> mesh_checksum(const State& state) {
+    const Table& row = table(state, reference);
+    if (!row.has(checksum_name))
+        return std::nullopt;
+    return static_cast<std::uint64_t>(row.get<std::int64_t>(checksum_name)[0]);
 }
 
 WindowSums window_sums(State& state) { return sums_of<WindowSums>(state); }

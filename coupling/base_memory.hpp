@@ -2,6 +2,7 @@
 
 #include "dem/state.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -19,11 +20,16 @@ struct ModeColumns {
 };
 void add_mode_columns(dem::State& state, std::size_t modes);
 ModeColumns mode_columns(dem::State& state);
+std::size_t mode_count(const dem::State& state); ///< 0 without the table
 
 /// Table "reference" has one number: weight of the settled discs per length over the flat of the
 /// detachment, Pa, by which the load grows where the wall leaves room to the discs.
 void set_virtual_pressure(dem::State& state, double pressure);
 double virtual_pressure(const dem::State& state);
+
+/// In it, of a footwall on a mesh from a file, also the checksum of that file.
+void set_mesh_checksum(dem::State& state, std::uint64_t checksum);
+std::optional<std::uint64_t> mesh_checksum(const dem::State& state);
 
 /// Table "window": a row of sums over the cycles of the window of extension that has begun.
 template <bool writable> struct BasicWindowSums {

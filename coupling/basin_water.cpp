@@ -138,8 +138,9 @@ bool BasinWater::apply(State& state, const RigidBase&) {
     const double start = memory.get<double>("start_depth_m")[0];
     const double weight = parameters_.density * gravity_;
     std::vector<double> pressure = water_depths(state, parameters_.level, column_width_);
+    // Ground that was flooded at the start loses load where it rises.
     for (double& p : pressure)
-        p = weight * std::max(0.0, p - start);
+        p = weight * (parameters_.level > 0.0 ? p - start : std::max(0.0, p - start));
     load_columns(state, name(), pressure);
     if (pores_) {
         pressure = pore_water(state, parameters_.level, *pores_, column_width_);

@@ -114,6 +114,16 @@ void ElasticBase::attach(State& state) const {
     add_mode_columns(state, modes_.count());
 }
 
+bool ElasticBase::fits(const State& state) const {
+    constexpr double near = 1e-3; // m: round-off of a mesh that is made on another machine
+    const auto same = [](double a, double b) { return std::abs(a - b) < near; };
+    if (state.base_nodes.rows() != interface_.x.size() || mode_count(state) != modes_.count())
+        return false;
+    const ConstBaseNodeColumns nodes = base_node_columns(state);
+    return std::ranges::equal(nodes.x, interface_.x, same) &&
+           std::ranges::equal(nodes.y, interface_.y, same);
+}
+
 void ElasticBase::settle(State& state, const RigidBase& base, const CyclePhysics& physics,
                          const Execution& execution,
                          const std::function<void(std::string_view, double)>& report,

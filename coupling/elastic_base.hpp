@@ -56,6 +56,10 @@ public:
     /// Gives a state the nodes, at rest.
     void attach(dem::State& state) const;
 
+    /// Whether a state that was attached to a base has this one's nodes, at their places before
+    /// extension, and as many modes.
+    bool fits(const dem::State& state) const;
+
     /// Settles the discs while the nodes are held and makes the mean forces of the last 2,000
     /// cycles the reference load. Settled is where these change by less than 2e-5 from one 2,000
     /// to the next, and would move the base by less than `drift` m. Throws NumericalFailure if that

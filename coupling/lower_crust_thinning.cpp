@@ -11,8 +11,11 @@ using namespace dem;
 
 namespace {
 
-/// Steps so short that each moves the base by metres at most.
-constexpr double interval = 2500.0; // a
+// Steps so short that each moves the base by metres at most.
+constexpr double longest_interval = 2500.0; // a
+constexpr double longest_step = 25.0;       // m of extension
+
+constexpr const char* applied_extension = "applied_extension_m";
 
 constexpr std::size_t steps = 10; // of lower_crust_loads()
 
@@ -57,21 +60,33 @@ std::vector<double> lower_crust_amounts(double share) {
 
 LowerCrustThinning::LowerCrustThinning(std::vector<double> forces, double greatest, double least,
                                        double extension_rate)
-    : Event("lower_crust_thinning", {interval, extension_rate}, dem::Stage::load),
+    : Event("lower_crust_thinning",
+            {std::min(longest_interval, longest_step / extension_rate), extension_rate},
+            dem::Stage::load),
       forces_(std::move(forces)), greatest_(greatest), least_(least) {
     assert(forces_.size() % (steps + 1) == 0 && greatest >= least);
+    memory.add<double>(applied_extension, "m", 0.0);
 }
 
 void LowerCrustThinning::begin(State& state) {
     footwall_load(state, name(), forces_.size() / (steps + 1));
+    memory.resize(1);
+}
+
+double LowerCrustThinning::extension(const State& state) const {
+    return memory.rows() > 0 && memory.has(applied_extension)
+               ? memory.get<double>(applied_extension)[0]
+               : state.clock.extension; // an older version has begun the run
 }
 
 std::vector<double> LowerCrustThinning::amounts(const State& state) const {
     const double way = greatest_ - least_; // 0 where the wall only rests
-    return lower_crust_amounts(way > 0.0 ? (state.clock.extension - least_) / way : 0.0);
+    return lower_crust_amounts(way > 0.0 ? (extension(state) - least_) / way : 0.0);
 }
 
 bool LowerCrustThinning::apply(State& state, const RigidBase&) {
+    memory.resize(1);
+    memory.add<double>(applied_extension, "m", 0.0)[0] = state.clock.extension;
     const std::vector<double> now = superpose(amounts(state), forces_);
     std::ranges::copy(now, footwall_load(state, name(), now.size()).begin());
     return false;
@@ -88,13 +103,14 @@ FootwallLoad lower_crust_thinning_load(const LowerCrustThinningParameters& param
             .event = std::move(event),
             .amounts = [&thinning](const State& state) { return thinning.amounts(state); },
             .load_elsewhere =
-                [=](const State& state) {
-                    return lower_crust_load(parameters, contrast, state.clock.extension);
+                [=, &thinning](const State& state) {
+                    return lower_crust_load(parameters, contrast, thinning.extension(state));
                 },
             .measures =
-                [=](const State& state) {
-                    return NamedValues{{lower_crust_thinning_name,
-                                        lower_crust_thinning(parameters, state.clock.extension)}};
+                [=, &thinning](const State& state) {
+                    return NamedValues{
+                        {lower_crust_thinning_name,
+                         lower_crust_thinning(parameters, thinning.extension(state))}};
                 }};
     };
     return {lower_crust_loads(parameters, contrast, greatest, least), make_event};

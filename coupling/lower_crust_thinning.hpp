@@ -41,7 +41,8 @@ std::vector<fem::Load> lower_crust_loads(const LowerCrustThinningParameters& par
 /// the least to the greatest: two neighbours interpolated.
 std::vector<double> lower_crust_amounts(double share);
 
-/// Puts the load of the present extension on the footwall.
+/// Puts the load of the present extension on the footwall, every 2,500 a, but at least every 25 m
+/// of extension. Memory: the extension whose load acts.
 class LowerCrustThinning : public dem::Event {
 public:
     /// @param forces    equivalent to lower_crust_loads(), by rows, N
@@ -52,6 +53,9 @@ public:
 
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
+
+    /// Extension whose load acts now, m.
+    double extension(const dem::State& state) const;
 
     /// How much of each of lower_crust_loads() acts now.
     std::vector<double> amounts(const dem::State& state) const;

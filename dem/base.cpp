@@ -136,10 +136,11 @@ void place(Surface& surface, const Chain& chain, Point translation, double exten
     surface.translation = translation;
 }
 
-Stretching stretching(const RigidBase& base, double extension) {
+Stretching stretching(const RigidBase& base, double extension, double speed) {
     for (const Surface& surface : base.surfaces)
         if (surface.stretched_length > 0.0)
-            return {1.0 / (surface.stretched_length + extension), surface.chain.front().start.y};
+            return {1.0 / (surface.stretched_length + extension) * speed,
+                    surface.chain.front().start.y};
     return {};
 }
 

@@ -97,13 +97,14 @@ struct RigidBase {
     Motion motion;
 };
 
-/// Thinning of what rests on a stretching base: du_x/dx = -du_y/dy in units of the extension speed.
+/// Thinning of what rests on a stretching base: du_x/dx = -du_y/dy.
 struct Stretching {
-    double rate = 0.0;  ///< 1/m; 0: nothing stretches
+    double rate = 0.0;  ///< 1/s; 0: nothing stretches
     double floor = 0.0; ///< y at which nothing sinks, m
 };
 
-Stretching stretching(const RigidBase& base, double extension);
+/// At an extension, m, that grows by `speed`, m/s.
+Stretching stretching(const RigidBase& base, double extension, double speed);
 
 /// Greatest translation of a surface, in units of the extension speed.
 double greatest_translation(const RigidBase& base);

@@ -1,5 +1,6 @@
 #include "dem/motion.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -11,6 +12,13 @@ namespace {
 /// Distance from a change of stages at which the speed falls no further, m: some cycles long. The
 /// speed there is a hundredth.
 constexpr double crawl = 1e-4 * Motion::change;
+
+/// Distance behind one at full speed, m, this far from a change of stages: the time to get there is
+/// 2 sqrt(distance change) / speed.
+double lost_to_change(double distance) {
+    return distance < Motion::change ? 2.0 * std::sqrt(distance * Motion::change) - distance
+                                     : Motion::change;
+}
 
 } // namespace
 
@@ -83,11 +91,10 @@ double Motion::time_at(double travel) const {
         const bool is_last = k + 1 == stages.size();
         if (travel <= one.start && k > 0)
             break;
-        // With constant acceleration a way takes twice the time.
         const double past = (is_last ? travel : std::min(travel, one.end)) - one.start;
-        time += (past + (k > 0 ? std::min(past, change) : 0.0)) / one.speed;
-        if (!is_last && travel >= one.end)
-            time += change / one.speed;
+        time += (past + (k > 0 ? lost_to_change(past) : 0.0)) / one.speed;
+        if (!is_last)
+            time += (change - lost_to_change(std::max(0.0, one.end - travel))) / one.speed;
     }
     return time;
 }

@@ -70,7 +70,7 @@ template <bool writable> struct BasicDiscColumns {
     Values<std::uint8_t> material;         ///< MaterialIndex
     Values<std::int32_t> stratum;          ///< 0 before the rift, n for the n-th sedimentation (1)
     Values<double> start_x, start_y;       ///< where the disc entered the model, m (1)
-    Values<double> start_extension;        ///< and when, m of extension (1)
+    Values<double> start_extension;        ///< and when, m of travel (1)
     Values<double> searched_x, searched_y; ///< where the last neighbour search found it, m
 };
 

@@ -1,5 +1,7 @@
 #include "fem/blocks.hpp"
 
+#include "fem/mesh_scan.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -365,6 +367,19 @@ private:
     BlockMesher mesher_;
 };
 
+void require_unfolded(const BlockMesh& mesh) {
+    for (const BlockMesh::Cell& cell : mesh.cells) {
+        std::array<Vector, 4> corners;
+        for (std::size_t k = 0; k < 4; ++k)
+            corners[k] = mesh.vertices[cell.vertices[k]];
+        if (!(least_corner(corners) > 0.0))
+            throw FootwallError("no mesh: cells fold over near x = " + metres(corners[0].x) +
+                                ", y = " + metres(corners[0].y) +
+                                "; move the left side out, make the skin thinner, the bends of "
+                                "the detachment wider or the base deeper");
+    }
+}
+
 } // namespace
 
 Curve extended_detachment(const FootwallRequest& request) {
@@ -392,7 +407,10 @@ Curve extended_detachment(const FootwallRequest& request) {
 }
 
 BlockMesh make_blocks(const FootwallRequest& request) {
-    return request.detachment.empty() ? flat_blocks(request) : DetachmentBlocks(request).mesh();
+    BlockMesh mesh =
+        request.detachment.empty() ? flat_blocks(request) : DetachmentBlocks(request).mesh();
+    require_unfolded(mesh);
+    return mesh;
 }
 
 } // namespace listric::fem

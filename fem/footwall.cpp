@@ -121,8 +121,8 @@ void check(const FootwallRequest& r) {
         refuse("the right side must lie right of the left side");
     if (!(r.depth > 0.0))
         refuse("the base must have a depth above 0");
-    if (!(r.cell_size > 0.0) || (r.right - r.left) / r.cell_size > 1e5 ||
-        r.depth / r.cell_size > 1e5)
+    if (!(r.cell_size > 0.0) || (r.right - r.left) / r.cell_size > 1.0 / least_cell_share ||
+        r.depth / r.cell_size > 1.0 / least_cell_share)
         refuse("the cell size (" + number(r.cell_size) +
                " m) must be above 0 and at least 1e-5 of the footwall's width and depth");
     if (r.degree != 1 && r.degree != 2)

@@ -60,12 +60,14 @@ struct MeshFacts {
 /// Displacement at the nodes of all elements, sorted by y, then x.
 struct Field {
     std::vector<Vector> place, displacement; ///< m
+    std::vector<std::size_t> surface;        ///< nodes on the surface, from the left
 };
 
 /// A quarter of an element, and the stress in its middle.
 struct StressPatch {
     std::array<Vector, 4> corner, displacement; ///< around it, m
     double xx = 0.0, yy = 0.0, xy = 0.0;        ///< Pa; tension positive
+    bool is_relaxed = false;                    ///< its rock's shear modulus is divided
 };
 
 struct ExactField {
@@ -141,6 +143,9 @@ public:
     /// The file is replaced whole or not at all. Throws WriteError.
     virtual void write(const std::string& folder, const std::string& name) const = 0;
 };
+
+/// Least size of cells over the footwall's width and depth.
+inline constexpr double least_cell_share = 1e-5;
 
 /// Refuses impossible numbers. Throws FootwallError.
 void check(const FootwallRequest& request);

@@ -50,17 +50,8 @@ std::vector<dealii::CellData<2>> coarse_cells(const BlockMesh& blocks) {
     std::vector<dealii::CellData<2>> cells;
     for (const BlockMesh::Cell& cell : blocks.cells) {
         dealii::CellData<2> data;
-        std::array<Vector, 4> corners;
-        for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t k = 0; k < 4; ++k)
             data.vertices[k] = cell.vertices[k];
-            corners[k] = blocks.vertices[cell.vertices[k]];
-        }
-        if (!(least_corner(corners) > 0.0))
-            throw FootwallError(
-                "no mesh: cells fold over near x = " + std::to_string(corners[0].x) +
-                " m, y = " + std::to_string(corners[0].y) +
-                " m; make the skin thinner, the bends of the detachment wider or "
-                "the base deeper");
         data.manifold_id = interior_id;
         cells.push_back(data);
     }

@@ -1,6 +1,6 @@
 #include "fem/mesh_scan.hpp"
 
-#include "fem/footwall.hpp"
+#include "fem/request.hpp"
 
 #include <algorithm>
 #include <charconv>

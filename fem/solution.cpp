@@ -3,6 +3,7 @@
 #include "fem/byerlee.hpp"
 #include "fem/elasticity.hpp"
 
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/data_out.h>
 
 #include <algorithm>
@@ -82,7 +83,9 @@ Field ElasticFootwall::field() const {
     dealii::FEValues<2> values(mapping_, element_, dealii::Quadrature<2>(units),
                                dealii::update_quadrature_points);
     std::vector<Index> indices(element_.n_dofs_per_cell());
-    std::map<Index, std::array<double, 4>> found; // by the x unknown
+    const dealii::IndexSet on_surface = dealii::DoFTools::extract_boundary_dofs(
+        unknowns_, dealii::ComponentMask(), {id_of(Boundary::surface)});
+    std::map<Index, std::array<double, 5>> found; // by the x unknown
     for_each_own_cell([&](const auto& cell) {
         values.reinit(cell);
         cell->get_dof_indices(indices);
@@ -93,25 +96,29 @@ Field ElasticFootwall::field() const {
             const Point<2> p = values.quadrature_point(place);
             // The y unknown of a node follows the x unknown.
             found[indices[i]] = {p[0], p[1], displacement_(indices[i]),
-                                 displacement_(indices[i] + 1)};
+                                 displacement_(indices[i] + 1),
+                                 on_surface.is_element(indices[i]) ? 1.0 : 0.0};
         }
     });
-    std::vector<std::array<double, 4>> own;
+    std::vector<std::array<double, 5>> own;
     for (const auto& [index, row] : found)
         own.push_back(row);
-    std::vector<std::array<double, 4>> rows;
+    std::vector<std::array<double, 5>> rows;
     for (const auto& part : dealii::Utilities::MPI::all_gather(processes_, own))
         rows.insert(rows.end(), part.begin(), part.end());
     // Places of one row of nodes agree to round-off only.
     const double grain = 1e-6 * request_.cell_size;
-    std::ranges::sort(rows, {}, [grain](const std::array<double, 4>& row) {
+    std::ranges::sort(rows, {}, [grain](const std::array<double, 5>& row) {
         return std::pair(std::llround(row[1] / grain), row[0]);
     });
     Field field;
     for (const auto& row : rows) {
+        if (row[4] > 0.0)
+            field.surface.push_back(field.place.size());
         field.place.push_back({row[0], row[1]});
         field.displacement.push_back({row[2], row[3]});
     }
+    std::ranges::sort(field.surface, {}, [&](std::size_t k) { return field.place[k].x; });
     return field;
 }
 
@@ -177,6 +184,7 @@ std::vector<StressPatch> ElasticFootwall::stress() const {
             patch.xx = stress.xx;
             patch.yy = stress.yy;
             patch.xy = stress.xy;
+            patch.is_relaxed = rock.relaxed && request_.relaxation > 1.0;
             result.push_back(patch);
         }
     });

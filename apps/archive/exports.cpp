@@ -230,9 +230,12 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
             values.push_back(s.*part);
         return values;
     };
-    std::vector<double> start_depth;
+    const Motion& motion = at.now.parts.base.motion;
+    std::vector<double> start_depth, start_extension;
     for (const double y : d.start_y)
         start_depth.push_back(-y);
+    for (const double travel : d.start_extension)
+        start_extension.push_back(motion.position(travel));
     std::vector<DiscColumn> columns{
         {"id", numbers(d.id)},
         {"radius_m", numbers(d.radius)},
@@ -240,7 +243,7 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
         {"mass_kg_per_m", numbers(d.mass)},
         {"start_x_m", numbers(d.start_x)},
         {"start_depth_m", std::move(start_depth)},
-        {"start_extension_m", numbers(d.start_extension)},
+        {"start_extension_m", std::move(start_extension)},
         {"rotation_rad", numbers(d.rotation)},
         {"coordination", numbers(coordination(state, at.now.parts.base))},
         {"bonds", numbers(bonds_per_disc(state))},
@@ -248,6 +251,8 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
         {"stress_yy_pa", component(&Stress::yy)},
         {"stress_xy_pa", component(&Stress::xy)},
     };
+    if (!motion.stages.empty())
+        columns.push_back({"start_travel_m", numbers(d.start_extension)});
     if (state.discs.has("layer"))
         columns.push_back({"layer", numbers(state.discs.get<std::uint8_t>("layer"))});
     for (const char* name :

@@ -1,7 +1,10 @@
 #include "apps/archive/observed_misfit.hpp"
 
+#include "apps/scene/stage.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace listric::archive {
@@ -11,13 +14,13 @@ using namespace measures;
 
 namespace {
 
-/// The horizon of an age, a before the end. Rock is as old as the rift; its uppermost layer is
+/// The horizon deposited nearest to a time, a. Rock is as old as the rift; its uppermost layer is
 /// last.
-const Horizon* horizon_of_age(const std::vector<Horizon>& horizons, double age, double end) {
+const Horizon* horizon_at(const std::vector<Horizon>& horizons, double time) {
     const Horizon* best = nullptr;
     double least = INFINITY;
     for (const Horizon& h : horizons) {
-        const double off = std::abs(h.deposited_at.value_or(0.0) - (end - age));
+        const double off = std::abs(h.deposited_at.value_or(0.0) - time);
         if (off <= least) {
             least = off;
             best = &h;
@@ -37,6 +40,16 @@ double usual_interval(const std::vector<Horizon>& horizons) {
     return longest;
 }
 
+/// Years by which an age may miss the ends of what the model has: a run ends within a time step of
+/// its goal, and distance / rate has the round-off of a division.
+double slack_of_ages(const Scene& scene, const State& state, double end) {
+    const Motion motion = make_motion(scene);
+    double speed = motion.speed;
+    for (const MotionStage& stage : motion.stages)
+        speed = std::max(speed, stage.speed);
+    return std::max(1e-6 * end, speed * state.clock.time_step / scene.extension.rate);
+}
+
 void compare(ObservedHorizon& row, std::span<const Point> points, const Horizon& horizon,
              double margin) {
     const auto found = misfit(points, horizon.pieces, margin);
@@ -52,6 +65,7 @@ std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const State& s
                                               const std::vector<Horizon>& horizons) {
     const double end = scene.extension.distance / scene.extension.rate;
     const double now = state.clock.travel / scene.extension.rate;
+    const double slack = slack_of_ages(scene, state, end);
     const double diameter = 2.0 * state.mean_radius;
     std::vector<ObservedHorizon> rows;
     for (const PickedLine& line : scene.observed->horizons) {
@@ -62,12 +76,13 @@ std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const State& s
         if (!line.age) {
             for (const Horizon& h : horizons)
                 compare(row, points, h, diameter);
-        } else if (const double at = end - *line.age; at < 0.0 || at > now) {
+        } else if (const double at = end - *line.age; at < -slack || at > now + slack) {
             row.objection =
                 fmt::format("is {:g} a old, but the model's tops are {:g} to {:g} a old now",
                             *line.age, end - now, end);
-        } else if (const Horizon* h = horizon_of_age(horizons, *line.age, end);
-                   std::abs(h->deposited_at.value_or(0.0) - at) <= usual_interval(horizons)) {
+        } else if (const Horizon* h = horizon_at(horizons, at);
+                   h && std::abs(h->deposited_at.value_or(0.0) - at) <=
+                            usual_interval(horizons) + slack) {
             compare(row, points, *h, diameter);
         } else {
             row.objection =

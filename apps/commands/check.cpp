@@ -141,7 +141,7 @@ ExitCode report(const std::string& name, Times& times) {
         line = fmt::format("{}: correct: {}", name, check(name, file, times));
     } catch (const std::exception&) {
         ending = ending_of(std::current_exception());
-        const bool tells_file = ending.message.starts_with(name + ":") ||
+        const bool tells_file = name.empty() || ending.message.starts_with(name + ":") ||
                                 ending.message.starts_with(file.string() + ":");
         line = tells_file ? ending.message : fmt::format("{}: {}", name, ending.message);
     }

@@ -104,7 +104,10 @@ struct Answer {
 /// Offers for a kind of value, if need be with its call. Of a kind that is not here any
 /// value is one that nobody can guess.
 const std::map<std::string, std::pair<Words (*)(), bool>> kinds{
-    {"SCENE", {scenes_and_plan, true}},
+    {"SCENE", {scene_names, true}},
+    {"run SCENE", {scenes_and_plan, true}},
+    {"explain SCENE", {scenes_and_plan, true}},
+    {"check SCENE", {scenes_and_plan, true}},
     {"FILE", {nothing, true}},
     {"DIR", {nothing, true}},
     {"LEVEL", {accuracy_names, false}},

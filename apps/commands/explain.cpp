@@ -2,6 +2,7 @@
 
 #include "apps/model/model.hpp"
 #include "apps/scene/rock_line.hpp"
+#include "apps/scene/stage.hpp"
 
 #include <fmt/format.h>
 
@@ -43,20 +44,24 @@ std::string explain_effects(const Scene& scene, EffectList effects) {
 
 std::string explain_size(const Scene& scene, const Prediction& p) {
     const ExtensionParameters& extension = scene.extension;
+    const double extends = greatest_extension(scene); // less than the way where there are stages
+    const std::string way = extends == extension.distance
+                                ? fmt::format("{:g} km of extension", extends / 1e3)
+                                : fmt::format("{:g} km of extension, {:g} km of travel",
+                                              extends / 1e3, extension.distance / 1e3);
     const std::string fitted =
         scene.picked_fault ? fmt::format("  {}\n", describe(*scene.picked_fault, *scene.detachment))
                            : "";
     return fmt::format("size\n{}"
                        "  {} discs at the start, about {} at the end, mean radius {} m\n"
-                       "  {:g} km of extension at {} m/a: {:g} Myr\n"
+                       "  {} at {} m/a: {:g} Myr\n"
                        "  time step {:.3g} s, {:.3g} million cycles at {} m/s\n"
                        "  {:.2g} disc-steps, about {:.0f} MB of memory\n"
                        "  {}, one every {} m\n\n",
                        fitted, p.discs_at_start, p.discs_at_end, scene.hanging_wall.mean_radius,
-                       extension.distance / 1e3, extension.rate,
-                       extension.distance / extension.rate / 1e6, p.time_step, p.cycles / 1e6,
-                       extension.speed, p.disc_steps, p.memory / 1e6, output_text(p),
-                       scene.output.interval);
+                       way, extension.rate, extension.distance / extension.rate / 1e6, p.time_step,
+                       p.cycles / 1e6, extension.speed, p.disc_steps, p.memory / 1e6,
+                       output_text(p), scene.output.interval);
 }
 
 /// Lines of the effects on themselves; an effect speaks for those that need it.

@@ -13,6 +13,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -112,13 +113,21 @@ CLI::Option* add_numbers(CLI::App& command, const char* option, std::vector<doub
 
 CLI::Option* add_lengths(CLI::App& command, const char* option, std::vector<double>& metres,
                          const std::string& what) {
+    const auto bare = std::make_shared<std::string>(); // the last length without a unit
     const CLI::Validator length(
-        [option](std::string& word) {
+        [option, bare](std::string& word) {
+            const std::string given = word;
             try {
                 word = fmt::format("{}", parse_length(option, word));
             } catch (const UsageError& error) {
                 return std::string(error.what()).substr(std::string_view(option).size() + 1);
             }
+            const bool has_unit = given.ends_with('m');
+            if (has_unit && !bare->empty())
+                return fmt::format("{0},{1}: a comma parts lengths, and {0} has no unit; write "
+                                   "{0}.{1} with a decimal point, or {0}m,{1}",
+                                   shown_start(*bare), shown_start(given));
+            *bare = has_unit ? "" : given;
             return std::string();
         },
         "");

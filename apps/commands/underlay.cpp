@@ -61,7 +61,10 @@ std::optional<Underlay> underlay_of(const UnderlayOptions& options) {
     if (options.image.empty())
         throw UsageError("--corners: is of --underlay, which is not there");
     if (!std::filesystem::is_regular_file(options.image, error))
-        throw UsageError(fmt::format("--underlay {}: no such file", shown(options.image)));
+        throw UsageError(fmt::format("--underlay {}: {}", shown(options.image),
+                                     std::filesystem::is_directory(options.image, error)
+                                         ? "is a directory, needs a PNG or JPEG"
+                                         : "no such file"));
     require_corners(options.corners);
     try {
         read_picture(options.image);

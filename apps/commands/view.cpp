@@ -37,12 +37,15 @@ std::vector<Card> cards_in(const fs::path& folder) {
     constexpr int deepest = 2; // runs of sweeps and validations
     std::vector<Card> cards;
     const auto options = fs::directory_options::skip_permission_denied;
-    for (auto at = fs::recursive_directory_iterator(folder, options); at != end(at); ++at) {
+    std::error_code error; // of an entry of somebody else's, which is passed over
+    for (auto at = fs::recursive_directory_iterator(folder, options, error);
+         !error && at != end(at); at.increment(error)) {
         if (at.depth() >= deepest)
             at.disable_recursion_pending();
         struct stat facts {};
         const fs::path summary = at->path() / "summary.json";
-        if (!at->is_directory() || !fs::exists(at->path() / "scene.toml") ||
+        std::error_code of_entry;
+        if (!at->is_directory(of_entry) || !fs::exists(at->path() / "scene.toml", of_entry) ||
             stat(summary.c_str(), &facts) != 0)
             continue;
         at.disable_recursion_pending();

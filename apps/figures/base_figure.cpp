@@ -11,6 +11,7 @@
 #include "apps/support/moment_names.hpp"
 #include "apps/support/npy.hpp"
 #include "apps/support/python.hpp"
+#include "dem/contacts/power_cell.hpp"
 
 #include <fmt/format.h>
 
@@ -73,9 +74,8 @@ std::string uplift_rows(const State& state, const fem::Field& field, const std::
     const auto add = [&](double x, double uplift) {
         rows += fmt::format("{}{:.{}f},{:.{}f}\n", moment, x, decimals, uplift, decimals + 2);
     };
-    for (std::size_t k = 0; k < field.place.size(); ++k)
-        if (std::abs(field.place[k].y) < 1e-3 && field.place[k].x < 0.0 &&
-            field.place[k].x > -margin)
+    for (const std::size_t k : field.surface)
+        if (field.place[k].x < 0.0 && field.place[k].x > -margin)
             add(field.place[k].x, field.displacement[k].y);
     const ConstBaseNodeColumns nodes = base_node_columns(state);
     for (std::size_t k = 0; k < nodes.x.size(); ++k)
@@ -84,8 +84,8 @@ std::string uplift_rows(const State& state, const fem::Field& field, const std::
 }
 
 /// Plain arrays for the drawing script: corners x, y and displacements of the patches, stress xx,
-/// yy, xy; the end of the scale of their largest shear stress, MPa; discs x, y, radius, stratum, y
-/// at the start.
+/// yy, xy, and 1 where the rock is relaxed; the end of the scale of their largest shear stress,
+/// MPa; discs x, y, radius, stratum, y at the start.
 void export_section(const Observation& now, const std::vector<fem::StressPatch>& patches,
                     const fs::path& folder) {
     const ConstDiscColumns d = disc_columns(now.state);
@@ -97,14 +97,15 @@ void export_section(const Observation& now, const std::vector<fem::StressPatch>&
         for (std::size_t k = 0; k < 4; ++k)
             rows.insert(rows.end(),
                         {p.corner[k].x, p.corner[k].y, p.displacement[k].x, p.displacement[k].y});
-        rows.insert(rows.end(), {p.xx, p.yy, p.xy});
+        rows.insert(rows.end(), {p.xx, p.yy, p.xy, p.is_relaxed ? 1.0 : 0.0});
     }
-    write_npy<double>(folder / "patches.npy", rows, 19);
+    write_npy<double>(folder / "patches.npy", rows, 20);
     write_npy<double>(folder / "end.npy", std::vector{shear_end(patches, now.right_end())});
     rows.clear();
+    const std::vector<double> radius = rock_radii(now.state);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         rows.insert(rows.end(),
-                    {d.x[i], d.y[i], d.radius[i], static_cast<double>(d.stratum[i]), d.start_y[i]});
+                    {d.x[i], d.y[i], radius[i], static_cast<double>(d.stratum[i]), d.start_y[i]});
     write_npy<double>(folder / "discs.npy", rows, 5);
 }
 

@@ -11,6 +11,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/log.hpp"
 #include "apps/support/npy.hpp"
 #include "apps/support/python.hpp"
 #include "apps/support/spelling.hpp"
@@ -96,7 +97,7 @@ void Trajectory::add(const ExportedMoment& at) {
             bonded.insert(bonded.end(), {c.first[k], c.second[k]});
     write_npy<std::int32_t>(folder / "bonded.npy", bonded, 2);
     write_npy<double>(folder / "moment.npy",
-                      std::vector{static_cast<double>(state.clock.cycle), state.clock.travel});
+                      std::vector{static_cast<double>(state.clock.cycle), state.clock.extension});
 }
 
 void Trajectory::write(const fs::path& file) const {
@@ -115,6 +116,17 @@ std::string no_well(const ExportRequest& request, const Observation& now) {
             request.output.string());
     return fmt::format("--x {}: no sediment there; the {} is at {:.0f} m",
                        fmt::join(request.wells, ","), places.front().name, places.front().x);
+}
+
+/// Tells of each well that was asked for and meets no sediment.
+void warn_of_dry_wells(const ExportRequest& request, const LineTable& burial,
+                       const fs::path& snapshot) {
+    for (const double x : request.wells) {
+        const LineValue name = fmt::format("x {:g} m", x);
+        if (std::ranges::none_of(burial.lines,
+                                 [&](const Line& line) { return line.values.front() == name; }))
+            warn(fmt::format("--x {:g}: no sediment there at {}", x, snapshot.stem().string()));
+    }
 }
 
 std::string written(const LineTable& table, const std::string& format) {
@@ -192,11 +204,13 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
         if (table.lines.empty() && kind.name == "layers")
             throw UsageError(request.output.string() + ": this run's hanging wall is of one rock; "
                                                        "layers need [[layer]]");
-        const bool is_drilled = kind.name == "well" && path == moments.back();
+        const bool is_drilled =
+            kind.name == "well" && (!request.extensions.empty() || path == moments.back());
         if (is_drilled) {
             const LineTable burial = burial_table(run, path, request.wells);
             if (burial.lines.empty())
                 throw UsageError(no_well(request, now));
+            warn_of_dry_wells(request, burial, path);
             write_lines(burial, "burial", path, request, files);
         }
         if (!table.lines.empty() || kind.name != "well") // at the start there is no sediment

@@ -219,6 +219,8 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         {"title", scene.description},
         {"extension_m", state.clock.extension},
         {"time_a", state.clock.travel / scene.extension.rate},
+        {"end_a", scene.extension.distance / scene.extension.rate},
+        {"interval_a", scene.output.interval / scene.extension.rate},
         {"mean_radius_m", state.mean_radius},
         {"right_wall_x_m", now.right_end()},
         {"strata", d.stratum.empty() ? 0 : *std::ranges::max_element(d.stratum)},
@@ -289,6 +291,12 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
         for (std::size_t k = 0; k < picked->x.size(); ++k)
             points.push_back({picked->x[k], -picked->depth[k]});
         writer.points("picked_fault", points);
+    }
+    if (const auto& sediment = now.parts.sediment) {
+        const TargetLine line =
+            sediment->surface.at(now.state.clock.travel / now.scene.extension.rate);
+        if (line.points().size() > 1)
+            writer.points("target_line", line.points());
     }
     constexpr std::size_t columns[] = {3, 2, 0}; // by LayerKind
     for (const FigureLayer& layer : figure_layers(now.scene)) {

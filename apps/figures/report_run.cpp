@@ -95,8 +95,13 @@ public:
             return {};
         Snapshot snapshot = read_snapshot(path);
         hand_over(snapshot, events_, path);
-        const fem::Footwall* footwall = driver_->recover(snapshot.state);
-        return footwall ? footwall->stress() : std::vector<fem::StressPatch>();
+        try {
+            const fem::Footwall* footwall = driver_->recover(snapshot.state);
+            return footwall ? footwall->stress() : std::vector<fem::StressPatch>();
+        } catch (const UsageError&) { // the mesh's file is another by now: likewise
+            driver_.reset();
+            return {};
+        }
     }
 
 private:

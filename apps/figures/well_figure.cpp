@@ -3,11 +3,13 @@
 #include "apps/scene/effect.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
+#include "apps/support/log.hpp"
 #include "apps/support/moment_names.hpp"
 #include "apps/support/python.hpp"
 
 #include <fmt/format.h>
 
+#include <set>
 #include <string>
 
 namespace listric {
@@ -45,10 +47,13 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
     if (!well)
         return false;
     auto frames = nlohmann::ordered_json::array();
+    std::set<double> dry(wells.begin(), wells.end());
     for (const fs::path& path : snapshots) {
         const Moment moment = run.read(path);
         const Observation now{run.scene, run.parts, moment.state, moment.events};
         const nlohmann::ordered_json list = wells_json(now, *well, wells);
+        for (const auto& found : list)
+            dry.erase(found["x_m"].get<double>());
         if (list.empty())
             continue;
         frames.push_back({{"scene", run.scene.name},
@@ -60,6 +65,8 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
     }
     if (frames.empty())
         return false;
+    for (const double x : dry)
+        warn(fmt::format("--well {:g}: no pore water under pressure there", x));
     const fs::path figures = fs::absolute(run.output) / "figures";
     const TemporaryFolder data(figures);
     write_text(data.path / "wells.json", to_text(nlohmann::ordered_json{{"frames", frames}}));

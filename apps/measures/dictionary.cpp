@@ -157,7 +157,7 @@ constinit const Quantity quasi_static{
     "quasi_static", "",
     "whether `unbalanced_ratio_mean` is at most 1e-2 and `inertial_number` at most 2e-3, twice the "
     "values of `lis1` at draft; if not, the run warns, and `extension.speed_m_per_s` should be "
-    "smaller. Absent without gravity",
+    "smaller. Absent without gravity, and in runs shorter than a sampling interval",
     OverTime::last, "true"};
 
 constinit const Quantity depocentres{

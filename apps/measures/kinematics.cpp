@@ -15,9 +15,13 @@ using namespace dem;
 
 namespace {
 
-constexpr double spacing = 25.0;                                         ///< of samples, m
 constexpr double least_shear_angle = -30.0, greatest_shear_angle = 70.0; ///< that are tried
 constexpr double nowhere = -std::numeric_limits<double>::infinity();     ///< height of no curve, m
+
+/// Spacing of samples, m, as of kinematics.js: finer where the detachment is shorter than 5 km.
+double sample_spacing(const Chain& detachment) {
+    return std::min(25.0, length_of(detachment) / 200.0);
+}
 
 /// Unit vector along the chain.
 Point tangent_at(const Chain& chain, double arc_length) {
@@ -33,7 +37,7 @@ Point tangent_at(const Chain& chain, double arc_length) {
 class ShearCoordinate {
 public:
     ShearCoordinate(const Chain& detachment, double tangent) {
-        const double end = length_of(detachment);
+        const double end = length_of(detachment), spacing = sample_spacing(detachment);
         for (double s = 0.0; s <= end; s += spacing) {
             const Point p = point_at(detachment, s);
             // A detachment that rises again is met first where it is met first.
@@ -84,6 +88,7 @@ std::vector<Point> inclined_shear_top(const Chain& detachment, double extension,
     const ShearCoordinate fault(detachment, tangent);
     std::vector<Point> top;
     const double deepest = -point_at(detachment, length_of(detachment)).y;
+    const double spacing = sample_spacing(detachment);
     for (double u = extension; u <= right + deepest * tangent; u += spacing) {
         const double y = fault.height(u) - fault.height(u - extension);
         const double x = u + y * tangent;
@@ -95,7 +100,7 @@ std::vector<Point> inclined_shear_top(const Chain& detachment, double extension,
 }
 
 std::vector<Point> normals_top(const Chain& detachment, double extension, double right) {
-    const double end = length_of(detachment);
+    const double end = length_of(detachment), spacing = sample_spacing(detachment);
     std::vector<Point> top;
     for (double x = 0.0; x + extension <= right; x += spacing) {
         // The normal through a point of the original surface; at the breakaway the chain is open.
@@ -129,6 +134,7 @@ double normals_halfgraben_share(const Chain& detachment, double extension, doubl
     double area = 0.0;
     for (std::size_t k = 0; k < crest; ++k)
         area -= 0.5 * (top[k].y + top[k + 1].y) * (top[k + 1].x - top[k].x);
+    const double spacing = sample_spacing(detachment);
     for (double s = 0.0; s < extension; s += spacing) {
         const Point a = point_at(detachment, s);
         const Point b = point_at(detachment, std::min(s + spacing, extension));
@@ -142,7 +148,7 @@ double misfit(const Chain& detachment, const std::vector<Point>& prediction,
     if (prediction.empty())
         return 0.0;
     std::vector<Point> curve;
-    const double end = length_of(detachment);
+    const double end = length_of(detachment), spacing = sample_spacing(detachment);
     for (double s = 0.0; s <= end; s += spacing) {
         curve.push_back(point_at(detachment, s));
         if (curve.back().x > prediction.front().x)

@@ -113,8 +113,8 @@ void add_quietness(Measures& m, const Setting& setting, Events events) {
         m.unbalanced_ratio_mean = t.get<double>("mean_ratio_sum")[0] / t.get<double>("samples")[0];
         m.unbalanced_ratio_max = t.get<double>("max_ratio")[0];
     }
-    if (setting.gravity > 0.0)
-        m.quasi_static = m.unbalanced_ratio_mean <= greatest_unbalanced_ratio &&
+    if (setting.gravity > 0.0 && m.unbalanced_ratio_mean)
+        m.quasi_static = *m.unbalanced_ratio_mean <= greatest_unbalanced_ratio &&
                          m.inertial_number <= greatest_inertial_number;
 }
 

@@ -29,9 +29,10 @@ struct Measures {
     std::optional<double> old_sediment_bonded_fraction;
     std::optional<std::vector<BondedLayer>> old_sediment_bonded_profile;
     double mass_error_fraction = 0.0;
-    double unbalanced_ratio_mean = 0.0, unbalanced_ratio_max = 0.0;
+    std::optional<double> unbalanced_ratio_mean, unbalanced_ratio_max; ///< once forces are sampled
     double inertial_number = 0.0; ///< of the tenth of the area strained most
-    /// Whether motion is slow enough not to matter; absent without gravity, where nothing rests.
+    /// Whether motion is slow enough not to matter; absent without gravity, where nothing rests,
+    /// and before forces are sampled.
     std::optional<bool> quasi_static;
     std::optional<std::vector<Depocentre>> depocentres;
     /// Where the halfgraben ends and the collapse graben begins, with the share of the basin's area

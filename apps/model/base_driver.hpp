@@ -60,11 +60,14 @@ public:
                         const dem::CyclePhysics& physics, const dem::Execution& execution,
                         const Progress& progress) const = 0;
 
+    /// Refuses a state that has come to rest on another base. Throws UsageError.
+    virtual void require_own(const dem::State&) const {}
+
     /// Ends a window of extension and begins the next.
     virtual BaseWindow end_window(dem::State&, const dem::RigidBase&) { return {}; }
 
     /// The footwall with its field at that moment, which lasts until another moment's is recovered;
-    /// null: nothing is known of what lies below the nodes.
+    /// null: nothing is known of what lies below the nodes. Throws as require_own.
     virtual const fem::Footwall* recover(const dem::State&) { return nullptr; }
 
     /// Solves for the base under the mean forces of the last window on a finer mesh; none before a

@@ -15,4 +15,12 @@ std::string objection_to_densities(const BendingBase& base) {
                        text(base.mantle_density));
 }
 
+std::string objection_to_fill(double density, const BendingBase& base) {
+    if (density < base.mantle_density)
+        return "";
+    return fmt::format("is {}, allowed: below the base's mantle_density_kg_per_m3 = {}, else the "
+                       "hollow that it fills sinks without end",
+                       text(density), text(base.mantle_density));
+}
+
 } // namespace listric

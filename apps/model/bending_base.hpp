@@ -15,6 +15,7 @@ struct BendingBase {
     double mantle_density = 3300.0; ///< kg/m^3
     double infill_density = 0.0;    ///< of what fills the deflection, kg/m^3
     double left = -300e3;           ///< x of the footwall's far side, m
+    double right = 350e3;           ///< of the other one, under discs, m
     int cells = 8;                  ///< elements through the elastic thickness, without discs
     int degree = 2;                 ///< of the elements
     fem::Solver solver = fem::Solver::mumps;
@@ -22,5 +23,8 @@ struct BendingBase {
 
 /// Why it would not float upright; empty if it does.
 std::string objection_to_densities(const BendingBase& base);
+
+/// Why nothing of that density, kg/m^3, can fill what sinks under it; empty if it can.
+std::string objection_to_fill(double density, const BendingBase& base);
 
 } // namespace listric

@@ -18,7 +18,7 @@ ModelParts make_parts(const Scene& scene) {
     parts.base = make_rigid_base(scene);
     parts.physics.damping = scene.cycle.damping;
     // A base that stretches says itself how what rests on it moves.
-    if (dem::stretching(parts.base, 0.0).rate == 0.0)
+    if (dem::stretching(parts.base, 0.0, 1.0).rate == 0.0)
         parts.physics.averaging_time = scene.cycle.averaging_time;
     parts.materials.assign(3, scene.basement); // of every MaterialIndex
     for (const EffectPart& part : scene.effects)

@@ -268,7 +268,10 @@ Json picture_json(const UnderPicture& picture) {
     const std::string name = shown(picture.file.string());
     std::error_code error;
     if (!fs::is_regular_file(picture.file, error))
-        throw UsageError(fmt::format("--over {}: no such file", name));
+        throw UsageError(fmt::format("--over {}: {}", name,
+                                     fs::is_directory(picture.file, error)
+                                         ? "is a directory, needs a PNG or JPEG"
+                                         : "no such file"));
     Picture read;
     try {
         read = read_picture(picture.file);

@@ -172,9 +172,12 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     const double density = h.rock_density / (1.0 - 0.166);
     const double mean_mass = density * pi * h.mean_radius * h.mean_radius;
     const double smallest = 2.0 / (1.0 + h.radius_ratio);
-    const double floor = scene.cycle.inertial_mass_floor > 0.0 ? scene.cycle.inertial_mass_floor
-                                                               : smallest * smallest;
     const ModelParts parts = make_parts(scene);
+    double lightest = 1.0; // density of a rock, over the hanging wall's
+    for (const LayerFacts& layer : parts.layers)
+        lightest = std::min(lightest, layer.rock.density / h.rock_density);
+    const double floor = scene.cycle.inertial_mass_floor > 0.0 ? scene.cycle.inertial_mass_floor
+                                                               : lightest * smallest * smallest;
     Prediction p;
     p.time_step = stable_time_step(floor * mean_mass, parts.materials, scene.cycle.damping,
                                    scene.cycle.time_step_safety);

@@ -61,6 +61,8 @@ bool Session::resume() {
         try {
             Snapshot snapshot = read_snapshot(*path);
             hand_over(snapshot, simulation_.events(), *path);
+            if (run_.driver)
+                run_.driver->require_own(snapshot.state);
             simulation_.resume(std::move(snapshot.state));
             run_.go_on_with(std::move(snapshot.record));
         } catch (const StorageError& error) {

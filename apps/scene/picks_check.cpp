@@ -58,13 +58,15 @@ Room room_of(const Scene& scene, PickKind kind) {
 class Check {
 public:
     Check(Scene& scene, const PickedFile& picked, PickKind kind, double shift)
-        : scene_(scene), file_(picked.file), picks_(all_picks(picked)), kind_(kind), shift_(shift),
-          thickness_(scene.hanging_wall.thickness) {}
+        : scene_(scene), picked_(picked), file_(picked.file), picks_(all_picks(picked)),
+          kind_(kind), shift_(shift), thickness_(scene.hanging_wall.thickness) {}
 
     void all() {
         check_sign();
         check_unit();
         check_room();
+        if (kind_ == PickKind::horizons)
+            check_ages();
     }
 
 private:
@@ -143,7 +145,23 @@ private:
         return "; are they in metres?";
     }
 
+    /// Ages in Ma look like the last moments of the rift; older ones have no top.
+    void check_ages() {
+        const double end = scene_.extension.distance / scene_.extension.rate;
+        if (const std::string why = objection_to_ages(picked_, end); !why.empty())
+            scene_.warnings.push_back(why);
+        for (std::size_t l = 0; l < picked_.lines.size() && end > 0.0; ++l) {
+            const auto& age = picked_.lines[l].age;
+            if (age && *age > end * (1.0 + 1e-6))
+                scene_.warnings.push_back(fmt::format(
+                    "{}: age_a: {} is before the start of extension, which takes {} a; the horizon "
+                    "is compared with nothing",
+                    csv_place(file_, picked_.rows[l].front()), text(*age), text(std::round(end))));
+        }
+    }
+
     Scene& scene_;
+    const PickedFile& picked_;
     std::string file_;
     std::vector<Pick> picks_;
     PickKind kind_;
@@ -154,6 +172,22 @@ private:
 
 void check_picks(Scene& scene, const PickedFile& picked, PickKind kind, double shift) {
     Check(scene, picked, kind, shift).all();
+}
+
+std::string objection_to_ages(const PickedFile& picked, double duration) {
+    double greatest_age = 0.0;
+    std::size_t row = 0;
+    for (std::size_t l = 0; l < picked.lines.size(); ++l)
+        if (const double age = picked.lines[l].age.value_or(0.0); age > greatest_age) {
+            greatest_age = age;
+            row = picked.rows[l].front();
+        }
+    if (greatest_age == 0.0 ||
+        greatest_age > 1.000001e-3 * duration) // in ka the rift is a thousandth
+        return "";
+    return fmt::format("{}: age_a: no age is above {}, extension takes {} a; is it in years before "
+                       "the end of extension?",
+                       csv_place(picked.file, row), text(greatest_age), text(std::round(duration)));
 }
 
 } // namespace listric

@@ -2,6 +2,8 @@
 
 #include "apps/scene/stage.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +51,16 @@ double greatest_extension(const Scene& scene) {
     for (const auto& one : *scene.find<Stages>())
         greatest = std::max(greatest, position += one.distance.value_or(0.0));
     return greatest;
+}
+
+std::string warning_of_never(const Scene& scene, std::string_view parameter, double interval) {
+    const ExtensionParameters& extension = scene.extension;
+    if (interval * extension.rate <= extension.distance)
+        return "";
+    return fmt::format("{} = {:g} is longer than the scene: the first time would be at {:g} m, it "
+                       "ends at {:g} m; below {:g} it happens",
+                       parameter, interval, interval * extension.rate, extension.distance,
+                       extension.distance / extension.rate);
 }
 
 double least_extension(const Scene& scene) {

@@ -25,9 +25,9 @@ Entry entry_at(const toml::table& document, const std::string& path) {
 namespace {
 
 void check_detachment(const Scene& scene, const toml::table& document) {
-    constexpr double tolerance = 1.0; // m
     const DetachmentParameters& detachment = *scene.detachment;
     const double thickness = scene.hanging_wall.thickness;
+    const double tolerance = std::min(1.0, 1e-3 * thickness); // m
     const Entry entry = entry_at(document, "detachment.segments");
     if (detachment.segments.empty())
         fail(entry, "has no arc and no line, needs at least one, for example "

@@ -74,6 +74,18 @@ void drop_effects(Scene& scene, const std::vector<std::string>& without,
     }
 }
 
+/// Refuses a change of what is left out.
+void check_changes(const SceneRequest& request) {
+    for (const std::string& assignment : request.set) {
+        const std::string table = assignment.substr(0, assignment.find_first_of(".= "));
+        if (std::ranges::find(request.without, table) != request.without.end())
+            fail(
+                fmt::format("--set {0}: changes [{1}], which --without {1} leaves out; give one of "
+                            "the two",
+                            assignment, table));
+    }
+}
+
 /// A path is relative to where it is written: to the scene's file, or to where the call is made.
 std::string located(const std::string& path, const toml::node* node, const fs::path& folder) {
     const bool in_file = node && !node->source().path->starts_with("--");
@@ -168,8 +180,12 @@ std::vector<std::string_view> file_keys(const SceneTable& table) {
 
 /// A file that exists. Throws SceneError.
 std::string existing(const Entry& entry, const std::string& name, const fs::path& folder) {
+    if (name.empty())
+        fail(entry, "is empty, needs the path of a file; or leave it out");
     const std::string file = located(name, &entry.node, folder);
     std::error_code error;
+    if (fs::is_directory(file, error))
+        fail(entry, fmt::format("{}: is a directory, needs a file", file));
     if (!fs::is_regular_file(file, error))
         fail(entry, fmt::format("{}: no such file", file));
     return file;
@@ -413,6 +429,7 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     for (const SceneTable& table : all)
         read_files(scene, table, document, path.parent_path());
     drop_effects(scene, request.without, all);
+    check_changes(request);
     complete_effects(scene, document);
     check_scene(scene, document, effects);
     for (const EffectPart& part : scene.effects)

@@ -50,6 +50,9 @@ fs::path Shelf::find(const std::string& wanted) const {
         fail(fmt::format("{}: is a directory, needs a {} file", file.string(), kind));
     if (fs::exists(file, error))
         return file;
+    std::error_code none;
+    if (!is_path(wanted) && fs::is_regular_file(wanted, none))
+        fail(fmt::format("{}: the name of a {} ends with .toml; rename the file", wanted, kind));
     const std::vector<std::string> shipped = names();
     const std::vector<std::string_view> candidates(shipped.begin(), shipped.end());
     const auto meant = nearest(is_path(wanted) ? file.stem().string() : wanted, candidates);

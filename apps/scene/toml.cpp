@@ -2,6 +2,7 @@
 
 #include "apps/scene/pieces.hpp"
 #include "apps/scene/toml_depth.hpp"
+#include "apps/scene/toml_slips.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
@@ -36,7 +37,8 @@ std::string place(const toml::source_region& source) {
 } // namespace
 
 void fail(const Entry& entry, std::string_view message) {
-    fail(fmt::format("{}: {}: {}", place(entry.node.source()), entry.path, message));
+    const std::string path = entry.path.empty() ? "" : entry.path + ": "; // none: the whole file
+    fail(fmt::format("{}: {}{}", place(entry.node.source()), path, message));
 }
 
 std::string quoted(const std::string& string) {
@@ -70,7 +72,11 @@ std::string type_and_value(const toml::node& node) {
 } // namespace
 
 void fail_type(const Entry& entry, std::string_view allowed) {
-    fail(entry, fmt::format("wrong type ({}), allowed: {}", type_and_value(entry.node), allowed));
+    const auto* string = entry.node.as_string();
+    const bool is_of_number = allowed.starts_with("number") || allowed.starts_with("integer");
+    fail(entry,
+         fmt::format("wrong type ({}), allowed: {}{}", type_and_value(entry.node), allowed,
+                     string && is_of_number ? cure_of_number(entry.path, string->get()) : ""));
 }
 
 // --------------------------------------------------------------------------------------- reading
@@ -349,8 +355,9 @@ toml::table parse(const std::string& text, const std::string& origin) {
     try {
         return toml::parse(text, origin);
     } catch (const toml::parse_error& error) {
-        fail(fmt::format("{}:{}:{}: {}", origin, error.source().begin.line,
-                         error.source().begin.column, error.description()));
+        const std::size_t line = error.source().begin.line;
+        fail(fmt::format("{}:{}:{}: {}{}", origin, line, error.source().begin.column,
+                         error.description(), cure_of_line(text, line)));
     }
 }
 

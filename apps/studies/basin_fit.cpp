@@ -5,6 +5,7 @@
 #include "apps/model/model.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
+#include "apps/scene/picks_check.hpp"
 #include "apps/scene/toml.hpp"
 #include "apps/studies/draft_fit.hpp"
 #include "apps/studies/kinematic_fit.hpp"
@@ -143,8 +144,9 @@ public:
     explicit BasinFit(const BasinFitRequest& request)
         : request_(request), name_(name_of(request)),
           output_(request.output.empty() ? fs::path("out/fit-" + name_) : request.output),
-          log_(request.quiet), common_(common_plan(request)),
-          base_(scene_at(common_, {}, request.first_seed)), task_(task_of(request, base_)) {
+          log_(request.quiet), picked_(read_picked_lines(request.picks, 0.0)),
+          common_(common_plan(request)), base_(scene_at(common_, {}, request.first_seed)),
+          task_(task_of(request, picked_, base_)) {
         make_folder(output_);
         for (const FitHorizon& horizon : task_.horizons)
             for (const double depth : horizon.depth)
@@ -198,7 +200,8 @@ private:
     }
 
     /// Refuses picks and scenes that cannot be fitted.
-    static FitTask task_of(const BasinFitRequest& request, const Scene& scene) {
+    static FitTask task_of(const BasinFitRequest& request, const PickedFile& picked,
+                           const Scene& scene) {
         if (!scene.detachment || scene.picked_fault)
             throw UsageError(fmt::format("--scene {}: {}; take a scene whose [detachment] has "
                                          "segments, such as lis1",
@@ -208,7 +211,6 @@ private:
         FitTask task;
         task.extension = scene.extension.distance;
         const double duration = task.extension / scene.extension.rate;
-        const PickedFile picked = read_picked_lines(request.picks, 0.0);
         std::set<double> ages;
         for (std::size_t l = 0; l < picked.lines.size(); ++l) {
             const PickedLine& line = picked.lines[l];
@@ -228,11 +230,20 @@ private:
             task.horizons.push_back(
                 {std::min(task.extension, *line.age * scene.extension.rate), line.x, line.depth});
         }
+        if (const std::string why = objection_to_ages(picked, duration); !why.empty())
+            throw SceneError(why);
         if (ages.size() < 2)
             throw SceneError(fmt::format("{}:1: has horizons of {} age{}; a fit needs two ages or "
                                          "more",
                                          picked.file, ages.size(), ages.size() == 1 ? "" : "s"));
-        if (const auto sediment = make_parts(scene).sediment)
+        const auto sediment = make_parts(scene).sediment;
+        if (!sediment && !request.predict_only)
+            throw UsageError(
+                fmt::format("--scene {}: has no sediment, so that its runs have no top "
+                            "but the oldest; take a scene with sediment, such as lis1, or "
+                            "give --predict-only",
+                            request.scene));
+        if (sediment)
             task.porosity = {sediment->surface_porosity, sediment->porosity_decay.value_or(0.0)};
         return task;
     }
@@ -251,7 +262,9 @@ private:
                 drafts.push_back({run.shape, run.misfit});
             fit = fit_drafts(design, drafts, least_depth_);
             if (!fit) {
-                log_.say("too many drafts have failed to tell which shape is best: see fit.csv");
+                log_.say(
+                    "too many drafts have failed, or lack a picked horizon, to tell which shape "
+                    "is best: see outcome in fit.csv");
                 return std::nullopt;
             }
             about = fit->shape;
@@ -267,7 +280,9 @@ private:
             if (run.misfit)
                 misfits.push_back(*run.misfit);
         if (misfits.empty()) {
-            log_.say("all runs of the best shape have failed: see fit.csv");
+            log_.say(
+                "all runs of the best shape have failed, or lack a picked horizon: see outcome "
+                "in fit.csv");
             return std::nullopt;
         }
         const Spread over_seeds = spread(misfits);
@@ -280,9 +295,12 @@ private:
         json_["drafts"]["seeds"] = misfits.size();
         json_["drafts"]["residual_m"] = fit->residual;
         json_["drafts"]["at_end"] = fit->at_end;
-        std::cout << fmt::format(
-                         "drafts: misfit {:.0f} m, spread over {} seeds {:.0f} m, {} runs\n",
-                         over_seeds.mean, misfits.size(), over_seeds.deviation, runs_.size())
+        const std::string scatter =
+            misfits.size() > 1
+                ? fmt::format("spread over {} seeds {:.0f} m", misfits.size(), over_seeds.deviation)
+                : "one seed";
+        std::cout << fmt::format("drafts: misfit {:.0f} m, {}, {} runs\n", over_seeds.mean, scatter,
+                                 runs_.size())
                   << text_of(answer);
         if (fit->at_end)
             std::cout << "  the best shape is at an end of what was tried: give more --rounds\n";
@@ -321,8 +339,13 @@ private:
             make_runs(batch, request_.jobs, log_, request_.stop);
         for (std::size_t k = 0; k < runs.size(); ++k) {
             runs[k].outcome = endings[k].reason.empty() ? "finished" : endings[k].reason;
-            if (endings[k].exit_code == 0)
-                runs[k].misfit = observed_misfit(read_object(runs[k].folder / "summary.json"));
+            if (endings[k].exit_code == 0) {
+                const JsonObject summary = read_object(runs[k].folder / "summary.json");
+                if (std::string lack = uncompared_horizon(summary); !lack.empty())
+                    runs[k].outcome = std::move(lack);
+                else
+                    runs[k].misfit = observed_misfit(summary);
+            }
             runs_.push_back(runs[k]);
         }
         std::string text =
@@ -352,6 +375,7 @@ private:
     std::string name_;
     fs::path output_;
     Log log_;
+    PickedFile picked_;
     SweepPlan common_; ///< scene and changes of every run
     Scene base_;
     FitTask task_;

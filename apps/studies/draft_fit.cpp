@@ -156,6 +156,15 @@ std::optional<double> observed_misfit(const JsonObject& summary) {
     return points > 0.0 ? std::optional(sum / points) : std::nullopt;
 }
 
+std::string uncompared_horizon(const JsonObject& summary) {
+    const auto rows = summary.find("observed");
+    if (rows != summary.end() && rows->is_array())
+        for (const auto& row : *rows)
+            if (!number_at(row, "mean_m"))
+                return fmt::format("horizon {} {}", text_at(row, "name"), text_at(row, "outside"));
+    return "";
+}
+
 SweepPlan plan_of_shapes(const SweepPlan& common, std::span<const ListricShape> shapes) {
     SweepPlan plan = common;
     plan.design = SweepDesign::list;

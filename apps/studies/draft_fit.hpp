@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace listric {
@@ -51,6 +52,10 @@ std::optional<DraftFit> fit_drafts(const DraftDesign& design, std::span<const Dr
 /// Mean distance of all picked points from the model's horizons, by the summary of a run with
 /// [observed], m; none where it compares nothing.
 std::optional<double> observed_misfit(const JsonObject& summary);
+
+/// First horizon that a run compares with nothing, and why; empty: it compares all. Misfits of
+/// different horizons do not compare.
+std::string uncompared_horizon(const JsonObject& summary);
 
 /// The runs of shapes: a scene, its picks and an accuracy level. Throws SceneError.
 SweepPlan plan_of_shapes(const SweepPlan& common, std::span<const ListricShape> shapes);

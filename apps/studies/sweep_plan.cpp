@@ -11,10 +11,13 @@
 #include "dem/random.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <set>
 
 namespace listric {
 
@@ -103,17 +106,44 @@ SweepValue number_value(double number) {
     return {text, text, parse_number(text)};
 }
 
-/// Refuses a value that the scene refuses.
-void try_value(const SweepPlan& plan, const Entry& entry, const SweepParameter& parameter,
-               const SweepValue& value) {
+/// Refuses a parameter that the plan itself sets for every run.
+void check_parameter(const Entry& entry, const SweepPlan& plan, const std::string& name) {
+    const Entry place{*entry.node.as_table()->get("parameter"), entry.path + ".parameter"};
+    if (name == "seed")
+        fail(place, "the seed varies by the plan's seeds and first_seed; give those");
+    if (name == "accuracy" && !plan.accuracy.empty())
+        fail(place, fmt::format("beside accuracy = \"{}\", which holds for every run; leave out "
+                                "one of the two",
+                                plan.accuracy));
+}
+
+/// Refuses a value that the scene refuses. Returns the scene as it is with that value.
+std::string try_value(const SweepPlan& plan, const Entry& entry, const SweepParameter& parameter,
+                      const SweepValue& value) {
     SweepPlan alone = plan;
     alone.parameters = {parameter};
     try {
         const Scene scene = scene_at(alone, {value}, plan.first_seed);
         if (const auto oversize = oversize_of(scene, program_effects(), room_for(".")))
             throw SceneError(fmt::format("{}: {}", oversize->parameter, oversize->message));
+        return to_toml(scene);
     } catch (const SceneError& error) {
         fail(entry, error.what());
+    }
+}
+
+/// Refuses the last value where an earlier one makes the same run. In a list a value may come again
+/// beside others of the other parameters.
+/// @param made  scenes by value
+void check_new(const Entry& entry, const SweepPlan& plan, const SweepParameter& parameter,
+               const std::vector<std::string>& made) {
+    for (std::size_t k = 0; k + 1 < made.size(); ++k) {
+        const bool is_again = parameter.values[k].text == parameter.values.back().text;
+        if (made[k] == made.back() && !(is_again && plan.design == SweepDesign::list))
+            fail(entry, is_again ? std::string("stands twice; leave one out")
+                                 : fmt::format("makes the same run as {}: {} has no effect in this "
+                                               "scene; leave one out",
+                                               parameter.values[k].text, parameter.name));
     }
 }
 
@@ -121,6 +151,7 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     SweepParameter parameter;
     read_table(entry, varied_parameters(), &parameter, {"values", "range"});
     need(entry, "parameter", !parameter.name.empty());
+    check_parameter(entry, plan, parameter.name);
     const toml::table& table = *entry.node.as_table();
     const toml::node* const values = table.get("values");
     const toml::node* const range = table.get("range");
@@ -128,9 +159,11 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
         fail(entry, "needs either values or range");
     if (values) {
         const Entry list{*values, entry.path + ".values"};
+        std::vector<std::string> made;
         for (const Entry& element : elements(list, "an array of values")) {
             parameter.values.push_back(value_of(element));
-            try_value(plan, element, parameter, parameter.values.back());
+            made.push_back(try_value(plan, element, parameter, parameter.values.back()));
+            check_new(element, plan, parameter, made);
         }
         if (parameter.values.empty())
             fail(list, "is empty, needs at least one value");
@@ -146,8 +179,13 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     if (!least || !greatest || !(*least < *greatest))
         fail(pair, "needs two numbers, the first less than the second");
     parameter.range = {*least, *greatest};
-    for (std::size_t k = 0; k < 2; ++k)
-        try_value(plan, ends[k], parameter, value_of(ends[k]));
+    parameter.values = {value_of(ends[0]), value_of(ends[1])};
+    std::vector<std::string> made;
+    for (std::size_t k = 0; k < 2; ++k) {
+        made.push_back(try_value(plan, ends[k], parameter, parameter.values[k]));
+        check_new(ends[k], plan, parameter, made);
+    }
+    parameter.values.clear();
     return parameter;
 }
 
@@ -190,6 +228,16 @@ void check_design(const Entry& top, const SweepPlan& plan) {
                      fmt::format("a list needs as many values of each parameter: {} has {}, {} {}",
                                  plan.parameters[0].name, plan.parameters[0].values.size(),
                                  parameter.name, parameter.values.size()));
+    if (plan.design != SweepDesign::list)
+        return;
+    std::set<std::vector<std::string>> known;
+    for (const SweepPoint& point : sweep_points(plan)) {
+        std::vector<std::string> words;
+        std::ranges::transform(point, std::back_inserter(words), &SweepValue::text);
+        if (!known.insert(words).second)
+            fail(key("vary"),
+                 fmt::format("the list has {} twice; leave one out", fmt::join(words, ", ")));
+    }
 }
 
 /// How many values an entry of [[vary]] lists; one where it lists none.
@@ -245,6 +293,11 @@ SweepPlan load_sweep_plan(const std::filesystem::path& file) {
         fail(fmt::format("{}:1: the plan's file name {}; rename it", file.string(), why));
     plan.set = words(text.set);
     plan.without = words(text.without);
+    for (const std::string& word : plan.set)
+        if (word.starts_with("seed="))
+            fail({*document.get("set"), "set"},
+                 fmt::format("{}: every run has a seed of the plan's; give seeds and first_seed",
+                             word));
     need(top, "scene", !plan.scene.empty());
     if (is_path(plan.scene))
         plan.scene = (file.parent_path() / plan.scene).string();

@@ -181,6 +181,15 @@ void check_width(const CsvRecord& record, const CsvRecord& header, const Delimit
                            delimiter.sign == ',' ? "comma" : delimiter.word));
 }
 
+/// Refuses a header whose column, which may be missing, is there under another name.
+void check_optional(const CsvRecord& header, std::string_view name, const std::string& where) {
+    if (has(header, name))
+        return;
+    if (const std::string hint = optional_hint(header.cells, name); !hint.empty())
+        refuse(where, fmt::format("has no column {}, which may be left out; it has {}{}", name,
+                                  header_text(header.cells), hint));
+}
+
 std::vector<std::string_view> needed_columns(const CsvColumns& wanted) {
     std::vector<std::string_view> names;
     if (!wanted.words.empty())
@@ -226,6 +235,8 @@ CsvRows read_csv(const fs::path& path, const CsvColumns& wanted) {
     const CsvRecord& header = reading.header;
     std::vector<std::string_view> names = wanted.numbers;
     names.insert(names.end(), wanted.optional.begin(), wanted.optional.end());
+    for (const std::string_view name : wanted.optional)
+        check_optional(header, name, csv_place(file, header.line));
     std::vector<std::size_t> place;
     for (const std::string_view name : names)
         place.push_back(place_of(header, name, csv_place(file, header.line)));

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 
 namespace listric {
 
@@ -75,6 +76,40 @@ bool is_other_name(std::string_view column, std::string_view missing) {
     return false;
 }
 
+/// Whether a column of ours ends so in files of others.
+bool is_unit(std::string_view word) {
+    static constexpr std::string_view units[] = {
+        "km", "m",  "cm", "mm", "ft",  "feet", "metres", "meters", "ga",  "ma",   "ka",   "a",
+        "my", "ky", "gy", "y",  "myr", "kyr",  "gyr",    "yr",     "yrs", "year", "years"};
+    return std::ranges::find(units, word) != std::end(units);
+}
+
+/// Cure of a cell that is the name of a missing column without its unit, with another one, or in
+/// another spelling; empty: it is none of these.
+std::string unit_hint(const std::string& cell, std::string_view missing) {
+    const std::string column = plain(cell);
+    if (column == missing)
+        return fmt::format("; did you mean {} by \"{}\"? write it so", missing, shown_start(cell));
+    const std::size_t unit = missing.rfind('_');
+    if (unit == missing.npos)
+        return "";
+    const std::string_view stem = missing.substr(0, unit); // "depth" of "depth_m"
+    if (column == stem)
+        return fmt::format("; call {} {} if it is in that unit", shown_start(cell), missing);
+    if (!column.starts_with(fmt::format("{}_", stem)) ||
+        column.find('_', stem.size() + 1) != column.npos)
+        return "";
+    const std::string_view other = std::string_view(column).substr(stem.size() + 1);
+    const bool is_time = missing.ends_with("_a");
+    static constexpr std::string_view same_length[] = {"metres", "meters"},
+                                      same_time[] = {"y", "yr", "yrs", "year", "years"};
+    const bool is_same = is_time ? std::ranges::find(same_time, other) != std::end(same_time)
+                                 : std::ranges::find(same_length, other) != std::end(same_length);
+    return is_same ? fmt::format("; call {} {} if it is in that unit", shown_start(cell), missing)
+                   : fmt::format("; {} is in another unit ({})", shown_start(cell),
+                                 is_time ? times : lengths);
+}
+
 } // namespace
 
 std::string header_text(const std::vector<std::string>& header) {
@@ -91,23 +126,9 @@ std::string header_hint(const std::vector<std::string>& header, std::string_view
                             [](const auto& cell) { return parse_number(cell).has_value(); }))
         return fmt::format("; put a line with the names, {}, above the numbers",
                            fmt::join(needed, ","));
-    const std::size_t unit = missing.rfind('_');
-    const std::string_view stem = missing.substr(0, unit); // "depth" of "depth_m"
-    for (const std::string& cell : header) {
-        const std::string column = plain(cell);
-        if (column == missing)
-            return fmt::format("; did you mean {} by \"{}\"? write it so", missing,
-                               shown_start(cell));
-        if (unit == missing.npos)
-            continue;
-        if (column == stem || column == fmt::format("{}_metres", stem) ||
-            column == fmt::format("{}_meters", stem))
-            return fmt::format("; call {} {} if it is in that unit", shown_start(cell), missing);
-        if (column.starts_with(fmt::format("{}_", stem)) &&
-            column.find('_', stem.size() + 1) == column.npos)
-            return fmt::format("; {} is in another unit ({})", shown_start(cell),
-                               missing.ends_with("_a") ? times : lengths);
-    }
+    for (const std::string& cell : header)
+        if (std::string hint = unit_hint(cell, missing); !hint.empty())
+            return hint;
     for (const std::string& cell : header)
         if (is_other_name(plain(cell), missing))
             return fmt::format("; if {} is what is meant, call it {}{}", shown_start(cell), missing,
@@ -117,6 +138,18 @@ std::string header_hint(const std::vector<std::string>& header, std::string_view
     for (const std::string& cell : header)
         if (const auto meant = nearest(cell, needed); meant && *meant == missing)
             return fmt::format("; did you mean {} by \"{}\"?", missing, shown_start(cell));
+    return "";
+}
+
+std::string optional_hint(const std::vector<std::string>& header, std::string_view missing) {
+    const std::string_view stem = missing.substr(0, missing.rfind('_'));
+    for (const std::string& cell : header) {
+        const std::string column = plain(cell);
+        const bool has_unit = column.starts_with(fmt::format("{}_", stem)) &&
+                              is_unit(std::string_view(column).substr(stem.size() + 1));
+        if (column == stem || has_unit)
+            return unit_hint(cell, missing);
+    }
     return "";
 }
 

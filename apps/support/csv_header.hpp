@@ -15,4 +15,8 @@ std::string header_text(const std::vector<std::string>& header);
 std::string header_hint(const std::vector<std::string>& header, std::string_view missing,
                         const std::vector<std::string_view>& needed, std::string_view text);
 
+/// Likely misnamed column in place of one that may be missing, and the cure; empty if there is
+/// none: only the name with another unit, without one or in another spelling counts.
+std::string optional_hint(const std::vector<std::string>& header, std::string_view missing);
+
 } // namespace listric

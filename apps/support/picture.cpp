@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -260,11 +261,24 @@ private:
     bool has_scan_ = false;
 };
 
+/// Whether a file's beginning has nothing but letters and ends of lines.
+bool is_text(std::string_view head) {
+    return std::ranges::none_of(head, [](unsigned char letter) {
+        return letter < ' ' && letter != '\n' && letter != '\r' && letter != '\t';
+    });
+}
+
 [[noreturn]] void refuse_other(const std::string& bytes) {
     std::string_view what = "something else";
     for (const auto& [begin, name] : others)
         if (bytes.starts_with(begin))
             what = name;
+    const std::string_view head = std::string_view(bytes).substr(0, 2000);
+    if (head.find("<svg") != head.npos)
+        refuse("is an SVG, and a picture must be a PNG or JPEG; export it as PNG from the program "
+               "that drew it");
+    if (what == "something else" && is_text(head))
+        refuse("is a text, and a picture must be a PNG or JPEG");
     refuse(fmt::format("is {}, and a picture must be a PNG or JPEG; save or convert it as one, for "
                        "instance: python3 -c \"import sys; from PIL import Image; "
                        "Image.open(sys.argv[1]).save(sys.argv[2])\" IT section.png",

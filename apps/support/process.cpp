@@ -73,9 +73,11 @@ SilentEnd run_silently(const std::vector<std::string>& words) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         return {};
+    const pid_t parent = getpid();
     const pid_t child = fork();
     if (child == 0) {
         setpgid(0, 0);
+        stop_with(parent);
         const int nothing = open("/dev/null", O_RDWR);
         dup2(nothing, STDIN_FILENO);
         dup2(nothing, STDOUT_FILENO);

@@ -25,7 +25,8 @@ struct SilentEnd {
     std::string said = {}; ///< the last 64 kB of its standard error
 };
 
-/// Runs a program as run_program() does, without its input and output; its errors are kept.
+/// Runs a program as run_program() does, without its input and output; its errors are kept. It ends
+/// with this program.
 SilentEnd run_silently(const std::vector<std::string>& words);
 
 } // namespace listric

@@ -56,7 +56,8 @@ double FastCycle::move_base(State& state, const BaseNodeColumns& nodes, const Cl
 DampedAgainst FastCycle::damped_against() const {
     if (physics_.averaging_time > 0.0)
         return DampedAgainst::mean_motion;
-    return stretching(*base_, 0.0).rate > 0.0 ? DampedAgainst::stretching : DampedAgainst::rest;
+    return stretching(*base_, 0.0, 1.0).rate > 0.0 ? DampedAgainst::stretching
+                                                   : DampedAgainst::rest;
 }
 
 /// Square of the greatest distance of the strip's discs from their searched places, m^2.
@@ -229,8 +230,7 @@ private:
         if (fast_.deforms_ && thread_ == 0)
             fast_.fastest_node_[parity] =
                 fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.around);
-        Stretching thins = stretching(*fast_.base_, clock_.extension);
-        thins.rate *= motion.speed;
+        const Stretching thins = stretching(*fast_.base_, clock_.extension, motion.speed);
         const auto sweep =
             clock_.cycle % averaging_interval == 0 ? &Kernels::sampling_sweep : &Kernels::sweep;
         double& mine = piece_.fastest[static_cast<std::size_t>(thread_)].in[parity];

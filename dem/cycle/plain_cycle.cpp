@@ -176,8 +176,7 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
     const MotionInstant motion = base.motion.at(clock.time(), clock.travel);
     base_forces(state, base, force, account);
     contact_forces(state, pairs, force, account);
-    Stretching thins = stretching(base, clock.extension);
-    thins.rate *= motion.speed;
+    const Stretching thins = stretching(base, clock.extension, motion.speed);
     const double disc_speed = move_discs(state, physics, {state, physics, thins}, force, account);
     account.enter_half_step();
     around.respond(state, clock, response);

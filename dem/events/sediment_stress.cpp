@@ -87,8 +87,8 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
     const std::vector<Point> net = net_forces(contacts, d.x.size());
     const bool relative = physics.averaging_time > 0.0;
     const auto mean_vy = relative ? state.discs.get<float>("mean_vy") : std::span<const float>();
-    Stretching thins = stretching(base, state.clock.extension);
-    thins.rate *= base.motion.at(state.clock.time(), state.clock.travel).speed;
+    const double speed = base.motion.at(state.clock.time(), state.clock.travel).speed;
+    const Stretching thins = stretching(base, state.clock.extension, speed);
     const auto undamped = [&](std::size_t i) { // as in the cycle, m/s
         return relative ? static_cast<double>(mean_vy[i]) : -thins.rate * (d.y[i] - thins.floor);
     };

@@ -273,9 +273,12 @@ State make_hanging_wall(const GenesisRequest& request,
     const double density = p.rock_density / (1.0 - porosity_under_gravity);
     const double mean_mass = density * pi * p.mean_radius * p.mean_radius;
     state.inertial_mass_floor = request.inertial_mass_floor * mean_mass;
+    double lightest = density; // kg/m^3
+    for (const RockLayer& layer : request.layers)
+        lightest = std::min(lightest, density * (layer.density / p.rock_density));
     state.clock.time_step =
         stable_time_step(request.inertial_mass_floor > 0.0 ? state.inertial_mass_floor
-                                                           : density * pi * smallest * smallest,
+                                                           : lightest * pi * smallest * smallest,
                          state.materials, request.physics.damping, request.time_step_safety);
 
     add_discs(state, disc_count(p, area + lid * p.length));

@@ -15,10 +15,15 @@ from source_tree import report
 LEVEL = re.compile(r"\blistric::dem::fast::v[34]::")
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
 INSTRUCTION = re.compile(r"^ +[0-9a-f]+:\t(?:(?:bnd|data16|lock|notrack|rep|repz|repnz|cs|ds) )*(\w+)")
-# AVX and AVX-512, whose names begin with v or work on masks (k); BMI, and what came with it.
+# AVX and AVX-512, whose names begin with v or work on masks (k); BMI, and what came with it; SSE3 to SSE4.2. Not
+# tzcnt: of old processors it is bsf, for which gcc writes it where zeros do not occur.
 BEYOND_SSE2 = re.compile(r"v(?!err|erw|mcall|mlaunch)|k(?:add|and|mov|not|or|shift|test|unpck|xn?or)"
                          r"|andn(?!p)|bextr|bls|bzhi|mulx|pdep|pext(?!rw)|rorx|sarx|shlx|shrx|movbe|lzcnt"
-                         r"|popcnt|crc32|p?blendv|round[sp][sd]|dpp[sd]|pshufb|haddp|pcmpeqq")
+                         r"|popcnt|crc32|cmpxchg16b|[ls]ahf|ad[co]x|aes|pclmul|sha(?:1|256)"
+                         r"|addsub|h(?:add|sub)p|ph(?:add|sub|min)|lddqu|fisttp|mov(?:d|s[hl])dup|movntdqa"
+                         r"|pabs|psign|palignr|pshufb|pmaddub|pmulhrsw|pmul(?:ld|dq)|pmov[sz]x"
+                         r"|p(?:max|min)(?:s[bd]|u[wd])|packusdw|pcmp(?:eqq|gtq|[ei]str)|ptest"
+                         r"|p?blend|round[sp][sd]|dpp[sd]|pinsr[bdq]|insertps|extractps|mpsadbw")
 FUSED = re.compile(r"vfn?m(?:add|sub)")
 
 

@@ -13,6 +13,10 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(violations(disassembly(
             "std::vector<double>::size() const", "movsd  (%rdi),%xmm0", "verr   %ax",
             "rep stos %al,%es:(%rdi)", "sqrtpd %xmm0,%xmm0", "call   402f10 <vmovd>")), [])
+        for name in ("addpd addsd movsl movntdq movntpd pmaxub pmaxsw pminub pminsw pinsrw pextrw packuswb packssdw "
+                     "pmaddwd pmuludq pmulhuw pmulhw pmullw pcmpeqd pcmpgtd pshufd pshuflw shufpd unpckhpd psadbw "
+                     "pandn andnpd movmskpd cmpxchg cmpxchg8b bsf tzcnt adc fistp sar shld").split():
+            self.assertEqual(violations(disassembly("f()", f"{name}  %xmm0,%xmm1")), [], name)
 
     def test_a_level(self):
         self.assertEqual(violations(disassembly(
@@ -27,6 +31,15 @@ class PlantedViolations(unittest.TestCase):
                 instruction)),
                 ["listric::dem::fast::baseline::(anonymous namespace)::sweep(Strip&): "
                  + instruction.split()[-2]])
+
+    def test_every_later_extension(self):
+        for name in ("addsubpd haddpd hsubps lddqu movddup movshdup movsldup fisttpll "
+                     "pabsd palignr phaddd phsubw pmaddubsw pmulhrsw pshufb psignb "
+                     "blendpd blendvpd pblendw pblendvb dppd extractps insertps movntdqa mpsadbw packusdw pcmpeqq "
+                     "pextrb pextrd pextrq phminposuw pinsrb pinsrd pinsrq pmaxsb pmaxsd pmaxuw pmaxud pminsb pminsd "
+                     "pminuw pminud pmovsxbw pmovzxdq pmuldq pmulld ptest roundsd roundps "
+                     "crc32b pcmpgtq pcmpestri pcmpistrm popcnt cmpxchg16b sahf aesenc sha1msg1 adcx").split():
+            self.assertEqual(violations(disassembly("f()", f"{name}  %xmm0,%xmm1")), [f"f(): {name}"])
 
     def test_fused_multiply_add(self):
         name = "listric::dem::fast::v4::(anonymous namespace)::sweep(Strip&)"

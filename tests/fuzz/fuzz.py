@@ -37,6 +37,8 @@ SHARES = {"scenes": 4, "runs": 2, "damaged": 8, "snapshots": 4, "sequences": 1}
 KINDS = tuple(SHARES)
 LONGEST = {"check": 20.0, "explain": 20.0, "run": 60.0}   # s
 EACH = 0.2   # s more for each further scene of a call
+LEAST = 1   # cases of each kind, however soon the time is over: else a busy machine finds nothing in nothing
+SHRINKING = 60.0   # s after the end, for all that failed
 RUN = ["--threads", "1", "--quiet", "--no-report"]
 NUMBERLESS = (b" nan", b" inf ", b" -nan")
 
@@ -56,22 +58,22 @@ def is_short(line):
 
 
 class Fuzzer:
+    shrink_end = math.inf   # of time.monotonic()
+
     def __init__(self, program, scratch, keep, seed, batch):
         self.batch = batch   # scenes that one call checks
         self.runner = damaged_inputs.Runner(Path(program).resolve(), scratch, keep)
         self.maker = damaged_inputs.Maker(scenes.SOURCES / "tests/scenes/every-effect-begun")
         self.scratch, self.keep, self.seed = scratch, keep, seed
         self.count, self.codes = collections.Counter(), collections.defaultdict(collections.Counter)
+        self.made = collections.Counter()   # cases by kind
         self.failures, self.hashes, self.lock = [], {}, threading.Lock()
 
     # ------------------------------------------------------------------------------ calls
 
     def call(self, words, folder, scenes=1):
         """What is wrong with a call, and its exit code."""
-        why, code, said = self.runner.call(words, folder, LONGEST.get(words[0], 60.0) + EACH * (scenes - 1))
-        if not why and code in (2, 3, 4) and not said.strip():
-            why = f"exit code {code} without a word"
-        return why, code, said
+        return self.runner.call(words, folder, LONGEST.get(words[0], 60.0) + EACH * (scenes - 1))
 
     def checked(self, text, folder, words=("check",)):
         folder.mkdir(parents=True, exist_ok=True)
@@ -116,20 +118,20 @@ class Fuzzer:
         why, code, said = self.call(["check", *(f"@{name}" for name in files)], folder, len(made))
         self.add(what, len(made))
         self.tell(f"checks of {what}", code)
-        if why and not any([self.shrunk_scene(scene, number, ("check",)) for scene in made]):
+        if why and not any([self.shrunk_scene(scene, f"{what}-{number}-{k}", ("check",)) for k, scene in enumerate(made)]):
             self.fail(f"check-{what}-{number}", (why, code, said), files, [["check", *files]])
         found = re.findall(r"(\d+)\.toml: correct: (.*)", said.decode("utf-8", "replace"))
         return {int(k): line for k, line in found}
 
-    def shrunk_scene(self, scene, number, words):
+    def shrunk_scene(self, scene, name, words):
         """Whether a scene fails; it is kept as small as it does."""
-        folder = self.scratch / f"shrink-{words[0]}-{number}-{threading.get_ident()}"
+        folder = self.scratch / f"shrink-{words[0]}-{name}-{threading.get_ident()}"
         first = self.checked(scenes.to_toml(scene), folder, words)
         if not first[0]:
             return False
         smallest = shrink.shrink_scene(scene, lambda s: self.checked(scenes.to_toml(s), folder, words)[0] == first[0],
-                                       scenes.BASE)
-        self.fail(f"{words[0]}-{number}", first, {"a.toml": scenes.to_toml(smallest).encode()}, [[*words, "a.toml"]])
+                                       scenes.BASE, end=self.shrink_end)
+        self.fail(f"{words[0]}-{name}", first, {"a.toml": scenes.to_toml(smallest).encode()}, [[*words, "a.toml"]])
         return True
 
     def runs(self, number, folder):
@@ -148,7 +150,7 @@ class Fuzzer:
         self.tell("runs", code)
         if why:
             smallest = shrink.shrink_scene(scene, lambda s: self.run(scenes.to_toml(s), folder / "run")[0] == why,
-                                           scenes.BASE, budget=40)
+                                           scenes.BASE, budget=40, end=self.shrink_end)
             self.fail(f"run-{name}", (why, code, said), {"a.toml": scenes.to_toml(smallest).encode()},
                       [["run", "a.toml", "--output", "out", *RUN]])
 
@@ -159,11 +161,11 @@ class Fuzzer:
         files, calls = getattr(self.maker, reader)(chance)
         damaged_inputs.write(folder, files)
         self.add("snapshots" if readers else "damaged files", 1)
-        for words in calls:
+        for k, words in enumerate(calls):
             result = self.call(words, folder)
             self.tell("snapshots" if readers else "damaged files", result[1])
             if result[0]:
-                self.shrunk_files(f"{reader}-{number}", files, words, result, folder)
+                self.shrunk_files(f"{reader}-{number}-{k}", files, words, result, folder)
 
     def shrunk_files(self, name, files, words, first, folder):
         """With the damaged text as short as it fails; snapshots stay whole."""
@@ -172,7 +174,7 @@ class Fuzzer:
             def fails(data):
                 (folder / damaged).write_bytes(data)
                 return self.call(words, folder)[0] == first[0]
-            files = files | {damaged: shrink.shrink_text(files[damaged], fails)}
+            files = files | {damaged: shrink.shrink_text(files[damaged], fails, end=self.shrink_end)}
         self.fail(name, first, files, [words])
 
     def snapshots(self, number, folder):
@@ -200,6 +202,8 @@ class Fuzzer:
                 self.tell("sequences", result[1])
                 if result[0]:
                     return result
+            if words == steps[2] and result[1] != 0:   # what was interrupted in whatever way can go on
+                return (f"exit code {result[1]} of the last call, --resume", *result[1:])
             return None
 
         result = fails(calls)
@@ -207,13 +211,13 @@ class Fuzzer:
         if not result:
             result = self.other_bits(text, folder)
         if result:
-            shorter = shrink.shrink_list(calls, lambda kept: (fails(kept) or [None])[0] == result[0], 20)
+            shorter = shrink.shrink_list(calls, lambda kept: (fails(kept) or [None])[0] == result[0], 20, self.shrink_end)
             self.fail(f"sequence-{number}", result, {"a.toml": text.encode()}, shorter)
 
     def other_bits(self, text, folder):
         """What is wrong where the bits of the sequence's run are not those of a run in one go."""
         if not (folder / "out/summary.json").exists():
-            return None
+            return "no summary.json after a run to its end", 0, b""
         with self.lock:
             known = self.hashes.get(text)
         if known is None:
@@ -261,16 +265,27 @@ class Fuzzer:
             shutil.rmtree(folder, ignore_errors=True)
 
     def carry_out(self, seconds, jobs, kinds, most=10 ** 9):
-        """Cases of all kinds in turn until the time is over, or there were so many turns."""
+        """Cases of all kinds in turn until the time is over and each kind had one, or there were so many turns."""
         end = time.monotonic() + seconds
+        self.shrink_end = end + SHRINKING
+
+        def begins(kind):
+            """Whether one more case of a kind may begin; it is counted."""
+            with self.lock:
+                if time.monotonic() > end and self.made[kind] >= LEAST:
+                    return False
+                self.made[kind] += 1
+                return True
 
         def work(first):
             for turn in range(first, most, jobs):
                 for kind in kinds:
                     for number in range(turn * SHARES[kind], (turn + 1) * SHARES[kind]):
-                        if time.monotonic() > end:
-                            return
+                        if not begins(kind):
+                            break
                         self.case(kind, number)
+                if time.monotonic() > end:   # each kind has had its turn
+                    return
 
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             for done in [pool.submit(work, first) for first in range(jobs)]:

@@ -1,14 +1,21 @@
-"""Makes what fails smaller while it fails in the same way."""
+"""Makes what fails smaller while it fails in the same way; at most until a time of time.monotonic()."""
+
+import math
+import time
 
 
-def shrink_list(parts, fails, budget=200):
+def shrink_list(parts, fails, budget=200, end=math.inf):
     """The fewest parts of a list with which `fails(parts)` is still true (Zeller & Hildebrandt 2002, ddmin);
     at most `budget` tries."""
     size = max(1, len(parts) // 2)
     tries = 0
-    while size >= 1 and tries < budget:
+
+    def may_try():
+        return tries < budget and time.monotonic() < end
+
+    while size >= 1 and may_try():
         begin, shrunk = 0, False
-        while begin < len(parts) and tries < budget:
+        while begin < len(parts) and may_try():
             fewer = parts[:begin] + parts[begin + size:]
             tries += 1
             if fewer and fails(fewer):
@@ -20,7 +27,7 @@ def shrink_list(parts, fails, budget=200):
     return parts
 
 
-def shrink_scene(scene, fails, base, budget=200):
+def shrink_scene(scene, fails, base, budget=200, end=math.inf):
     """The fewest tables and keys of a scene, {table: {key: value}}, with which it fails; what `base` has
     takes its value there where that fails, too."""
     pairs = [(table, None) for table in scene if table not in base]
@@ -35,17 +42,17 @@ def shrink_scene(scene, fails, base, budget=200):
                 made[table][key] = scene[table][key]
         return made
 
-    if not pairs or not fails(with_changes(pairs)):
+    if not pairs or time.monotonic() > end or not fails(with_changes(pairs)):
         return scene   # the base's own, or a table that is missing
     if fails(with_changes([])):
         return with_changes([])
-    return with_changes(shrink_list(pairs, lambda kept: fails(with_changes(kept)), budget))
+    return with_changes(shrink_list(pairs, lambda kept: fails(with_changes(kept)), budget, end))
 
 
-def shrink_text(data, fails, budget=200):
+def shrink_text(data, fails, budget=200, end=math.inf):
     """The fewest lines, then bytes, of a file that fails."""
-    lines = shrink_list(data.splitlines(keepends=True), lambda kept: fails(b"".join(kept)), budget)
+    lines = shrink_list(data.splitlines(keepends=True), lambda kept: fails(b"".join(kept)), budget, end)
     data = b"".join(lines)
     if len(data) > 2000:
         return data
-    return bytes(shrink_list(list(data), lambda kept: fails(bytes(kept)), budget))
+    return bytes(shrink_list(list(data), lambda kept: fails(bytes(kept)), budget, end))

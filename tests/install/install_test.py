@@ -18,9 +18,9 @@ HERE = Path(__file__).resolve().parent
 SOURCES = HERE.parents[1]
 BUILD = Path(os.environ.get("LISTRIC_BUILD", SOURCES / "build/native")).resolve()
 
-# Hides a folder from what follows; needs no root where users may have namespaces.
+# Hides build and sources from what follows; needs no root where users may have namespaces.
 HIDE = ["unshare", "--mount", "--map-root-user", "sh", "-c",
-        'mount -t tmpfs none "$0" && exec "$@"']
+        'mount -t tmpfs none "$0" && mount -t tmpfs none "$1" && shift && exec "$@"', BUILD, SOURCES]
 
 
 def call(*command, **options):
@@ -42,13 +42,13 @@ class Installed(unittest.TestCase):
         (cls.place / "first").rename(cls.prefix)
         cls.elsewhere = cls.place / "elsewhere"
         cls.elsewhere.mkdir()
+        cls.hide = HIDE if subprocess.run([*HIDE, "true"], capture_output=True).returncode == 0 else []
         cls.state_hash = cls.run_lis1("500m")
 
     @classmethod
     def outside(cls, *words):
         """A call in an empty folder; sources and build are hidden where that is allowed."""
-        hides = subprocess.run([*HIDE, SOURCES, "true"], capture_output=True).returncode == 0
-        return call(*([*HIDE, SOURCES] if hides else []), *words, cwd=cls.elsewhere)
+        return call(*cls.hide, *words, cwd=cls.elsewhere)
 
     @classmethod
     def program(cls, *words):
@@ -67,6 +67,13 @@ class Installed(unittest.TestCase):
              f"-DCMAKE_PREFIX_PATH={self.prefix}", *definitions)
         call("cmake", "--build", folder, "--target", target)
         return folder
+
+    def test_sources_and_build_are_hidden(self):
+        if not self.hide:
+            self.skipTest("no user may hide folders here (unshare)")
+        for file in SOURCES / "CMakeLists.txt", BUILD / "CMakeCache.txt":
+            self.assertTrue(file.exists())
+            self.outside("test", "!", "-e", file)
 
     def test_the_program_runs_without_the_sources(self):
         figures = list((self.elsewhere / "out/lis1/figures").glob("*.png"))

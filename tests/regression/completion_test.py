@@ -59,6 +59,9 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.completed("run", "lis1", "--set", "hanging_wall.len"),
                          ["hanging_wall.length_m="])
         self.assertEqual(self.completed("run", "lis1", "--without", "sed"), ["sedimentation"])
+        for call in "run", "explain", "check":  # which take plans of flexure
+            self.assertEqual(self.completed(call, "flex"), ["flexure"])
+        self.assertEqual(self.completed("draw", "flex"), [""])
         self.assertEqual(self.completed("laboratory", "shear"), ["shear-box"])
         self.assertEqual(self.completed("laboratory", "biaxial", "mat18-b-"),
                          ["mat18-b-calibrated"])

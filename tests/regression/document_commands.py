@@ -20,6 +20,6 @@ def run(call, folder_in_text, folder, figures=True):
     """What a command comes to if it writes to another folder than the text has it, and draws no figures
     if nobody looks at them."""
     words = call.replace(folder_in_text, str(folder)).split()
-    words[0] = {"./listric": PROGRAM, "python3": sys.executable}[words[0]]
+    words[0] = {"./listric": PROGRAM, "python3": sys.executable, "/usr/bin/python3": sys.executable}[words[0]]
     return subprocess.run(words, cwd=SOURCES, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           text=True, env=os.environ | ({} if figures else NO_FIGURES))

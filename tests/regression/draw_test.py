@@ -75,6 +75,38 @@ return a[0].map(one => {
 });"""
 
 
+# Out, a rest, slowly back, a rest shorter than the change of stages, out again: 4 km at most after 10.26 km of travel.
+STAGED = """
+[hanging_wall]
+length_m = 30000.0
+thickness_m = 9000.0
+[detachment]
+segments = [{arc = {radius_m = 9000.0, end_dip_deg = 0.0}}, {line = {length_m = 60000.0}}]
+footwall_top_m = 30000.0
+[extension]
+rate_m_per_a = 0.005
+ramp_s = 300.0
+[[stage]]
+distance_m = 3000
+[[stage]]
+pause_a = 200_000
+speed_m_per_s = 4.0
+[[stage]]
+distance_m = -1500.0
+rate_m_per_a = 0.002
+[[stage]]
+pause_a = 2000
+[[stage]]
+distance_m = 2500.0
+speed_m_per_s = 0.5
+[output]
+figures_at_m = [1000.0, 5500.0]
+[gravity]
+[bonds]
+[sedimentation]
+"""
+
+
 class Draw(Browsed):
     @classmethod
     def setUpClass(cls):
@@ -384,7 +416,9 @@ class Draw(Browsed):
                          "rate_m_per_a = 0.003\nspeed_m_per_s = 2.0\n[cycle]\ninertial_mass_floor = 0.0\n[output]\ninterval_m = 250.0\n"
                          "figures_at_m = [1000.0, 3000.0, 6000.0]\n[gravity]\n[bonds]\n[fault_weakening]\ninterval_a = 2500.0\n"
                          "update_interval_a = 900.0\n[bond_healing]\n[pore_fluid]\nhydrostatic = true\n[sedimentation]\ninterval_a = 12000.0\nnormal_stiffness_pa = 9e11\n[compaction]\n")
-        for path in [SOURCES / "apps/scenes/rfr-elastic.toml", other]:
+        staged = self.folder / "staged.toml"
+        staged.write_text(STAGED)
+        for path in [*(SOURCES / "apps/scenes" / name for name in ("rfr-elastic.toml", "inversion-lis1.toml")), other, staged]:
             page = self.folder / "program.html"
             ended = listric("draw", path, "-o", page, "--threads", "1")
             self.assertEqual(ended.returncode, 0, ended.stdout)
@@ -633,6 +667,25 @@ class Draw(Browsed):
         self.assertIn("by 100 m (Shift 1 km, Alt 10 m)", self.text("panel_fault"))
         self.assertEqual(self.script("return [decimalsOf(shapeNow()), leastLengthOf(shapeNow()), spacingOf(page.chain), placeDecimals()];"),
                          [0, 10, 25, 0])
+
+    def test_14d_the_slider_reaches_the_greatest_extension_of_stages(self):
+        scene = self.folder / "staged.toml"
+        scene.write_text(STAGED)
+        self.open()
+        for path, greatest, travel in ((SOURCES / "apps/scenes/inversion-lis1.toml", 5000, 9000), (scene, 4000, 10260)):
+            self.read_into_page(path)
+            self.assertIn("Correct", self.text("state"))
+            self.assertEqual(self.slide(1.0), greatest)
+            self.assertEqual(self.text("extension_told"), f"{greatest / 1000:.1f} km")
+            self.assertEqual(self.script("return valueAt(facts, schema, page.state.scene, 'extension.distance_m');"), travel)
+            # The basin is that of the greatest extension without stages.
+            area = self.script("return page.kinematics.area;")
+            self.script("change('', state => { delete state.scene.stage; setAt(state, 'extension.distance_m', a[0]); }); return 0;", greatest)
+            self.frame()
+            self.assertEqual(self.script("return page.kinematics.area;"), area)
+        self.read_into_page(scene)
+        self.script("change('', state => setAt(state, 'extension.distance_m', 9000)); return 0;")
+        self.assertIn("extension.distance_m: is 9000 beside [[stage]], whose ways it follows from (10260); leave it out", self.text("state"))
 
     def test_15_files_of_others_stay(self):
         other = self.folder / "mine.html"

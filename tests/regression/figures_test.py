@@ -99,6 +99,14 @@ class Figures(unittest.TestCase):
         self.assertEqual(far.returncode, 2)
         self.assertIn("--at 300: no snapshot there; there are some from 0 to 100", far.stdout)
 
+    def test_times_of_a_short_run_are_years(self):
+        ended = self.listric("run", "scene.toml", "--no-report", "--threads", "1", "--set", "extension.rate_m_per_a=0.5", "--output", "short",
+                             LISTRIC_PYTHON="/bin/false")
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+        for moment, told in (("50m", "(100 a)"), ("100m", "(200 a)")):
+            self.assertEqual(self.listric("figures", "short", "--at", moment, "--only", "strata").returncode, 0)
+            self.assertIn(f"at 50 cm/yr {told}: ", (self.folder / "short/figures/caption.txt").read_text())
+
     def test_a_figure_for_print_has_its_width(self):
         folder = self.copy("print")
         ended = self.listric("figures", folder, "--at", "100m", "--width", "85mm", "--only", "strata,seismic-depth", "--dpi", "254")
@@ -163,7 +171,7 @@ class Figures(unittest.TestCase):
         self.picture("scan.png", format="tiff")
         for name, words in (("cut.png", "is a PNG that is damaged or cut off"), ("empty.png", "is empty"),
                             ("bomb.png", "100 million"), ("cut.jpg", "is a JPEG that is damaged or cut off"),
-                            ("scan.png", "is a TIFF"), ("none.png", "no such file"), (".", "no such file")):
+                            ("scan.png", "is a TIFF"), ("none.png", "no such file"), (".", "is a directory")):
             for call in (("figures", "out"), ("report", "out", "--output", "no.html")):
                 ended = self.listric(*call, "--underlay", name, "--corners", "0,0,6000,2000")
                 self.assertEqual(ended.returncode, 2, ended.stdout)

@@ -76,14 +76,16 @@ class Fit(unittest.TestCase):
         words = ("--rounds", "1", "--seeds", "2", "--jobs", "2", "--quiet")
         ended = self.fit(HEAD + TOP + MIDDLE, *words)
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertIn("spread over 2 seeds", ended.stdout)
         with open(Path(self.folder, "out/fit.csv"), newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["round"] for row in rows], ["1"] * 15 + ["best"] * 2)
-        self.assertEqual({row["outcome"] for row in rows}, {"finished"})
+        for row in rows:  # h1 has no counterpart in some shapes
+            self.assertRegex(row["outcome"], "^finished$|^horizon h1 lies outside")
+            self.assertEqual(row["misfit_m"] != "", row["outcome"] == "finished")
         answer = json.loads(Path(self.folder, "out/fit.json").read_text())["drafts"]
-        best = [float(row["misfit_m"]) for row in rows[15:]]
-        self.assertAlmostEqual(answer["misfit_m"], sum(best) / 2, places=1)
+        best = [float(row["misfit_m"]) for row in rows[15:] if row["misfit_m"]]
+        self.assertAlmostEqual(answer["misfit_m"], sum(best) / len(best), places=1)
+        self.assertRegex(ended.stdout, "spread over 2 seeds" if len(best) == 2 else "one seed")
         self.assertEqual(float(rows[15]["breakaway_dip_deg"]), round(answer["breakaway_dip_deg"]["value"], 3))
         self.assertEqual(self.check("out/picks.toml").returncode, 0)
         summaries = {file: file.stat().st_mtime_ns for file in self.folder.glob("out/runs/*/summary.json")}
@@ -104,6 +106,8 @@ class Fit(unittest.TestCase):
         self.assert_refused(HEAD + TOP, "picks.csv:1", "two ages")
         self.assert_refused(HEAD + "top,300,deep,30000\n", "picks.csv:2", "depth_m")
         self.assert_refused("name,x_m,age_a\n", "picks.csv:1", "depth_m")
+        in_ka = (HEAD + TOP + MIDDLE).replace(",30000\n", ",30\n").replace(",10000\n", ",10\n")
+        self.assert_refused(in_ka, "picks.csv:2", "is it in years")
 
     def test_scenes_without_a_detachment_of_their_own_are_refused(self):
         self.assert_refused(HEAD + TOP + MIDDLE, "pure-shear", "[detachment]", words=("--scene", "pure-shear"))

@@ -6,6 +6,7 @@
 import random
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -56,15 +57,40 @@ class Fuzz(unittest.TestCase):
             scratch = Path(scratch)
             program = scratch / "listric"
             for script, failures in (('[ $# -gt 2 ] && kill -SEGV $$; echo correct', [("check-scenes-7", "exit code -11")]),
-                                     ("exit 4", 2 * [("check-7", "exit code 4")]), ("echo refused; exit 2", [])):
+                                     ("exit 4", [("check-scenes-7-0", "exit code 4"), ("check-scenes-7-1", "exit code 4")]),
+                                     ("echo refused; exit 2", [])):
                 program.write_text(f"#!/bin/sh\n{script}\n")
                 program.chmod(0o755)
                 fuzzer = fuzz.Fuzzer(program, scratch, scratch / "kept", "test", 2)
                 fuzzer.correct_ones([scenes.BASE, scenes.BASE], 7, scratch, "scenes")
                 self.assertEqual(fuzzer.failures, failures)
+                self.assertTrue(all((scratch / "kept" / name).is_dir() for name, _ in failures))
             kept = scratch / "kept/check-scenes-7"
             self.assertEqual((kept / "call.txt").read_text(), "check 0.toml 1.toml\nexit code -11\n")
             self.assertTrue((kept / "1.toml").is_file())
+
+    def fuzzer_of(self, scratch, script):
+        program = Path(scratch, "listric")
+        program.write_text(f"#!/bin/sh\n{script}\n")
+        program.chmod(0o755)
+        return fuzz.Fuzzer(program, Path(scratch), Path(scratch, "kept"), "test", 1)
+
+    def test_every_kind_has_a_case_when_the_time_is_over_at_once(self):
+        for jobs in (1, 2):
+            with tempfile.TemporaryDirectory() as scratch:
+                fuzzer = self.fuzzer_of(scratch, 'while [ $# -gt 1 ] && [ "$1" != --output ]; do shift; done; mkdir -p "$2"'
+                                        '; echo "{\\"finished\\": true, \\"state_hash\\": 1}" >"$2/summary.json"')
+                fuzzer.carry_out(0.0, jobs, fuzz.KINDS)
+            self.assertEqual((fuzzer.failures, dict(fuzzer.made)), ([], dict.fromkeys(fuzz.KINDS, fuzz.LEAST)))
+
+    def test_a_run_that_cannot_be_resumed_fails(self):
+        for script, why in (('case "$*" in *--until*) ;; *--resume*) echo "there is another run"; exit 2;; esac',
+                             "exit code 2 of the last call, --resume"),
+                            ("exit 0", "no summary.json after a run to its end")):
+            with tempfile.TemporaryDirectory() as scratch:
+                fuzzer = self.fuzzer_of(scratch, script)
+                fuzzer.case("sequences", 0)
+            self.assertEqual(fuzzer.failures, [("sequence-0", why)])
 
     def test_what_explain_tells_is_kept(self):
         with tempfile.TemporaryDirectory() as scratch:
@@ -88,6 +114,8 @@ class Fuzz(unittest.TestCase):
 
     def test_lists_and_texts_shrink_to_what_fails(self):
         self.assertEqual(shrink.shrink_list(list(range(40)), lambda kept: {3, 29} <= set(kept)), [3, 29])
+        parts = list(range(40))
+        self.assertEqual(shrink.shrink_list(parts, lambda kept: 3 in kept, end=time.monotonic()), parts)
         text = b"one\ntwo\nthree bad\nfour\n"
         self.assertEqual(shrink.shrink_text(text, lambda data: b"bad" in data), b"bad")
 

@@ -1,4 +1,4 @@
-"""A program for any x86-64 processor runs on one without AVX, and on one without AVX-512, to the
+"""A program for any x86-64 processor runs on one with no more than SSE2, and on one without AVX-512, to the
 same bits as here: on processors that qemu emulates.
 
 The program is what LISTRIC_PROGRAM names, or, of a build of dem alone, tests/dem_only/levels.cpp, which
@@ -38,8 +38,8 @@ class OldProcessors(unittest.TestCase):
             summary = json.loads(pathlib.Path(folder, "run", "summary.json").read_text())
             return summary["cycle_level"], summary["state_hash"]
 
-    def test_without_avx(self):
-        emulator = ("qemu-x86_64", "-cpu", "Nehalem")
+    def test_with_sse2_alone(self):
+        emulator = ("qemu-x86_64", "-cpu", "kvm64,-sse3")
         here = self.run_scene(LISTRIC_CYCLE="plain", **WITHOUT_FMA)
         self.assertEqual(self.run_scene(*emulator), here)
         self.assertEqual(self.run_scene(*emulator, LISTRIC_CYCLE="baseline"), ("baseline", here[1]))

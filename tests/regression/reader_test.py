@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
 from contextlib import contextmanager
 from pathlib import Path
@@ -263,6 +264,20 @@ class Reader(unittest.TestCase):
         self.assertIn("<td style=\"text-align: left\">rollover_tilt_deg</td>", self.run_._repr_html_())
         self.assertRegex(self.run_.snapshots[-1].discs._repr_html_(), r"<td[^>]*>x</td><td[^>]*>m</td>")
 
+    def test_notebooks_show_the_end_of_a_run_that_ends_between_two_rows(self):
+        folder = self.copy()
+        rows = (folder / "history.csv").read_text().splitlines(keepends=True)
+        (folder / "history.csv").write_text("".join(rows[:2]))      # as of an interval longer than the run
+        run = listric.Run(folder)
+
+        def shown():
+            return re.search(r"<td[^>]*>basin_area_m2</td><td[^>]*>([^<]*)</td><td[^>]*>m2</td>", run._repr_html_())[1]
+
+        self.assertGreater(run.summary["basin_area_m2"], 0.0)
+        self.assertEqual(shown(), f"{run.summary['basin_area_m2']:.6g}")
+        (folder / "summary.json").unlink()                          # it goes on
+        self.assertEqual(shown(), f"{run.history['basin_area_m2'][-1]:.6g}")
+
     def test_lines_of_other_kinds_and_moments(self):
         first = self.run_.at(90.0)
         self.assertEqual(first.path, self.run_.snapshots[0].path)
@@ -283,6 +298,17 @@ class Reader(unittest.TestCase):
         listric.call("export", "well", run.folder)
         self.assertEqual([line["name"] for line in listric.Run(run.folder).snapshots[-1].lines("well")],
                          [line["name"] for line in wells])
+        strata = run.snapshots[-1].lines("burial")
+        self.assertEqual([line["stratum"] for line in strata if line["name"] == "depocentre"], [1, 2])
+        self.assertEqual(strata[0]["thickness_m"].shape, strata[0]["x_m"].shape)
+
+    def test_a_moment_without_a_kind_of_lines_says_what_there_is(self):
+        last = self.run_.snapshots[-1]      # its sediment has no water
+        with self.fails(listric.UnknownName, last.path, "m: no well; there are burial"):
+            last.lines("well")
+        self.assertGreater(len(last.lines("burial")), 0)
+        with self.fails(listric.ProgramError, "no sediment to drill"):
+            self.run_.snapshots[0].lines("well")
 
     def test_rows_that_are_too_short_or_too_long(self):
         folder = self.copy()
@@ -346,8 +372,11 @@ class Reader(unittest.TestCase):
         self.assertEqual(part.values.shape, (15, 25))
         inside = np.ix_(np.isin(fine.depth, part.depth), np.isin(fine.x, part.x))
         np.testing.assert_array_equal(part.values, fine.values[inside])
-        with self.assertRaisesRegex(ValueError, "spacing"):
-            snapshot.raster("id", spacing=0.0)
+        for values in {"spacing": 0.0}, {"spacing": "1km"}, {"extent": (0, 1)}, {"extent": 5}:
+            with self.assertRaisesRegex(listric.ListricError, next(iter(values))):
+                snapshot.raster("id", **values)
+        with self.assertRaisesRegex(listric.ListricError, "extension_m = '1km': is no finite number"):
+            self.run_.at("1km")
 
     def test_the_documents_examples(self):
         text = (SOURCES / "docs/python.md").read_text()
@@ -459,6 +488,10 @@ class Reader(unittest.TestCase):
                             (np.arange(2), "[0, 1]"), ([1.0, "a"], '[1.0, "a"]'), ({}, "{}"),
                             ({"level_m": 0}, "{level_m = 0}")):
             self.assertEqual(_toml(value), text)
+        every = "".join(map(chr, range(1, 256)))
+        for value in ([{"name": 'a"b\\c', "note": every}], [Path('a "b"')], {'a "b".c': every, "": "é", "x-1": "\u2028"}):
+            again = tomllib.loads(f"value = {_toml(value)}")["value"]
+            self.assertEqual(again, [str(one) if isinstance(one, Path) else one for one in value] if isinstance(value, list) else value)
 
     def test_versions_agree(self):
         project = (SOURCES / "CMakeLists.txt").read_text()

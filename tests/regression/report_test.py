@@ -482,6 +482,43 @@ class Report(Browsed):
         self.open()
         self.assertIn("rock", self.script("return [...$('colour').options].map(option => option.value);"))
 
+    def test_07l_the_slider_and_the_bar_of_strata_reach_to_the_longer_run(self):
+        pair, cut = self.folder / "whole_pair.html", self.folder / "short_and_long.html"
+        self.assertEqual(listric("report", self.run_folder, self.folder / "b", "--output", pair).returncode, 0)
+        page = pair.read_text()
+        begin = page.index('id="data">') + len('id="data">')
+        end = page.index("</script>", begin)
+        data = json.loads(page[begin:end])
+        a, b = data["runs"]
+        del a["moments"][2:]                                # A ends at 500 m
+        cut.write_text(page[:begin] + json.dumps(data).replace("<", "\\u003c") + page[end:])
+        self.assertEqual(self.open(cut), "true")
+        text = lambda name: self.driver.find_element("id", name).text
+        names = lambda: [name.text for name in self.driver.find_elements("class name", "name")]
+        self.assertEqual(self.script("return [page.t, Number($('slider').max), page.chart.at, page.runs.map(momentOf)];"),
+                         [3, 3, b["moments"][3]["extension_m"], [1, 3]])
+        self.assertTrue(text("moment").startswith("B: 1.50 km, 0.150 Myr, "), text("moment"))
+        self.assertEqual(names(), ["A: lis1, seed 1, here at 0.50 km", "B: lis1, seed 2"])
+        with h5py.File(sorted((self.folder / "b/snapshots").glob("*.h5"))[-1]) as file:
+            youngest = file["discs/start_extension"][:].max() / 1e4     # Myr at 1 cm a year
+        self.assertIn(f"strata 0 {youngest:.2g}", re.sub(r"\s+", " ", text("legend")))
+        self.assertEqual(self.saved("save_discs").name, "lis1-500m-discs.csv")     # A's, where it is shown
+        self.driver.find_element("tag name", "body").send_keys(Keys.HOME)
+        time.sleep(0.3)
+        self.assertEqual((text("moment")[:10], names()), ("B: 0.00 km", ["A: lis1, seed 1", "B: lis1, seed 2"]))
+        self.script("page.chart.show(1400); await new Promise(done => setTimeout(done, 300)); return 0;")
+        self.assertEqual(self.script("return page.t;"), 3)
+
+    def test_07m_a_run_that_goes_on_after_its_youngest_stratum_has_its_time_in_the_legend(self):
+        self.open()
+        legend = "return legendItems().find(item => item.label.includes('strata')).to;"
+        to = self.script(legend)
+        self.script("for (const moment of page.runs[0].moments) moment.travel_m = 2 * moment.extension_m; await draw(); return 0;")
+        self.assertEqual(self.script(legend), to)           # with a stage back, in which nothing is laid down
+        # A pause of a million years makes a long run of a short one.
+        self.assertEqual(self.script("page.runs[0].head.extension_m = 50; page.runs[0].moments.forEach(moment => { moment.travel_m = 10000; });"
+                                     "return timeUnit().name;"), "Myr")
+
     def test_08_saved_tables_say_the_same(self):
         self.open()
         discs = self.discs(self.snapshots()[-1])

@@ -32,7 +32,8 @@ BEYOND_A_SCHEMA = {
                                 r"give one of them|beside a base that bends",
     "numbers of several keys": r"for the base to float upright|beyond the right wall|"
                                r"which a base under discs is condensed with|"
-                               r"elastic_base: (?!needs)|pore_fluid: (weighs|needs sediment)|"
+                               r"elastic_base: (?!needs)|halves elements|sinks without end|"
+                               r"outside of the footwall|pore_fluid: (weighs|needs sediment)|"
                                r"the density of grains|a multiple of the interval",
     "layers": r"needs (name|material|one of )|upside down|below the detachment|less than a mean disc|overlaps|"
               r"four strengths|of two layers|weakened rock cannot have|is about bonds|two a layer",

@@ -130,6 +130,17 @@ TEST_F(Stages, ThePauseIsARestAndLeavesSedimentationOn) {
     EXPECT_GT(after["eroded_fraction"].get<double>(), before["eroded_fraction"].get<double>());
 }
 
+TEST_F(Stages, EffectsThatTheEndComesBeforeAreSaid) {
+    const auto warnings = [&](const char* interval) {
+        return load(text("[[stage]]\ndistance_m = 50.0\n[[stage]]\npause_a = 5000.0\n"),
+                    {fmt::format("sedimentation.interval_a={}", interval)})
+            .warnings;
+    };
+    EXPECT_THAT(warnings("10000"), Not(testing::Contains(HasSubstr("sedimentation"))));
+    EXPECT_THAT(warnings("20000"), // 200 m
+                testing::Contains(HasSubstr("sedimentation.interval_a = 20000 is longer")));
+}
+
 TEST_F(Stages, ReadBackFromTheRunsRecord) {
     const Scene scene = load(there_and_back());
     const std::string record = to_toml(scene);

@@ -12,7 +12,8 @@ resident_begin_kib, resident_end_kib  resident memory (VmRSS) at a tenth and at 
                                       end has the check of the base with a finer mesh
 disc_steps_per_cpu_s                  of the part, the making of the base's matrix included
 strata_in_order                       share of pairs of sediment discs of different strata, closer in x
-                                      than a mean radius, of which the younger lies above the older
+                                      than a mean radius, of which the younger lies above the older;
+                                      empty without such pairs
 """
 
 import csv
@@ -58,12 +59,12 @@ def run(words):
 
 
 def order_of_strata(discs):
-    """Number of strata and share of pairs in order; 1 without pairs."""
+    """Number of strata and share of pairs in order; none without pairs."""
     sediment = [(x, y, stratum) for x, y, stratum in zip(discs["x"], discs["y"], discs["stratum"]) if stratum > 0]
     pairs = [(one[1] > other[1]) == (one[2] > other[2])
              for n, one in enumerate(sediment) for other in sediment[:n]
              if one[2] != other[2] and abs(one[0] - other[0]) < MEAN_RADIUS_M]
-    return len({stratum for _, _, stratum in sediment}), sum(pairs) / len(pairs) if pairs else 1.0
+    return len({stratum for _, _, stratum in sediment}), sum(pairs) / len(pairs) if pairs else None
 
 
 def main(program, folder, parts=20):
@@ -88,7 +89,7 @@ def main(program, folder, parts=20):
             "resident_begin_kib": memory[len(memory) // 10] if memory else "",
             "resident_end_kib": memory[len(memory) * 9 // 10] if memory else "",
             **{name: f"{result.summary[name]:.3g}" for name in FROM_SUMMARY},
-            "strata": strata, "strata_in_order": f"{in_order:.3f}"})
+            "strata": strata, "strata_in_order": "" if in_order is None else f"{in_order:.3f}"})
         with table.open("a") as out:
             csv.DictWriter(out, COLUMNS, lineterminator="\n").writerow(rows[-1])
 

@@ -15,8 +15,10 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace listric::range_ends_test {
@@ -29,7 +31,8 @@ using testing::Not;
 
 class RangeEnds : public support::SceneRuns {};
 
-/// "table.key=value" for both ends of all numbers in the tables of a scene.
+/// "table.key=value" for both ends of all numbers in the tables of a scene; of several tables of a
+/// name in the first.
 std::vector<std::string> ends_in(const Scene& scene) {
     std::vector<std::string> ends;
     for (const SceneTable& table : scene_tables(program_effects())) {
@@ -37,7 +40,8 @@ std::vector<std::string> ends_in(const Scene& scene) {
             continue;
         for (const Parameter& parameter : table.parameters) {
             const bool whole = std::holds_alternative<Place<int>>(parameter.value);
-            if (!whole && !std::holds_alternative<Place<double>>(parameter.value))
+            if (!whole && !std::holds_alternative<Place<double>>(parameter.value) &&
+                !std::holds_alternative<Place<std::optional<double>>>(parameter.value))
                 continue;
             const Range& range = parameter.range;
             const double least = std::isfinite(range.from) ? range.from : range.above,
@@ -48,7 +52,8 @@ std::vector<std::string> ends_in(const Scene& scene) {
                 EXPECT_TRUE(range.contains(value))
                     << table.name << '.' << parameter.key << ": has no end within its range";
                 const std::string number = text(value);
-                ends.push_back(std::string(table.name) + '.' + std::string(parameter.key) + '=' +
+                ends.push_back(std::string(table.name) + (table.is_array() ? ".0." : ".") +
+                               std::string(parameter.key) + '=' +
                                (whole ? std::to_string(static_cast<long>(value)) : number));
             }
         }
@@ -56,19 +61,31 @@ std::vector<std::string> ends_in(const Scene& scene) {
     return ends;
 }
 
-SceneRequest request_of(const std::string& scene, const std::string& set) {
-    return {.scene = scene, .set = {set}, .accuracy = "draft"};
+SceneRequest request_of(const std::string& scene, const std::string& set,
+                        std::vector<std::string> tables = {}) {
+    tables.push_back(set);
+    return {.scene = scene, .set = std::move(tables), .accuracy = "draft"};
 }
 
 const std::string every_effect = support::test_scene("every-effect.toml");
 
 TEST_F(RangeEnds, ExplainIsFinite) {
-    for (const std::string& scene : {every_effect, std::string("lis1-elastic")}) {
+    // Together they have every table with numbers.
+    const std::vector<std::pair<std::string, std::vector<std::string>>> scenes{
+        {every_effect, {}},
+        {"lis1-mud", {}},
+        {"lis1-elastic",
+         {"lower_crust_thinning.thickness_m=20e3", "lower_crust_thinning.width_m=15e3",
+          "basin_water={}", "footwall_erosion={}",
+          R"(layer=[{name="salt", top_m=4000.0, thickness_m=1000.0, material="salt"}])",
+          "old_fault=[{points=[[12000.0, 1000.0], [17000.0, 9000.0]]}]",
+          "extension.distance_m=6000.0", "stage=[{distance_m=5000.0}, {pause_a=1e5}]"}}};
+    for (const auto& [scene, tables] : scenes) {
         int told = 0;
-        for (const std::string& end : ends_in(load_scene({.scene = scene}))) {
+        for (const std::string& end : ends_in(load_scene({.scene = scene, .set = tables}))) {
             std::string told_of_it;
             try {
-                told_of_it = explain(load_scene(request_of(scene, end)),
+                told_of_it = explain(load_scene(request_of(scene, end, tables)),
                                      {.team = 1e8, .one_thread = 1e8}, 2, program_effects());
             } catch (const SceneError&) {
                 continue; // does not go with the rest of the scene

@@ -161,6 +161,9 @@ TEST(ObservedMisfit, IsTheMeanOverPoints) {
         {"name": "c", "mean_m": 200.0, "points_compared": 10}]})");
     EXPECT_DOUBLE_EQ(observed_misfit(summary).value(), 125.0);
     EXPECT_FALSE(observed_misfit(parse_json("{}")));
+    EXPECT_EQ(uncompared_horizon(summary), "horizon b is too old");
+    EXPECT_EQ(uncompared_horizon(parse_json(R"({"observed": [{"name": "a", "mean_m": 1.0}]})")),
+              "");
 }
 
 } // namespace

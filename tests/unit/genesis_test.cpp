@@ -150,6 +150,14 @@ TEST(Genesis, SeedDecides) {
     EXPECT_NE(hash(first), hash(other));
 }
 
+TEST(Genesis, ALightLayerShortensTheStepWhereMassesHaveNoFloor) {
+    GenesisRequest r = request(1000.0, 1);
+    r.inertial_mass_floor = 0.0;
+    const double step = make(r).clock.time_step;
+    r.layers = {{TargetLine({{0.0, -4e3}}), TargetLine({{0.0, -9e3}}), basement, 650.0}};
+    EXPECT_DOUBLE_EQ(make(r).clock.time_step, 0.5 * step); // a quarter of the density
+}
+
 TEST(Genesis, ThreadsMakeTheSameHangingWall) {
     GenesisRequest r = request(600.0, 1); // some 400 discs, four tiles of the cycle
     const std::uint64_t alone = hash(make(r));

@@ -103,7 +103,11 @@ TEST_F(PictureFile, SomethingElseIsRefused) {
     EXPECT_THAT(refusal(""), HasSubstr("is empty"));
     EXPECT_THAT(refusal(std::string("II*\0....", 8)),
                 HasSubstr("is a TIFF, and a picture must be a PNG or JPEG"));
-    EXPECT_THAT(refusal("hello"), HasSubstr("is something else"));
+    EXPECT_THAT(refusal(std::string("\1\2\3", 3)), HasSubstr("is something else"));
+    EXPECT_EQ(refusal("x_m,depth_m\n1,2\n").find("PIL"), std::string::npos); // no picture at all
+    EXPECT_THAT(refusal("x_m,depth_m\n1,2\n"), HasSubstr("is a text"));
+    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>\n<svg width=\"10\"/>"),
+                HasSubstr("export it as PNG"));
 }
 
 TEST_F(PictureFile, PngIsRefusedWhereItIsCutOffOrDamaged) {

@@ -347,6 +347,17 @@ class Frames(Folder):
         self.assertEqual(self.frame().level, -0.1)
         self.assertIsNone(self.frame({"level_m": None}).level)
 
+    def test_a_target_line_is_drawn_where_it_is(self):
+        line = [[1000.0, 200.0], [3000.0, -300.0]]
+        frame = self.frame(target_line=line)
+        figure = sections.draw_figure(frame, ["strata"], dpi=50)
+        drawn = [artist.get_xydata() for axes in figure.axes for artist in axes.lines
+                 if artist.get_color() == panels.LEVEL_BLUE]
+        self.assertEqual(len(drawn), 1)
+        np.testing.assert_allclose(drawn[0][1:-1], np.array(line) / 1000.0)
+        self.assertEqual(drawn[0][0, 1], 0.2)
+        self.assertGreater(frame.view[3], self.frame().view[3])
+
     def scaled(self, factor, meta=()):
         """A frame of that size over the one of a model 1 km thick; a wall at 4 km there."""
         arrays = {name: (factor * np.array(ARRAYS[name])).tolist() for name in ARRAYS
@@ -497,6 +508,69 @@ class Drawing(Folder):
         well = {"scene": "lis1", "wells": [{"name": "depocentre", "x_m": 100.0, "columns": columns}]}
         self.assertEqual(wells.draw({**well, **self.STAGES[1]}).texts[0].get_text(), f"LIS1, {after[1]}")
         self.assertEqual(wells.draw({**well, "extension_km": "2.0"}).texts[0].get_text(), "LIS1, 2.0 km of extension")
+
+    def test_small_models_are_told_in_metres_as_on_their_axes(self):
+        meta = {"extension_m": 0.012, "extension_km": "0.000012", "end_a": 4.0, "interval_a": 0.4, "time_a": 1.2, "right_wall_x_m": 0.4,
+                "level_m": 0.0}
+        small = {name: (1e-4 * np.array(ARRAYS[name])).tolist() for name in ("discs_x", "discs_y", "discs_radius", "detachment")}
+        frame = self.frame(meta, **small)
+        self.assertEqual(page.headline(frame), "a title: 0.012 m, 1.2 a")
+        self.assertEqual(page.moments_text([frame, self.frame({**meta, "extension_km": "0.000016"}, **small)]),
+                         "0.012 and 0.016 m of extension")
+        self.assertEqual(page.extension_text(frame), "0.000012")     # as in names of files
+        back = self.frame({**meta, "way_m": 0.02, "extension_m": 0.0043, "extension_km": "0.00002"}, **small)
+        self.assertEqual(journal.moment_line(back), "0.0043 m of extension after a way of 0.02 m, 1.2 a")
+        self.assertIn("After 0.012 m of extension at 1 cm/yr (1.2 a): ", caption.caption(["bonds"], None, frame, plot.Order()))
+
+    def test_times_are_years_in_short_runs_and_tell_neighbours_apart(self):
+        for times, gap, end, texts in (
+                ([350.0], 350.0, 9999.0, "350 a"), ([350.0], math.inf, 350.0, "350 a"), ([0.0], 50e3, 1e6, "0.00 Myr"),
+                ([5e5, 1e6], 5e4, 1e6, "0.50 1.00 Myr"), ([1.125e6], 7.5e4, 1.125e6, "1.12 Myr"), ([9.99e3], 9.99e3, 1e6, "0.01 Myr"),
+                ([6e3, 12e3], 6e3, 12e3, "0.006 0.012 Myr"), ([1.2, 1.6], 0.4, 4.0, "1.2 1.6 a"), ([400.0], 2.0, 1e6, "0.000400 Myr")):
+            with self.subTest(times=times):
+                self.assertEqual(page.time_texts(times, gap, end), (texts.split()[:-1], texts.split()[-1]))
+        frame = self.frame({"time_a": 350.0, "end_a": 700.0, "interval_a": 350.0})
+        for told in (page.headline(frame), journal.moment_line(frame), caption.caption(["bonds"], None, frame, plot.Order())):
+            self.assertIn("350 a", told)
+        self.assertTrue(page.headline(self.frame({"time_a": 2.06e5, "interval_a": 6e3, "end_a": 1e6})).endswith(", 0.206 Myr"))
+        self.assertTrue(page.headline(self.frame()).endswith(", 0.20 Myr"))
+
+    def test_ages_of_strata_tell_neighbours_apart(self):
+        for ages, end, label, wanted in (([6e3, 12e3], 1e6, "Laid down at (Myr)", ["0.006", "0.012"]), ([120.0, 240.0], 350.0, "Laid down at (a)", ["120", "240"]),
+                                         ([49_998.7, 99_999.1], 1e6, "Laid down at (Myr)", ["0.05", "0.10"])):
+            [_, cax] = sections.draw_figure(self.frame({"strata_a": ages, "end_a": end}), ["strata"], 20).axes
+            self.assertEqual((cax.get_ylabel(), [tick.get_text() for tick in cax.get_yticklabels()]), (label, wanted))
+
+    def test_paraview_tells_times_as_the_figures_do(self):
+        text = Path(script.__file__).with_name("paraview.py").read_text(encoding="utf-8")
+        names = {}
+        exec(text[text.index("def time_format"):text.index("def main")], names)
+        for years in ([0.0, 5e4, 1e5], [0.0, 175.0, 350.0], [0.0, 6e3, 12e3], [350.0], [5e5], [0.0, 0.4, 0.8]):
+            told, factor = names["time_format"]([year / 1e6 for year in years])
+            gap = min(np.diff(years), default=math.inf)
+            [wanted], unit = page.time_texts(years[-1:], gap, years[-1])
+            self.assertEqual(told.format(time=factor * years[-1] / 1e6), f"{wanted} {unit}")
+
+    def test_letters_go_on_after_z(self):
+        self.assertEqual([page.letter(n) for n in (0, 25, 26, 27, 51, 52, 701, 702)], ["a", "z", "aa", "ab", "az", "ba", "zz", "aaa"])
+        many = [self.frame({"extension_m": 1000.0 * n}) for n in range(14)]
+        words = [text.get_text() for ax in sheet.draw_sheet(many).axes for text in ax.texts]
+        self.assertLessEqual({"z", "aa", "ab"}, set(words))
+        self.assertIn("(aa) intact bonds", caption.caption(["bonds"] * 27, None, many[0], plot.Order()))
+
+    def test_a_row_of_sections_has_one_text_and_one_legend(self):
+        early = self.frame({"extension_m": 0.0, "strata": 0}, discs_stratum=[0] * 4)
+        shown = [early, self.frame({"extension_m": 700.0}), self.frame(), self.frame()]
+        figure = sheet.draw_sheet(shown)
+        words = [text.get_text() for text in figure.texts]
+        self.assertIn("Pre-rift layers (a); Syn-rift strata (b, c, d)", words)
+        self.assertIn("Shear strain, since the start (e); Shear strain, 0 to 0.5 km of extension (f); "
+                      "Shear strain, last 500 m of extension (g, h)", words)
+        self.assertEqual(len(figure.legends), 2)                     # a row each
+        self.assertIn("Syn-rift strata", [text.get_text() for text in sheet.draw_sheet(shown[1:]).texts])
+        figure.canvas.draw()
+        boxes = [text.get_window_extent() for text in figure.texts] + [legend.get_window_extent() for legend in figure.legends]
+        self.assertEqual([(n, m) for n, one in enumerate(boxes) for m in range(n) if one.overlaps(boxes[m])], [])
 
     def test_the_window_of_strain_has_its_own_ends(self):
         for meta, words in (({}, "last 500 m of extension"), ({"extension_m": 2000.02}, "last 500 m of extension"),
@@ -989,6 +1063,26 @@ class SmallScripts(Folder):
     def test_uplift_is_exaggerated_up_to_five_kilometres(self):
         self.assertEqual([footwall.exaggeration(m) for m in (1e4, 4e3, 500.0, 1.0)],
                          [1, 1, 10, 100])
+
+    def test_a_section_of_a_footwall_ends_with_its_mesh(self):
+        def patch(left, right, relaxed, top, bottom):
+            corners = [v for x, y in ((left, bottom), (right, bottom), (right, top), (left, top))
+                       for v in (x, y, 0.0, 1.0)]
+            return [*corners, 1e6, 0.0, 0.0, relaxed]
+
+        rows = np.array([[0.0, 1.0], [4000.0, -2.0]])  # none on the surface: a mesh with relief
+        grains = np.array([[2000.0, -500.0, 60.0, 0.0, -500.0]])
+        for reach, relaxed, left, right in ((30e3, 1.0, -30.0, 27.0), (90e3, 0.0, -60.0, 27.0),
+                                            (9e3, 1.0, -9.0, 9.0)):
+            patches = np.array([patch(-reach, reach, 0.0, 0.0, -1000.0),
+                                patch(-reach, 0.5 * reach, relaxed, -1000.0, -6000.0)])
+            axes = footwall.draw("extension", {40.0: rows}, patches, 1.0, grains).axes[0]
+            self.assertEqual(axes.get_xlim(), (left, right))
+            labels = {text.get_text(): text.get_position() for text in axes.texts}
+            self.assertEqual("relaxed rock" in labels, relaxed > 0.0)
+            if relaxed:
+                self.assertAlmostEqual(labels["relaxed rock"][0], 0.5 * left)
+                self.assertAlmostEqual(labels["relaxed rock"][1], -3.5)
 
     def test_runs_of_one_thickness_are_averaged_over_seeds(self):
         rows = [{"elastic_thickness_m": t, "uplift_m": u}

@@ -153,6 +153,9 @@ TEST_F(SceneLayers, ComeFromFiles) {
     write_text(folder / "top.csv", "x_m,depth_m\n0,1000\n0,2000\n");
     EXPECT_THAT(error(layer("a", "top_csv = \"top.csv\"\nthickness_m = 500.0\n")),
                 StartsWith("top.csv:3: x_m: 0 comes after 0; sort the rows by x"));
+    write_text(folder / "top.csv", "x_m,depth_m\n0,1000\n40000,-2000\n");
+    EXPECT_THAT(error(layer("a", "top_csv = \"top.csv\"\nthickness_m = 500.0\n")),
+                StartsWith("top.csv:3: depth -2000 is out of range"));
     EXPECT_THAT(error(layer("a", "top_csv = \"none.csv\"\nthickness_m = 500.0\n")),
                 HasSubstr("no such file"));
 }
@@ -162,6 +165,14 @@ TEST_F(SceneLayers, ThinOnesAreWarnedOf) {
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_THAT(scene.warnings.front(), HasSubstr("hardly slip"));
     EXPECT_TRUE(load(mica).warnings.empty());
+}
+
+TEST_F(SceneLayers, OfAnotherDensityThanGrainsHaveNoPoreFluid) {
+    const std::string wet = "[sedimentation]\n[compaction]\n[pore_fluid]\n",
+                      place = "top = [[0.0, 2e3]]\nbottom = [[0.0, 4e3]]\n";
+    EXPECT_THAT(error(wet + layer("salt", place + "density_kg_per_m3 = 2200.0\n")),
+                HasSubstr("layer[0].density_kg_per_m3: is 2200 beside [pore_fluid]"));
+    EXPECT_EQ(error(wet + layer("salt", place + "density_kg_per_m3 = 2600.0\n")), "no error");
 }
 
 class SceneOldFaults : public SceneLayers {};
@@ -188,6 +199,8 @@ TEST_F(SceneOldFaults, ThatCannotBeAreRefused) {
                 StartsWith("scene.toml:6: old_fault: needs [fault_weakening]"));
     EXPECT_THAT(refused("points = [[50e3, 9e3], [51e3, 1e3]]\n"),
                 StartsWith("scene.toml:8: old_fault[0]: the fault is outside of the hanging wall"));
+    // One that crosses the whole hanging wall has its ends outside.
+    EXPECT_EQ(refused("points = [[14e3, -50.0], [19e3, 20e3]]\n"), "no error");
     EXPECT_THAT(refused("points = [[14e3, 9e3]]\n"),
                 StartsWith("scene.toml:8: old_fault[0]: the fault has one point"));
     EXPECT_THAT(refused("points = [[14e3, 9e3], [14.1e3, 9e3]]\n"),

@@ -396,7 +396,8 @@ TEST_F(SceneTest, TypesAreChecked) {
     EXPECT_EQ(error(minimal + "[[gravity]]\n"),
               "scene.toml:4: gravity: wrong type (array), allowed: table");
     EXPECT_EQ(error(minimal + "friction = '0.5'\n"),
-              "scene.toml:4: detachment.friction: wrong type (string \"0.5\"), allowed: number");
+              "scene.toml:4: detachment.friction: wrong type (string \"0.5\"), allowed: number; "
+              "write friction = 0.5");
     EXPECT_EQ(error(minimal + "[fault_weakening]\nangles = 12.0\n"),
               "scene.toml:5: fault_weakening.angles: wrong type (number 12.0), allowed: integer");
     EXPECT_EQ(error(minimal + "[output]\nfigures_at_m = 5000\n"),
@@ -474,6 +475,24 @@ TEST_F(SceneTest, EveryBoundHolds) {
     }
 }
 
+TEST_F(SceneTest, SlipsOfTomlAreToldWithTheirCure) {
+    const auto of_line = [&](const std::string& line) {
+        return error(minimal + "[extension]\n" + line + "\n[gravity]\n");
+    };
+    EXPECT_THAT(of_line("rate_m_per_a = 0,01"), EndsWith("this is a decimal comma; write 0.01"));
+    EXPECT_THAT(of_line("distance_m = 10 km # all"), EndsWith("; write distance_m = 10000"));
+    EXPECT_THAT(of_line("distance_m = 2,5km"), EndsWith("; write distance_m = 2500"));
+    EXPECT_THAT(of_line("distance_m = .5"), EndsWith("; write distance_m = 0.5"));
+    EXPECT_THAT(of_line("distance_m = \"10 km\""), EndsWith("; write distance_m = 10000"));
+    EXPECT_THAT(of_line("rate_m_per_a = \"1 cm\""), HasSubstr("write the number alone"));
+    EXPECT_THAT(of_line("distance_m = \u201c10\u201d"), HasSubstr("quotes of typography"));
+    EXPECT_THAT(of_line("name = my basin"), EndsWith("; write name = \"my basin\""));
+    EXPECT_THAT(of_line("name = True"), EndsWith("; write name = true"));
+    EXPECT_THAT(of_line("name = \"C:\\Users\\x.csv\""),
+                EndsWith("; write name = 'C:\\Users\\x.csv'"));
+    EXPECT_THAT(set_error("extension.distance_m=5km"), EndsWith("; write distance_m = 5000"));
+}
+
 TEST_F(SceneTest, SetNeedsItsForm) {
     for (const std::string bad : {"seed", "", "=3", "a b=3", "seed=1\naccuracy='fine'", ".x=1"})
         EXPECT_THAT(set_error(bad), EndsWith("needs the form table.key=value")) << bad;
@@ -493,6 +512,9 @@ TEST_F(SceneTest, WithoutNeedsAnEffectOfTheScene) {
     EXPECT_EQ(without("hanging_wall", text),
               "--without hanging_wall: is not an effect and cannot be left out "
               "(effects in the scene: gravity, bonds)");
+    EXPECT_THAT(
+        error(text, {.set = {"bonds.tensile_strength_pa=1e6"}, .without = {"bonds"}}),
+        StartsWith("--set bonds.tensile_strength_pa=1e6: changes [bonds], which --without"));
     EXPECT_EQ(without("bonds", minimal),
               "--without bonds: is not in the scene (the scene has no effects)");
 }

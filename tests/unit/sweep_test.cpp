@@ -128,6 +128,29 @@ TEST_F(SweepPlanFile, BadOnesAreRefusedWithLineAndCure) {
     EXPECT_THAT(complaint("scene = \"lis1\"", "scene = \"lis9\""), HasSubstr("did you mean"));
 }
 
+TEST_F(SweepPlanFile, ValuesThatMakeEqualRunsAreRefused) {
+    const std::string friction = "fault_weakening.friction\"\nvalues = [0, 0.2]";
+    EXPECT_THAT(complaint(friction, "seed\"\nvalues = [1, 2]"), HasSubstr("seeds and first_seed"));
+    EXPECT_THAT(complaint(friction, "accuracy\"\nvalues = [\"draft\", \"fine\"]"),
+                HasSubstr("beside accuracy = \"draft\""));
+    EXPECT_THAT(complaint("values = [0, 0.2]", "values = [0.2, 0.2]"),
+                HasSubstr(":10: vary[0].values[1]: stands twice"));
+    EXPECT_THAT(complaint("seeds = 2", "seeds = 2\nwithout = \"fault_weakening bond_healing\""),
+                HasSubstr("--without fault_weakening leaves out"));
+    EXPECT_THAT(complaint("distance_m=100", "distance_m=100 seed=3"), HasSubstr("seed=3"));
+    // A list may have a value again beside another one of the other parameter.
+    const std::string list = replaced(plan_text, "\"grid\"", "\"list\"");
+    EXPECT_NO_THROW(load(replaced(list, "[0, 0.2]", "[0.2, 0.2]")));
+    EXPECT_THAT(complaint(plan_text, replaced(replaced(list, "[0, 0.2]", "[0.2, 0.2]"),
+                                              "mat18-b-calibrated", "mat18-b")),
+                HasSubstr("twice"));
+    EXPECT_THAT(complaint("[[vary]]\nparameter = \"fault_weakening.friction\"\nvalues = [0, 0.2]\n"
+                          "[[vary]]\nparameter = \"materials.basement\"\nvalues = [\"mat18-b\", "
+                          "\"mat18-b-calibrated\"]\n",
+                          ""),
+                HasSubstr(":1: needs [[vary]]"));
+}
+
 TEST_F(SweepPlanFile, AMeasureThatNoRunCanHaveIsRefused) {
     const std::string measures = "\"strain_top10\", \"strain_top10@50\"";
     const auto refusal = [&](const std::string& name) {

@@ -111,6 +111,24 @@ TEST(LowerCrust, NetShorteningLiftsTheIsostaticColumn) {
         EXPECT_NEAR(at[i], rise, round_off * rise);
 }
 
+TEST(LowerCrust, StepsByAtMost25MetresAndKeepsTheLoadBetween) {
+    const auto thinning = [](double rate) {
+        return LowerCrustThinning(std::vector<double>(22, 1.0), 100.0, 0.0, rate);
+    };
+    EXPECT_EQ(thinning(0.001).schedule().spacing(), 2500.0 * 0.001);
+    EXPECT_EQ(thinning(0.01).schedule().spacing(), 2500.0 * 0.01);
+    EXPECT_DOUBLE_EQ(thinning(1.0).schedule().spacing(), 25.0);
+    LowerCrustThinning event = thinning(1.0);
+    dem::State state;
+    event.begin(state);
+    EXPECT_EQ(event.amounts(state), lower_crust_amounts(0.0));
+    state.clock.extension = 25.0;
+    event.apply(state, {});
+    state.clock.extension = 40.0;
+    EXPECT_EQ(event.extension(state), 25.0);
+    EXPECT_EQ(event.amounts(state), lower_crust_amounts(0.25));
+}
+
 TEST(LowerCrust, LoadIsTheAreaDrawnOut) {
     fem::FootwallRequest request = floating_crust();
     request.left = -200e3;

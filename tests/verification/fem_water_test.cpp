@@ -101,6 +101,27 @@ TEST_F(PoreWater, WeighsOnTheDetachmentBesideTheWaterAbove) {
     EXPECT_NEAR(moment, pores / 3.0 * (500.0 + 700.0 + 9700.0), 1e-9 * moment);
 }
 
+TEST_F(PoreWater, RaisedGroundThatWasFloodedLosesLoad) {
+    for (const double level : {0.0, 100.0}) {
+        State state = state_;
+        BasinWater water(interface_, {.level = level, .density = water_density}, standard_gravity,
+                         column, 0.01);
+        water.begin(state);
+        water.apply(state, {});
+        const double before = water_weight(state);
+        // The mean depth is that of the start: tops of single discs cancel out.
+        if (level > 0.0) {
+            EXPECT_NEAR(before, 0.0, 1e-6 * column * 49 * 1000.0 * water_density);
+        }
+        for (double& y : disc_columns(state).y)
+            y += 200.0;
+        water.apply(state, {});
+        // 200 m less of water in 49 columns; at a level of 0 only what comes counts.
+        const double less = 200.0 * column * 49 * water_density * standard_gravity;
+        EXPECT_NEAR(water_weight(state), level > 0.0 ? -less : 0.0, 1e-6 * less);
+    }
+}
+
 /// A flat crust that floats; rollers on its sides, so that under even loads it is one column.
 class FlankWater : public testing::Test {
 protected:

@@ -11,6 +11,8 @@ function valueAt(facts, schema, document, path) {
 function defaultAt(facts, schema, document, path) {
   const [table, key] = path.split("."), name = document.accuracy ?? "standard";
   const level = facts.levels.find(one => one.name === name) || facts.levels[1];
+  if (path === "extension.distance_m" && document.stage?.length)
+    return stagesOf(facts, schema, document).reduce((sum, {travel}) => sum + travel, 0);
   if (path === "hanging_wall.mean_radius_m") return level.mean_radius_m;
   if (path === "extension.speed_m_per_s") return level.speed_m_per_s;
   const scaled = facts.effects[table]?.levels?.[level.name]?.[key];
@@ -20,11 +22,38 @@ function defaultAt(facts, schema, document, path) {
   return rock?.[key] ?? schemaAt(schema, path)?.default;
 }
 
+/** The stages of a scene, as apps/scene/scene.cpp makes them: way of the wall, m, below 0 shortening; travel, m, the clock, which runs
+ * in pauses, too; its speed in the model, m/s. */
+function stagesOf(facts, schema, document) {
+  if (!Array.isArray(document.stage)) return [];
+  const [rate, speed] = ["extension.rate_m_per_a", "extension.speed_m_per_s"].map(key => valueAt(facts, schema, document, key));
+  return document.stage.map(stage => {
+    const way = Number(stage.distance_m ?? 0), ratio = Number(stage.rate_m_per_a ?? rate) / rate, pause = Number(stage.pause_a ?? 0);
+    return {way, travel: pause ? pause * rate : Math.abs(way) / ratio, speed: Number(stage.speed_m_per_s ?? speed) / (way ? ratio : 1)};
+  });
+}
+
+/** Greatest displacement of the moving wall, m. */
+function greatestExtension(facts, schema, document) {
+  const stages = stagesOf(facts, schema, document);
+  let position = 0;
+  return stages.length ? Math.max(0, ...stages.map(({way}) => position += way)) : valueAt(facts, schema, document, "extension.distance_m");
+}
+
+/** Time of the model for all its travel, s, as dem/motion.cpp has it. */
+function modelTime(facts, schema, document) {
+  const change = 20; // m beside a change of stages, where the wall is slower
+  const of = key => valueAt(facts, schema, document, key), stages = stagesOf(facts, schema, document), ramp = 0.5 * of("extension.ramp_s");
+  if (!stages.length) return of("extension.distance_m") / of("extension.speed_m_per_s") + ramp;
+  const lost = travel => travel < change ? 2 * Math.sqrt(travel * change) - travel : change; // m behind one at full speed
+  return stages.reduce((time, {travel, speed}, k) => time + (travel + (k > 0 ? lost(travel) : 0) + (k + 1 < stages.length ? change : 0)) / speed,
+    Math.min(ramp, of("extension.distance_m") / stages[0].speed));
+}
+
 /** The chain on which a scene slides, as far as its model needs it; null: the scene has none. */
 function baseOf(facts, schema, document) {
-  const of = key => valueAt(facts, schema, document, key);
-  const [length, thickness, distance] = ["hanging_wall.length_m", "hanging_wall.thickness_m", "extension.distance_m"].map(of);
-  const reach = length + 1.5 * distance + thickness, shape = shapeOf(document.detachment);
+  const [length, thickness] = ["hanging_wall.length_m", "hanging_wall.thickness_m"].map(key => valueAt(facts, schema, document, key));
+  const reach = length + 1.5 * greatestExtension(facts, schema, document) + thickness, shape = shapeOf(document.detachment);
   if (document.stretching) return [lineSegment({x: 0, y: -thickness}, {x: reach, y: -thickness})];
   return shape && shape.pieces.length ? chainOf(shape, reach) : null;
 }
@@ -70,10 +99,10 @@ function predictCost(facts, schema, document) {
     (Math.PI * meanSquareRadius(radius, of("hanging_wall.radius_ratio"))));
   const effects = Object.keys(facts.effects).filter(name => name in document);
   const start = discsIn(hangingWallArea(of("hanging_wall.length_m"), chain));
-  const newArea = effects.reduce((sum, name) => sum + facts.effects[name].new_area, 0) * distance * thickness;
+  const newArea = effects.reduce((sum, name) => sum + facts.effects[name].new_area, 0) * greatestExtension(facts, schema, document) * thickness;
   const end = start + (newArea > 0 ? discsIn(newArea) : 0), discs = 0.5 * (start + end);
   const timeStep = stableTimeStep(facts, schema, document);
-  const cycles = Math.floor((distance / of("extension.speed_m_per_s") + 0.5 * of("extension.ramp_s")) / timeStep);
+  const cycles = Math.floor(modelTime(facts, schema, document) / timeStep);
   const years = distance / of("extension.rate_m_per_a"), steps = discs * cycles, interval = of("output.interval_m");
   const marks = document.output?.figures_at_m ?? [5000, 10000], movesBase = effects.some(name => facts.effects[name].moves_base);
   const figures = marks.filter(at => at < distance - 0.5 * interval).length * p.early_figure_disc * discs + p.figures +
@@ -105,6 +134,9 @@ function speedAt(speeds, discs, accounted) {
 function faultsOfWhole(facts, schema, document) {
   const of = key => valueAt(facts, schema, document, key), faults = [], shape = shapeOf(document.detachment);
   if (!document.hanging_wall) return faults;
+  const distance = of("extension.distance_m"), travel = defaultAt(facts, schema, document, "extension.distance_m");
+  if (stagesOf(facts, schema, document).length && Math.abs(distance - travel) > 1e-9 * travel)
+    faults.push({path: "extension.distance_m", message: `is ${distance} beside [[stage]], whose ways it follows from (${travel}); leave it out`});
   if (shape) {
     const why = objectionToShape(shape), depth = shape.pieces.length ? depthOf(shape) : 0, thickness = of("hanging_wall.thickness_m");
     if (why) return [{path: "detachment.segments", message: why}];

@@ -1,6 +1,6 @@
 // Where rigid footwall and slip alone put the basin, as apps/measures/kinematics.cpp has it: y up, metres, degrees.
 
-/** Spacing of samples, m: the program's, in models of less than a few kilometres finer. */
+/** Spacing of samples, m, as of kinematics.cpp: finer where the detachment is shorter than 5 km. */
 function spacingOf(chain) { return Math.min(25, lengthOf(chain) / 200); }
 
 function tangentAt(chain, arcLength) {

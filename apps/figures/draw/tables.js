@@ -2,7 +2,7 @@
 
 function settings() {
   const {scene} = page.state, of = path => Number(valueAt(facts, schema, scene, path));
-  return {length: of("hanging_wall.length_m"), thickness: of("hanging_wall.thickness_m"), distance: of("extension.distance_m")};
+  return {length: of("hanging_wall.length_m"), thickness: of("hanging_wall.thickness_m"), distance: greatestExtension(facts, schema, scene)};
 }
 
 /** Draws the section as it is now; forms and tables stay as they are. */

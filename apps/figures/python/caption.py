@@ -4,7 +4,7 @@ import os
 from collections.abc import Sequence
 
 from frame import Frame
-from page import moment_text, window_text
+from page import letter, moment_text, time_text, window_text
 from plot import Order
 
 SHOWN = {
@@ -39,11 +39,11 @@ def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, orde
     texts = [shown_text(name, frame) for name in names]
     if said:  # with what the figure itself says of its scale
         texts = [text + (f" ({words[words.index('(') + 1:]}" if "(" in words else "") for text, words in zip(texts, said)]
-    panels = "; ".join(f"({chr(ord('a') + n)}) {text}" for n, text in enumerate(texts)) if len(texts) > 1 else texts[0]
+    panels = "; ".join(f"({letter(n)}) {text}" for n, text in enumerate(texts)) if len(texts) > 1 else texts[0]
     rate = meta.get("way_m", meta["extension_m"]) / meta["time_a"] if meta["time_a"] else 0.0
     at = f" at {100 * rate:.3g} cm/yr" if rate else ""
     parts = [f"{order.software} model: {meta.get('title') or meta['scene']}.",
-             f"After {moment_text(frame)}{at} ({meta['time_a'] / 1e6:.2f} Myr): {panels}."]
+             f"After {moment_text(frame)}{at} ({time_text(frame)}): {panels}."]
     if any(name in FAULTS for name in names) and frame.faults is not None and len(frame.faults):
         parts.append("Black lines: faults active since the previous snapshot, wider where they slip faster.")
     for name, axes in (("seismic", frame.seismic_axes), ("seismic-depth", frame.seismic_depth_axes)):

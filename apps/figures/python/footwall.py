@@ -6,7 +6,8 @@ Usage: footwall.py RUN_DIR DATA_DIR FIGURES_DIR ORDER
 Reads, in SI units,
   RUN_DIR/footwall.csv  extension_m, in a scene with stages also travel_m, x_m (negative on the
                         surface, else on the detachment), uplift_m
-  DATA_DIR/patches.npy  patches of elements: x, y, ux, uy of four corners, stresses xx, yy, xy
+  DATA_DIR/patches.npy  patches of elements: x, y, ux, uy of four corners, stresses xx, yy, xy, and
+                        1 where the rock is relaxed
   DATA_DIR/end.npy      where the scale of the largest shear stress ends, MPa
   DATA_DIR/discs.npy    x, y, radius, stratum, y at the start
 Writes footwall.png under a temporary name and renames it.  Vertical displacement is exaggerated, of
@@ -52,17 +53,27 @@ def draw_section(figure, axes, patches: np.ndarray, end: float, discs: np.ndarra
     rock, bottom = draw_rock(axes, patches, end, factor)
     top = draw_discs(axes, discs, uplift, factor)
     surface = uplift[uplift[:, 0] < 0.0]
-    axes.set_xlim(-60.0, discs[:, 0].max() / 1e3 + 25.0)
-    axes.set_ylim(bottom - 0.5, max((factor * surface[:, 1]).max() / 1e3, top) + 2.0)
+    x = patches[:, 0:16:4] / 1e3
+    axes.set_xlim(max(-60.0, x.min()), min(discs[:, 0].max() / 1e3 + 25.0, x.max()))
+    axes.set_ylim(bottom - 0.5, max((factor * surface[:, 1]).max(initial=0.0) / 1e3, top) + 2.0)
     axes.set_aspect("equal")
     axes.axhline(0.0, color=FAINT, lw=0.6, ls=(0, (6, 4)))
     axes.text(axes.get_xlim()[0] + 1.0, 0.3, "original surface", fontsize=8, color=FAINT,
               va="bottom")
-    axes.text(-30.0, axes.get_ylim()[0] + 8.0, "relaxed rock", fontsize=9, color="#8c7a5a",
-              ha="center")
+    label_relaxed_rock(axes, patches)
     axes.set_ylabel("height, km")
     bar = figure.colorbar(rock, ax=axes, pad=0.01, fraction=0.025, extend="max")
     bar.set_label("largest shear stress, MPa\n(change since the start)", fontsize=9)
+
+
+def label_relaxed_rock(axes, patches: np.ndarray) -> None:
+    """The name in the middle of the relaxed rock between the left end and the breakaway, if any."""
+    x, y = (patches[:, k:16:4].mean(axis=1) / 1e3 for k in (0, 1))
+    left = axes.get_xlim()[0]
+    relaxed = y[(patches[:, 19] > 0.0) & (x > left) & (x < 0.0)]
+    if len(relaxed):
+        axes.text(0.5 * left, 0.5 * (relaxed.min() + relaxed.max()), "relaxed rock", fontsize=9,
+                  color="#8c7a5a", ha="center", va="center")
 
 
 def draw_rock(axes, patches: np.ndarray, end: float, factor: int) -> tuple[PolyCollection, float]:
@@ -70,7 +81,7 @@ def draw_rock(axes, patches: np.ndarray, end: float, factor: int) -> tuple[PolyC
     corners = patches[:, :16].reshape(-1, 4, 4)
     shape = np.stack((corners[..., 0] + corners[..., 2],
                       corners[..., 1] + factor * corners[..., 3]), axis=-1) / 1e3
-    xx, yy, xy = patches[:, 16:].T
+    xx, yy, xy = patches[:, 16:19].T
     shear = np.hypot(0.5 * (xx - yy), xy) / 1e6
     rock = PolyCollection(shape, array=shear, cmap=FOOTWALL_COLOURS, edgecolors="face",
                           linewidths=0.2, rasterized=True)
@@ -132,7 +143,7 @@ def draw(clock: str, moments: dict[float, np.ndarray], patches: np.ndarray, end:
 
 
 def main(folder: str, data: str, figures: str, order: str) -> None:
-    patches = load_array(data, "patches", columns=19, finite=False)
+    patches = load_array(data, "patches", columns=20, finite=False)
     discs = load_array(data, "discs", columns=5, finite=False)
     end = float(load_array(data, "end")[0])
     save(draw(*load(folder), patches, end, discs), figures, "footwall", read_order(order))

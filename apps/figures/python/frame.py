@@ -14,6 +14,7 @@ origin), n discs:
     profile                          x, height of the pre-rift top, thickness of sediment
     depocentres                      x, thickness, prominence
     faults                           number of the fault, x, y, slip rate in m/a
+    target_line                      x, y of the line that sediment is filled up to; only where it is no level
     picked_fault                     x, y of the points that the detachment was fitted to
     picked_horizons, picked_faults   number of the line, x, y; only where there are picks
     horizons                         all tops of the model, likewise; only with an underlay
@@ -101,7 +102,8 @@ class Frame:
     seismic_axes: np.ndarray | None = None
     seismic_depth: np.ndarray | None = None
     seismic_depth_axes: np.ndarray | None = None
-    level: float | None = None                 # that sediment is filled up to
+    level: float | None = None                 # that sediment is filled up to, where there is no line
+    target_line: np.ndarray | None = None
     view: tuple = ()                           # xmin, xmax, ymin, ymax
     owner: np.ndarray | None = None            # disc of each cell of an image, -1: none
     legends: dict | None = None                # collects legend entries by panel, undrawn
@@ -283,7 +285,7 @@ def load_frame(folder: str) -> Frame:
         predicted_normals=km(table("predicted_normals", 2)),
         **{name: load_image(folder, name) for name in ("seismic", "seismic_depth")},
         **{name: load_array(folder, name, optional=True) for name in ("seismic_axes", "seismic_depth_axes")},
-        level=None if level is None else level / 1000.0)
+        level=None if level is None else level / 1000.0, target_line=km(table("target_line", 2)))
     frame.view = view_of(frame)
     return frame
 
@@ -291,6 +293,13 @@ def load_frame(folder: str) -> Frame:
 def target_level(meta: dict) -> float | None:
     """Height, m, that sediment is filled up to, if it is."""
     return meta.get("level_m")
+
+
+def target_heights(frame: Frame, x: np.ndarray) -> np.ndarray:
+    """Heights, km, that sediment is filled up to at places x; 0 where there is no sediment."""
+    if frame.target_line is None:
+        return np.full(len(x), frame.level or 0.0)
+    return np.interp(x, *frame.target_line.T)
 
 
 def behaviour(discs: dict[str, np.ndarray | None]) -> np.ndarray | None:
@@ -302,7 +311,8 @@ def view_of(frame: Frame) -> tuple[float, float, float, float]:
     """Extent of the section (km): from left of the breakaway, and of what runs over it, to right of the wall."""
     unit = frame.unit
     left = min(-unit, np.quantile(frame.x, 0.001) - 0.5 * unit)
-    tops = np.append(np.quantile(frame.y + frame.radius, 0.9999), (frame.level or 0.0, 0.0))
+    target = target_heights(frame, np.linspace(0.0, frame.wall, 100)).max()
+    tops = np.append(np.quantile(frame.y + frame.radius, 0.9999), (target, 0.0))
     bottom = min(frame.detachment[:, 1].min(), np.quantile(frame.y - frame.radius, 0.0001))
     return (left, frame.wall + 0.5 * unit, bottom - 0.6 * unit, tops.max() + 0.5 * unit)
 

@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Sequence
 
 from frame import Frame
-from page import add_axes, extension_text, moment_text, name_distance
+from page import add_axes, extension_text, letter, moment_text, name_distance, time_text
 from panels import panel_of
 from plot import FAINT, Figure, Order, new_figure
 
@@ -29,10 +29,6 @@ TOPS_SHARE = 0.34                 # height of the tops of strata, of the width
 LEAST_PROFILE, LEAST_TIME = 0.85, 1.1   # heights that hold the labels of their axes
 THIN = 0.6                        # of the lines of a page, which are for twice the width
 DEFAULT = ("strata", "strain")
-
-
-def letters(count: int) -> list[str]:
-    return [chr(ord("a") + n) for n in range(count)]
 
 
 def sizes(frame: Frame, names: Sequence[str], width: float) -> list[tuple[float, float]]:
@@ -126,7 +122,7 @@ def draw_print(frame: Frame, names: Sequence[str], order: Order) -> tuple[Figure
             axis.set_label_text(wrapped(axis.get_label_text(), high))
         lowest = index + 1 == len(names)
         name_distance(ax, lowest)
-        figure.text(0.03 / across, (y + high + 0.05) / up, letters(len(names))[index], fontsize=10, weight="bold", va="bottom")
+        figure.text(0.03 / across, (y + high + 0.05) / up, letter(index), fontsize=10, weight="bold", va="bottom")
         figure.text(LEFT / across, (y + high + 0.05) / up, title, fontsize=10, va="bottom")
         ratio = None if own_axes[index] else exaggeration(ax, wide, high)
         if ratio is not None and abs(ratio - 1.0) >= 0.02:
@@ -176,7 +172,7 @@ def headline_lines(frame: Frame, width: float) -> list[str]:
 
 
 def moment_line(frame: Frame) -> str:
-    return f"{moment_text(frame)}, {frame.meta['time_a'] / 1e6:.2f} Myr"
+    return f"{moment_text(frame)}, {time_text(frame)}"
 
 
 def save_print(frame: Frame, order: Order) -> tuple[str, Figure, list[str]]:

@@ -2,6 +2,7 @@
 import math
 import textwrap
 from collections.abc import Sequence
+from decimal import Decimal
 
 from frame import Frame
 from plot import FAINT, Figure, length_unit
@@ -26,30 +27,63 @@ def panel_size(frame: Frame) -> tuple[float, float]:
 
 
 def extension_text(frame: Frame) -> str:
-    """Extension in km: as the program writes it, with as many decimals as distinguish the run's moments;
-    else one decimal, two when one is not enough."""
+    """Extension in km, as in names of files: as the program writes it, with as many decimals as distinguish
+    the run's moments; else one decimal, two when one is not enough."""
     value = frame.extension
     plain = f"{value:.1f}" if abs(value * 10 - round(value * 10)) < 0.05 else f"{value:.2f}"
     return str(frame.meta.get("extension_km", plain))
 
 
+def length_text(kilometres: str, unit: str) -> str:
+    """A length in the unit of an axis, without the unit, with the digits that it has in km."""
+    return kilometres if unit == "km" else f"{Decimal(kilometres).scaleb(3):f}"
+
+
+def unit_of(frame: Frame) -> str:
+    """Unit of lengths on the frame's axes."""
+    return length_unit(frame.span)[0]
+
+
 def moment_text(frame: Frame) -> str:
     """How far the wall is: "5.0 km of extension"; with stages of motion also by which way."""
-    return moment_words(frame.meta, extension_text(frame))
+    return moment_words(frame.meta, extension_text(frame), unit_of(frame))
 
 
 def moments_text(frames: Sequence[Frame]) -> str:
     """How far the wall is in each of the frames: "5.0 and 10.0 km of extension"."""
     if any("way_m" in frame.meta for frame in frames):
         return " and ".join(moment_text(frame) for frame in frames)
-    return " and ".join(extension_text(frame) for frame in frames) + " km of extension"
+    unit = unit_of(frames[-1])
+    return " and ".join(length_text(extension_text(frame), unit) for frame in frames) + f" {unit} of extension"
 
 
-def moment_words(meta: dict, way: str) -> str:
-    """How far the wall is after a way in km, where `meta` has its extension_m and way_m, or no way_m."""
+def moment_words(meta: dict, way: str, unit: str = "km") -> str:
+    """How far the wall is, told in a unit, after a way in km, where `meta` has its extension_m and way_m, or no way_m."""
     if "way_m" not in meta:
-        return f"{way} km of extension"
-    return f"{meta['extension_m'] / 1000:.3g} km of extension after a way of {way} km"
+        return f"{length_text(way, unit)} {unit} of extension"
+    extension = length_text(f"{meta['extension_m'] / 1000:.3g}", unit)
+    return f"{extension} {unit} of extension after a way of {length_text(way, unit)} {unit}"
+
+
+def time_texts(times: Sequence[float], gap: float, end: float) -> tuple[list[str], str]:
+    """Times, a, of a run that ends at `end`, and their unit: Myr, or a where the run is shorter than 10,000 a,
+    as in the report. With as many decimals as tell apart what is `gap` apart; Myr have two at least."""
+    unit, years, decimals = ("Myr", 1e6, 2) if end >= 1e4 else ("a", 1.0, 0)
+    while years * 10.0**-decimals > 1.01 * gap and decimals < 9:   # events come a cycle late
+        decimals += 1
+    return [f"{time / years:.{decimals}f}" for time in times], unit
+
+
+def time_text(frame: Frame) -> str:
+    """When the frame is: "0.50 Myr"."""
+    meta = frame.meta
+    [text], unit = time_texts([meta["time_a"]], meta.get("interval_a", math.inf), meta.get("end_a", math.inf))
+    return f"{text} {unit}"
+
+
+def letter(n: int) -> str:
+    """Letter of panel n, from 0: a to z, then aa, ab, ..."""
+    return (letter(n // 26 - 1) if n >= 26 else "") + chr(ord("a") + n % 26)
 
 
 WINDOW_END = 2e-4   # share of a window: a moment as near as that to its end is its end
@@ -84,8 +118,7 @@ def title_of(frame: Frame) -> str:
 
 def headline(frame: Frame) -> str:
     """Description and moment."""
-    moment = moment_text(frame) if "way_m" in frame.meta else f"{extension_text(frame)} km"
-    return f"{title_of(frame)}: {moment}, {frame.meta['time_a'] / 1e6:.2f} Myr"
+    return f"{title_of(frame)}: {moment_text(frame).removesuffix(' of extension')}, {time_text(frame)}"
 
 
 def footer(frame: Frame) -> list[str]:

@@ -2,6 +2,7 @@
 
 Every panel is drawn by a function of its axes, the axes of its colour bar and the frame.
 """
+import math
 import struct
 import zlib
 
@@ -9,7 +10,7 @@ from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section
                   swatch)
 from discs import draw_discs
 from frame import Frame, Layer
-from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT, window_text
+from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT, time_texts, window_text
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
 from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
@@ -53,8 +54,14 @@ def strata_panel(ax, cax, frame: Frame) -> None:
     handles = [(tuple(swatch(c) for c in LAYER_COLOURS), f"pre-rift, {LAYER:g} km layers"),
                *bed_handles(frame), (stroke(INK, 1.5), "detachment")]
     if frame.level is not None:
-        ax.axhline(frame.level, color=LEVEL_BLUE, linewidth=1.0, dashes=(6, 3), zorder=6)
-        handles.append((stroke(LEVEL_BLUE, 1.0, dashes=(4, 2)), "target level of sediments"))
+        style = {"color": LEVEL_BLUE, "linewidth": 1.0, "dashes": (6, 3), "zorder": 6}
+        if frame.target_line is None:
+            ax.axhline(frame.level, **style)
+        else:
+            (left, right), line = ax.get_xlim(), frame.target_line
+            ax.plot((left, *line[:, 0], right), (line[0, 1], *line[:, 1], line[-1, 1]), **style)
+        what = "level" if frame.target_line is None else "line"
+        handles.append((stroke(LEVEL_BLUE, 1.0, dashes=(4, 2)), f"target {what} of sediments"))
     handles += draw_layers(ax, frame)
     if frame.picked_fault is not None:
         x, y = frame.picked_fault.T
@@ -154,10 +161,14 @@ def strata_bar(cax, colours: np.ndarray, frame: Frame) -> None:
     norm = BoundaryNorm(np.arange(count + 1) + 0.5, count)
     ages = frame.meta.get("strata_a")
     known = isinstance(ages, list) and len(ages) == count
-    colour_bar = bar(cax, ListedColormap(colours), norm, "Laid down at (Myr)" if known else "Stratum (1 is the oldest)",
-                     spacing="proportional", drawedges=False)
     ticks = [t for t in stratum_ticks(count) if not known or t > 1 or count <= 8]
-    colour_bar.set_ticks(ticks, labels=[f"{ages[t - 1] / 1e6:.2f}" if known else str(t) for t in ticks])
+    label, names = "Stratum (1 is the oldest)", [str(t) for t in ticks]
+    if known:
+        times = [ages[t - 1] for t in ticks]
+        names, unit = time_texts(times, min(np.diff(times), default=math.inf), frame.meta.get("end_a", math.inf))
+        label = f"Laid down at ({unit})"
+    colour_bar = bar(cax, ListedColormap(colours), norm, label, spacing="proportional", drawedges=False)
+    colour_bar.set_ticks(ticks, labels=names)
     colour_bar.ax.minorticks_off()
 
 

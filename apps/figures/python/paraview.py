@@ -127,6 +127,16 @@ def show_footwall(series, view, in_colour):
     return moved
 
 
+def time_format(moments):
+    """Text of the time and its factor for moments in Myr, as in the figures: years where the last is before 10,000
+    years, and decimals that tell moments apart."""
+    unit, years, decimals = ("Myr", 1e6, 2) if max(moments) >= 0.01 else ("a", 1.0, 0)
+    gap = 1e6 * min((b - a for a, b in zip(moments, moments[1:])), default=1.0)
+    while years * 10.0 ** -decimals > 1.01 * gap and decimals < 9:
+        decimals += 1
+    return "{time:.%df} %s" % (decimals, unit), 1e6 / years
+
+
 def main():
     run, footwall = opened("paraview.pvd"), opened("footwall.pvd")
     if not run and not footwall:
@@ -143,7 +153,8 @@ def main():
         subject = show_footwall(footwall, view, not run)
     if run:
         subject = show_discs(run, view, sys.argv[2] if len(sys.argv) > 2 else "")
-        time = pv.AnnotateTimeFilter(registrationName="time", Input=run, Format="{time:.2f} Myr")
+        text, factor = time_format(list(run.TimestepValues))
+        time = pv.AnnotateTimeFilter(registrationName="time", Input=run, Format=text, Scale=factor)
         pv.Show(time, view)
     left, right, bottom, top = subject.GetDataInformation().DataInformation.GetBounds()[:4]
     view.ViewSize = (1400, max(300, int(1400 * (top - bottom) / (right - left)) + 60))

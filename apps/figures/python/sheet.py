@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from axes import LEGEND
 from frame import Frame
 from page import (DPI, GAP, LEFT, RIGHT, ROW_ABOVE, TITLE, XLABEL, add_axes, below, extension_text,
-                  footer, moment_text, moments_text, name_distance, set_ticks, title_of, write_around)
+                  footer, letter, moment_text, moments_text, name_distance, set_ticks, title_of, write_around)
 from panels import PANELS
 from plot import Figure, Order, new_figure, save
 from scales import share_scales
@@ -37,22 +37,23 @@ def draw_sheet(frames: Sequence[Frame]) -> Figure:
     y = total - TITLE - LABELS
     for row, name in enumerate(kinds):
         y -= ROW_ABOVE + height
-        all_axes = draw_row(figure, frames, name, y, inch)
+        letters = [letter(row * len(frames) + column) for column in range(len(frames))]
+        all_axes, texts, entries = draw_row(figure, frames, name, y, inch)
         for column, ax in enumerate(all_axes):
-            mark_letter(ax, chr(ord("a") + row * len(frames) + column))
+            mark_letter(ax, letters[column])
             if row == 0:
                 name_column(ax, frames[column])
             name_distance(ax, lowest=row + 1 == len(kinds))
-        draw_legends(figure, frames[0].legends, y + height)
+        draw_legend(figure, row_text(texts, letters), entries, y + height)
         y -= GAP
     return figure
 
 
-def draw_row(figure: Figure, frames: Sequence[Frame], name: str, y: float, inch: float) -> list:
-    """Axes with one kind of section of all frames; collects their legend in the frames."""
-    all_axes, legends, x = [], {}, LEFT
+def draw_row(figure: Figure, frames: Sequence[Frame], name: str, y: float, inch: float) -> tuple[list, list[str], dict]:
+    """Axes with one kind of section of all frames, their descriptions, and the entries of the row's legend."""
+    all_axes, texts, legend, x = [], [], {}, LEFT
     for column, frame in enumerate(frames):
-        frame.legends = legends
+        frame.legends = {}
         ax = add_axes(figure, x, y, inch * frame.span, inch * frame.rise)
         cax = add_axes(figure, SHEET_WIDTH - RIGHT + 0.16, y, 0.17, inch * frame.rise)
         PANELS[name](ax, cax, frame)
@@ -62,12 +63,23 @@ def draw_row(figure: Figure, frames: Sequence[Frame], name: str, y: float, inch:
             ax.tick_params(labelleft=False)
         set_ticks(ax)
         all_axes.append(ax)
+        [(text, entries)] = frame.legends.items()
+        texts.append(text)
+        legend |= entries
         x += inch * frame.span + SHEET_GAP
-    return all_axes
+    return all_axes, texts, legend
 
 
-def mark_letter(ax, letter: str) -> None:
-    ax.text(0.974, 0.86, letter, transform=ax.transAxes, fontsize=13, weight="bold", ha="right",
+def row_text(texts: Sequence[str], letters: Sequence[str]) -> str:
+    """Description of a row's panels: one for all, or each with the letters of its own."""
+    own: dict[str, list[str]] = {}
+    for text, name in zip(texts, letters):
+        own.setdefault(text, []).append(name)
+    return texts[0] if len(own) == 1 else "; ".join(f"{text} ({', '.join(names)})" for text, names in own.items())
+
+
+def mark_letter(ax, name: str) -> None:
+    ax.text(0.974, 0.86, name, transform=ax.transAxes, fontsize=13, weight="bold", ha="right",
             va="top", zorder=9, bbox={"facecolor": "white", "linewidth": 0.6, "pad": 2.5})
 
 
@@ -77,15 +89,13 @@ def name_column(ax, frame: Frame) -> None:
                 fontsize=11.5, weight="semibold", annotation_clip=False)
 
 
-def draw_legends(figure: Figure, legends: dict, top: float) -> None:
+def draw_legend(figure: Figure, text: str, entries: dict, top: float) -> None:
     """Description and legend of a row whose axes end at that height (inches)."""
     across, up = figure.get_size_inches()
-    for text, entries in legends.items():
-        figure.text(LEFT / across, (top + 0.07) / up, text, fontsize=10.5, weight="semibold",
-                    va="bottom")
-        if entries:
-            figure.legend(list(entries.values()), list(entries), ncol=len(entries),
-                          bbox_to_anchor=((across - RIGHT) / across, top / up), **LEGEND)
+    figure.text(LEFT / across, (top + 0.07) / up, text, fontsize=10.5, weight="semibold", va="bottom")
+    if entries:
+        figure.legend(list(entries.values()), list(entries), ncol=len(entries),
+                      bbox_to_anchor=((across - RIGHT) / across, top / up), **LEGEND)
 
 
 def draw_gallery(frames: Sequence[Frame]) -> Figure:

@@ -9,8 +9,14 @@ const page = {
 
 const counts = new Intl.NumberFormat("en", {maximumFractionDigits: 0});
 
+/** The run whose moments the slider runs through: the longer one, where two do not end together (to a cycle's way). */
+function leader() { return page.runs.reduce((a, b) => travelOf(b.moments.at(-1)) > 1.001 * travelOf(a.moments.at(-1)) ? b : a); }
+
+/** How far the slider is, m. */
+function shownTravel() { return travelOf(leader().moments[page.t]); }
+
 /** The moment of a run beside the one that the slider is at. */
-function momentOf(run) { return run === page.runs[0] ? page.t : run.nearest(travelOf(page.runs[0].moments[page.t])); }
+function momentOf(run) { return run === leader() ? page.t : run.nearest(shownTravel()); }
 
 // -- drawing
 
@@ -59,13 +65,14 @@ async function draw() {
   const turn = ++drawing;
   const inked = run => shownLayers(run, "discs", page.shown);
   await Promise.all(page.runs.map(run => run.load([...modes[page.mode].needs, ...(page.shown.has("bonds") ? bondStreams : []),
-    ...inked(run).map(([name]) => name), ...(page.mode === "strata" ? ["layer"] : [])])));
+    ...inked(run).map(([name]) => name), ...(page.mode === "strata" ? ["layer", "start_extension_m"] : [])])));
   if (turn !== drawing) return;
   const top = scaleEnd(page.runs, page.mode);
   const strata = Math.max(...page.runs.map(run => run.codes.at(-1).stratum.reduce((a, b) => Math.max(a, b), 0)));
   const others = await linesOfOther();
   for (const section of page.sections) {
     const k = momentOf(section.run);
+    if (section.name) section.name.textContent = nameOf(section.run);
     const colours = discColours(section.run, k, page.mode, page.palette, top, strata);
     section.painter.paint(page.view, section.discs(k), inkDiscs(colours, section.run, k, inked(section.run)));
     await section.draw(k, page.view, page.shown, page.picked, section.run === page.runs[0] ? others : null);
@@ -77,14 +84,18 @@ async function draw() {
   writeAddressSoon();
 }
 
+/** When the youngest stratum of all runs was laid down, in the page's unit of time. */
+function youngestTime() {
+  return Math.max(...page.runs.map(run => timeOf(run, run.values(run.moments.length - 1, "start_extension_m").reduce((a, b) => Math.max(a, b), 0))));
+}
+
 /** Entries of the legend of what is shown: a colour, or colours from one number to another, and a label. */
 function legendItems() {
   const {top, strata} = page.scale, {unit} = modes[page.mode], table = paletteOf(page.mode, page.palette), items = [];
   const bar = colour => Array.from({length: 60}, (_, n) => cssColour(colour(n / 59)));
   if (page.mode === "rock") items.push(...vocabulary.rock_classes.map(({label, colour}) => ({label, colour})));
   else if (page.mode === "strata") {
-    const [run] = page.runs, last = timeOf(run, travelOf(run.moments.at(-1)));
-    if (strata) items.push({label: `sediment laid down (${timeUnit().name}), ${strata} strata`, from: 0, to: digits(last, 2),
+    if (strata) items.push({label: `sediment laid down (${timeUnit().name}), ${strata} strata`, from: 0, to: digits(youngestTime(), 2),
       colours: bar(share => stratumColour(Math.min(1 + Math.floor(share * strata), strata), strata, table))});
     const beds = page.runs.flatMap(one => (one.head.rock_layers || []).map((label, n) => ({colour: layerColour(n + 1), label})));
     items.push(...new Map(beds.map(bed => [bed.colour + bed.label, bed])).values());
@@ -143,11 +154,20 @@ function momentText(run) {
   return `${wayText(moment)}, ${timeOf(run, travelOf(moment)).toFixed(3)} ${timeUnit().name}`;
 }
 
+/** "B: " of the second of two runs. */
+function letterOf(run) { return page.runs.length > 1 ? `${"AB"[page.runs.indexOf(run)]}: ` : ""; }
+
+/** Label of one of two runs, and where it is shown if not where the slider is. */
+function nameOf(run) {
+  const moment = run.moments[momentOf(run)], isElsewhere = placeText(travelOf(moment)) !== placeText(shownTravel());
+  return labelOf(run) + (isElsewhere ? `, here at ${wayText(moment)}` : "");
+}
+
 function tell() {
-  const run = page.runs[0], moment = run.moments[page.t];
+  const run = leader(), moment = run.moments[page.t];
   $("slider").value = page.t;
   $("slider").setAttribute("aria-valuetext", wayText(moment));
-  $("moment").textContent = `${momentText(run)}, ${counts.format(moment.discs)} discs`;
+  $("moment").textContent = `${letterOf(run)}${momentText(run)}, ${counts.format(moment.discs)} discs`;
   page.chart.moveTo(travelOf(moment));
   drawFaults();
 }
@@ -178,7 +198,7 @@ async function drawUplift(run) {
 async function describe() {
   const {picked} = page;
   if (!picked) return;
-  const {run} = picked, k = momentOf(run), which = page.runs.length > 1 ? `${"AB"[page.runs.indexOf(run)]}: ` : "";
+  const {run} = picked, k = momentOf(run), which = letterOf(run);
   if (picked.kind === "disc") {
     const id = picked.id;
     if (!run.codes[k].present[id])
@@ -209,7 +229,7 @@ async function describe() {
 // -- what the user does
 
 /** The number of a moment that there is. */
-function momentWithin(t) { return Math.min(Math.max(Math.trunc(t) || 0, 0), page.runs[0].moments.length - 1); }
+function momentWithin(t) { return Math.min(Math.max(Math.trunc(t) || 0, 0), leader().moments.length - 1); }
 
 function show(t) {
   page.t = momentWithin(t);
@@ -245,10 +265,10 @@ function play() {
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
   if (player) clearInterval(player);
   player = player ? 0 : setInterval(() => {
-    if (page.t + 1 >= page.runs[0].moments.length) return play();
+    if (page.t + 1 >= leader().moments.length) return play();
     show(page.t + 1);
   }, still ? 1000 : 250);
-  if (player && page.t + 1 >= page.runs[0].moments.length) show(0);
+  if (player && page.t + 1 >= leader().moments.length) show(0);
   $("play").textContent = player ? "Stop" : "Play";
   $("play").setAttribute("aria-pressed", String(Boolean(player)));
 }
@@ -419,7 +439,7 @@ function addControls() {
   const measures = Object.keys(run.history).filter(name => name !== clockOf(run) && run.history[name].some(Number.isFinite));
   addOptions($("column"), measures.map(name => [name, wordsOf(name)]), measures.includes("rollover_tilt_deg") ? "rollover_tilt_deg" : measures[0]);
   addOptions($("second"), [["", "nothing else"], ...measures.map(name => [name, wordsOf(name)])], "");
-  $("slider").max = run.moments.length - 1;
+  $("slider").max = leader().moments.length - 1;
   const on = (id, event, call) => $(id).addEventListener(event, call);
   on("slider", "input", () => show(Number($("slider").value)));
   on("first", "click", () => show(0));
@@ -438,7 +458,7 @@ function addControls() {
   addSaves(on);
   document.addEventListener("keydown", onKey);
   window.addEventListener("resize", () => { layOut(); draw().catch(trouble); });
-  page.chart = new HistoryChart($("history"), page.runs, travel => show(page.runs[0].nearest(travel)));
+  page.chart = new HistoryChart($("history"), page.runs, travel => show(leader().nearest(travel)));
   if (measures.length) drawCharted();
 }
 
@@ -455,19 +475,19 @@ function drawTables() {
 }
 
 function addSaves(on) {
-  const [section] = page.sections;
-  const name = kind => `${page.runs[0].head.scene}-${travelOf(page.runs[0].moments[page.t]).toFixed(metreDecimals())}m-${kind}`;
+  const [section] = page.sections, shown = () => momentOf(page.runs[0]);
+  const name = kind => `${page.runs[0].head.scene}-${travelOf(page.runs[0].moments[shown()]).toFixed(metreDecimals())}m-${kind}`;
   on("save_discs", "click", async () => {
     const [run] = page.runs;
     await run.load(Object.keys(run.head.scales).concat("bonds", "behaviour"));
-    save(name("discs.csv"), discsCsv(run, page.t), "text/csv");
+    save(name("discs.csv"), discsCsv(run, shown()), "text/csv");
   });
-  const lines = kind => async () => save(name(`${kind}.csv`), linesCsv((await page.runs[0].loadLines(page.t))[kind] || []), "text/csv");
+  const lines = kind => async () => save(name(`${kind}.csv`), linesCsv((await page.runs[0].loadLines(shown()))[kind] || []), "text/csv");
   on("save_faults", "click", lines("faults"));
   on("save_horizons", "click", lines("horizons"));
   on("save_history", "click", () => save(`${page.runs[0].head.scene}-history.csv`, page.runs[0].head.history, "text/csv"));
   on("save_png", "click", async () => (await pictureOf(section)).toBlob(blob => save(name("section.png"), blob)));
-  on("save_svg", "click", async () => save(name("section.svg"), svgOf(section, page.t, page.view, await page.runs[0].loadLines(page.t), await linesOfOther()), "image/svg+xml"));
+  on("save_svg", "click", async () => save(name("section.svg"), svgOf(section, shown(), page.view, await page.runs[0].loadLines(shown()), await linesOfOther()), "image/svg+xml"));
   on("copy", "click", async () => {
     writeAddress();
     try { await navigator.clipboard.writeText(`${location.href.split("#")[0]}#${addressWords()}`); $("copy").textContent = "copied"; }
@@ -510,9 +530,8 @@ async function start() {
     host.className = "section";
     const section = new Section(run, host);
     if (page.runs.length > 1) {
-      const name = host.appendChild(document.createElement("div"));
-      name.className = "name";
-      name.textContent = labelOf(run);
+      section.name = host.appendChild(document.createElement("div"));
+      section.name.className = "name";
     }
     listenTo(section);
     return section;
@@ -558,7 +577,7 @@ function followFile() {
 
 /** Takes over data of the same run, if they have more; view, colours and what is picked stay. */
 async function takeNewer(text) {
-  const data = JSON.parse(text), before = page.runs[0].moments.length, atEnd = page.t === before - 1;
+  const data = JSON.parse(text), before = page.runs[0].moments.length, atEnd = page.t === leader().moments.length - 1;
   const more = data.runs[0].moments.length;
   if (data.runs[0].scene !== page.runs[0].head.scene || more < before || (more === before && data.live)) return;
   const runs = data.runs.map(head => new Run(head));
@@ -567,11 +586,11 @@ async function takeNewer(text) {
   [page.data, page.runs] = [data, runs];
   page.sections.forEach((section, r) => { section.run = runs[r]; });
   page.chart.runs = runs;
-  $("slider").max = more - 1;
+  $("slider").max = leader().moments.length - 1;
   addWords();
   drawCharted();
   drawTables();
-  await show(atEnd ? more - 1 : page.t);
+  await show(atEnd ? Infinity : page.t);
 }
 
 if (location.hash === "#feed" && window.parent !== window) window.parent.postMessage($("data").textContent, "*");

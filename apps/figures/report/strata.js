@@ -191,6 +191,6 @@ function drawWheeler(host, run, k) {
     const x = axes.xAt(event.offsetX), time = axes.yAt(event.offsetY), row = ages.findIndex(age => age >= time);
     const value = row < 0 ? undefined : strata[numbers[row]].thickness[Math.floor(metres * x / width)];
     if (x >= 0 && x <= end && value !== undefined)
-      tell(`x ${x.toFixed(1)} ${name}, ${time.toFixed(2)} ${timeUnit().name}, ${stratumName(numbers[row])}: ${value < least ? "nothing" : valueText(value, "m", run.head.mean_radius_m)}`);
+      tell(`x ${x.toFixed(1)} ${name}, ${time.toFixed(3)} ${timeUnit().name}, ${stratumName(numbers[row])}: ${value < least ? "nothing" : valueText(value, "m", run.head.mean_radius_m)}`);
   });
 }

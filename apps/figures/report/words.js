@@ -31,7 +31,7 @@ function placeText(metres, decimals = 2) { return `${(metres / lengthUnit().metr
 
 /** Unit in which the page tells time, by its longest run. */
 function timeUnit() {
-  const longest = Math.max(...page.runs.map(run => run.head.extension_m / run.head.rate_m_per_a));
+  const longest = Math.max(...page.runs.map(run => Math.max(run.head.extension_m, travelOf(run.moments.at(-1))) / run.head.rate_m_per_a));
   return longest >= 1e4 ? {name: "Myr", years: 1e6} : {name: "a", years: 1};
 }
 

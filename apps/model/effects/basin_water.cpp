@@ -23,6 +23,12 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
         base.infill_density > 0.0 ? std::nullopt : std::optional(base.left));
 }
 
+void check(const Scene& scene, const Refuse& refuse) {
+    if (const std::string why = objection_to_fill(scene.find<P>()->density, *bending_base(scene));
+        !why.empty())
+        refuse("basin_water.density_kg_per_m3", why);
+}
+
 /// Floor and level of the water from the shore at the breakaway on.
 std::vector<double> water_band(const Observation& now) {
     const double width = coupling::water_column_width(now.scene.hanging_wall.mean_radius);
@@ -58,6 +64,7 @@ const Effect& effect() {
                  "time between adaptations of its depth",
                  "Raising it lets the load lag behind the basin."},
             },
+        .check = check,
         .load_footwall = load_footwall,
         .explain =
             [](const Scene& scene, EffectList) {
@@ -66,14 +73,15 @@ const Effect& effect() {
                                    water.level);
             },
         .absence = "water",
-        .measures = {{coupling::basin_water_name, "N/m",
-                      "weight of the water on the detachment per metre of strike, with that in the "
-                      "sediment's pores"},
-                     {coupling::pore_water_name, "N/m",
-                      "weight of the water in the sediment's pores"},
-                     {coupling::flank_water_name, "N/m",
-                      "weight of the water where the footwall left of the breakaway has sunk below "
-                      "its level; negative where flooded ground has risen"}},
+        .measures =
+            {{coupling::basin_water_name, "N/m",
+              "weight of the water on the detachment per metre of strike beyond that at the "
+              "start, with that in the sediment's pores; negative where flooded ground has "
+              "risen"},
+             {coupling::pore_water_name, "N/m", "weight of the water in the sediment's pores"},
+             {coupling::flank_water_name, "N/m",
+              "weight of the water where the footwall left of the breakaway has sunk below "
+              "its level; negative where flooded ground has risen"}},
         .layers = {{"water", LayerKind::band, "water", "#c6dcef", water_band}},
     };
     return effect;

@@ -2,6 +2,7 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/pieces.hpp"
+#include "apps/scene/stage.hpp"
 
 namespace listric::effects::compaction {
 
@@ -45,7 +46,7 @@ const Effect& effect() {
         // that it fills, of which 1.1 have been counted.
         .new_area =
             [](const Scene& scene) {
-                return 0.75 * scene.extension.distance * scene.hanging_wall.thickness;
+                return 0.75 * greatest_extension(scene) * scene.hanging_wall.thickness;
             },
     };
     return effect;

@@ -46,8 +46,11 @@ std::vector<Parameter> plate_parameters() {
          "rho_m", "density of the mantle, on which the base floats",
          "Raising it makes the base float more firmly: it moves less under a load."},
         {"infill_density_kg_per_m3", at<&P::bending, &B::infill_density>, "kg/m3", between(0, 20e3),
-         "", "density of the fill of the deflection: 0 air, 1030 water, 2400 sediment",
-         "Raising it deepens the deflection of the footwall.", between(0, 2400)},
+         "",
+         "density of the fill of the deflection: 0 air, 1030 water, 2400 sediment; it acts where "
+         "the surface sinks and where it rises",
+         "Raising it deepens the deflection of the footwall, and lets its flank rise higher.",
+         between(0, 2400)},
         {"cells", at<&P::bending, &B::cells>, "", between(1, 64), "",
          "number of elements through the elastic thickness, in a scene without discs",
          "Raising it makes the solution more accurate and slower."},
@@ -63,7 +66,7 @@ std::vector<Parameter> footwall_parameters() {
         {"left_m", at<&P::bending, &B::left>, "m", between(-1e7, -1), "",
          "x of the footwall's far side",
          "Raising it toward the breakaway lets the side hold the flank."},
-        {"right_m", at<&P::right>, "m", between(1, 1e7), "",
+        {"right_m", at<&P::bending, &B::right>, "m", between(1, 1e7), "",
          "x of the far side of the rock below the hanging wall",
          "Lowering it toward the moving wall lets the side hold the base below the basin."},
         {"depth_m", at<&P::depth>, "m", ranges::length, "",
@@ -138,6 +141,40 @@ std::vector<Parameter> parameters() {
     return all;
 }
 
+/// The run's own elements, and those half as large with which it is checked at its end.
+void check_cell_size(const P& base, const fem::FootwallRequest& request, const Refuse& refuse) {
+    if (!base.mesh_file.empty())
+        return; // its elements are halved, whatever their size
+    const double least = 2.0 * fem::least_cell_share *
+                         std::max(request.right - request.left, request.depth); // halved at the end
+    if (base.cell_size < least)
+        refuse(
+            "elastic_base.cell_size_m",
+            fmt::format("is {}, allowed: at least {}, since the check at the end of a run halves "
+                        "elements, which must be at least 1e-5 of the footwall's width and "
+                        "depth; raise it, or move left_m and right_m in",
+                        text(base.cell_size), text(least)));
+}
+
+/// The rock right of the wall, which the wall takes along, weighs as the discs do on the flat: see
+/// coupling::ElasticBase. A wall that stands on a dip has no flat to weigh them on.
+void check_flat(const Scene& scene, const fem::FootwallRequest& request, const dem::Chain& chain,
+                const Refuse& refuse) {
+    constexpr double level = 1.0; // m
+    const double wall = scene.hanging_wall.length;
+    const double end = std::min(request.interface_end, request.right);
+    if (dem::height_at(chain, wall) < dem::height_at(chain, end) + level)
+        return;
+    const auto flat = std::ranges::find_if(chain, [&](const dem::Segment& segment) {
+        return segment.end.y < chain.back().end.y + level;
+    });
+    refuse("hanging_wall.length_m",
+           fmt::format("is {}, where the detachment below the right wall still dips; beside "
+                       "[elastic_base] allowed: at least {:.0f}, where it is flat, since the rock "
+                       "that the wall takes along is weighed there",
+                       text(wall), std::ceil(flat->end.x)));
+}
+
 /// Refusals of the footwall itself, before a run prepares anything.
 void check(const Scene& scene, const Refuse& refuse) {
     const P& base = *listric::elastic_base(scene);
@@ -151,15 +188,17 @@ void check(const Scene& scene, const Refuse& refuse) {
                         text(base.bending.elastic_thickness), text(base.depth)));
     const dem::Extent extent{scene.hanging_wall.length, scene.hanging_wall.thickness,
                              greatest_extension(scene)};
-    if (!(base.right > extent.reach()))
+    if (!(base.bending.right > extent.reach()))
         refuse("elastic_base.right_m",
                fmt::format("is {}, allowed: above {}, beyond the right wall's last position",
-                           text(base.right), text(extent.reach())));
+                           text(base.bending.right), text(extent.reach())));
     if (base.bending.solver != fem::Solver::mumps)
         refuse("elastic_base.solver",
                "makes no factors, which a base under discs is condensed with; allowed: mumps");
+    const ModelParts parts = make_parts(scene);
+    const fem::FootwallRequest request = make_footwall_request(scene, parts);
+    check_cell_size(base, request, refuse);
     try {
-        const fem::FootwallRequest request = make_footwall_request(scene, make_parts(scene));
         fem::check(request);
         if (base.mesh_file.empty())
             fem::make_blocks(request);
@@ -172,6 +211,7 @@ void check(const Scene& scene, const Refuse& refuse) {
     } catch (const fem::FootwallError& error) {
         refuse("elastic_base.mesh_file", error.what());
     }
+    check_flat(scene, request, parts.base.surfaces.front().chain, refuse);
 }
 
 void contribute(const Scene& scene, ModelParts& parts) {
@@ -196,13 +236,15 @@ std::string explain(const Scene& scene, EffectList list) {
         "    footwall and on the detachment, {} kg/m3 at the base\n"
         "    {}\n",
         base.bending.elastic_thickness / 1e3, base.depth / 1e3, base.bending.left / 1e3,
-        base.right / 1e3, base.relaxation, base.skin_thickness / 1e3,
+        base.bending.right / 1e3, base.relaxation, base.skin_thickness / 1e3,
         schemes[static_cast<int>(base.scheme)], base.update_interval, base.bending.crust_density,
         base.bending.mantle_density - base.bending.crust_density,
         base.bending.infill_density > 0.0
-            ? fmt::format("{} kg/m3 on the footwall's surface where it sinks",
-                          base.bending.infill_density)
-            : std::string("no infill of what sinks of the footwall's surface"));
+            ? fmt::format("infill of {} kg/m3 on the footwall's surface: {} kg/m3 there, where it "
+                          "sinks and\n    where it rises",
+                          base.bending.infill_density,
+                          base.bending.crust_density - base.bending.infill_density)
+            : std::string("no infill on the footwall's surface"));
     std::vector<std::string_view> absent;
     for (const Effect* effect : list) {
         if (effect->absence.empty())

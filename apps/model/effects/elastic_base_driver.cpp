@@ -5,13 +5,16 @@
 #include "apps/model/effects/elastic_base_request.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/model/model.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/support/error.hpp"
+#include "apps/support/file.hpp"
 #include "coupling/base_memory.hpp"
 #include "coupling/elastic_base.hpp"
 #include "coupling/footwall_loads.hpp"
 #include "coupling/independent_solution.hpp"
 #include "coupling/interface_loads.hpp"
 #include "dem/contacts/contacts.hpp"
+#include "dem/hash.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/units.hpp"
 
@@ -19,7 +22,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace listric {
@@ -45,12 +50,27 @@ auto refusing(auto&& make) {
 
 std::unique_ptr<ElasticBase> make_elastic_base(const Scene& scene, const ModelParts& parts,
                                                fem::Footwall& footwall) {
-    Interface interface = condense(footwall, elastic_base(scene)->bending.degree);
+    const ElasticBaseParameters& p = *elastic_base(scene);
+    Interface interface = condense(footwall, p.bending.degree);
+    const double reach = scene.hanging_wall.length + greatest_extension(scene);
+    if (interface.x.back() < reach)
+        throw fem::FootwallError(
+            fmt::format("mesh_file: the edges on the detachment that {} has up to x = {:.0f} m, "
+                        "three cell_size_m beyond the right wall's last position, end at {:.0f} m, "
+                        "allowed: at least {:.0f}; make its edges there shorter, or raise "
+                        "elastic_base.refinements",
+                        p.mesh_file.empty() ? "the mesh" : p.mesh_file, reach + 3.0 * p.cell_size,
+                        interface.x.back(), reach));
     const std::size_t last = interface.x.size() - 1;
     const double spacing = hypotenuse(interface.x[last] - interface.x[last - 1],
                                       interface.y[last] - interface.y[last - 1]);
     return std::make_unique<ElasticBase>(std::move(interface),
                                          make_coupling_parameters(scene, parts, spacing));
+}
+
+/// Sum over the mesh file's content; 0 without such a file.
+std::uint64_t checksum_of(const fem::FootwallRequest& request) {
+    return request.mesh_file.empty() ? 0 : fnv1a(read_text_if_there(request.mesh_file));
 }
 
 /// Why a field is not one of linear elasticity, if so.
@@ -78,7 +98,7 @@ class ElasticBaseDriver final : public BaseDriver {
 public:
     ElasticBaseDriver(const Scene& scene, const ModelParts& parts,
                       std::vector<std::unique_ptr<Event>>& events)
-        : request_(make_footwall_request(scene, parts)),
+        : request_(make_footwall_request(scene, parts)), mesh_checksum_(checksum_of(request_)),
           rock_weight_(elastic_base(scene)->bending.crust_density * parts.gravity),
           footwall_(refusing([&] { return fem::make_footwall(request_); })),
           base_(refusing([&] { return make_elastic_base(scene, parts, *footwall_); })),
@@ -99,13 +119,18 @@ public:
     void settle(State& state, const RigidBase& base, const CyclePhysics& physics,
                 const Execution& execution, const Progress& progress) const override {
         base_->attach(state);
+        if (!request_.mesh_file.empty())
+            set_mesh_checksum(state, mesh_checksum_);
         find_contacts(state, base);
         base_->settle(state, base, physics, execution, progress);
     }
 
+    void require_own(const State& state) const override;
+
     BaseWindow end_window(State& state, const RigidBase& rigid) override;
 
     const fem::Footwall* recover(const State& state) override {
+        require_own(state);
         fem::Load load = loads_.elsewhere(state);
         load.interface = base_->interface_forces(state);
         load.interface.resize(2 * footwall_->interface().size(), 0.0);
@@ -116,13 +141,44 @@ public:
     std::optional<BaseCheck> check(const State& state) const override;
 
 private:
+    IndependentSolution solve_on_finer_mesh(const State& state,
+                                            std::span<const double> on_interface) const;
+
     fem::FootwallRequest request_;
+    std::uint64_t mesh_checksum_;
     double rock_weight_; ///< N/m^3
     std::unique_ptr<fem::Footwall> footwall_;
     std::unique_ptr<ElasticBase> base_;
     FootwallLoads loads_;
 };
 
+void ElasticBaseDriver::require_own(const State& state) const {
+    const std::string& file = request_.mesh_file;
+    const bool fits = base_->fits(state);
+    if (fits && (file.empty() || mesh_checksum(state).value_or(mesh_checksum_) == mesh_checksum_))
+        return;
+    if (!file.empty())
+        throw UsageError(fmt::format("elastic_base.mesh_file: {} has changed since the run began, "
+                                     "whose state belongs to the mesh of before; give the file "
+                                     "back what it held, or begin again with --force",
+                                     file));
+    throw UsageError(fmt::format("elastic_base: the run was begun on another footwall, of {} nodes "
+                                 "on the detachment and {} modes, now {} and {}; go on with the "
+                                 "version that began it, or begin again with --force",
+                                 state.base_nodes.rows(), mode_count(state),
+                                 base_->interface().x.size(), base_->modes().count()));
+}
+
+/// Throws fem::FootwallError, also where the mesh's file is another by now.
+IndependentSolution
+ElasticBaseDriver::solve_on_finer_mesh(const State& state,
+                                       std::span<const double> on_interface) const {
+    if (checksum_of(request_) != mesh_checksum_)
+        throw fem::FootwallError(request_.mesh_file + ": has changed since the run began");
+    return solve_independently(request_, base_->interface(), on_interface, loads_.elsewhere(state));
+}
+
+/// A finer mesh that cannot be made costs the run these measures alone.
 std::optional<BaseCheck> ElasticBaseDriver::check(const State& state) const {
     const std::optional<ConstInterfaceMeans> means = last_window_means(state);
     if (!means)
@@ -141,10 +197,16 @@ std::optional<BaseCheck> ElasticBaseDriver::check(const State& state) const {
     const std::vector<double> water = interface_loads(state);
     for (std::size_t k = 0; k < water.size(); ++k)
         on_interface[k] += water[k];
-    const IndependentSolution fine = refusing([&] {
-        return solve_independently(request_, base_->interface(), on_interface,
-                                   loads_.elsewhere(state));
-    });
+    IndependentSolution fine;
+    try {
+        fine = solve_on_finer_mesh(state, on_interface);
+    } catch (const fem::FootwallError& error) {
+        return BaseCheck{{},
+                         fmt::format("warning: elastic_base: the base cannot be solved for on a "
+                                     "finer mesh, so that {} and {} are not known: {}",
+                                     effects::base_elements_difference,
+                                     effects::base_resolved_difference, error.what())};
+    }
     const double elements = relative_difference(base_->displacement(all), fine.displacement);
     const double base = relative_difference(now, fine.displacement);
     return BaseCheck{

@@ -15,7 +15,6 @@ struct ElasticBaseParameters {
     BendingBase bending;
 
     // Under discs.
-    double right = 350e3;           ///< x of the other far side, m
     double depth = 30e3;            ///< of the base's lower boundary, m
     double relaxation = 100.0;      ///< shear modulus over that below the elastic thickness
     double skin_thickness = 3e3;    ///< rock along the detachment that is not relaxed, m

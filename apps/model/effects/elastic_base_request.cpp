@@ -20,7 +20,7 @@ fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts&
                                       s.length,
                                       s.curvature});
     request.left = base.bending.left;
-    request.right = base.right;
+    request.right = base.bending.right;
     request.depth = base.depth;
     request.layers = base.layers;
     if (request.layers.empty())
@@ -35,7 +35,8 @@ fem::FootwallRequest make_footwall_request(const Scene& scene, const ModelParts&
     request.relaxation = base.relaxation;
     request.skin_thickness = base.skin_thickness;
     // Springs at the density contrasts. All of them at the base would leave the plate floating on
-    // rock that carries nothing.
+    // rock that carries nothing. Linear springs take infill for both signs: as if it lay on the
+    // flank, too, where the surface rises.
     request.surface_spring = (base.bending.crust_density - base.bending.infill_density) * gravity;
     request.detachment_spring = base.bending.crust_density * gravity;
     request.base_spring = (base.bending.mantle_density - base.bending.crust_density) * gravity;

@@ -1,6 +1,7 @@
 #include "dem/events/fault_weakening.hpp"
 
 #include "apps/model/measure_names.hpp"
+#include "apps/scene/stage.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/events/property_update.hpp"
 
@@ -172,7 +173,7 @@ const Effect& effect() {
                 .key = "weakened",
                 .file = "mat18-w-frictional",
                 .doc = "material, by name or path, with the defaults of weakened discs in "
-                       "[fault_weakening]",
+                       "[fault_weakening]; [bonds] of it are not used, weakened rock has none",
                 .changes = "Sets how strong faults are: friction between their discs decides "
                            "whether a graben keeps all of the extension.",
                 .take =
@@ -185,6 +186,11 @@ const Effect& effect() {
                     [](const Scene& scene) {
                         return fmt::format("friction {:g}", scene.find<P>()->material.friction);
                     },
+            },
+        .warning =
+            [](const Scene& scene) {
+                return warning_of_never(scene, "fault_weakening.interval_a",
+                                        scene.find<P>()->interval);
             },
         .contribute =
             [](const Scene& scene, ModelParts& parts) {

@@ -43,6 +43,10 @@ void check(const Scene& scene, const Refuse& refuse) {
     if (bending_base(scene)->infill_density > 0.0)
         refuse("footwall_erosion",
                "fills hollows itself; infill_density_kg_per_m3 of the base must be 0 beside it");
+    if (const std::string why =
+            objection_to_fill(scene.find<P>()->sediment_density, *bending_base(scene));
+        !why.empty())
+        refuse("footwall_erosion.sediment_density_kg_per_m3", why);
 }
 
 coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts) {

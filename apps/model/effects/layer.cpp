@@ -136,11 +136,27 @@ void take_weakened(Scene& scene, std::size_t item, const std::string& file, cons
     take(layer.weakened_friction, rock.material.friction);
 }
 
-std::vector<dem::Point> read_line(const std::string& file) {
+/// Why a point can be in no line of a layer; empty if it can.
+std::string objection_to_point(const Scene& scene, dem::Point p) {
+    const double length = scene.hanging_wall.length;
+    if (p.x < 0.0 || p.x > length)
+        return fmt::format("x = {} is outside of the hanging wall, allowed: 0 to {}; beyond its "
+                           "points a line is level",
+                           text(p.x), text(length));
+    if (p.y < 0.0 || p.y > 1e5)
+        return fmt::format("depth {} is out of range, allowed: 0 (the original surface) to 1e5{}",
+                           text(p.y), p.y < 0.0 ? "; depth is positive down" : "");
+    return "";
+}
+
+std::vector<dem::Point> read_line(const Scene& scene, const std::string& file) {
     const CsvRows rows = read_csv(file, {.numbers = {"x_m", "depth_m"}});
     std::vector<dem::Point> points;
     for (std::size_t k = 0; k < rows.size(); ++k)
         points.push_back({rows.columns[0][k], rows.columns[1][k]});
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (const std::string why = objection_to_point(scene, points[k]); !why.empty())
+            throw SceneError(fmt::format("{}: {}", csv_place(file, rows.line[k]), why));
     for (std::size_t k = 1; k < points.size(); ++k)
         if (points[k].x <= points[k - 1].x)
             throw SceneError(fmt::format("{}: x_m: {} comes after {}; sort the rows by x, each x "
@@ -155,13 +171,13 @@ std::vector<dem::Point> read_line(const std::string& file) {
 void take_top(Scene& scene, std::size_t item, const std::string& file, const Refuse& refuse) {
     if (!item_of(scene, item).top_line.empty())
         refuse(path_of(item, "top_csv"), "beside top; give one of them");
-    item_of(scene, item).top_line = read_line(file);
+    item_of(scene, item).top_line = read_line(scene, file);
 }
 
 void take_bottom(Scene& scene, std::size_t item, const std::string& file, const Refuse& refuse) {
     if (!item_of(scene, item).bottom_line.empty())
         refuse(path_of(item, "bottom_csv"), "beside bottom; give one of them");
-    item_of(scene, item).bottom_line = read_line(file);
+    item_of(scene, item).bottom_line = read_line(scene, file);
 }
 
 // ------------------------------------------------------------------------------------- checks
@@ -181,19 +197,12 @@ std::vector<double> places(const Scene& scene, const L& a, const L& b) {
 
 void check_line(const Scene& scene, std::size_t item, std::string_view key,
                 const std::vector<dem::Point>& line, const Refuse& refuse) {
-    const double length = scene.hanging_wall.length;
     for (std::size_t k = 0; k < line.size(); ++k) {
         const auto refuse_point = [&](const std::string& what) {
             refuse(path_of(item, fmt::format("{}[{}]", key, k)), what);
         };
-        if (line[k].x < 0.0 || line[k].x > length)
-            refuse_point(fmt::format("x = {} is outside of the hanging wall, allowed: 0 to {}; "
-                                     "beyond its points a line is level",
-                                     text(line[k].x), text(length)));
-        if (line[k].y < 0.0 || line[k].y > 1e5)
-            refuse_point(fmt::format("depth {} is out of range, allowed: 0 (the original surface) "
-                                     "to 1e5",
-                                     text(line[k].y)));
+        if (const std::string why = objection_to_point(scene, line[k]); !why.empty())
+            refuse_point(why);
         if (k > 0 && line[k].x <= line[k - 1].x)
             refuse_point(fmt::format("is not sorted: x = {} comes after {}; sort the points by x, "
                                      "each x once",
@@ -387,10 +396,11 @@ std::string explain(const Scene& scene, EffectList) {
     std::string lines = "layers\n";
     const double diameter = 2.0 * scene.hanging_wall.mean_radius;
     for (const L& layer : *scene.find<SceneLayers>())
-        lines += fmt::format("  {}: {:.1f} mean disc diameters thick, {}, {}, friction {:g}\n",
-                             layer.name, thickest(scene, layer) / diameter,
-                             is_soft(scene, layer) ? "soft" : "stiff",
-                             layer.strength[0] ? "bonded" : "unbonded", *layer.friction);
+        lines += fmt::format(
+            "  {}: {:.1f} mean disc diameters thick, {}, {}, friction {:g}\n", layer.name,
+            thickest(scene, layer) / diameter, is_soft(scene, layer) ? "soft" : "stiff",
+            layer.strength[0] && has_effect(scene, "bonds") ? "bonded" : "unbonded",
+            *layer.friction);
     return lines;
 }
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace listric::effects::lower_crust_thinning {
 
 namespace {
@@ -21,12 +23,39 @@ coupling::FootwallLoad load_footwall(const Scene& scene, const ModelParts& parts
                                                scene.extension.rate);
 }
 
+/// Its ends at the greatest extension, x in m.
+std::pair<double, double> reach(const Scene& scene) {
+    const P& p = *scene.find<P>();
+    const double left = p.centre - 0.5 * p.width;
+    return {left, left + p.width + greatest_extension(scene)};
+}
+
 void check(const Scene& scene, const Refuse& refuse) {
     const P& p = *scene.find<P>();
     if (const double shortening = -least_extension(scene); shortening >= p.width)
         refuse("lower_crust_thinning.width_m",
                fmt::format("is {}, but [[stage]] shortens it by {}; widen it", text(p.width),
                            text(shortening)));
+    const auto& base = *bending_base(scene);
+    const auto [left, right] = reach(scene);
+    if (right <= base.left || left >= base.right)
+        refuse("lower_crust_thinning.centre_m",
+               fmt::format("is {}: the crust reaches from x = {} to {}, outside of the footwall, "
+                           "which goes from its left_m = {} to right_m = {}; move it in",
+                           text(p.centre), text(left), text(right), text(base.left),
+                           text(base.right)));
+}
+
+std::string warning(const Scene& scene) {
+    const auto& base = *bending_base(scene);
+    const auto [left, right] = reach(scene);
+    return left < base.left || right > base.right
+               ? fmt::format(
+                     "lower_crust_thinning: the crust reaches from x = {} to {}, beyond the "
+                     "footwall from its left_m = {} to right_m = {}: what lies "
+                     "outside loads nothing",
+                     text(left), text(right), text(base.left), text(base.right))
+               : std::string();
 }
 
 std::string explain(const Scene& scene, EffectList) {
@@ -63,12 +92,14 @@ const Effect& effect() {
                  "Moves the place that sinks most: nearer to the breakaway the flank rises less."},
             },
         .check = check,
+        .warning = warning,
         .load_footwall = load_footwall,
         .explain = explain,
         .absence = "thinning of the lower crust",
         .measures =
             {{coupling::lower_crust_thinning_name, "m",
-              "h e / (b + e) of the lower crust's thickness h and width b, and extension e"}},
+              "h e / (b + e) of the lower crust's thickness h and width b, and the extension e at "
+              "the load's last step"}},
     };
     return effect;
 }

@@ -64,6 +64,7 @@ std::vector<std::pair<std::string, std::vector<dem::Point>>> lines_of(const F& f
 }
 
 void check(const Scene& scene, const Refuse& refuse) {
+    constexpr int samples = 100; // of a line between two points
     const OldFaultList& faults = *scene.find<OldFaultList>();
     const double right = scene.hanging_wall.length;
     const dem::Chain base = make_rigid_base(scene).surfaces.front().chain;
@@ -81,11 +82,15 @@ void check(const Scene& scene, const Refuse& refuse) {
             double length = 0.0;
             bool is_inside = false;
             for (std::size_t p = 0; p < points.size(); ++p) {
-                const dem::Point at = points[p];
-                is_inside |= at.x >= 0.0 && at.x <= right && at.y >= 0.0 &&
-                             at.y <= -dem::height_at(base, at.x);
-                if (p > 0)
-                    length += dem::hypotenuse(at.x - points[p - 1].x, at.y - points[p - 1].y);
+                const dem::Point from = points[p > 0 ? p - 1 : 0], to = points[p];
+                length += dem::hypotenuse(to.x - from.x, to.y - from.y);
+                for (int s = 0; s <= samples; ++s) { // it may cross the wall, and end outside
+                    const double share = static_cast<double>(s) / samples;
+                    const dem::Point at{from.x + share * (to.x - from.x),
+                                        from.y + share * (to.y - from.y)};
+                    is_inside |= at.x >= 0.0 && at.x <= right && at.y >= 0.0 &&
+                                 at.y <= -dem::height_at(base, at.x);
+                }
             }
             if (!is_inside)
                 refuse(table, fmt::format("{} is outside of the hanging wall, allowed: points from "

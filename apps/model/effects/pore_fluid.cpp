@@ -8,6 +8,7 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/pieces.hpp"
+#include "apps/scene/stage.hpp"
 
 #include <fmt/format.h>
 
@@ -109,6 +110,12 @@ void check(const Scene& scene, const Refuse& refuse) {
                fmt::format("weighs rock and grains by one buoyancy, which needs equal densities; "
                            "hanging_wall.rock_density_kg_per_m3 is {}, grains have {}",
                            text(rock), text(grains)));
+    for (std::size_t k = 0; k < parts.layers.size(); ++k)
+        if (const double density = parts.layers[k].rock.density; density != grains)
+            refuse(fmt::format("layer[{}].density_kg_per_m3", k),
+                   fmt::format("is {} beside [pore_fluid], which weighs rock and grains by one "
+                               "buoyancy, allowed: {}, the density of grains",
+                               text(density), text(grains)));
     if (!(*parts.sediment->porosity_decay > 0.0) || !(parts.sediment->surface_porosity > 0.0))
         refuse("pore_fluid", "needs sediment that compacts: a decay of porosity with depth and a "
                              "surface porosity above 0");
@@ -145,7 +152,11 @@ std::string explain(const Scene& scene, EffectList) {
             parts.physics.gravity / parts.gravity);
     const coupling::MudColumn column = mud_column(p, wet_sediment(parts), parts.gravity);
     // A floor below a steep detachment sinks by nine tenths of the extension.
-    const double depth = std::min(0.9 * scene.extension.distance, scene.hanging_wall.thickness);
+    const double depth = std::min(0.9 * greatest_extension(scene), scene.hanging_wall.thickness);
+    if (depth <= 0.0)
+        return fmt::format(
+            "pore fluid\n  discs weigh {:.3f} of their weight in air; nothing sinks\n",
+            parts.physics.gravity / parts.gravity);
     const double seconds =
         dem::Schedule{scene.extension.distance / scene.extension.rate, scene.extension.rate}
             .seconds();

@@ -231,6 +231,11 @@ const Effect& effect() {
                     },
             },
         .check = check,
+        .warning =
+            [](const Scene& scene) {
+                return warning_of_never(scene, "sedimentation.interval_a",
+                                        scene.find<P>()->interval);
+            },
         .contribute =
             [](const Scene& scene, ModelParts& parts) {
                 const P& p = *scene.find<P>();

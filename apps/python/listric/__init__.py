@@ -10,7 +10,7 @@ wall. Columns of snapshots are those of the file, bit for bit: there y points up
 surface. All else that has a depth has it positive down. docs/python.md says more.
 """
 
-from .errors import ListricError, ProgramError, RunError, UnknownName
+from .errors import BadValue, ListricError, ProgramError, RunError, UnknownName
 from .picture import Picture
 from .program import call, find_program, simulate
 from .raster import Raster
@@ -18,5 +18,5 @@ from .run import Run
 from .snapshot import Snapshot
 from .table import Column, Table
 
-__all__ = ["Column", "ListricError", "Picture", "ProgramError", "Raster", "Run", "RunError", "Snapshot",
+__all__ = ["BadValue", "Column", "ListricError", "Picture", "ProgramError", "Raster", "Run", "RunError", "Snapshot",
            "Table", "UnknownName", "call", "find_program", "simulate"]

@@ -1,6 +1,7 @@
 """Errors of this package. Every message is one line that names the file, or the call, and the cure."""
 
 import difflib
+import math
 
 
 class ListricError(Exception):
@@ -28,6 +29,21 @@ class UnknownName(ListricError, KeyError):
     def __reduce__(self):
         """Makes it again from what it was made of: a worker process hands it on by pickle."""
         return type(self), self._made_of
+
+
+class BadValue(ListricError, ValueError):
+    """A value that a call cannot take."""
+
+
+def finite_number(name, value, cure) -> float:
+    """The number that a caller gave. Throws BadValue."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise BadValue(f"{name} = {value!r}: is no finite number; {cure}")
+    return number
 
 
 class ProgramError(ListricError):

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .errors import RunError
+from .errors import RunError, UnknownName
 from .program import call
 from .stand_in import stand_in
 from .table import read_csv
@@ -13,16 +13,18 @@ from .table import read_csv
 def exported_lines(snapshot, kind: str) -> list[dict]:
     """Lines of a snapshot from its run's folder `export`, or else from the program.
 
-    Throws ProgramError, RunError.
+    Throws UnknownName, where the moment has no such lines, too, ProgramError, RunError.
     """
     path = snapshot.path.absolute()
     exported = path.parents[1] / "export" / f"{kind}-{path.stem}.csv"
     if exported.is_file() and exported.stat().st_mtime >= path.stat().st_mtime:
         return read_lines(exported)
     with stand_in(snapshot, without="export") as folder:
-        call("export", kind, folder, "--format", "csv", "--at", snapshot.travel_m)
-        written, = (folder / "export").glob(f"{kind}-*.csv")  # beside those of a well is its burial
-        return read_lines(written)
+        call("export", "well" if kind == "burial" else kind, folder, "--format", "csv", "--at", snapshot.travel_m)
+        written = {file.name.split("-")[0]: file for file in (folder / "export").glob("*-*.csv")}
+        if kind not in written:
+            raise UnknownName(kind, written, f"lines of {path} at {snapshot.travel_m:g} m")
+        return read_lines(written[kind])
 
 
 def read_lines(path: Path) -> list[dict]:

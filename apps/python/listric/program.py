@@ -1,13 +1,15 @@
 """The program, found and called."""
 
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from .errors import ProgramError
+from .errors import ProgramError, finite_number
 
 _HERE = Path(__file__).resolve().parent
 
@@ -91,7 +93,7 @@ def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=N
     for effect in [without] if isinstance(without, str) else without:
         words += ["--without", effect]
     options = {"--accuracy": accuracy, "--seed": seed, "--threads": threads,
-               "--until": None if until_m is None else f"{float(until_m)}m"}
+               "--until": None if until_m is None else f"{finite_number('until_m', until_m, 'give metres')}m"}
     for option, value in options.items():
         if value is not None:
             words += [option, value]
@@ -107,7 +109,16 @@ def _toml(value, nested: bool = False) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{key} = {_toml(one, True)}" for key, one in value.items()) + "}"
+        return "{" + ", ".join(f"{_key(key)} = {_toml(one, True)}" for key, one in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_toml(one, True) for one in value) + "]"
-    return f'"{value}"' if nested and isinstance(value, (str, Path)) else str(value)
+    return _quoted(str(value)) if nested and isinstance(value, (str, Path)) else str(value)
+
+
+def _key(name) -> str:
+    return str(name) if re.fullmatch("[A-Za-z0-9_-]+", str(name)) else _quoted(str(name))
+
+
+def _quoted(text: str) -> str:
+    """TOML's string: it is JSON's, which leaves DEL as it is."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

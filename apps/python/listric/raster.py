@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .errors import BadValue, finite_number
 from .table import Column, Table
 
 
@@ -28,12 +29,17 @@ def draw_raster(discs: Table, values: Column, spacing: float, extent, reach: flo
 
     Radii are those of the rock; a weakened disc's own is that of a spring.
     """
+    spacing = finite_number("spacing", spacing, "give metres, such as spacing=100.0")
     if not spacing > 0.0:
-        raise ValueError(f"raster: spacing = {spacing}: must be above 0 m")
+        raise BadValue(f"spacing = {spacing}: must be above 0 m")
     x, depth, radius = np.asarray(discs["x"]), -discs["y"], _rock_radius(discs)
     if extent is None:
         margin = radius + reach
         extent = (*_span(x, margin), *_span(depth, margin))
+    elif not np.iterable(extent) or len(extent := list(extent)) != 4:
+        raise BadValue(f"extent = {extent!r}: needs four numbers in m: least x, greatest x, least depth, "
+                       "greatest depth")
+    extent = [finite_number("extent", one, "give metres") for one in extent]
     # Grids of any extent have their cells at the same places: multiples of the spacing.
     first_column, first_row = (int(np.floor(low / spacing)) for low in extent[::2])
     columns = max(0, int(np.ceil(extent[1] / spacing)) - first_column)

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from .dictionary import dictionary, doc_of, unit_of
-from .errors import Named, RunError, UnknownName
+from .errors import Named, RunError, UnknownName, finite_number
 from .picture import Picture
 from .snapshot import Snapshot
 from .table import Table, html_table, read_csv
@@ -40,11 +40,9 @@ class Run:
 
     def _repr_html_(self) -> str:
         """Opens to the measures at the end, or so far."""
-        history = self.history
-        last = {name: history[name][-1] for name in history if history.rows}
         table = html_table(("measure", "value", "unit", "definition"),
-                           ((name, f"{value:.6g}", history.units[name] or "", doc_of(name))
-                            for name, value in last.items() if np.isfinite(value)))
+                           ((name, f"{value:.6g}", self._unit_of(name) or "", doc_of(name))
+                            for name, value in self._last_measures().items() if np.isfinite(value)))
         return f"<details><summary>{escape(repr(self)[1:-1])}</summary>{table}</details>"
 
     @cached_property
@@ -55,8 +53,10 @@ class Run:
         return _moments(sorted(found, key=lambda one: (one.named_extension_m, len(one.path.name))))
 
     def at(self, extension_m: float) -> Snapshot:
-        """The snapshot nearest to an extension, with [[stage]] to a travel, m. Throws RunError if there is none at all."""
-        return min(self._some_snapshots(), key=lambda one: abs(one.named_extension_m - extension_m))
+        """The snapshot nearest to an extension, with [[stage]] to a travel, m. Throws RunError if there is none at all,
+        BadValue."""
+        wanted = finite_number("extension_m", extension_m, "give metres, such as run.at(5000.0)")
+        return min(self._some_snapshots(), key=lambda one: abs(one.named_extension_m - wanted))
 
     def plot(self, kind: str = "strata", at: float | None = None) -> Picture:
         """The section nearest to an extension, m, or the newest, as Snapshot.plot()."""
@@ -64,8 +64,9 @@ class Run:
 
     @cached_property
     def history(self) -> Table:
-        """history.csv: a row per snapshot, a column per measure (docs/measures.md), NaN where it has
-        no meaning; units as the program declares them, or as the last snapshot has them."""
+        """history.csv: a row at the start and after every `output.interval_m`, a column per measure
+        (docs/measures.md), NaN where it has no meaning; units as the program declares them, or as the last
+        snapshot has them. An end between two rows has none: `summary` has its measures."""
         return read_csv(self.folder / "history.csv", self._unit_of)
 
     @cached_property
@@ -104,6 +105,14 @@ class Run:
         `name`, `stratum`, `x_m`, `depth_m` and the others of docs/export.md, which explains how they are
         found. `snapshot.lines("horizons")` has the lines of any moment, with their source."""
         return self._some_snapshots()[-1].lines("horizons")
+
+    def _last_measures(self) -> dict[str, float]:
+        """What history tells, as summary.json has it; the last row while there is none."""
+        history = self.history
+        if (self.folder / "summary.json").is_file():
+            return {name: self.summary[name] for name in history
+                    if isinstance(self.summary.get(name), (int, float))}
+        return {name: history[name][-1] for name in history if history.rows}
 
     def _unit_of(self, name: str) -> str | None:
         """Entry of a measure; an unknown one may belong to an effect of the reader's own."""

@@ -126,12 +126,13 @@ class Snapshot:
 
     def lines(self, kind: str) -> list[dict]:
         """Lines of `listric export KIND` at this moment: "horizons", "faults", "surfaces", "base",
-        "layers", "well".
+        "layers", "well" where pore water is under pressure, and "burial" of the strata in a well.
 
         A dict per line with the columns of docs/export.md: one value for those of a line, an array of
         shape (points,) for those of a point, among them x_m and depth_m (positive down). Read from the
         run's folder `export` if they are there and not older than the snapshot; else the program is
-        called, which takes seconds and leaves nothing behind. Throws ProgramError, RunError.
+        called, which takes seconds and leaves nothing behind. Throws UnknownName, where the moment has
+        no such lines, too, ProgramError, RunError.
         """
         if kind not in self._lines:
             self._lines[kind] = exported_lines(self, kind)
@@ -143,7 +144,7 @@ class Snapshot:
         spacing  of the grid, m
         extent   (least x, greatest x, least depth, greatest depth), m; without it, around all discs
 
-        draw_raster says which disc a cell is of. Throws UnknownName, RunError.
+        draw_raster says which disc a cell is of. Throws UnknownName, RunError, BadValue.
         """
         discs, mean_radius = self.discs, self.numbers["mean_radius"]
         return draw_raster(discs, discs[column], spacing, extent, reach=0.5 * mean_radius)

@@ -27,7 +27,7 @@ std::optional<Output> outputs::haste(const RunView&) {
             "warning: too fast to be quasi-static: unbalanced forces are {:.2g} of contact forces "
             "(at most {:g}), the inertial number is {:.2g} (at most {:g}); a smaller "
             "extension.speed_m_per_s than {:g} is needed, or more discs",
-            measures.unbalanced_ratio_mean, greatest_unbalanced_ratio, measures.inertial_number,
+            *measures.unbalanced_ratio_mean, greatest_unbalanced_ratio, measures.inertial_number,
             greatest_inertial_number, run.scene.extension.speed));
     };
     return Output{.part = Part::measures, .window = warn, .finish = warn};
