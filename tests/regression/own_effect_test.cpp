@@ -60,7 +60,7 @@ std::vector<std::string> event_names(const Scene& scene) {
 TEST_F(OwnEffect, IsReadAndRefusedByItsDescription) {
     EXPECT_EQ(with().find<SpeedGaugeParameters>()->interval, 500.0);
     EXPECT_EQ(with({"speed_gauge={}"}).find<SpeedGaugeParameters>()->interval, 1000.0);
-    EXPECT_EQ(with({"speed_gauge={}"}, {"speed_gauge"}).find<SpeedGaugeParameters>(), nullptr);
+    EXPECT_EQ(with({}, {"speed_gauge"}).find<SpeedGaugeParameters>(), nullptr);
 
     SceneRequest request{.scene = test_scene("every-effect.toml")};
     request.set = {"speed_gauge.interval_a=0"};
@@ -70,6 +70,9 @@ TEST_F(OwnEffect, IsReadAndRefusedByItsDescription) {
     EXPECT_THAT(refusal(request, effects_and_gauge()), HasSubstr("did you mean speed_gauge?"));
     request.set = {"speed_gauge={}"};
     EXPECT_THAT(refusal(request, program_effects()), HasSubstr("unknown table"));
+    request.without = {"speed_gauge"};
+    EXPECT_THAT(refusal(request, effects_and_gauge()),
+                HasSubstr("which --without speed_gauge leaves out"));
 }
 
 TEST_F(OwnEffect, IsExplainedPricedAndInTheReference) {

@@ -261,10 +261,11 @@ TEST_F(PoreFluidRun, WarnsOfStrataThatAreShocks) {
     };
     EXPECT_THAT(warnings({"pore_fluid={}", "sedimentation.interval_a=50000"}),
                 Contains(AllOf(HasSubstr("50000 a"), HasSubstr("shocks"))));
-    EXPECT_TRUE(warnings({"pore_fluid={}"}).empty());
-    EXPECT_TRUE(
-        warnings({"pore_fluid.hydrostatic=true", "sedimentation.interval_a=50000"}).empty());
-    EXPECT_TRUE(warnings({"sedimentation.interval_a=50000"}).empty());
+    const auto shocks = Contains(HasSubstr("shocks"));
+    EXPECT_THAT(warnings({"pore_fluid={}"}), Not(shocks));
+    EXPECT_THAT(warnings({"pore_fluid.hydrostatic=true", "sedimentation.interval_a=50000"}),
+                Not(shocks));
+    EXPECT_THAT(warnings({"sedimentation.interval_a=50000"}), Not(shocks));
 }
 
 TEST_F(PoreFluidRun, GenesisDependsOnTheDensityOnly) {
