@@ -60,7 +60,6 @@ std::vector<std::string> event_names(const Scene& scene) {
 TEST_F(OwnEffect, IsReadAndRefusedByItsDescription) {
     EXPECT_EQ(with().find<SpeedGaugeParameters>()->interval, 500.0);
     EXPECT_EQ(with({"speed_gauge={}"}).find<SpeedGaugeParameters>()->interval, 1000.0);
-    EXPECT_EQ(with({}, {"speed_gauge"}).find<SpeedGaugeParameters>(), nullptr);
 
     SceneRequest request{.scene = test_scene("every-effect.toml")};
     request.set = {"speed_gauge.interval_a=0"};
