@@ -58,4 +58,12 @@ write_basic_package_version_file(ListricConfigVersion.cmake COMPATIBILITY SameMi
 install(FILES ${PROJECT_BINARY_DIR}/ListricConfig.cmake cmake/FindLibcsv.cmake
   ${PROJECT_BINARY_DIR}/ListricConfigVersion.cmake DESTINATION ${package} COMPONENT development)
 
+# Folders are made under the umask, and CMake cannot set another (debian_files.cmake mends packages).
+install(CODE [[
+  execute_process(COMMAND sh -c umask OUTPUT_VARIABLE umask OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(NOT umask MATCHES "[02][02]$" AND NOT "$ENV{DESTDIR}" MATCHES "/_CPack_Packages/")
+    message(WARNING "umask is ${umask}: new folders are closed to other users; where these shall run the "
+      "program: chmod -R a+rX '$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}'")
+  endif()]] ALL_COMPONENTS)
+
 include(cmake/package.cmake)

@@ -14,8 +14,11 @@ void add_mean_velocities(State& state) {
 }
 
 void refuse_runaways(const State& state) {
-    if (state.displacement_bound < 10.0 * state.mean_radius)
-        return;
+    if (!(state.displacement_bound < 10.0 * state.mean_radius))
+        refuse_displaced(state);
+}
+
+void refuse_displaced(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (!(hypotenuse(d.x[i] - d.searched_x[i], d.y[i] - d.searched_y[i]) <

@@ -60,7 +60,8 @@ struct NumericalFailure : std::runtime_error {
 double stable_time_step(double mass, const Material& material, double damping, double safety);
 
 /// Throws NumericalFailure if a disc is several radii from its searched place, or nowhere: it is
-/// out of control.
+/// out of control. Quick where the state's bound of displacements rules it out.
 void refuse_runaways(const State& state);
+void refuse_displaced(const State& state); ///< whatever the bound
 
 } // namespace listric::dem

@@ -4,7 +4,7 @@ namespace listric::dem {
 
 namespace {
 
-double series(double a, double b) { return a * b / (a + b); }
+double series(double a, double b) { return a > 0.0 && b > 0.0 ? a * b / (a + b) : 0.0; }
 
 } // namespace
 

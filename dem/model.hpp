@@ -21,7 +21,7 @@ namespace listric::dem {
 struct Model {
     HangingWallParameters hanging_wall = {};
     DetachmentParameters detachment = {};
-    double distance = 10e3; ///< greatest extension, m
+    double distance = 10e3; ///< greatest extension, m: extend_to() goes no further
     double rate = 0.01;     ///< geological extension rate, m/a: the clock of all events
     Motion motion = {.speed = 1.0, .ramp = 24.0};
     CyclePhysics physics = {.gravity = standard_gravity, .averaging_time = 150.0};
@@ -35,10 +35,10 @@ struct Model {
 };
 
 /// Base, physics and events of a model. Add events of your own, then
-/// begin(make_hanging_wall(model)).
+/// begin(make_hanging_wall(model)). Throws std::invalid_argument if an effect lacks another.
 Simulation make_simulation(const Model& model);
 
-/// The hanging wall of a model before extension.
+/// The hanging wall of a model before extension. Throws as make_simulation() does.
 /// @param report  as that of make_hanging_wall(GenesisRequest)
 State make_hanging_wall(const Model& model, int threads = 1,
                         const std::function<void(std::string_view, double)>& report = {});

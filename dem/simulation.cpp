@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace listric::dem {
 
@@ -25,7 +26,11 @@ Simulation::Simulation(RigidBase base, const CyclePhysics& physics)
     : base_(std::move(base)), physics_(physics),
       advance_([](State& s, const RigidBase& b, const CyclePhysics& p, std::int64_t cycles,
                   const Execution& how) { advance(s, b, p, cycles, how); }) {
-    assert(base_.motion.speed > 0.0);
+    if (!(base_.motion.speed > 0.0 && base_.motion.greatest_speed() > 0.0))
+        throw std::invalid_argument(
+            "Simulation: Motion::speed is " + std::to_string(base_.motion.speed) +
+            " m/s, and the greatest of its stages " +
+            std::to_string(base_.motion.greatest_speed()) + "; both are above 0");
 }
 
 Event& Simulation::add(std::unique_ptr<Event> event) {
@@ -71,7 +76,13 @@ void Simulation::resume(State state) {
 }
 
 bool Simulation::extend_to(double goal, const Execution& execution, const Report& report) {
-    assert(has_state_);
+    if (!has_state_)
+        throw std::logic_error("Simulation::extend_to: there is no state; call begin() or resume() "
+                               "before");
+    if (const double position = base_.motion.greatest_position(goal); position > end_ + tolerance())
+        throw std::invalid_argument("Simulation::extend_to: the extension would be " +
+                                    std::to_string(position) + " m, but the base is made for " +
+                                    std::to_string(end_) + " m; raise Model::distance");
     assert(!execution.energy); // that is EnergyAccount's
     const Team team(execution.threads);
     while (travel() < goal - tolerance()) {

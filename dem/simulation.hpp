@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -61,6 +62,9 @@ public:
     }
     void respond_by(BaseResponse& response);
 
+    /// Greatest extension that the base is made for, m: extend_to() refuses to go beyond it.
+    void end_at(double extension) { end_ = extension; }
+
     /// Told how long, s of wall time, a part of the work has taken: "cycle", "rebuild" (of the
     /// neighbour lists), or the event of that name.
     using TimeReport = std::function<void(const std::string& part, double seconds)>;
@@ -82,8 +86,8 @@ public:
     using Report = std::function<bool(const Simulation&)>;
 
     /// Cycles and events up to a travel, m, to half a cycle: to that extension, where the motion
-    /// has no stages. Returns false if the report has stopped it. Throws NumericalFailure, and what
-    /// events throw.
+    /// has no stages. Returns false if the report has stopped it. Throws NumericalFailure, what
+    /// events throw, and std::invalid_argument beyond end_at().
     bool extend_to(double travel, const Execution& execution = {}, const Report& report = {});
 
     double travel() const { return state_.clock.travel; }       ///< m
@@ -136,6 +140,7 @@ private:
     bool is_untouched_ = false; ///< whether the state is as the last cycles left it
     TimeReport time_report_;
     double disc_steps_ = 0.0;
+    double end_ = std::numeric_limits<double>::infinity(); ///< m of extension
     bool has_state_ = false;
 };
 

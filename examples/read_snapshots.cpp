@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <numbers>
+#include <span>
 
 using namespace listric;
 
@@ -14,10 +15,15 @@ int main(int argc, char** argv) {
         const dem::State state = archive::read_snapshot(argv[k]).state;
         const auto discs = disc_columns(state);
         const auto strain = state.discs.get<double>("total_strain");
+        // Where faults are detected, weak discs are larger than their rock.
+        std::span<const double> rock;
+        if (state.discs.has("rock_radius"))
+            rock = state.discs.get<double>("rock_radius");
         double sediment = 0.0, sheared = 0.0; // area of discs, m^2
         for (std::size_t i = 0; i < discs.x.size(); ++i) {
-            const double area = std::numbers::pi * discs.radius[i] * discs.radius[i];
-            if (discs.material[i] == dem::sediment)
+            const double r = rock.empty() || rock[i] == 0.0 ? discs.radius[i] : rock[i];
+            const double area = std::numbers::pi * r * r;
+            if (discs.stratum[i] > 0) // also where it is weak
                 sediment += area;
             else if (strain[i] > 0.1)
                 sheared += area;

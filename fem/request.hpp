@@ -24,7 +24,7 @@ struct Layer {
     double top_depth = 0.0;      ///< m below y = 0
     double young_modulus = 70e9; ///< Pa
     double poisson_ratio = 0.25; ///< below 0.5
-    double density = 2700.0;     ///< kg/m^3, for the springs and for output
+    double density = 2700.0;     ///< kg/m^3, for output; springs have their own
 };
 
 enum class Boundary { left = 1, base = 2, right = 3, surface = 4, detachment = 5 };

@@ -94,10 +94,14 @@ std::string to_geojson(const LineTable& table) {
         std::vector<std::string> places;
         for (const dem::Point p : line.points)
             places.push_back(fmt::format("[{}, {}]", number(p.x, "null"), number(p.y, "null")));
+        // A LineString has two positions or more (RFC 7946, 3.1.4).
+        const bool is_point = places.size() == 1;
+        const std::string list = fmt::format("{}", fmt::join(places, ", "));
         features.push_back(
             fmt::format("{{\"type\": \"Feature\", \"properties\": {},\n \"geometry\": {{\"type\": "
-                        "\"LineString\", \"coordinates\": [{}]}}}}",
-                        properties(table, line), fmt::join(places, ", ")));
+                        "\"{}\", \"coordinates\": {}}}}}",
+                        properties(table, line), is_point ? "Point" : "LineString",
+                        is_point ? list : fmt::format("[{}]", list)));
     }
     return fmt::format("{{\"type\": \"FeatureCollection\", \"name\": {}, "
                        "\"features\": [\n{}\n]}}\n",

@@ -35,7 +35,8 @@ FolderLock::FolderLock(const fs::path& output)
                          ": is a folder or a link, but keeps other runs out as a file; remove it");
     if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(file_);
-        throw UsageError(output.string() + ": another run is writing there");
+        throw FolderInUse(output.string() +
+                          ": another run is writing there; --output writes elsewhere");
     }
 }
 
@@ -189,6 +190,24 @@ std::unique_ptr<FolderLock> take_output(const FolderUse& use, const fs::path& ou
     auto lock = std::make_unique<FolderLock>(output);
     prepare_output(use, output, existing);
     return lock;
+}
+
+void require_own(std::span<const OwnFile> written, std::span<const fs::path> read) {
+    constexpr std::size_t beginning = 1 << 16;
+    for (const auto& [file, mark] : written) {
+        std::error_code error;
+        if (!fs::is_regular_file(file, error))
+            continue;
+        const bool is_read = std::ranges::any_of(read, [&, &file = file](const fs::path& other) {
+            return fs::equivalent(file, other, error) && !error;
+        });
+        if (is_read || !holds(file, mark, beginning))
+            throw UsageError(fmt::format(
+                "{}: {} would be written over; move it, or --output writes "
+                "elsewhere",
+                shown(file.string()),
+                is_read ? "is read by this call, and" : "is no file of such a call, and"));
+    }
 }
 
 void require_no_run(const fs::path& output) {

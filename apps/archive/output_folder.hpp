@@ -1,19 +1,26 @@
 #pragma once
 
 #include "apps/scene/scene.hpp"
+#include "apps/support/error.hpp"
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace listric::archive {
 
-/// Keeps other runs out of an output folder while it lives. Where files cannot be locked it keeps
+/// Another call writes in an output folder.
+struct FolderInUse : UsageError {
+    using UsageError::UsageError;
+};
+
+/// Keeps other calls out of an output folder while it lives. Where files cannot be locked it keeps
 /// nobody out.
 class FolderLock {
 public:
-    /// The folder must exist. Throws UsageError if another run writes there.
+    /// The folder must exist. Throws FolderInUse, and UsageError where there is no place for it.
     explicit FolderLock(const std::filesystem::path& output);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
@@ -45,6 +52,16 @@ FolderUse folder_use(const Scene& scene, double target);
 /// written there.
 std::unique_ptr<FolderLock> take_output(const FolderUse& use, const std::filesystem::path& output,
                                         ExistingRun existing);
+
+/// A file that a call writes, and a text near its beginning that only the program's own have.
+struct OwnFile {
+    std::filesystem::path file;
+    std::string mark;
+};
+
+/// Refuses to write over files that are read, and over what somebody else has put there, for calls
+/// that have no run of their own. Throws UsageError.
+void require_own(std::span<const OwnFile> written, std::span<const std::filesystem::path> read);
 
 /// Refuses a folder that holds a run, for other work whose files would replace the run's. Throws
 /// UsageError.

@@ -133,15 +133,6 @@ bool is_base_picture(std::string_view name) {
     });
 }
 
-/// Whether a text occurs in the first so many bytes of a file.
-bool holds(const fs::path& file, std::string_view mark, std::size_t bytes) {
-    std::ifstream in(file, std::ios::binary);
-    std::string text(bytes, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(bytes));
-    text.resize(static_cast<std::size_t>(in.gcount()));
-    return text.empty() || text.find(mark) != text.npos;
-}
-
 bool is_file(const fs::path& path) {
     std::error_code error;
     return fs::is_regular_file(path, error);
@@ -193,6 +184,14 @@ bool is_half_drawn(std::string_view name) {
 }
 
 } // namespace
+
+bool holds(const fs::path& file, std::string_view mark, std::size_t bytes) {
+    std::ifstream in(file, std::ios::binary);
+    std::string text(bytes, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(bytes));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    return text.empty() || text.find(mark) != text.npos;
+}
 
 std::optional<std::string> moment_of_snapshot(std::string_view name) {
     const auto moment = between(name, "extension-", "m.h5");

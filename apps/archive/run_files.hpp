@@ -12,6 +12,9 @@ namespace listric::archive {
 // may give their files, too, are a run's where the file begins as a run's does. What is not listed
 // here is nobody's to remove or to write over.
 
+/// Whether a text occurs in the first so many bytes of a file, or the file is empty.
+bool holds(const std::filesystem::path& file, std::string_view mark, std::size_t bytes);
+
 /// The moment, in metres, that the name of a snapshot tells; none: that is no snapshot's name.
 std::optional<std::string> moment_of_snapshot(std::string_view name);
 std::string snapshot_name(std::string_view moment);

@@ -52,8 +52,7 @@ measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
     setting.youngest_sediment = parts.youngest_sediment * scene.extension.rate;
     setting.detection_circle = parts.detection_circle;
     if (const auto& s = parts.sediment)
-        setting.sediment = {s->level, s->surface, s->surface_porosity, s->disc_density,
-                            s->porosity_decay};
+        setting.sediment = {s->surface, s->surface_porosity, s->disc_density, s->porosity_decay};
     setting.boundaries = boundaries_of(parts);
     return setting;
 }

@@ -7,6 +7,7 @@
 #include "apps/studies/student.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/number.hpp"
+#include "apps/support/shell.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
 
@@ -14,6 +15,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 #include <tuple>
@@ -141,9 +143,26 @@ SceneRequest request_of(SceneRequest request, const std::string& level, double s
     return request;
 }
 
+/// A word of a call, in quotes where a shell would take it apart.
+std::string shell_word(const std::string& word) {
+    const bool is_plain = std::ranges::all_of(word, [](unsigned char letter) {
+        return std::isalnum(letter) ||
+               std::string_view("/._-+=,@%:").find(static_cast<char>(letter)) !=
+                   std::string_view::npos;
+    });
+    return is_plain ? word : shell_quoted(word);
+}
+
+/// The call that makes such a run of the request.
 std::string call_of(const AccuracyChoice& choice, const SceneRequest& request) {
-    return fmt::format("listric run {} --accuracy {} --set extension.speed_m_per_s={:g}",
-                       request.scene, choice.level, choice.speed);
+    std::string call =
+        fmt::format("listric run {} --accuracy {}", shell_word(request.scene), choice.level);
+    for (const std::string& table : request.without)
+        call += fmt::format(" --without {}", shell_word(table));
+    for (const std::string& change : request.set)
+        call += fmt::format(" --set {}", shell_word(change));
+    call += fmt::format(" --set extension.speed_m_per_s={:g}", choice.speed);
+    return request.seed ? fmt::format("{} --seed {}", call, *request.seed) : call;
 }
 
 std::string part_text(const std::string& key, const std::optional<archive::ErrorPart>& part) {
@@ -272,6 +291,13 @@ void refuse_level(const SceneRequest& request) {
         throw UsageError(fmt::format("--accuracy {}: --within and --error choose the level; leave "
                                      "one of them out",
                                      *request.accuracy));
+    for (const std::string& change : request.set)
+        for (const std::string_view chosen :
+             {"extension.speed_m_per_s", "hanging_wall.mean_radius_m"})
+            if (change.substr(0, change.find('=')) == chosen)
+                throw UsageError(fmt::format("--set {}: --within and --error choose {}; leave one "
+                                             "of them out",
+                                             shown_start(change), chosen));
 }
 
 /// Lines as one.
@@ -451,9 +477,12 @@ std::string apply_asked(const AskedAccuracy& asked, SceneRequest& request, int t
                                      asked_text(asked), one_line(answer.objection)));
     const AccuracyChoice& choice = *answer.choice;
     std::string text = fmt::format("{}: {}", asked_text(asked), name_of(choice));
-    if (choice.seeds > 1)
+    if (choice.seeds > 1) {
+        SceneRequest others = request;
+        others.seed.reset();
         text += fmt::format("; this run is one of them: {} --seed N -o DIR makes the others",
-                            call_of(choice, request));
+                            call_of(choice, others));
+    }
     request = request_of(std::move(request), choice.level, choice.speed);
     return text;
 }

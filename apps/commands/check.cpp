@@ -17,6 +17,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <span>
 #include <utility>
 
 namespace listric {
@@ -86,9 +87,15 @@ std::string check_scene_file(const std::string& file, const toml::table& documen
 
 std::string check_sweep(const fs::path& file, Times& times) {
     const SweepPlan plan = load_sweep_plan(file);
+    constexpr std::size_t most_tried = 5000; // half a minute
+    const std::vector<SweepPoint> points = sweep_points(plan);
+    check_points(plan, std::span(points).first(std::min(points.size(), most_tried)), file);
     const Scene scene = scene_at(plan, {}, plan.first_seed);
-    const auto runs = sweep_points(plan).size() * static_cast<std::size_t>(plan.seeds);
+    const auto runs = points.size() * static_cast<std::size_t>(plan.seeds);
     std::string text = fmt::format("a sweep of {} runs", runs);
+    if (points.size() > most_tried)
+        text +=
+            fmt::format(", of whose {} points the first {} were tried", points.size(), most_tried);
     const Prediction p = times.of(scene);
     const auto all = static_cast<double>(runs);
     text += fmt::format(", {} and {} of disk if each takes as much as {}",
@@ -138,14 +145,14 @@ ExitCode report(const std::string& name, Times& times) {
     std::string line;
     try {
         file = find_scene_or_plan(name);
-        line = fmt::format("{}: correct: {}", name, check(name, file, times));
+        line = fmt::format("{}: correct: {}", shown(name), shown_lines(check(name, file, times)));
     } catch (const std::exception&) {
         ending = ending_of(std::current_exception());
         const bool tells_file = name.empty() || ending.message.starts_with(name + ":") ||
                                 ending.message.starts_with(file.string() + ":");
-        line = tells_file ? ending.message : fmt::format("{}: {}", name, ending.message);
+        line = shown(tells_file ? ending.message : fmt::format("{}: {}", name, ending.message));
     }
-    std::cout << shown(line) << std::endl;
+    std::cout << line << std::endl;
     return ending.code;
 }
 

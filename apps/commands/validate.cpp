@@ -16,11 +16,11 @@ namespace listric {
 
 namespace {
 
-/// Seeds that a call asks for; none: those of the plan. Throws UsageError.
-std::vector<int> seeds_of_call(const std::string& text, int first, bool has_first) {
+/// Takes over the seeds that a call asks for. Throws UsageError.
+void ask_for_seeds(ValidationRequest& request, const std::string& text, int first, bool has_first) {
     constexpr int usual = 5;
     if (text.empty() && !has_first)
-        return {};
+        return;
     const bool is_count = text.find_first_not_of("0123456789") == text.npos;
     const auto listed = text.empty() ? std::vector{usual} : seed_list(text);
     if (!listed || (is_count && (listed->front() < 1 || listed->front() > 1000)))
@@ -30,11 +30,15 @@ std::vector<int> seeds_of_call(const std::string& text, int first, bool has_firs
         throw UsageError(fmt::format("--seeds {} says which; --first-seed belongs to a number of "
                                      "runs",
                                      text));
+    if (is_count && !has_first) {
+        request.number = listed->front();
+        return;
+    }
+    request.seeds = *listed;
     if (!is_count)
-        return *listed;
-    std::vector<int> seeds(static_cast<std::size_t>(listed->front()));
-    std::iota(seeds.begin(), seeds.end(), first);
-    return seeds;
+        return;
+    request.seeds.resize(static_cast<std::size_t>(listed->front()));
+    std::iota(request.seeds.begin(), request.seeds.end(), first);
 }
 
 } // namespace
@@ -57,7 +61,7 @@ Command add_validate(CLI::App& program) {
                      fmt::format("resolution of the runs: {}", fmt::join(accuracy_names(), ", ")))
         ->type_name("LEVEL")
         ->default_str(request->accuracy);
-    command->add_option("--seeds", *seeds, "runs per experiment, or their seeds, such as 51-56,60")
+    command->add_option("--seeds", *seeds, "so many of the plan's seeds, or seeds such as 51-56,60")
         ->type_name("N or SEEDS")
         ->default_str("the plan's, or 5");
     add_count(*command, "--first-seed", *first_seed, "seed of the first of N runs", 0,
@@ -79,12 +83,11 @@ Command add_validate(CLI::App& program) {
     command->add_flag("--remeasure", request->remeasure, "measure all runs again");
     command->add_flag("--without-runs", request->without_runs, "use only the runs that exist");
     command->add_flag("--mixed", request->mixed,
-                      "add to a record of other measures or parameters, and name the mixture");
+                      "take a record of other measures or parameters, and name the mixture");
     add_quiet(*command, request->quiet);
     return {command,
             [request, seeds, first_seed, command] {
-                request->seeds =
-                    seeds_of_call(*seeds, *first_seed, command->count("--first-seed") > 0);
+                ask_for_seeds(*request, *seeds, *first_seed, command->count("--first-seed") > 0);
                 request->stop = stop_on_signals();
                 run_validation(*request);
                 return ExitCode::done;

@@ -1,4 +1,5 @@
 #include "apps/archive/headline.hpp"
+#include "apps/archive/output_folder.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/figures/report_run.hpp"
 #include "apps/support/error.hpp"
@@ -122,6 +123,8 @@ fs::path write_cards(const fs::path& folder) {
     const std::size_t all = cards.size();
     cards.resize(std::min(all, most));
     const fs::path page = folder / "index.html";
+    const archive::OwnFile written[]{{page, "<title>Runs in "}};
+    archive::require_own(written, {});
     std::string text = fmt::format(R"(<!doctype html>
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>Runs in {0}</title>

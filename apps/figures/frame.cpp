@@ -10,6 +10,7 @@
 #include "apps/measures/measures.hpp"
 #include "apps/measures/profile.hpp"
 #include "apps/measures/rock_behaviour.hpp"
+#include "apps/model/effects/stage_measures.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
@@ -175,15 +176,19 @@ void write_horizons(const FrameWriter& writer, const std::string& name,
 }
 
 /// Tops of strata and of layers of rock: stratum (0: pre-rift top, below 0: layers), number of the
-/// piece, x, y.
+/// piece, x, height above the regional.
 void write_tops(const FrameWriter& writer, const Observation& now) {
+    const TargetLine regional = effects::stage::regional_of(
+        now.parts.base.motion, now.parts.sediment ? now.parts.sediment->surface : Target(0.0),
+        now.scene.extension.rate);
     std::vector<double> rows;
     double number = 0.0;
     for (const Horizon& h : trace_horizons(archive::make_setting(now.scene, now.parts),
                                            now.parts.base, now.state, {}, {.pre_rift_layer = 0.0}))
         for (const Polyline& piece : h.pieces) {
             for (const Point p : piece)
-                rows.insert(rows.end(), {static_cast<double>(h.stratum), number, p.x, p.y});
+                rows.insert(rows.end(), {static_cast<double>(h.stratum), number, p.x,
+                                         p.y - regional.height(p.x)});
             number += 1.0;
         }
     writer.array("tops", rows, 4);
@@ -245,7 +250,12 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
     if (!now.parts.base.motion.stages.empty())
         frame["way_m"] = state.clock.travel;
     if (now.parts.sediment)
-        frame["level_m"] = now.parts.sediment->level;
+        frame["level_m"] =
+            now.parts.sediment->surface.at(state.clock.travel / scene.extension.rate).height(0.0);
+    // The stage behind it counts: the next one begins where a snapshot is of the end of one.
+    const double travel = state.clock.travel;
+    frame["surface_rests"] =
+        now.parts.base.motion.surface_work(travel - 1.0, travel) == SurfaceWork::none;
     return frame;
 }
 

@@ -44,10 +44,13 @@ constexpr int compression = 6; ///< of zlib: 9 takes four times as long for 2 %
 
 /// How a number becomes a whole one.
 struct Scale {
-    double step = 1.0; ///< in its unit, or the unit's root
-    bool root = false; ///< the whole number is of the square root, with the number's sign
+    double step = 1.0;     ///< in its unit, or the unit's root
+    bool root = false;     ///< the whole number is of the square root, with the number's sign
+    std::int32_t none = 0; ///< stands for a number that is not defined; 0: there is none
 
     std::int32_t code(double value) const {
+        if (std::isnan(value))
+            return none;
         const double size = root ? std::sqrt(std::abs(value)) : std::abs(value);
         const double whole = std::min(std::round(size / step), 1e9);
         return static_cast<std::int32_t>(std::copysign(whole, value));
@@ -56,7 +59,7 @@ struct Scale {
 
 /// Lengths are followed by a sixty-fourth of the mean radius: 1 m at standard.
 std::map<std::string, Scale> scales(double mean_radius) {
-    const Scale length{mean_radius / 64.0}, strain{1.0 / 128.0, true}, stress{25.0, true};
+    const Scale length{mean_radius / 64.0}, strain{1.0 / 128.0, true, -1}, stress{25.0, true};
     return {{"x_m", length},
             {"depth_m", length},
             {"radius_m", {mean_radius / 1024.0}},
@@ -230,12 +233,12 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
                {"surfaces", lines_of(reference_surfaces_table(at), steps_of(now))},
                {"base", lines_of(base_table(at), steps_of(now))}};
     if (followed) {
-        const std::vector<Horizon> horizons = horizons_of(at);
+        std::vector<Horizon> horizons = horizons_of(at);
         lines["horizons"] = lines_of(horizons_table(at, horizons), steps_of(now));
         lines["predictions"] = predictions_of(now);
         lines["cutoffs"] = cutoffs_of(faults, steps_of(now));
         if (has_seismics(now.scene))
-            lines["seismic"] = seismic_of(now, horizons);
+            lines["seismic"] = seismic_of(now, seismic_horizons(now, std::move(horizons)));
     }
     if (!footwall.empty())
         lines["footwall"] = footwall_of(footwall, now.right_end());
@@ -250,7 +253,7 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
 std::string report_scales(double mean_radius) {
     json list;
     for (const auto& [name, scale] : scales(mean_radius))
-        list[name] = {{"step", scale.step}, {"root", scale.root}};
+        list[name] = {{"step", scale.step}, {"root", scale.root}, {"none", scale.none}};
     return to_text(list);
 }
 

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace listric {
 
@@ -308,6 +309,10 @@ std::vector<Horizon> seismic_horizons(const Observation& now) {
     Setting setting = archive::make_setting(now.scene, now.parts);
     setting.boundaries.clear(); // rock's velocity is by its depth at the start, whatever its layer
     return trace_horizons(setting, now.parts.base, now.state, {});
+}
+
+std::vector<Horizon> seismic_horizons(const Observation& now, std::vector<Horizon> traced) {
+    return now.parts.layers.empty() ? std::move(traced) : seismic_horizons(now);
 }
 
 bool has_seismics(const Scene& scene) { return scene.hanging_wall.thickness >= 1e3; }

@@ -36,7 +36,7 @@ struct SeismicSection {
     double first_x = 0.0;                 ///< m
     double datum = 0.0;                   ///< m, y up
     std::vector<float> amplitude = {};    ///< trace by trace
-    std::vector<float> strain = {};       ///< shear strain of the last window; NaN outside rock
+    std::vector<float> strain = {};       ///< of window_strain(); NaN outside rock, too
     std::vector<std::uint8_t> fault = {}; ///< 1 within a mean diameter of an active fault
 
     double x(std::size_t trace) const {
@@ -52,13 +52,17 @@ struct SeismicSection {
 /// its discs, averaged over a disc's surroundings; of pre-rift rock it falls with the depth of the
 /// layer at the start. Weakened discs are slower, each by itself.
 /// @param faults    for labels
-/// @param horizons  of trace_horizons()
+/// @param horizons  of seismic_horizons()
 SeismicSection seismic_section(const Observation& now, std::span<const measures::Fault> faults,
                                std::span<const measures::Horizon> horizons,
                                const SeismicOptions& options);
 
-/// Horizons that a section needs: tops of strata and of pre-rift layers.
+/// Horizons that a section needs: tops of strata and of pre-rift rock by its depth at the start,
+/// where rock has layers, too.
 std::vector<measures::Horizon> seismic_horizons(const Observation& now);
+/// Those that are traced already, where they are no boundaries of layers of rock.
+std::vector<measures::Horizon> seismic_horizons(const Observation& now,
+                                                std::vector<measures::Horizon> traced);
 
 /// Whether seismics make sense of a model: it is a kilometre thick or more.
 bool has_seismics(const Scene& scene);

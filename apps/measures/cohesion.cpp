@@ -57,22 +57,23 @@ std::optional<double> unbonded_share_of_basement(const State& state) {
     return share(pairs.all - pairs.bonded, pairs.all);
 }
 
-std::optional<double> bonded_share_of_old_sediment(const State& state, double level, double depth,
-                                                   double age) {
+std::optional<double> bonded_share_of_old_sediment(const State& state, const TargetLine& surface,
+                                                   double depth, double age) {
     const ConstDiscColumns d = disc_columns(state);
     const Pairs pairs = count_touching(state, [&](std::size_t i) {
-        return is_old_sediment(state, d, i, age) && level - d.y[i] > depth;
+        return is_old_sediment(state, d, i, age) && surface.height(d.x[i]) - d.y[i] > depth;
     });
     return share(pairs.bonded, pairs.all);
 }
 
-std::vector<BondedLayer> bonded_profile_of_old_sediment(const State& state, double level,
-                                                        double age) {
+std::vector<BondedLayer> bonded_profile_of_old_sediment(const State& state,
+                                                        const TargetLine& surface, double age) {
     constexpr double height = 1e3; // of a layer, m
     const ConstDiscColumns d = disc_columns(state);
     const auto layers = count_touching(
         state, [&](std::size_t i) { return is_old_sediment(state, d, i, age); },
         [&](std::size_t i, std::size_t j) {
+            const double level = surface.height(0.5 * (d.x[i] + d.x[j]));
             return std::lround((level - 0.5 * (d.y[i] + d.y[j])) / height);
         });
     std::vector<BondedLayer> profile;

@@ -74,7 +74,7 @@ void add_prediction(Measures& m, const Setting& setting, const Chain& detachment
 
 void add_intervening_high(Measures& m, const Profile& profile, double column) {
     const std::vector<double> depth = smoothed_depth(profile);
-    if (const auto high = find_intervening_high(profile.x, depth, depocentre_prominence)) {
+    if (const auto high = find_intervening_high(profile.x, depth, least_prominence(profile))) {
         m.intervening_high = Point{profile.x[*high], depth[*high]};
         m.halfgraben_area_share =
             area_above(profile, *high + 1, column) / area_above(profile, profile.x.size(), column);
@@ -85,13 +85,15 @@ void add_sediment(Measures& m, const Setting& setting, const State& state, const
     if (!setting.sediment)
         return;
     if (setting.has_bonds) {
-        const double level = setting.sediment->level;
+        const TargetLine surface =
+            setting.sediment->target.at(state.clock.travel / setting.extension_rate);
         const double age = old_sediment_age * setting.extension_rate;
         m.old_sediment_bonded_fraction =
-            bonded_share_of_old_sediment(state, level, old_sediment_depth, age);
-        m.old_sediment_bonded_profile = bonded_profile_of_old_sediment(state, level, age);
+            bonded_share_of_old_sediment(state, surface, old_sediment_depth, age);
+        m.old_sediment_bonded_profile = bonded_profile_of_old_sediment(state, surface, age);
     }
-    m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, depocentre_prominence);
+    m.depocentres =
+        find_depocentres(profile.x, profile.sediment_thickness, least_prominence(profile));
 }
 
 void add_localisation(Measures& m, const Setting& setting, const State& state, Events events) {

@@ -10,8 +10,7 @@ namespace listric::measures {
 
 /// Sediment that comes and goes at the surface.
 struct Sediment {
-    double level = 0.0;                   ///< m, y up
-    dem::Target target{level};            ///< line that the surface is adapted to
+    dem::Target target{0.0};              ///< line that the surface is adapted to
     double surface_porosity = 0.0;        ///< as deposited
     double disc_density = 0.0;            ///< as deposited, kg/m3
     std::optional<double> porosity_decay; ///< with depth, 1/m; none: porosity stays

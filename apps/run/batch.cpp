@@ -1,6 +1,7 @@
 #include "apps/run/batch.hpp"
 
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/output_folder.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/run/run.hpp"
@@ -64,6 +65,9 @@ std::optional<BatchEnding> known_ending(const BatchRun& run) {
     return std::nullopt;
 }
 
+/// Exit code of a process whose run is being made by another call: its folder is that call's.
+constexpr int in_use = 75; // EX_TEMPFAIL of sysexits.h
+
 /// Makes a run; leaves what went wrong in its folder. Returns the process' exit code.
 int make(const BatchRun& run) {
     Ending ending{ExitCode::done, ""};
@@ -80,6 +84,8 @@ int make(const BatchRun& run) {
         fs::remove(failure_of(run), ignored);
         if (run_scene(run.scene, options) == RunOutcome::interrupted)
             ending.code = ExitCode::interrupted;
+    } catch (const archive::FolderInUse&) {
+        return in_use;
     } catch (...) {
         ending = ending_of(std::current_exception());
     }
@@ -153,6 +159,8 @@ BatchEnding ending_of_process(const BatchRun& run, int exit_code) {
     BatchEnding ending{exit_code};
     if (exit_code == 0)
         return ending;
+    if (exit_code == in_use)
+        return {static_cast<int>(ExitCode::bad_call), "another run is writing there"};
     if (exit_code == static_cast<int>(ExitCode::interrupted))
         ending.reason = "interrupted";
     else if (exit_code > 128)

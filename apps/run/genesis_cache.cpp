@@ -40,6 +40,8 @@ std::string asked_for(const Scene& scene, const ModelParts& parts) {
     std::string text = fmt::format("{}\n# {} {} {} {} {}\n", to_toml(genesis_of(scene)),
                                    stable_time_step(1.0, parts.materials, 0.0, 1.0), source_hash,
                                    compiler, build_flags, instruction_set);
+    if (scene.cycle.inertial_mass_floor == 0.0 && parts.sediment) // see genesis' time step
+        text += fmt::format("# sediment: {}\n", parts.sediment->disc_density);
     for (const LayerFacts& layer : parts.layers)
         text += fmt::format("# {}: material {}\n", layer.name, layer.rock.material);
     return text;
@@ -129,6 +131,8 @@ State make_anew(const Scene& scene, const ModelParts& parts, const StageReport& 
         .materials = parts.materials,
         .bonds = parts.bonds,
         .layers = layers_of(parts),
+        .sediment_density =
+            parts.sediment ? std::optional(parts.sediment->disc_density) : std::nullopt,
         .physics = {.damping = parts.physics.damping, .gravity = parts.physics.gravity},
         .time_step_safety = scene.cycle.time_step_safety,
         .inertial_mass_floor = scene.cycle.inertial_mass_floor,

@@ -173,9 +173,11 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     const double mean_mass = density * pi * h.mean_radius * h.mean_radius;
     const double smallest = 2.0 / (1.0 + h.radius_ratio);
     const ModelParts parts = make_parts(scene);
-    double lightest = 1.0; // density of a rock, over the hanging wall's
+    double lightest = 1.0; // density of discs, over the hanging wall's
     for (const LayerFacts& layer : parts.layers)
         lightest = std::min(lightest, layer.rock.density / h.rock_density);
+    if (parts.sediment)
+        lightest = std::min(lightest, parts.sediment->disc_density / density);
     const double floor = scene.cycle.inertial_mass_floor > 0.0 ? scene.cycle.inertial_mass_floor
                                                                : lightest * smallest * smallest;
     Prediction p;

@@ -38,6 +38,13 @@ RunOutcome Session::run() {
         run_.log.say(fmt::format("stopped at {}; {}", run_.place_text(run_.scene.output.interval),
                                  resume_hint(run_.options.output)));
         return RunOutcome::interrupted;
+    } catch (...) {
+        try {
+            enter(Phase::failed);
+        } catch (const std::exception&) {
+            // what ended the run says more
+        }
+        throw;
     }
 }
 

@@ -53,16 +53,6 @@ double greatest_extension(const Scene& scene) {
     return greatest;
 }
 
-std::string warning_of_never(const Scene& scene, std::string_view parameter, double interval) {
-    const ExtensionParameters& extension = scene.extension;
-    if (interval * extension.rate <= extension.distance)
-        return "";
-    return fmt::format("{} = {:g} is longer than the scene: the first time would be at {:g} m, it "
-                       "ends at {:g} m; below {:g} it happens",
-                       parameter, interval, interval * extension.rate, extension.distance,
-                       extension.distance / extension.rate);
-}
-
 double least_extension(const Scene& scene) {
     if (!scene.find<Stages>())
         return 0.0;

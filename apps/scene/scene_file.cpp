@@ -15,6 +15,8 @@
 #include <iterator>
 #include <map>
 #include <ranges>
+#include <utility>
+#include <variant>
 
 namespace listric {
 
@@ -378,6 +380,28 @@ void complete_effects(Scene& scene, const toml::table& document) {
             part.effect->complete(scene, is_given, refuse);
 }
 
+/// Warnings of intervals (`interval_a`, `..._interval_a`) that are longer than the scene, so that
+/// what effects do every so many years never happens.
+std::vector<std::string> warnings_of_never(const Scene& scene) {
+    const ExtensionParameters& extension = scene.extension;
+    std::vector<std::string> warnings;
+    for (const EffectPart& part : scene.effects)
+        for (const Parameter& parameter : part.effect->parameters) {
+            const auto* place = std::get_if<Place<double>>(&parameter.value);
+            if (part.effect->items || !place || !parameter.key.ends_with("interval_a"))
+                continue;
+            const double interval = place->get(part.effect->address.get(part.parameters));
+            if (interval * extension.rate <= extension.distance)
+                continue;
+            warnings.push_back(fmt::format(
+                "{}.{} = {:g} is longer than the scene: the first time would be at {:g} m, it "
+                "ends at {:g} m; below {:g} it happens",
+                part.effect->name, parameter.key, interval, interval * extension.rate,
+                extension.distance, extension.distance / extension.rate));
+        }
+    return warnings;
+}
+
 void set_accuracy(Scene& scene) {
     const AccuracyLevel& level =
         *std::ranges::find(accuracy_levels(), scene.accuracy, &AccuracyLevel::name);
@@ -432,10 +456,13 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
     check_changes(request);
     complete_effects(scene, document);
     check_scene(scene, document, effects);
+    std::vector<std::string> warnings = warnings_of_never(scene);
     for (const EffectPart& part : scene.effects)
         if (part.effect->warning)
-            if (const std::string warning = part.effect->warning(scene); !warning.empty())
-                scene.warnings.push_back(warning);
+            warnings.push_back(part.effect->warning(scene));
+    for (std::string& warning : warnings)
+        if (!warning.empty())
+            scene.warnings.push_back(std::move(warning));
     check_rocks(scene, rocks, document);
     take_observed(scene, table_named("observed"), document, path.parent_path(), shift);
     scene.files.push_back(path);

@@ -34,12 +34,6 @@ dem::Motion make_motion(const Scene& scene);
 /// Greatest displacement of the right wall in a scene, m: how far the base must reach.
 double greatest_extension(const Scene& scene);
 
-/// Says that what an effect does every so many years it never does, since the scene ends before;
-/// empty: it does.
-/// @param parameter  with its table
-/// @param interval   its value, a
-std::string warning_of_never(const Scene& scene, std::string_view parameter, double interval);
-
 /// Least displacement of the right wall, m: below 0 where a scene shortens more than it extends.
 double least_extension(const Scene& scene);
 

@@ -191,7 +191,7 @@ std::vector<Parameter> cycle_parameters() {
          "Raising it to 3 halves the cycles of a run, and forces balance to 0.18 instead of 0.11 "
          "%; at 48 the basin lacks 3 % of its area.",
          between(0.75, 3)},
-        {"skin", at<&P::skin>, "", between(1e-3, 10), "",
+        {"skin", at<&P::skin>, "", between(0.15, 10), "",
          "margin of the neighbour list, in mean radii",
          "Changes the time of a run only, which is least near the default.", between(0.15, 1)},
     };

@@ -1,11 +1,13 @@
 #include "apps/studies/basin_fit.hpp"
 
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/output_folder.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
 #include "apps/scene/picks_check.hpp"
+#include "apps/scene/stage.hpp"
 #include "apps/scene/toml.hpp"
 #include "apps/studies/draft_fit.hpp"
 #include "apps/studies/kinematic_fit.hpp"
@@ -22,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <set>
 
 namespace listric {
@@ -147,7 +150,9 @@ public:
           log_(request.quiet), picked_(read_picked_lines(request.picks, 0.0)),
           common_(common_plan(request)), base_(scene_at(common_, {}, request.first_seed)),
           task_(task_of(request, picked_, base_)) {
+        require_own_files();
         make_folder(output_);
+        lock_.emplace(output_);
         for (const FitHorizon& horizon : task_.horizons)
             for (const double depth : horizon.depth)
                 least_depth_ = std::max(least_depth_, 1.02 * depth);
@@ -174,13 +179,31 @@ public:
             found = drafts.has_value();
             best = drafts.value_or(best);
         }
+        if (!found) // an earlier answer stays
+            return false;
         write_text(output_ / "profile.csv", "stage,number,value,misfit_m\n" + profiles_);
         write_object(output_ / "fit.json", json_);
         write_scene(best);
-        return found;
+        return true;
     }
 
 private:
+    /// Refuses to write over what is read, what no fit has made, and the answer to other picks.
+    void require_own_files() const {
+        const fs::path answer = output_ / "fit.json";
+        const archive::OwnFile written[]{
+            {answer, "\"kinematics\""},
+            {output_ / "fit.csv", "round,seed,breakaway_dip_deg"},
+            {output_ / "profile.csv", "stage,number,value"},
+            {output_ / (name_ + ".toml"), "# All parameters in force."}};
+        archive::require_own(written, base_.files);
+        const std::string picks = text_at(object_in(answer), "picks");
+        if (!picks.empty() && fs::path(picks) != fs::absolute(request_.picks))
+            throw UsageError(fmt::format("{}: is the answer to other picks, {}; --output writes "
+                                         "elsewhere",
+                                         answer.string(), shown(picks)));
+    }
+
     static std::string name_of(const BasinFitRequest& request) {
         const std::string name = request.picks.stem().string();
         if (const std::string why = objection_to_name(name); !why.empty())
@@ -208,6 +231,10 @@ private:
                                          request.scene,
                                          scene.detachment ? "its fault is picked, not to be fitted"
                                                           : "has no [detachment]"));
+        if (scene.find<Stages>())
+            throw UsageError(fmt::format("--scene {}: has stages, whose travel is not extension; "
+                                         "take a scene that is only extended, such as lis1",
+                                         request.scene));
         FitTask task;
         task.extension = scene.extension.distance;
         const double duration = task.extension / scene.extension.rate;
@@ -338,6 +365,8 @@ private:
         const std::vector<BatchEnding> endings =
             make_runs(batch, request_.jobs, log_, request_.stop);
         for (std::size_t k = 0; k < runs.size(); ++k) {
+            if (endings[k].exit_code == static_cast<int>(ExitCode::bad_call))
+                require_finished(batch[k], endings[k]); // of other picks or parameters, say
             runs[k].outcome = endings[k].reason.empty() ? "finished" : endings[k].reason;
             if (endings[k].exit_code == 0) {
                 const JsonObject summary = read_object(runs[k].folder / "summary.json");
@@ -374,6 +403,7 @@ private:
     BasinFitRequest request_;
     std::string name_;
     fs::path output_;
+    std::optional<archive::FolderLock> lock_;
     Log log_;
     PickedFile picked_;
     SweepPlan common_; ///< scene and changes of every run

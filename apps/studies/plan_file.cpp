@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <iterator>
 #include <set>
-#include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace listric {
 
@@ -23,8 +23,33 @@ toml::table study_plan(const std::string& name) {
 }
 
 std::vector<std::string> words(const std::string& text) {
-    std::istringstream in(text);
-    return {std::istream_iterator<std::string>(in), {}};
+    std::vector<std::string> all;
+    std::string word;
+    int depth = 0;
+    char quote = 0, before = ' ';
+    const auto end = [&] {
+        if (!word.empty())
+            all.push_back(std::move(word));
+        word.clear();
+    };
+    for (const char letter : text) {
+        const bool may_begin = std::string_view(" =[{,").find(before) != std::string_view::npos;
+        if (quote != 0)
+            quote = letter == quote ? 0 : quote;
+        else if ((letter == '"' || letter == '\'') && may_begin)
+            quote = letter;
+        else if (letter == '[' || letter == '{')
+            ++depth;
+        else if (letter == ']' || letter == '}')
+            --depth;
+        before = letter;
+        if (quote == 0 && depth <= 0 && std::isspace(static_cast<unsigned char>(letter)) != 0)
+            end();
+        else
+            word += letter;
+    }
+    end();
+    return all;
 }
 
 std::optional<std::vector<int>> seed_list(std::string_view text) {

@@ -19,7 +19,8 @@ inline constexpr int most_runs = 100'000;
 /// The plan of that name that the program ships. Throws SceneError.
 toml::table study_plan(const std::string& name);
 
-/// The words of a text, which blanks separate.
+/// The words of a text, which blanks separate that stand in no quotes or brackets: a change such as
+/// output.figures_at_m=[500, 1000] is one.
 std::vector<std::string> words(const std::string& text);
 
 /// Seeds of "51-56,60", each once and in their order; none: the text is no such list, or one of

@@ -1,6 +1,7 @@
 #include "apps/studies/study.hpp"
 
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/output_folder.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
@@ -52,17 +53,28 @@ void print(const StudyResult& result) {
         std::cout << fmt::format("spread between seeds: {} {:.2g}\n", quantity, floor);
 }
 
+/// Why a study has no use for an option of the call; empty if it has.
+std::string objection_to_options(const Study& study, const StudyRequest& request) {
+    if (!study.has_values && !request.values.empty())
+        return "--values: its values are fixed; leave them out";
+    if (!study.has_scene && !(request.scene.empty() && request.set.empty()))
+        return "--scene, --set: it has no scene; leave them out";
+    return "";
+}
+
 } // namespace
 
 std::span<const Study> studies() {
     static constexpr std::array<Study, 7> all{{
-        {"resolution", "lis1 with 3,000 to 67,000 discs", study_resolution},
-        {"speed", "boundary speed: how slow is quasi-static", study_speed},
+        {"resolution", "lis1 with 3,000 to 67,000 discs", study_resolution, true},
+        {"speed", "boundary speed: how slow is quasi-static", study_speed, true},
         {"time-step", "time step and density scaling: wave, lattice, lis1", study_time_step},
-        {"footwall", "elements, refinement and solvers of the elastic base", study_footwall},
+        {"footwall", "elements, refinement and solvers of the elastic base", study_footwall, true,
+         false, 1},
         {"coupling", "scheme, update interval and modes of lis1-elastic", study_coupling},
-        {"isostasy", "lis1-elastic by elastic thickness, filled and empty", study_isostasy},
-        {"precision", "single precision and neighbour lists", study_precision},
+        {"isostasy", "lis1-elastic by elastic thickness, filled and empty", study_isostasy, true},
+        // Forces do not depend on the lists: one packing shows it.
+        {"precision", "single precision and neighbour lists", study_precision, false, true, 1},
     }};
     return all;
 }
@@ -77,14 +89,26 @@ void run_study(StudyRequest request) {
                                      meant ? fmt::format("did you mean {}? ", *meant) : "",
                                      fmt::join(names, ", ")));
     }
+    const std::string lack = objection_to_options(*study, request);
+    if (!lack.empty())
+        throw UsageError(fmt::format("study {}: {}", request.name, lack));
     if (request.seeds < 1 || request.seeds > 1000)
         throw UsageError(fmt::format("--seeds {}: allowed: 1 to 1000", request.seeds));
     for (double value : request.values)
         if (!(value > 0.0) || !std::isfinite(value))
             throw UsageError(fmt::format("--values {}: allowed: numbers above 0", value));
+    request.seeds = std::min(request.seeds, study->most_seeds);
     if (request.output.empty())
         request.output = "out/study-" + request.name;
+    const archive::OwnFile written[]{{request.output / "study.csv", "method,parameter,quantity"},
+                                     {request.output / "study.json", "\"study\""},
+                                     {request.output / "study.png", "Listric"},
+                                     {request.output / "runs.csv", "record,"},
+                                     {request.output / "isostasy.csv", "fill,elastic_thickness_m"},
+                                     {request.output / "isostasy.png", "Listric"}};
+    archive::require_own(written, {});
     make_folder(request.output);
+    const archive::FolderLock lock(request.output);
 
     const StudyResult result = study->make(request);
     const nlohmann::ordered_json json = {

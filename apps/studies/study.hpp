@@ -52,6 +52,9 @@ struct StudyResult {
 struct Study {
     std::string_view name, doc;
     StudyResult (*make)(const StudyRequest& request);
+    bool has_values = false; ///< a call may choose those of the parameter that is varied
+    bool has_scene = true;   ///< it is made of runs, of a scene that a call may choose and change
+    int most_seeds = 1000;
 };
 
 std::span<const Study> studies();

@@ -2,11 +2,13 @@
 
 #include "apps/studies/study.hpp"
 
+#include "apps/support/error.hpp"
 #include "apps/support/stopwatch.hpp"
 #include "fem/elastic_layer.hpp"
 #include "fem/footwall.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,7 +97,13 @@ StudyResult study_footwall(const StudyRequest& request) {
         fem::Solver solver;
         int levels;
     };
-    const int most = request.values.empty() ? 3 : static_cast<int>(request.values[0]);
+    constexpr int usual = 3, largest = 5; // refinements, each of four times the elements
+    const double asked = request.values.empty() ? usual : request.values[0];
+    if (request.values.size() > 1 || asked > largest || asked != std::floor(asked))
+        throw UsageError(fmt::format("study footwall: --values {}: allowed: one number of "
+                                     "refinements, 1 to {}",
+                                     fmt::join(request.values, ","), largest));
+    const int most = static_cast<int>(asked);
     for (const Method& m : {Method{"Q1 uniform MUMPS", 1, fem::Solver::mumps, most + 1},
                             Method{"Q2 uniform MUMPS", 2, fem::Solver::mumps, most},
                             Method{"Q2 uniform BoomerAMG", 2, fem::Solver::boomeramg, most},

@@ -34,12 +34,13 @@ constexpr double graben_from = 12e3; ///< x beyond which a depocentre is the col
 
 /// A quantity of a finished run; nothing where it has no meaning.
 std::optional<Values> value_in(const Json& summary, const std::string& quantity) {
-    if (quantity == "cutoff")
-        return Values{
-            need_number(summary,
-                        measures::name_of<&measures::Measures::cutoff, &Point::x>().c_str()),
-            need_number(summary,
-                        measures::name_of<&measures::Measures::cutoff, &Point::y>().c_str())};
+    if (quantity == "cutoff") {
+        const auto x =
+            number_at(summary, measures::name_of<&measures::Measures::cutoff, &Point::x>().c_str());
+        const auto y =
+            number_at(summary, measures::name_of<&measures::Measures::cutoff, &Point::y>().c_str());
+        return x && y ? std::optional(Values{*x, *y}) : std::nullopt;
+    }
     if (quantity == "depocentre") {
         const auto found = summary.find(std::string(measures::depocentres.name));
         if (found == summary.end())

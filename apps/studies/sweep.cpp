@@ -2,11 +2,14 @@
 
 #include "apps/archive/examine.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/output_folder.hpp"
 #include "apps/archive/run_folder.hpp"
+#include "apps/archive/scene_lines.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/figures/figures.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
+#include "apps/scene/scene_file.hpp"
 #include "apps/studies/effects_table.hpp"
 #include "apps/studies/sweep_effects.hpp"
 #include "apps/studies/sweep_plan.hpp"
@@ -14,6 +17,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/python.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,6 +25,7 @@
 #include <algorithm>
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <set>
 
 namespace listric {
@@ -63,7 +68,14 @@ public:
     explicit Sweep(const SweepRequest& request)
         : request_(request), plan_(load_sweep_plan(request.plan)), points_(sweep_points(plan_)),
           output_(output_of(request, plan_)), log_(request.quiet) {
+        std::vector<OwnFile> written{{output_ / "sweep.csv", "run,seed,"},
+                                     {output_ / "effects.csv", "measure,term,effect"},
+                                     {output_ / "effects.png", "Listric"}};
+        if (!fs::exists(output_ / "sweep.csv")) // else the sheet beside it is the sweep's
+            written.push_back({output_ / "sheet.png", "Listric"});
+        require_own(written, {});
         make_folder(output_);
+        lock_.emplace(output_);
     }
 
     bool carry_out() {
@@ -76,7 +88,7 @@ public:
         if (!request_.task) {
             warn_of_empty_columns(rows);
             write_effects(rows);
-            draw_sheet(rows);
+            draw_sheet_or_warn(rows);
         }
         return rows.empty() || failed < std::ssize(rows);
     }
@@ -95,6 +107,28 @@ private:
         for (std::size_t k = 0; k < plan_.parameters.size(); ++k)
             text += fmt::format(", {}={}", plan_.parameters[k].name, points_[row.run - 1][k].text);
         return text;
+    }
+
+    Scene scene_of(const SweepRow& row) const {
+        try {
+            return scene_at(plan_, points_[row.run - 1], row.seed);
+        } catch (const SceneError& error) {
+            fail(fmt::format("{}: {}: {}", request_.plan.string(), name_of(row), error.what()));
+        }
+    }
+
+    /// Refuses a run that was made by another plan.
+    void check_run(const SweepRow& row) const {
+        const fs::path file = row.folder / "scene.toml";
+        const std::string there = read_text_if_there(file);
+        const auto differs = there.empty() ? std::nullopt
+                                           : scene_difference(scene_values(there),
+                                                              scene_values(to_toml(scene_of(row))));
+        if (differs)
+            throw UsageError(fmt::format("--merge: {}: is of another plan: {} = {} there, {} in {}",
+                                         file.string(), shown(differs->parameter),
+                                         shown(differs->one), shown(differs->other),
+                                         request_.plan.string()));
     }
 
     /// The rows that are asked for, seeds of a point together: their packings differ, so that runs
@@ -126,8 +160,7 @@ private:
             options.quiet = request_.quiet || request_.jobs > 1;
             options.figures = options.report = false;
             options.stop = request_.stop;
-            runs.push_back({name_of(row), scene_at(plan_, points_[row.run - 1], row.seed),
-                            std::move(options)});
+            runs.push_back({name_of(row), scene_of(row), std::move(options)});
         }
         const std::vector<BatchEnding> endings =
             make_runs(runs, request_.jobs, log_, request_.stop);
@@ -153,6 +186,8 @@ private:
         for (const fs::path& folder : request_.merge)
             for (SweepRow& row : read_sweep(plan_, points_, folder / "sweep.csv")) {
                 row.folder = folder / "runs" / fmt::format("{:04}-seed={}", row.run, row.seed);
+                if (!row.failed())
+                    check_run(row);
                 rows.push_back(std::move(row));
             }
         const auto place = [](const SweepRow& row) { return std::pair(row.run, row.seed); };
@@ -212,6 +247,15 @@ private:
             draw_or_warn("effects.py", {fs::absolute(output_).string()});
     }
 
+    /// Draws the sheet, for which the tables need not wait: the runs may be elsewhere.
+    void draw_sheet_or_warn(const std::vector<SweepRow>& rows) {
+        try {
+            draw_sheet(rows);
+        } catch (const std::exception& error) {
+            log_.say(std::string("warning: no sheet.png: ") + error.what());
+        }
+    }
+
     /// The last state of every point, by its first seed that is finished.
     void draw_sheet(const std::vector<SweepRow>& rows) {
         const TemporaryFolder place(output_); // a picture of that name may be somebody's
@@ -232,18 +276,15 @@ private:
         }
         if (drawn == 0)
             return;
-        try {
-            figure.draw("multiples");
-            fs::rename(place.path / "multiples.png", output_ / "sheet.png");
-        } catch (const std::exception& error) {
-            log_.say(std::string("warning: no sheet.png: ") + error.what());
-        }
+        figure.draw("multiples");
+        fs::rename(place.path / "multiples.png", output_ / "sheet.png");
     }
 
     const SweepRequest& request_;
     SweepPlan plan_;
     std::vector<SweepPoint> points_;
     fs::path output_;
+    std::optional<FolderLock> lock_;
     Log log_;
 };
 

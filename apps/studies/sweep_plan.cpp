@@ -15,7 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <map>
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -101,8 +102,12 @@ std::vector<Entry> elements(const Entry& entry, std::string_view allowed) {
     return all;
 }
 
-SweepValue number_value(double number) {
-    const std::string text = fmt::format("{:.6g}", number);
+/// A value between the ends of a range, in six digits, or in as many more as a narrow range has.
+SweepValue value_between(std::pair<double, double> ends, double share) {
+    const auto [least, greatest] = ends;
+    const double narrowness = std::max(-least, greatest) / (greatest - least);
+    const int digits = 6 + static_cast<int>(std::log10(std::clamp(narrowness, 1.0, 1e11)));
+    const std::string text = fmt::format("{:.{}g}", std::lerp(least, greatest, share), digits);
     return {text, text, parse_number(text)};
 }
 
@@ -117,29 +122,33 @@ void check_parameter(const Entry& entry, const SweepPlan& plan, const std::strin
                                 plan.accuracy));
 }
 
+/// The scene of a point, as text. Throws SceneError if there is none, or too large a one.
+std::string try_point(const SweepPlan& plan, const SweepPoint& point) {
+    const Scene scene = scene_at(plan, point, plan.first_seed);
+    if (const auto oversize = oversize_of(scene, program_effects(), room_for(".")))
+        throw SceneError(fmt::format("{}: {}", oversize->parameter, oversize->message));
+    return to_toml(scene);
+}
+
 /// Refuses a value that the scene refuses. Returns the scene as it is with that value.
 std::string try_value(const SweepPlan& plan, const Entry& entry, const SweepParameter& parameter,
-                      const SweepValue& value) {
+                      const SweepValue& value, std::string_view cure = "") {
     SweepPlan alone = plan;
     alone.parameters = {parameter};
     try {
-        const Scene scene = scene_at(alone, {value}, plan.first_seed);
-        if (const auto oversize = oversize_of(scene, program_effects(), room_for(".")))
-            throw SceneError(fmt::format("{}: {}", oversize->parameter, oversize->message));
-        return to_toml(scene);
+        return try_point(alone, {value});
     } catch (const SceneError& error) {
-        fail(entry, error.what());
+        fail(entry, fmt::format("{}{}", error.what(), cure));
     }
 }
 
-/// Refuses the last value where an earlier one makes the same run. In a list a value may come again
-/// beside others of the other parameters.
+/// Refuses the last value where an earlier one makes the same run.
 /// @param made  scenes by value
-void check_new(const Entry& entry, const SweepPlan& plan, const SweepParameter& parameter,
+void check_new(const Entry& entry, const SweepParameter& parameter,
                const std::vector<std::string>& made) {
     for (std::size_t k = 0; k + 1 < made.size(); ++k) {
         const bool is_again = parameter.values[k].text == parameter.values.back().text;
-        if (made[k] == made.back() && !(is_again && plan.design == SweepDesign::list))
+        if (made[k] == made.back())
             fail(entry, is_again ? std::string("stands twice; leave one out")
                                  : fmt::format("makes the same run as {}: {} has no effect in this "
                                                "scene; leave one out",
@@ -162,8 +171,10 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
         std::vector<std::string> made;
         for (const Entry& element : elements(list, "an array of values")) {
             parameter.values.push_back(value_of(element));
+            if (plan.design == SweepDesign::list) // its values need not make a scene alone
+                continue;
             made.push_back(try_value(plan, element, parameter, parameter.values.back()));
-            check_new(element, plan, parameter, made);
+            check_new(element, parameter, made);
         }
         if (parameter.values.empty())
             fail(list, "is empty, needs at least one value");
@@ -183,8 +194,10 @@ SweepParameter read_parameter(const Entry& entry, const SweepPlan& plan) {
     std::vector<std::string> made;
     for (std::size_t k = 0; k < 2; ++k) {
         made.push_back(try_value(plan, ends[k], parameter, parameter.values[k]));
-        check_new(ends[k], plan, parameter, made);
+        check_new(ends[k], parameter, made);
     }
+    try_value(plan, pair, parameter, value_between(*parameter.range, 1.0 / std::numbers::pi),
+              "; a range takes values between its ends, values = [...] only those listed");
     parameter.values.clear();
     return parameter;
 }
@@ -230,13 +243,20 @@ void check_design(const Entry& top, const SweepPlan& plan) {
                                  parameter.name, parameter.values.size()));
     if (plan.design != SweepDesign::list)
         return;
-    std::set<std::vector<std::string>> known;
-    for (const SweepPoint& point : sweep_points(plan)) {
-        std::vector<std::string> words;
-        std::ranges::transform(point, std::back_inserter(words), &SweepValue::text);
-        if (!known.insert(words).second)
-            fail(key("vary"),
-                 fmt::format("the list has {} twice; leave one out", fmt::join(words, ", ")));
+    std::map<std::string, std::size_t> known; // points by the scene that they make
+    const std::vector<SweepPoint> points = sweep_points(plan);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Entry place = key("vary");
+        const std::string name = name_of_point(plan, k, points[k]);
+        std::string made;
+        try {
+            made = try_point(plan, points[k]);
+        } catch (const SceneError& error) {
+            fail(place, fmt::format("{}: {}", name, error.what()));
+        }
+        if (const auto [earlier, is_new] = known.emplace(std::move(made), k); !is_new)
+            fail(place, fmt::format("{} makes the same run as {}; leave one out", name,
+                                    name_of_point(plan, earlier->second, points[earlier->second])));
     }
 }
 
@@ -357,13 +377,30 @@ std::vector<SweepPoint> sweep_points(const SweepPlan& plan) {
             const double share =
                 (static_cast<double>(place[k]) + 0.5) / static_cast<double>(points.size());
             points[k].push_back(parameter.range
-                                    ? number_value(std::lerp(parameter.range->first,
-                                                             parameter.range->second, share))
+                                    ? value_between(*parameter.range, share)
                                     : parameter.values[static_cast<std::size_t>(
                                           share * static_cast<double>(parameter.values.size()))]);
         }
     }
     return points;
+}
+
+std::string name_of_point(const SweepPlan& plan, std::size_t k, const SweepPoint& point) {
+    std::string text = fmt::format("run {}", k + 1);
+    for (std::size_t p = 0; p < plan.parameters.size(); ++p)
+        text += fmt::format(", {}={}", plan.parameters[p].name, point[p].text);
+    return text;
+}
+
+void check_points(const SweepPlan& plan, std::span<const SweepPoint> points,
+                  const std::filesystem::path& file) {
+    for (std::size_t k = 0; k < points.size(); ++k)
+        try {
+            try_point(plan, points[k]);
+        } catch (const SceneError& error) {
+            fail(fmt::format("{}: {}: {}", file.string(), name_of_point(plan, k, points[k]),
+                             error.what()));
+        }
 }
 
 Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed) {

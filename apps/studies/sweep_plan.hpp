@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,12 +52,20 @@ struct SweepPlan {
     std::vector<SweepMeasure> measures;
 };
 
-/// Reads a plan and tries every value in the scene. Throws SceneError.
+/// Reads a plan and tries every value in the scene, of a list every point. Throws SceneError.
 SweepPlan load_sweep_plan(const std::filesystem::path& file);
 
 /// The values of every run, seeds apart, in the order of the parameters.
 using SweepPoint = std::vector<SweepValue>;
 std::vector<SweepPoint> sweep_points(const SweepPlan& plan);
+
+/// "run 3, material.friction=0.5": point k, from 0.
+std::string name_of_point(const SweepPlan& plan, std::size_t k, const SweepPoint& point);
+
+/// Tries points: values may each make a scene alone, but none together. Throws SceneError with the
+/// point and the plan's file.
+void check_points(const SweepPlan& plan, std::span<const SweepPoint> points,
+                  const std::filesystem::path& file);
 
 /// The scene of a point. Throws SceneError.
 Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed);

@@ -2,6 +2,7 @@
 
 #include "apps/archive/examine.hpp"
 #include "apps/archive/json_file.hpp"
+#include "apps/archive/output_folder.hpp"
 #include "apps/archive/provenance.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/setting.hpp"
@@ -26,6 +27,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -91,11 +95,24 @@ std::set<std::string> chosen_runs(const ValidationPlan& plan,
     return runs;
 }
 
-/// Seeds of this call: those asked for, those of the plan, or five.
+/// Seeds of this call: those asked for, so many or all of the plan's, or, where it has none, from
+/// 1 on. Throws UsageError.
 std::vector<int> seeds_of_call(const ValidationRequest& request, const ValidationPlan& plan) {
-    return !request.seeds.empty() ? request.seeds
-           : !plan.seeds.empty()  ? plan.seeds
-                                  : std::vector{1, 2, 3, 4, 5};
+    if (!request.seeds.empty())
+        return request.seeds;
+    const auto number = static_cast<std::size_t>(request.number);
+    std::vector<int> seeds = plan.seeds;
+    if (seeds.empty()) {
+        seeds.resize(number > 0 ? number : 5);
+        std::iota(seeds.begin(), seeds.end(), 1);
+    }
+    if (number > seeds.size())
+        throw UsageError(fmt::format("--seeds {}: the plan has {} seeds; list others, such as "
+                                     "71-75, or give --first-seed",
+                                     number, seeds.size()));
+    if (number > 0)
+        seeds.resize(number);
+    return seeds;
 }
 
 /// Seeds of the document: the plan's, to which a call may add some of; else those of the call.
@@ -123,7 +140,9 @@ public:
                                                           seeds_of_document(request, plan),
                                                           document_.parent_path() /
                                                               document_.stem()} {
-        fs::create_directories(findings_.beside);
+        require_own_files();
+        make_folder(findings_.beside);
+        lock_.emplace(findings_.beside);
         try {
             store_ = read_store(findings_.beside / "measures.csv");
         } catch (const StorageError&) {
@@ -147,9 +166,28 @@ public:
         draw_or_warn("verdicts.py", {fs::absolute(findings_.beside).string()});
         write_text(document_, validation_document(findings_));
         log_.say(document_.string());
+        if (failed_)
+            require_finished(failed_->first, failed_->second);
     }
 
 private:
+    /// Refuses to write over the plan, and over what no validation has made. Pictures have no mark:
+    /// they are a validation's where its record is.
+    void require_own_files() const {
+        const fs::path& beside = findings_.beside;
+        std::vector<OwnFile> written{{document_, "Made by `listric validate`"},
+                                     {beside / "verdicts.json", "\"experiments\""},
+                                     {beside / "verdicts.png", "Listric"}};
+        if (!request_.remeasure) // else what is damaged may be anything
+            written.push_back({beside / "measures.csv", "run,seed,at_m"});
+        if (!fs::exists(beside / "measures.csv"))
+            for (const ValidationExperiment& x : findings_.plan.experiments)
+                for (const ValidationPicture& picture : x.pictures)
+                    written.push_back({beside / (picture.name + ".png"), "Listric"});
+        const fs::path read[]{request_.plan};
+        require_own(written, read);
+    }
+
     void save_measures() const { write_store(findings_.beside / "measures.csv", store_); }
     const std::string& accuracy_of(const ValidationRun& run) const {
         return run.accuracy.empty() ? request_.accuracy : run.accuracy;
@@ -190,9 +228,10 @@ private:
         return (!recorded && !request_.without_runs) || !finished(run, seed).state_hash.empty();
     }
 
-    /// Refuses to add to a record whose measures have other definitions than this program's, or
-    /// whose runs have other parameters than the plan's, before any run is made.
-    void check_record() const {
+    /// Refuses a record whose runs have other parameters than the plan's, and to add to one whose
+    /// measures have other definitions than this program's, before any run is made. Another version
+    /// may write equal parameters otherwise: a record that it made can be shown, not added to.
+    void check_record() {
         std::set<std::pair<std::string, int>> anew;
         for (const std::string& name : names_) {
             const ValidationRun& run = findings_.plan.run(name);
@@ -200,29 +239,36 @@ private:
                 if (is_to_be_measured(run, seed))
                     anew.emplace(name, seed);
         }
-        if (anew.empty() || request_.mixed)
-            return;
         const auto refuse = [&](const MeasuredPlace& place, const std::string& what) {
             throw UsageError(fmt::format(
                 "{}: {} {}; another --output begins another record, --remeasure measures runs that "
-                "are still there again, --mixed adds all the same",
+                "are still there again, --mixed takes it all the same",
                 (findings_.beside / "measures.csv").string(), run_name(place.run, place.seed),
                 what));
         };
         for (const auto& [place, m] : store_) {
             if (anew.contains({place.run, place.seed}))
                 continue;
-            if (m.from.measures_hash != measures_hash)
+            if (!request_.mixed && !anew.empty() && m.from.measures_hash != measures_hash)
                 refuse(place, fmt::format("was measured by other definitions ({} by Listric {}) "
                                           "than this program's ({})",
                                           m.from.measures_hash, m.from.measured_by, measures_hash));
             const auto run =
                 std::ranges::find(findings_.plan.runs, place.run, &ValidationRun::name);
-            if (run != findings_.plan.runs.end() && !m.from.scene_hash.empty() &&
-                m.from.scene_hash != fmt::format("{:016x}", scene_hash(scene_of(*run, place.seed))))
+            if (run == findings_.plan.runs.end() || m.from.scene_hash.empty())
+                continue;
+            std::string& planned = planned_scenes_[{place.run, place.seed}];
+            if (planned.empty())
+                planned = fmt::format("{:016x}", scene_hash(scene_of(*run, place.seed)));
+            if (m.from.scene_hash == planned)
+                continue;
+            const bool is_own = m.from.made_by == version;
+            if (!request_.mixed && (is_own || !anew.empty()))
                 refuse(place, fmt::format("was run with other parameters (scene {}) than the "
-                                          "plan has",
-                                          m.from.scene_hash));
+                                          "plan has at accuracy {}",
+                                          m.from.scene_hash, accuracy_of(*run)));
+            (is_own ? findings_.with_other_parameters : findings_.uncompared)
+                .insert(run_name(place.run, place.seed));
         }
     }
 
@@ -254,7 +300,8 @@ private:
                                          file.string()));
     }
 
-    /// Makes the runs that are neither recorded nor there.
+    /// Makes the runs that are neither recorded nor there. What failed keeps no other run from
+    /// being measured.
     void make_missing() {
         std::size_t all = 0;
         for (const std::string& name : names_)
@@ -281,8 +328,13 @@ private:
         }
         const std::vector<BatchEnding> endings =
             make_runs(runs, request_.jobs, log_, request_.stop);
-        for (std::size_t k = 0; k < runs.size(); ++k)
-            require_finished(runs[k], endings[k]);
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            if (endings[k].exit_code == 0)
+                continue;
+            findings_.failed[runs[k].name] = endings[k].reason;
+            if (!failed_)
+                failed_.emplace(runs[k], endings[k]);
+        }
     }
 
     /// Measures the runs that are there and not recorded, or all again.
@@ -381,6 +433,9 @@ private:
     MeasureStore store_;
     ValidationFindings findings_;
     std::set<std::string> renewed_; ///< runs that were measured in this call
+    std::map<std::pair<std::string, int>, std::string> planned_scenes_; ///< their hashes, by seed
+    std::optional<std::pair<BatchRun, BatchEnding>> failed_;            ///< the first of them
+    std::optional<FolderLock> lock_; ///< of the record: its measures are read once
     Log log_{request_.quiet};
 };
 

@@ -9,6 +9,7 @@
 #include "apps/support/statistics.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,8 @@ Expectation read_expectation(const Entry& entry) {
     need(entry, "what", !e.what.empty());
     if (e.expected && (e.least || e.most))
         fail(entry, "has expected and least or most: one or the other");
+    if (e.least && e.most && *e.least > *e.most)
+        fail(entry, "has a least that is above most, which no value meets");
     if (e.is_judged() && !e.reason.empty())
         fail(entry, "has bounds and a reason to have none: one or the other");
     return e;
@@ -187,8 +190,10 @@ std::vector<Expectation> expectations_of(const ValidationExperiment& experiment,
     };
     std::vector<Expectation> expectations;
     for (Expectation e : experiment.expectations)
-        if (replace(e.run) && (e.minus.empty() || replace(e.minus)))
+        if (replace(e.run) && (e.minus.empty() || replace(e.minus))) {
+            e.is_shared = true;
             expectations.push_back(std::move(e));
+        }
     return expectations;
 }
 
@@ -267,6 +272,9 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
     int runs = 0;
     for (const Entry& entry : tables(top, "run")) {
         plan.runs.push_back(read_run(entry));
+        const std::string& name = plan.runs.back().name;
+        if (std::ranges::count(plan.runs, name, &ValidationRun::name) > 1)
+            fail(entry, fmt::format("name: another run is named {}", name));
         runs += std::max(1, plan.runs.back().seeds);
         if (runs > most_runs)
             fail(entry, fmt::format("is beyond {} runs, the most that a plan may have", most_runs));
@@ -288,6 +296,21 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
         if (!why.empty())
             fail(entry, fmt::format("{} {}", name, why));
     };
+    const auto check_moments = [&](const Entry& entry, const Expectation& e) {
+        const auto need_moment = [&](const std::string& run, double at) {
+            const std::vector<double>& moments = plan.run(run).at;
+            if (std::ranges::find(moments, at) == moments.end())
+                fail(entry, fmt::format("expects {} of {} at {:g} m, where that run is not "
+                                        "measured; its at_m: {:g}",
+                                        e.measure, run, at, fmt::join(moments, ", ")));
+        };
+        const double at = e.at.value_or(plan.run(e.run).at.back());
+        need_moment(e.run, at);
+        if (!e.minus.empty())
+            need_moment(e.minus, at);
+        if (e.since)
+            need_moment(e.run, *e.since);
+    };
     for (const Entry& entry : tables(top, "experiment")) {
         const ValidationExperiment x = read_experiment(entry, known, check_measure);
         known.push_back(x);
@@ -298,10 +321,14 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
         for (const Expectation& e : x.expectations) {
             check(entry, e.run);
             check(entry, e.minus);
+            if (!e.is_shared) // others' runs may be measured elsewhere
+                check_moments(entry, e);
         }
         for (const ValidationPicture& picture : x.pictures)
-            for (const auto& row : picture.rows)
+            for (const auto& row : picture.rows) {
+                need(entry, "run in rows of its pictures", !row.run.empty());
                 check(entry, row.run);
+            }
     }
     return plan;
 }

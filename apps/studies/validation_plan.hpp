@@ -38,6 +38,7 @@ struct Expectation {
     std::string words;                 ///< of the published text that say so
     std::string source;                ///< figure and moment of the words, or the formula
     std::string reason;                ///< why it is only reported
+    bool is_shared = false;            ///< of an experiment that its own is like
 
     bool is_judged() const { return expected || least || most; }
     bool meets(double value) const;

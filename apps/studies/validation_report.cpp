@@ -135,8 +135,18 @@ std::string origins(const ValidationFindings& f) {
         fmt::format("The runs were made by Listric {}, their measures taken by {} "
                     "(definitions {}).",
                     fmt::join(made, ", "), fmt::join(measured, ", "), fmt::join(definitions, ", "));
+    std::vector<std::string> mixtures;
     if (definitions.size() > 1)
-        text += " **This record is mixed**: its measures have several definitions.";
+        mixtures.emplace_back("its measures have several definitions");
+    if (!f.with_other_parameters.empty())
+        mixtures.push_back(fmt::format("other parameters than the plan's had {}",
+                                       fmt::join(f.with_other_parameters, ", ")));
+    if (!mixtures.empty())
+        text += fmt::format(" **This record is mixed**: {}.", fmt::join(mixtures, "; "));
+    if (!f.uncompared.empty())
+        text += fmt::format(" Runs of another version whose scenes are written otherwise than the "
+                            "plan's: {}; it is not known whether their parameters differ.",
+                            f.uncompared.size());
     return text + "\n\n";
 }
 
@@ -221,6 +231,16 @@ constexpr std::string_view how_to_read =
     "what a control without AFD and ICM meets, too, does not need them |\n\n"
     "A value is the mean over the seeds ± its standard deviation (smallest to largest).\n\n";
 
+/// The runs that failed in this call, with their reasons; they count nowhere.
+std::string failures(const ValidationFindings& f) {
+    if (f.failed.empty())
+        return "";
+    std::string text = "**Runs that failed**, and do not count:\n\n";
+    for (const auto& [run, reason] : f.failed)
+        text += fmt::format("- {}: {}\n", run, reason);
+    return text + "\n";
+}
+
 /// Introduction of the document.
 std::string introduction(const ValidationFindings& f) {
     std::set<std::string> names; // experiments may share runs
@@ -238,7 +258,7 @@ std::string introduction(const ValidationFindings& f) {
                        "[measures.csv]({}/measures.csv) has every number.\n\n",
                        there, wanted, f.accuracy, seeds_text(f.seeds), f.plan_name,
                        f.beside.filename().string()) +
-           origins(f);
+           origins(f) + failures(f);
 }
 
 /// Number of criteria by verdict and experiment.

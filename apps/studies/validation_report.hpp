@@ -4,6 +4,8 @@
 #include "apps/studies/validation_store.hpp"
 
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,9 @@ struct ValidationFindings {
     std::string accuracy;
     std::vector<int> seeds;       ///< that the document is about
     std::filesystem::path beside; ///< folder of the pictures, named as the document
+    std::set<std::string> with_other_parameters = {}; ///< names of recorded runs, than the plan's
+    std::set<std::string> uncompared = {}; ///< of another version, which may write them otherwise
+    std::map<std::string, std::string> failed = {}; ///< reasons of runs that this call made
 
     /// Seeds of a run, recorded or not: as many of the document's as the run is made with.
     std::vector<int> seeds_of(const ValidationRun& run) const;

@@ -59,6 +59,8 @@ Log::Log(const std::filesystem::path& file, bool quiet)
         warn(fmt::format("{}: is no plain file; nothing is logged there", shown(file.string())));
     else if (!file.empty())
         file_.open(file, std::ios::app);
+    if (!file.empty())
+        whose_ = shown(file.parent_path().string()) + ": ";
 }
 
 Log::~Log() {
@@ -77,6 +79,9 @@ void Log::say(std::string_view text) {
               << std::endl;
     if (!quiet_)
         tell(fmt::format("{}{}\n", terminal_ ? clear_line : "", message));
+    else if (message.starts_with(warning_mark))
+        tell(fmt::format("{}listric: {}{}{}\n", terminal_ ? clear_line : "", warning_mark, whose_,
+                         message.substr(warning_mark.size())));
     shows_progress_ = false;
 }
 

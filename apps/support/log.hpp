@@ -20,9 +20,10 @@ std::string rough_duration(double seconds);
 void warn(std::string_view message);
 
 /// Messages to people while something runs: messages, which stay, and progress, which does not.
-/// Both go to stderr unless it shall be quiet; messages, with their time, also into a file, if
-/// there is one. On a terminal the line of progress is rewritten; elsewhere it appears as plain
-/// lines, a few per minute at most, and the fewer the longer the work takes. Threads may share one.
+/// Both go to stderr, or warnings alone if it shall be quiet, then with the folder that they
+/// concern; messages, with their time, also into a file, if there is one. On a terminal the line of
+/// progress is rewritten; elsewhere it appears as plain lines, a few per minute at most, and the
+/// fewer the longer the work takes. Threads may share one.
 class Log {
 public:
     /// Without a file.
@@ -50,6 +51,7 @@ private:
 
     std::mutex mutex_;
     std::ofstream file_;
+    std::string whose_; ///< the file's folder, before a warning
     bool quiet_, terminal_;
     bool shows_progress_ = false; ///< on the terminal's current line
     bool has_progressed_ = false;

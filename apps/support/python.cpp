@@ -18,8 +18,10 @@ namespace listric {
 
 namespace {
 
-/// Exit codes of scripts, as apps/figures/python/script.py has them; 127 is of no program.
-constexpr int bad_input = 2, no_room = 4, no_library = 69, no_program = 127, interrupted = 130;
+/// Exit codes of scripts, as apps/figures/python/script.py has them; 127 is of no program, 1 of
+/// Python itself: it cannot load the script, which may fit another Python or library.
+constexpr int cannot_load = 1, bad_input = 2, no_room = 4, no_library = 69, no_program = 127,
+              interrupted = 130;
 
 /// A Python, and with which options it is called.
 using Interpreter = std::vector<std::string>;
@@ -99,7 +101,9 @@ void run_script(const std::vector<std::string>& modules, const std::string& pack
         words.push_back((resource_folder() / "figures/python" / script).string());
         words.insert(words.end(), arguments.begin(), arguments.end());
         const SilentEnd end = run_silently(words);
-        if (end.code == no_library || end.code == no_program) {
+        const bool is_last = &python == &candidates.back();
+        if (end.code == no_library || end.code == no_program ||
+            (end.code == cannot_load && !is_last)) {
             lacking = fmt::format(" ({}: {})", python[0], last_line(end.said, script));
             continue;
         }

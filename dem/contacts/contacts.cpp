@@ -2,6 +2,7 @@
 
 #include "dem/base/place.hpp"
 #include "dem/contacts/cells.hpp"
+#include "dem/cycle_physics.hpp"
 #include "dem/hypotenuse.hpp"
 #include "dem/order_free.hpp"
 #include "dem/threads/shared_loop.hpp"
@@ -244,6 +245,7 @@ void find_contacts(State& state, const RigidBase& base) {
     const DiscColumns d = disc_columns(state);
     std::ranges::copy(d.x, d.searched_x.begin());
     std::ranges::copy(d.y, d.searched_y.begin());
+    refuse_displaced(state); // discs that are nowhere
     mark_surfaces(state);
     state.displacement_bound = state.window_speed = 0.0;
     state.check_interval = 1;

@@ -6,12 +6,17 @@
 #include "dem/threads/shared_loop.hpp"
 
 #include <cassert>
+#include <stdexcept>
+#include <string>
 
 namespace listric::dem {
 
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
              const Execution& execution, BaseResponse* response) {
-    assert(cycles >= 0 && execution.threads >= 1 && state.clock.time_step > 0.0);
+    if (!(cycles >= 0 && state.clock.time_step > 0.0))
+        throw std::invalid_argument("advance: cycles are " + std::to_string(cycles) +
+                                    ", at least 0, and Clock::time_step is " +
+                                    std::to_string(state.clock.time_step) + " s, above 0");
     const Team team(execution.threads);
     Surroundings nothing;
     if (execution.energy || execution.cycle == Cycle::plain) {
@@ -21,6 +26,8 @@ void advance(State& state, const RigidBase& base, const CyclePhysics& physics, s
     } else {
         advance_fast(state, base, physics, cycles, execution, response, nothing);
     }
+    if (cycles > 0)
+        refuse_runaways(state);
 }
 
 std::int64_t advance_part(State& part, const RigidBase& base, const CyclePhysics& physics,

@@ -14,7 +14,7 @@ namespace listric::dem {
 /// then each disc's motion. Forces on a disc are added in the order base contacts, then contacts
 /// by row. Nodes of a base that deforms collect the loads by row of the base contacts, then
 /// `response` sets their velocities; without one they keep them. Throws NumericalFailure if a disc
-/// runs away.
+/// runs away; no disc is without a place when it returns.
 void advance(State& state, const RigidBase& base, const CyclePhysics& physics, std::int64_t cycles,
              const Execution& execution = {}, BaseResponse* response = nullptr);
 

@@ -43,7 +43,7 @@ private:
 
 /// How the cycle is computed; the result is the same to the last bit.
 struct Execution {
-    int threads = 1;
+    int threads = 1; ///< at least 1: else who is to compute throws std::invalid_argument
     Cycle cycle = best_cycle();
     /// Adds up energies, if given: then the cycle is the plain one, on one thread.
     EnergyFlows* energy = nullptr;

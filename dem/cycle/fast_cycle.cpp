@@ -302,7 +302,7 @@ std::int64_t FastCycle::run_piece(State& state, std::int64_t cycles, BestTeam& t
                                   BaseResponse* response, Surroundings& around) {
     const auto begin = std::chrono::steady_clock::now();
     const int threads =
-        std::min({team.size(), static_cast<int>(strips_.size()), threads_at_hand()});
+        threads_at_hand(std::min(static_cast<std::size_t>(team.size()), strips_.size()));
     Piece piece{.state = state,
                 .response = response,
                 .around = around,

@@ -43,6 +43,8 @@ bool OldFaults::start(State& state, const RigidBase& base) {
     std::vector<std::int32_t> rows;
     for (const OldFaultsParameters::Fault& fault : parameters_.faults) {
         const std::vector<std::int32_t> of_fault = discs_on(state, fault);
+        if (of_fault.empty() && parameters_.on_empty)
+            parameters_.on_empty(fault);
         rows.insert(rows.end(), of_fault.begin(), of_fault.end());
     }
     std::ranges::sort(rows);

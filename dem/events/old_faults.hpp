@@ -3,6 +3,8 @@
 #include "dem/event.hpp"
 #include "dem/point.hpp"
 
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace listric::dem {
@@ -10,14 +12,18 @@ namespace listric::dem {
 /// Faults of before extension: bands along lines whose rock is weak from the start, made so as
 /// fault detection does it.
 struct OldFaultsParameters {
-    /// A fault: its points, x and y, m, y up, and the width of its band, m.
+    /// A fault: its points, x and y, m, y up, the width of its band, m, and a name for messages.
     struct Fault {
         std::vector<Point> points;
         double width = 0.0;
+        std::string name = {};
     };
 
     std::vector<Fault> faults;
     double mean_stress_ratio = 0.75; ///< mean stress in a fault over the weight above it
+    /// Told of a fault without discs that can be weakened; it may throw. None: nobody wants to
+    /// know.
+    std::function<void(const Fault&)> on_empty = {};
 };
 
 /// Discs of rock that can be weakened whose centres are in a band, ascending.

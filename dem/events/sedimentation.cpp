@@ -208,6 +208,33 @@ double disc_density(const SedimentationParameters& parameters) {
            (1.0 - packing_porosity);
 }
 
+double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
+                                     const Motion& motion, double rate, double end) {
+    const Target target(parameters.level, parameters.target);
+    double highest = -std::numeric_limits<double>::infinity();
+    const auto look_at = [&](double time) {
+        const TargetLine line = target.at(time);
+        highest = std::max(highest, line.height(0.0));
+        for (const Point p : line.points())
+            if (p.x < 0.0)
+                highest = std::max(highest, p.y);
+    };
+    // A line that changes linearly is highest at an end.
+    const auto look_from = [&](double begin, double last) {
+        look_at(begin / rate);
+        look_at(last / rate);
+        for (const TargetStage& stage : parameters.target)
+            if (stage.time > begin / rate && stage.time < last / rate)
+                look_at(stage.time);
+    };
+    if (motion.stages.empty())
+        look_from(0.0, end);
+    for (const MotionStage& one : motion.stages)
+        if (one.surface == SurfaceWork::both || one.surface == SurfaceWork::fill)
+            look_from(one.start, one.end);
+    return highest;
+}
+
 Sedimentation::Sedimentation(const SedimentationParameters& parameters, double radius_ratio,
                              double extension_rate)
     : Event("sedimentation", {parameters.interval, extension_rate}, Stage::deposit),

@@ -19,6 +19,14 @@ struct SedimentationParameters {
 /// discs are packed under gravity, those between the discs.
 double disc_density(const SedimentationParameters& parameters);
 
+/// Greatest height, m, up to which the surface is filled at and behind the breakaway, x <= 0. Above
+/// 0 a backstop holds sediment there; level ground (DetachmentParameters::footwall_top) would be
+/// covered close to the hanging wall alone, and sediment fall off its end.
+/// @param rate  extension rate, m/a
+/// @param end   extension at the end, m, of a motion without stages
+double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
+                                     const Motion& motion, double rate, double end);
+
 /// Adapts the surface to the target line, whatever its shape.
 ///
 /// Discs that lie wholly above it are removed with their bonds. The space between surface and line

@@ -88,13 +88,15 @@ void release_pressure(State& state, const RigidBase& base, const CyclePhysics& p
 }
 
 /// Drops discs above the level, found by bisection, that brings the mean top of columns one mean
-/// diameter wide to y = 0.
+/// diameter wide to y = 0. Columns without a disc have no top: the wedge over a gentle breakaway
+/// may be too thin for one.
 void trim(State& state, double length) {
     const DiscColumns d = disc_columns(state);
     const double width = 2.0 * state.mean_radius;
     const auto columns = static_cast<std::size_t>(length / width);
+    constexpr double none = -1e300;
     const auto mean_top = [&](double cut) {
-        std::vector<double> top(columns, -1e300);
+        std::vector<double> top(columns, none);
         for (std::size_t i = 0; i < d.x.size(); ++i) {
             const double x = d.x[i] / width;
             if (d.y[i] + d.radius[i] <= cut && x >= 0.0 && x < static_cast<double>(columns)) {
@@ -102,7 +104,10 @@ void trim(State& state, double length) {
                 t = std::max(t, d.y[i] + d.radius[i]);
             }
         }
-        return std::accumulate(top.begin(), top.end(), 0.0) / static_cast<double>(columns);
+        std::erase(top, none);
+        return top.empty()
+                   ? none
+                   : std::accumulate(top.begin(), top.end(), 0.0) / static_cast<double>(top.size());
     };
     double low = -2.0 * width, high = 20.0 * width;
     for (int k = 0; k < 40; ++k) {
@@ -195,6 +200,16 @@ void soften(State& state, const RigidBase& base, const GenesisRequest& request,
     settle_under_gravity(state, base, physics, crossing, "third equilibrium", execution, report);
 }
 
+/// Density of the lightest discs there will be, kg/m^3.
+/// @param density  of those of the hanging wall's rock
+double lightest_density(const GenesisRequest& request, double density) {
+    double lightest = std::min(density, request.sediment_density.value_or(density));
+    for (const RockLayer& layer : request.layers)
+        lightest =
+            std::min(lightest, density * (layer.density / request.hanging_wall.rock_density));
+    return lightest;
+}
+
 /// Motion of discs counts from here.
 void begin_history(State& state) {
     const DiscColumns d = disc_columns(state);
@@ -273,12 +288,10 @@ State make_hanging_wall(const GenesisRequest& request,
     const double density = p.rock_density / (1.0 - porosity_under_gravity);
     const double mean_mass = density * pi * p.mean_radius * p.mean_radius;
     state.inertial_mass_floor = request.inertial_mass_floor * mean_mass;
-    double lightest = density; // kg/m^3
-    for (const RockLayer& layer : request.layers)
-        lightest = std::min(lightest, density * (layer.density / p.rock_density));
     state.clock.time_step =
-        stable_time_step(request.inertial_mass_floor > 0.0 ? state.inertial_mass_floor
-                                                           : lightest * pi * smallest * smallest,
+        stable_time_step(request.inertial_mass_floor > 0.0
+                             ? state.inertial_mass_floor
+                             : lightest_density(request, density) * pi * smallest * smallest,
                          state.materials, request.physics.damping, request.time_step_safety);
 
     add_discs(state, disc_count(p, area + lid * p.length));

@@ -53,6 +53,9 @@ struct GenesisRequest {
     std::vector<Material> materials;
     std::optional<BondStrength> bonds;
     std::vector<RockLayer> layers = {}; ///< the first one has what several contain
+    /// Density of the discs that will be laid down, kg/m^3; without a mass floor they may be the
+    /// lightest, which set the time step.
+    std::optional<double> sediment_density = {};
     CyclePhysics physics;
     double time_step_safety = 0.95;
     double inertial_mass_floor = 0.75; ///< mean basement disc masses

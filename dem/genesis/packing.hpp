@@ -42,8 +42,9 @@ void scatter_and_expand(State& state, const RigidBase& base, std::span<const dou
                         const std::function<void(std::string_view, double)>& report,
                         const Execution& execution = {});
 
-/// Cycles until the mean unbalanced force falls below `ratio` of the mean contact force, and, with
-/// gravity, the base carries the weight to one percent; or until the limit.
+/// Cycles until the mean unbalanced force falls below `ratio` of the mean contact force and the
+/// base carries the weight to one percent; or until the limit. Without gravity the base must not be
+/// pulled down, which is chance where forces are small: then the limit often ends it.
 void settle(State& state, const RigidBase& base, const CyclePhysics& physics, double ratio,
             int limit, const std::function<void(double)>& report, const Execution& execution = {});
 

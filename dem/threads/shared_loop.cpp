@@ -8,6 +8,8 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <system_error>
 #include <thread>
 
@@ -18,12 +20,13 @@ using Work = std::function<void(std::size_t)>;
 /// Threads that wait for loops to help with.
 class Team::Helpers {
 public:
-    explicit Helpers(int count) {
+    /// Starts what is missing of so many.
+    void start(std::size_t count) {
         try {
-            for (int k = 0; k < count; ++k)
+            while (can_start_ && threads_.size() < count)
                 threads_.emplace_back([this](const std::stop_token& stop) { help(stop); });
         } catch (const std::system_error&) {
-            // those that could be started do it
+            can_start_ = false; // those that could be started do it
         }
     }
 
@@ -95,6 +98,7 @@ private:
     const Work* work_ = nullptr;
     std::size_t next_ = 0, count_ = 0;
     int busy_ = 0;
+    bool can_start_ = true;
     std::vector<std::exception_ptr> failures_;
     std::vector<std::jthread> threads_; ///< the last, so that they end first
 };
@@ -105,27 +109,40 @@ thread_local Team* team_at_hand = nullptr;
 
 } // namespace
 
-Team::Team(int threads) : threads_(threads), before_(team_at_hand) { team_at_hand = this; }
+Team::Team(int threads) : threads_(threads), before_(team_at_hand) {
+    if (threads < 1)
+        throw std::invalid_argument("Execution::threads is " + std::to_string(threads) +
+                                    "; at least 1 (std::thread::hardware_concurrency() is 0 where "
+                                    "the number of cores is unknown)");
+    team_at_hand = this;
+}
 
 Team::~Team() { team_at_hand = before_; }
 
-Team::Helpers& Team::helpers() {
+Team::Helpers& Team::helpers(std::size_t pieces) {
     if (before_ && before_->threads_ == threads_)
-        return before_->helpers();
+        return before_->helpers(pieces);
     if (!helpers_)
-        helpers_ = std::make_unique<Helpers>(threads_ - 1);
+        helpers_ = std::make_unique<Helpers>();
+    helpers_->start(std::min(pieces, static_cast<std::size_t>(threads_)) - 1);
     return *helpers_;
 }
 
 int team_size() { return team_at_hand ? team_at_hand->threads_ : 1; }
 
-int threads_at_hand() { return team_size() == 1 ? 1 : 1 + team_at_hand->helpers().count(); }
+int threads_at_hand(std::size_t pieces) {
+    if (team_size() == 1 || pieces <= 1)
+        return 1;
+    const int started = 1 + team_at_hand->helpers(pieces).count();
+    return static_cast<int>(std::min(pieces, static_cast<std::size_t>(started)));
+}
 
 void run_team(int threads, const std::function<void(int)>& work) {
-    assert(threads <= threads_at_hand());
     if (threads == 1)
         return work(0);
-    team_at_hand->helpers().share(static_cast<std::size_t>(threads), [&](std::size_t k) noexcept {
+    const auto count = static_cast<std::size_t>(threads);
+    assert(threads == threads_at_hand(count));
+    team_at_hand->helpers(count).share(count, [&](std::size_t k) noexcept {
         const Team alone(1);
         const Pinned pinned(static_cast<int>(k), threads);
         work(static_cast<int>(k));
@@ -134,7 +151,7 @@ void run_team(int threads, const std::function<void(int)>& work) {
 
 void for_each_shared(std::size_t count, const Work& work) {
     if (count > 1 && team_size() > 1)
-        return team_at_hand->helpers().share(count, [&](std::size_t k) {
+        return team_at_hand->helpers(count).share(count, [&](std::size_t k) {
             const Team alone(1);
             work(k);
         });

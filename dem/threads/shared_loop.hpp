@@ -16,9 +16,10 @@ namespace listric::dem {
 // and what they give is put together in their order: the bits are those of one loop.
 
 /// While it lives, so many threads share the loops of the calling thread, instead of one; or fewer
-/// where there is no memory for more.
+/// where there is no memory for more. A thread is started when a loop has a piece for it.
 class Team {
 public:
+    /// Throws std::invalid_argument for less than one thread.
     explicit Team(int threads);
     ~Team();
     Team(const Team&) = delete;
@@ -27,10 +28,10 @@ public:
 private:
     class Helpers;
     friend int team_size();
-    friend int threads_at_hand();
+    friend int threads_at_hand(std::size_t);
     friend void for_each_shared(std::size_t, const std::function<void(std::size_t)>&);
     friend void run_team(int, const std::function<void(int)>&);
-    Helpers& helpers();
+    Helpers& helpers(std::size_t pieces);
 
     int threads_;
     Team* before_;
@@ -40,8 +41,8 @@ private:
 /// Threads that share a loop of the calling thread.
 int team_size();
 
-/// Number of those that could be started.
-int threads_at_hand();
+/// Number of those that could be started for a loop of so many pieces: no more than these.
+int threads_at_hand(std::size_t pieces);
 
 /// Calls work(k) for k = 0 .. count - 1. Loops within it are not shared again. After a failure no
 /// further call begins; of what the calls have thrown, the first in order of k is thrown again,

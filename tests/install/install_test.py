@@ -154,6 +154,27 @@ class Installed(unittest.TestCase):
                               "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DCMAKE_UNITY_BUILD=ON", target="drive_lis1")
         self.assertEqual(call(folder / "drive_lis1").strip(), self.state_hash)
 
+    def test_a_project_goes_on_without_what_listric_needs(self):
+        source = self.elsewhere / "optional"
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\n"
+            "find_package(Listric QUIET)\nmessage(\"found ${Listric_FOUND}: ${Listric_NOT_FOUND_MESSAGE}\")\n")
+        said = call("cmake", "-G", "Ninja", "-S", source, "-B", self.place / "optional",
+                    f"-DCMAKE_PREFIX_PATH={self.prefix}", env={**os.environ, "PKG_CONFIG_LIBDIR": "/nonexistent"})
+        self.assertIn("found 0: Listric needs HDF5", said)
+
+    def test_a_umask_closes_nothing_unsaid(self):
+        closed = self.place / "closed"
+        said = call("cmake", "--install", BUILD, "--prefix", closed, "--component", "development", umask=0o077)
+        cure = re.search(r"chmod\s+-R\s+a\+rX\s+'(.*)'", said)
+        self.assertEqual(cure and cure[1], str(closed), said)
+        said = call("cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake", "-B", closed / "packages",
+                    "-D", "CPACK_DEBIAN_PACKAGE_SHLIBDEPS=OFF", "-D", "CPACK_COMPONENTS_ALL=development", umask=0o077)
+        packed, = closed.glob("packages/_CPack_Packages/*/DEB/*/development/usr")
+        for path in [packed, *packed.rglob("*")]:
+            self.assertEqual(path.stat().st_mode & 0o444, 0o444, path)
+            self.assertTrue(path.is_file() or path.stat().st_mode & 0o111 == 0o111, path)
+
     def test_what_others_read_names_no_folder_of_ours(self):
         for file in self.prefix.rglob("*.cmake"):
             self.assertNotIn(str(SOURCES), file.read_text(), file)

@@ -114,6 +114,23 @@ TEST_F(BaseMotionRun, RefusesWhatMakesNoSense) {
                 HasSubstr("bad.csv:1: has no column uplift_m"));
 }
 
+TEST_F(BaseMotionRun, WarnsOfMotionThatMovesNothing) {
+    const auto warnings = [&](const std::string& uplift) {
+        return load("[base_motion]\nuplift = " + uplift + "\n").warnings;
+    };
+    const auto nothing = testing::Contains(HasSubstr("base_motion moves nothing up to the end"));
+    EXPECT_THAT(warnings("[[0.0, 0.0], [4000.0, 10.0]]"), nothing);
+    EXPECT_THAT(warnings("[{time_a = 5000.0, points = [[0.0, 0.0]]}, "
+                         "{time_a = 9000.0, points = [[0.0, 10.0]]}]"), // the run ends at 2000 a
+                nothing);
+    EXPECT_THAT(warnings("[{time_a = 0.0, points = [[0.0, 0.1]]}, "
+                         "{time_a = 9000.0, points = [[0.0, 0.1]]}]"),
+                nothing);
+    EXPECT_THAT(warnings("[{time_a = 0.0, points = [[0.0, 0.0]]}, "
+                         "{time_a = 9000.0, points = [[0.0, 10.0]]}]"),
+                testing::Not(nothing));
+}
+
 TEST(DetachmentNodes, FollowTheChain) {
     const Chain chain{arc({0.0, 0.0}, {0.0, -1.0}, 1500.0, 0.5 * std::numbers::pi),
                       line({1500.0, -1500.0}, {6000.0, -1500.0})};

@@ -524,6 +524,10 @@ class Draw(Browsed):
         self.assertEqual(tomllib.loads(self.what_is_saved()["named.toml"])["observed"], {"horizons": "named-horizons.csv"})
         self.assertIn("Its horizons take the place of h.csv, which was not dropped", self.text("told"))
         self.assertNotIn("It needs h.csv", self.text("told"))
+        ink = json.loads((SOURCES / "apps/figures/vocabulary.json").read_text())["layers"]["picks"]["ink"]   # as in figures
+        red, green, blue = bytes.fromhex(ink[1:])
+        self.assertEqual(self.script("return getComputedStyle(document.querySelector('#section .pick.chosen .mark')).fill;"),
+                         f"rgb({red}, {green}, {blue})")
 
     def test_11_keyboard_alone(self):
         self.open()

@@ -266,6 +266,14 @@ TEST_F(ElasticBaseRun, ExplainNamesTheLoads) {
     EXPECT_THAT(
         explain(load("[basin_water]\n"), 1, program_effects()),
         AllOf(HasSubstr("basin: water of 1030 kg/m3 up to 0 m"), Not(HasSubstr("crust, water"))));
+    // (3300 - 2700) / (3300 - 2400) of the thinning: what sinks is filled.
+    EXPECT_THAT(explain(load("[lower_crust_thinning]\nwidth_m = 15000.0\n",
+                             {"elastic_base.mantle_density_kg_per_m3=3300",
+                              "elastic_base.crust_density_kg_per_m3=2700",
+                              "elastic_base.infill_density_kg_per_m3=2400"}),
+                        1, program_effects()),
+                HasSubstr("thins by 80 m at most; the mantle in its place\n    lowers a wide area "
+                          "by 53 m"));
     EXPECT_THAT(without, HasSubstr("leans on the backstop"));
     EXPECT_THAT(
         explain(SceneRuns::load(staged("[[stage]]\ndistance_m = 60.0\n")), 1, program_effects()),

@@ -147,6 +147,13 @@ class Figures(unittest.TestCase):
             self.assertEqual(ended.returncode, code, ended.stdout)
             self.assertIn(words, ended.stdout)
             self.assertEqual("needs Python with" in ended.stdout, code == 2, ended.stdout)
+        # The first on PATH cannot load the scripts: the system's Python draws.
+        for script in ("echo TypeError >&2; exit 1", "echo too old >&2; exit 69"):
+            (self.folder / "python3").write_text(f'#!/bin/sh\n[ "$4" = -c ] && exit 0; {script}\n')
+            (self.folder / "python3").chmod(0o755)
+            environment = {"PATH": f"{self.folder}:{os.environ['PATH']}", "LISTRIC_PYTHON": ""}
+            ended = self.listric("figures", "out", "--at", "100m", "--only", "strata", **environment)
+            self.assertEqual(ended.returncode, 0, ended.stdout)
         ended = self.listric("figures", "out", LISTRIC_PYTHON="/no/such/python")
         self.assertEqual(ended.returncode, 2)
         self.assertIn("LISTRIC_PYTHON", ended.stdout)

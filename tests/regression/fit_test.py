@@ -93,6 +93,13 @@ class Fit(unittest.TestCase):
         self.assertEqual(self.fit(HEAD + TOP + MIDDLE, *words).stdout, ended.stdout)
         self.assertEqual({file: file.stat().st_mtime_ns for file in summaries}, summaries)
 
+        # Corrected picks are another fit; this one's answer stays.
+        answers = {file: file.read_bytes() for file in self.folder.glob("out/*.*")}
+        other = self.fit(HEAD + TOP.replace("top,300,300,", "top,300,295,") + MIDDLE, *words)
+        self.assertEqual(other.returncode, 2, other.stderr)
+        self.assertIn("has other parameters", other.stderr)
+        self.assertEqual({file: file.read_bytes() for file in answers}, answers)
+
     def assert_refused(self, picks, *parts, words=()):
         ended = self.fit(picks, "--predict-only", "--quiet", *words)
         self.assertEqual(ended.returncode, 2, ended.stdout + ended.stderr)
@@ -108,6 +115,22 @@ class Fit(unittest.TestCase):
         self.assert_refused("name,x_m,age_a\n", "picks.csv:1", "depth_m")
         in_ka = (HEAD + TOP + MIDDLE).replace(",30000\n", ",30\n").replace(",10000\n", ",10\n")
         self.assert_refused(in_ka, "picks.csv:2", "is it in years")
+
+    def test_nothing_is_written_over(self):
+        Path(self.folder, "picks.toml").write_text("# mine\n" + SCENE)
+        self.assert_refused(HEAD + TOP + MIDDLE, "picks.toml", "is read by this call",
+                            words=("--scene", "picks.toml", "--output", "."))
+        Path(self.folder, "fit.csv").write_text("mine\n")
+        Path(self.folder, "picks.toml").unlink()
+        self.assert_refused(HEAD + TOP + MIDDLE, "fit.csv", "is no file of such a call", words=("--output", "."))
+        self.assertEqual(Path(self.folder, "fit.csv").read_text(), "mine\n")
+        answer = Path(self.folder, "out/fit.json")
+        answer.parent.mkdir()
+        answer.write_text(json.dumps({"picks": "/elsewhere/picks.csv", "kinematics": {}}))
+        self.assert_refused(HEAD + TOP + MIDDLE, "is the answer to other picks, /elsewhere/picks.csv")
+
+    def test_scenes_with_stages_are_refused(self):
+        self.assert_refused(HEAD + TOP + MIDDLE, "has stages", words=("--scene", "inversion-lis1"))
 
     def test_scenes_without_a_detachment_of_their_own_are_refused(self):
         self.assert_refused(HEAD + TOP + MIDDLE, "pure-shear", "[detachment]", words=("--scene", "pure-shear"))

@@ -72,6 +72,18 @@ class FrontDoor(unittest.TestCase):
         self.assertRegex(page, r'<td title="extension_m">extension<td>[\d.]+ km\n?<')
         self.assertRegex(page, r'<td title="basin_area_m2">basin area<td>-?[\d.]+ km²')
         self.assertNotRegex(page, r"(src|href)=\"?https?:")
+        self.call("view", env=self.without_display())  # again, over its own page
+        (self.folder / "out/index.html").write_text("<h1>My page</h1>")
+        self.assertIn("is no file of such a call", self.call("view", code=2, env=self.without_display()))
+        self.assertEqual((self.folder / "out/index.html").read_text(), "<h1>My page</h1>")
+
+    def test_check_says_warnings_in_lines_of_their_own(self):
+        self.call("new", "short.toml")
+        scene = self.folder / "short.toml"
+        scene.write_text(re.sub(r"(?m)^#? *distance_m = .*", "distance_m = 300", scene.read_text()))
+        said = self.call("check", "short.toml")
+        self.assertRegex(said, r"(?m)^short.toml: correct: .*\nwarning: .*longer")
+        self.assertNotIn("\\x", said)
 
     @staticmethod
     def without_display():

@@ -8,6 +8,7 @@ import pty
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 from program import SOURCES, read_terminal
@@ -28,12 +29,12 @@ SCRIPTS = {
     "sudo": 'exec "$@"',
 }
 TOOLS = ("readlink awk mkdir flock ls cat grep rm env nproc cp sleep tail head sort sh "
-         "cmake ninja c++ pkg-config").split()
+         "find comm touch sed cmake ninja c++ pkg-config").split()
 PROJECT = r'''
 cmake_minimum_required(VERSION 3.25)
 project(listric NONE)
 set(LISTRIC_TESTS OFF CACHE BOOL "")
-file(WRITE ${CMAKE_BINARY_DIR}/listric "#!/bin/sh\nprintf 'program: '; printf '<%s>' \"$@\"\n")
+file(WRITE ${CMAKE_BINARY_DIR}/listric "#!/bin/sh\nprintf 'program: '; printf '<%s>' \"$@\"\n[ \"$1\" != advice ] || printf %s \"$LISTRIC_CALL\"\n")
 file(CHMOD ${CMAKE_BINARY_DIR}/listric PERMISSIONS OWNER_READ OWNER_EXECUTE WORLD_READ WORLD_EXECUTE)
 # The program names its plug-ins by their paths, whether they are built or not.
 add_custom_target(names COMMAND echo ${CMAKE_BINARY_DIR}/liblistric_fem.so)
@@ -166,7 +167,14 @@ class Launcher(unittest.TestCase):
         (self.root / "CMakeUserPresets.json").write_text('''{"version": 6, "configurePresets": [
             {"hidden":true,"name":"hidden-one"},{"inherits":["native"],"name":"mine"}],
             "buildPresets": [{"name": "no-configuration", "configurePreset": "mine"}]}''')
-        self.call("scenes", LISTRIC_PRESET="mine")
+        def built():
+            self.call("scenes", LISTRIC_PRESET="mine")
+            return (self.root / "build/mine/CMakeCache.txt").read_text()
+        built()
+        user_presets = self.root / "CMakeUserPresets.json"
+        user_presets.write_text(user_presets.read_text().replace(
+            '"name":"mine"', '"name":"mine","cacheVariables":{"OWN_CHOICE":"1"}'))
+        self.assertIn("OWN_CHOICE:UNINITIALIZED=1", built())  # an edit is noticed
         for preset in ("hidden-one", "no-configuration"):
             self.call("scenes", LISTRIC_PRESET=preset, code=2)
 
@@ -194,6 +202,59 @@ class Launcher(unittest.TestCase):
         self.assertIn("starting afresh", said)
         self.assertFalse((moved / "build/native/made").exists())
 
+    def test_names_that_cmake_cannot_take(self):
+        for name in ("P#3", "a;b", 'q"t', "back\\slash"):
+            _, said = self.call("scenes", code=2, LISTRIC_BUILD=str(self.place / name))
+            self.assertIn("rename", said)
+        self.assertEqual(self.call("scenes", LISTRIC_BUILD=str(self.place / "a b'ü%&"))[0], "program: <scenes>")
+
+    def compiling(self):
+        """Sources with a file that is compiled; says what the object was made of."""
+        (self.root / "dem").mkdir()
+        source, made = self.root / "dem/one.cpp", self.root / "build/native/one.o"
+        with open(self.root / "CMakeLists.txt", "a") as project:
+            project.write("add_custom_command(OUTPUT one.o DEPENDS dem/one.cpp COMMAND cp "
+                          "${CMAKE_SOURCE_DIR}/dem/one.cpp one.o)\n"
+                          "add_custom_target(one DEPENDS one.o)\nadd_dependencies(listric one)\n")
+
+        def build(text, age, **how):
+            source.write_text(text)
+            os.utime(source, (time.time() - age,) * 2)
+            _, said = self.call("scenes", **how)
+            return made.read_text(), said
+        return source, build
+
+    def test_changed_sources_with_older_times_are_compiled(self):
+        source, build = self.compiling()
+        self.assertEqual(build("first", 100)[0], "first")
+        newest = source.stat().st_mtime_ns
+        self.call("scenes")
+        self.assertEqual(source.stat().st_mtime_ns, newest)  # what has not changed keeps its time
+        made, said = build("older", 3600)
+        self.assertEqual(made, "older")
+        self.assertIn("1 files of the sources have changed and were not newer", said)
+        log = self.root / "build/native/.ninja_log"
+        os.utime(log, (time.time() + 3600,) * 2)  # the clock went back since
+        os.utime(self.root / "build/native/one.o", (time.time() + 3600,) * 2)
+        self.assertEqual(build("again", 0)[0], "again")
+        presets = self.root / "CMakePresets.json"
+        presets.write_text(presets.read_text().replace("-march=native", "-march=native -DOWN"))
+        os.utime(presets, (0, 0))
+        _, said = self.call("scenes")
+        self.assertIn("configuring", said)
+
+    def test_times_in_the_future_are_set_to_now(self):
+        os.utime(self.root / "CMakeLists.txt", (time.time() + 9e4,) * 2)
+        _, said = self.call("scenes")
+        self.assertIn("1 files of the sources had a time in the future", said)
+        self.assertLess((self.root / "CMakeLists.txt").stat().st_mtime, time.time() + 1)
+        self.assertEqual(self.call("scenes")[1], "")
+
+    def test_a_full_disk_names_the_folder_of_temporary_files(self):
+        (self.root / "CMakeLists.txt").write_text('message(FATAL_ERROR "cannot write: Disk quota exceeded")\n')
+        _, said = self.call("scenes", code=4, TMPDIR=str(self.notes))
+        self.assertIn(f"or {self.notes}: disk or quota full", said)
+
     def test_all_packages_are_installed_at_once_and_said_before(self):
         self.note("missing", "g++", "libdeal.ii-dev", "petsc-dev", "openmpi-bin", "mkdocs")
         self.call("run", "elastic", "--ranks=2")
@@ -204,7 +265,11 @@ class Launcher(unittest.TestCase):
             self.assertIn(f" {name} ", self.installs()[0] + " ")
             self.assertIn(f" {name}", said)
         self.assertNotIn("mkdocs", self.installs()[0])
-        for name, text in (("bends.toml", 'scene = "elastic"'), ("slides.toml", 'scene = "rigid"'),
+        shared = self.place / "share/scenes"
+        shared.mkdir(parents=True)
+        (shared / "soft.toml").write_text("[elastic_base]\n")
+        for name, text in (("bends.toml", 'scene = "elastic"'), ("quoted.toml", "scene = 'elastic'"),
+                           ("alters.toml", "[[vary]]\nparameter = 'elastic_base.order'"), ("slides.toml", 'scene = "rigid"'),
                            ("varies.toml", 'scene = "rigid"\n[[vary]]\nparameter = "elastic_base.order"'),
                            ("bent/scene.toml", "[elastic_base]")):
             file = self.place / name
@@ -215,10 +280,15 @@ class Launcher(unittest.TestCase):
                              (("run", "rigid", "--set=elastic_base.order=2"), 1), (("flexure",), 1),
                              (("study", "isostasy"), 1), (("study", "speed"), 0),
                              (("sweep", "bends.toml"), 1), (("sweep", "varies.toml"), 1),
-                             (("sweep", "slides.toml"), 0), (("report", "bent"), 1), (("report", "."), 0)):
+                             (("sweep", "slides.toml"), 0), (("sweep", "quoted.toml"), 1),
+                             (("sweep", "alters.toml"), 1), (("run", "soft"), 1),
+                             (("study", "resolution", "--scene=elastic"), 1),
+                             (("fit", "p.csv", "--scene=elastic"), 1), (("fit", "p.csv", "--scene=rigid"), 0),
+                             (("figures", "bent"), 1), (("figures", "."), 0),
+                             (("report", "bent"), 0), (("view", "bent"), 0)):
             self.note("missing", "petsc-dev")
             self.note("calls")
-            self.call(*words)
+            self.call(*words, **({"LISTRIC_SHARE": str(shared.parent)} if "soft" in words else {}))
             self.assertEqual(len(self.installs()), asked, words)
 
     def test_a_plugin_is_built_once_it_can_be(self):
@@ -271,15 +341,44 @@ class Launcher(unittest.TestCase):
                 os.chown(file, user, -1, follow_symlinks=False)
         _, said = self.call("run", "elastic", code=2, user=user)
         self.assertRegex(said, "as root: .*apt-get install --no-install-recommends g[+][+] libdeal.ii-dev\n")
+        # What only figures or this call want ends no call of a program that is built.
+        self.note("missing", "python3-matplotlib", "libjs-dygraphs")
+        out, said = self.call("scenes", user=user)
+        self.assertEqual(out, "program: <scenes>")
+        self.assertRegex(said, "as root: .*libjs-dygraphs python3-matplotlib; going on without\n")
+        self.note("missing")
         # A tree that cannot be written runs what was built, else names the way out.
         for folder in (self.root / "build", self.root / "build/native"):
             folder.chmod(0o555)
         out, said = self.call("scenes", user=user)
         self.assertEqual(out, "program: <scenes>")
         self.assertIn("as it was last built", said)
+        self.assertEqual(self.call("advice", user=user)[0], f"program: <advice>{self.root / 'listric'}")
+        origin = self.root / "build/native/origin"
+        built = origin.read_text()
+        origin.write_text(f"{self.root}\nflags : sse2 avx4096\n")
+        for words in (("scenes",), ("help",)):  # which has no page here
+            _, said = self.call(*words, user=user, code=4)
+            self.assertIn("for another processor; LISTRIC_BUILD", said)
+        origin.write_text(built)
         _, said = self.call("scenes", user=user, code=4, LISTRIC_PRESET="debug")
         self.assertIn("LISTRIC_BUILD", said)
         (self.root / "build").chmod(0o755)
+
+    def test_checks_of_no_files_fail(self):
+        (self.root / ".ci").mkdir()
+        shutil.copy2(SOURCES / ".ci/run", self.root / ".ci")
+        for step in "format", "python":
+            out, _ = self.call(step, launcher=self.root / ".ci/run", code=1,
+                               GIT_CEILING_DIRECTORIES=str(self.place))
+            self.assertIn(f"failed: {step}", out)
+
+    @unittest.skipUnless(shutil.which("git"), "needs git")
+    def test_a_clone_for_windows_runs_on_linux(self):
+        shutil.copy(SOURCES / ".gitattributes", self.root)
+        for words in (("init", "-q"), ("add", "."), ("-c", "core.autocrlf=true", "checkout-index", "-q", "--prefix=win/", "-a")):
+            subprocess.run(["git", "-C", self.root, *words], check=True, stderr=subprocess.DEVNULL)
+        self.assertNotIn(b"\r", (self.root / "win/listric").read_bytes())
 
     def test_without_dpkg(self):
         self.only_tools("cmake", "c++")

@@ -2,6 +2,8 @@
 // it is resumed; the column `layer` is there only with the table. Some 370 discs to 100 m: ten
 // seconds of processor time for the four runs.
 
+#include "apps/archive/exports.hpp"
+#include "apps/figures/seismic_section.hpp"
 #include "apps/measures/rock_layers.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/genesis_cache.hpp"
@@ -62,6 +64,17 @@ TEST_F(LayersRun, HasEqualBitsHoweverItIsMade) {
     const auto shear = measures::bedding_shear(state);
     ASSERT_TRUE(shear);
     EXPECT_GT(shear->in_layers, 0.0);
+
+    // The report's seismic image is of rock by its depth at the start, as the export's.
+    const RunFolder left(folder / "one", layered());
+    const Moment moment = left.read(left.snapshots.back());
+    const Observation now{left.scene, left.parts, moment.state, moment.events};
+    const auto image = [&](const std::vector<measures::Horizon>& horizons) {
+        return seismic_section(now, {}, horizons, {.in_depth = true}).amplitude;
+    };
+    const std::vector<measures::Horizon> of_layers = horizons_of({now});
+    EXPECT_EQ(image(seismic_horizons(now, of_layers)), image(seismic_horizons(now)));
+    EXPECT_NE(image(of_layers), image(seismic_horizons(now)));
 }
 
 /// Weak rocks stand between those of layers: a kept hanging wall names its rocks by their places.

@@ -1,6 +1,7 @@
 // Water in the pores from the scene to the discs: what it leaves as it is, what it keeps, and what
 // it refuses.
 
+#include "apps/commands/explain.hpp"
 #include "apps/figures/draw_run.hpp"
 #include "apps/figures/export_run.hpp"
 #include "apps/support/error.hpp"
@@ -266,6 +267,19 @@ TEST_F(PoreFluidRun, WarnsOfStrataThatAreShocks) {
     EXPECT_THAT(warnings({"pore_fluid.hydrostatic=true", "sedimentation.interval_a=50000"}),
                 Not(shocks));
     EXPECT_THAT(warnings({"sedimentation.interval_a=50000"}), Not(shocks));
+}
+
+TEST_F(PoreFluidRun, ExplainLetsTheFloorSinkInExtensionAlone) {
+    const auto column = [](const std::vector<std::string>& more) {
+        std::vector<std::string> set{"pore_fluid={}", "materials.sediment=mud"};
+        set.insert(set.end(), more.begin(), more.end());
+        const std::string text = explain(with(set), 1, program_effects());
+        const std::size_t from = text.find("a floor that sinks");
+        return text.substr(from, text.find("\n\n", from) - from);
+    };
+    EXPECT_THAT(column({}), StartsWith("a floor that sinks by 0.2 km"));
+    EXPECT_EQ(column({}),
+              column({"stage=[{distance_m=200.0}, {pause_a=1e6}]", "extension.distance_m=10200"}));
 }
 
 TEST_F(PoreFluidRun, GenesisDependsOnTheDensityOnly) {

@@ -15,6 +15,7 @@ import tempfile
 import time
 import tomllib
 import unittest
+import warnings
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -372,7 +373,7 @@ class Reader(unittest.TestCase):
         self.assertEqual(part.values.shape, (15, 25))
         inside = np.ix_(np.isin(fine.depth, part.depth), np.isin(fine.x, part.x))
         np.testing.assert_array_equal(part.values, fine.values[inside])
-        for values in {"spacing": 0.0}, {"spacing": "1km"}, {"extent": (0, 1)}, {"extent": 5}:
+        for values in {"spacing": 0.0}, {"spacing": 1e-3}, {"spacing": "1km"}, {"extent": (0, 1)}, {"extent": 5}:
             with self.assertRaisesRegex(listric.ListricError, next(iter(values))):
                 snapshot.raster("id", **values)
         with self.assertRaisesRegex(listric.ListricError, "extension_m = '1km': is no finite number"):
@@ -434,6 +435,10 @@ class Reader(unittest.TestCase):
             with self.fails(listric.RunError, folder / "summary.json", "is damaged"):
                 listric.Run(folder).summary
         (folder / "scene.toml").write_text("a = " + "[" * deep + "]" * deep)
+        (folder / "summary.json").unlink()
+        (folder / "summary.json").mkdir()  # root may read everything, but no folder as a file
+        with self.fails(listric.RunError, folder / "summary.json", "cannot be read: Is a directory"):
+            listric.Run(folder).summary
         with self.fails(listric.RunError, folder / "scene.toml", "is damaged"):
             listric.Run(folder).scene
 
@@ -455,6 +460,28 @@ class Reader(unittest.TestCase):
         with self.fails(listric.ProgramError, "holds a finished run", "--force"):
             listric.simulate(self.folder / "scene.toml", output=self.folder / "run")
 
+    def test_a_quiet_run_hides_no_warning_and_is_found_where_it_is_written(self):
+        place = Path(tempfile.mkdtemp(dir=self.folder))
+        program, scene = place / "listric", place / "own.toml"
+        program.write_text('#!/bin/sh\nwhile [ "$1" != --output ]; do shift; done\nmkdir -p "$2"; touch "$2/scene.toml"\n'
+                           'echo "progress" >&2; echo "listric: warning: $2: too fast" >&2\n')
+        program.chmod(0o755)
+        scene.write_text("[hanging_wall]\n")
+        self.addCleanup(os.environ.update, LISTRIC_PROGRAM=str(PROGRAM))
+        os.environ["LISTRIC_PROGRAM"] = str(program)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(place)
+        for name, given, folder in ((None, {}, "own"), ("other", {}, "other"), ("other", {"name": "third"}, "third")):
+            if name:
+                scene.write_text(f'name = "{name}"\n')
+            with warnings.catch_warnings(record=True) as said:
+                warnings.simplefilter("always")
+                self.assertEqual(listric.simulate(scene, set=given).folder, Path("out", folder))
+            [warning] = said
+            self.assertEqual(str(warning.message), f"out/{folder}: too fast")
+            self.assertEqual(Path(warning.filename).name, Path(__file__).name)
+        self.assertEqual(listric.simulate("lis1", quiet=False).folder, Path("out/lis1"))
+
     def test_the_program_is_found(self):
         self.assertEqual(listric.find_program(), PROGRAM)
         # As installed, on the PATH, and in the source tree, in this order.
@@ -472,6 +499,15 @@ class Reader(unittest.TestCase):
             call = [sys.executable, "-B", "-c", "import listric; print(listric.find_program())"]
             return subprocess.run(call, env=environment, text=True, capture_output=True)
 
+        # The tree's package takes no program that lies where an installation has it.
+        below = tree / "apps/checkout/apps/python"
+        shutil.copytree(package, below / "listric")
+        stray = tree / "apps/bin/listric"
+        stray.parent.mkdir()
+        shutil.copy(installed, stray)
+        package = below / "listric"
+        self.assertEqual(found().stdout.strip(), str(on_path))
+        package = tree / "lib/python3/dist-packages/listric"
         for file in (installed, on_path, launcher):
             self.assertEqual(found().stdout.strip(), str(file), found().stderr)
             file.unlink()

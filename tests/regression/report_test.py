@@ -233,12 +233,12 @@ class Report(Browsed):
         for folder in folders:
             frame = frames.load_frame(str(folder))
             measured = np.bincount(np.load(folder / "discs_behaviour.npy"), minlength=4).tolist()
-            k, present, rock, strata, end, weak = self.script(
+            k, present, rock, strata, end, weak, strain = self.script(
                 "const [run] = page.runs, k = run.nearest(a[0]); page.t = k;"
-                "await run.load(['behaviour', 'start_depth_m', 'layer_weak']);"
+                "await run.load(['behaviour', 'start_depth_m', 'layer_weak', 'window_strain']);"
                 "const colours = mode => Array.from(discColours(run, k, mode, 'figures', 1, a[1]), cssColour);"
                 "return [k, Array.from(run.codes[k].present), colours('rock'), colours('strata'),"
-                "run.moments[k].ends.window_strain, Array.from(run.codes[k].layer_weak)];",
+                "run.moments[k].ends.window_strain, Array.from(run.codes[k].layer_weak), colours('window')];",
                 frame.meta["extension_m"], frame.strata)
             there = np.flatnonzero(present)
             self.assertEqual(counted(drawn(frame, "behaviour")[0]), measured)
@@ -250,12 +250,17 @@ class Report(Browsed):
                                   for colours in ([strata[i] for i in there], drawn(frame, "strata")[0]))
             differ = np.abs(in_page - in_figure).max(axis=1) > 1
             self.assertLess(differ.mean(), 0.01)   # whose depth in the page, rounded, is of another layer
+            grey = VOCABULARY["scale"]["undefined"]["colour"]   # deposited since the window began
+            self.assertEqual([strain[i] for i in there].count(grey), np.isnan(frame.strain).sum())
+            self.assertEqual(drawn(frame, "strain")[0].count(grey), np.isnan(frame.strain).sum())
+            self.assertGreater(np.isnan(frame.strain).sum(), 0)
             [layer] = [layer for layer in frame.layers if layer.label == "weakened"]
             self.assertEqual(sum(weak[i] == 255 for i in there), layer.rows.sum())
             found.append((frame.extension, measured, end))
         self.script("page.mode = 'window'; await draw(); return 0;")
         legend = self.driver.find_element("id", "legend").text
         self.assertAlmostEqual(float(re.search(r"([\d.]+) or more", legend)[1]), found[-1][2])
+        self.assertIn(VOCABULARY["scale"]["undefined"]["label"], legend)
         return found
 
     def test_05b_page_and_figures_tell_one_truth(self):

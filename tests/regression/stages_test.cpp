@@ -141,6 +141,24 @@ TEST_F(Stages, EffectsThatTheEndComesBeforeAreSaid) {
                 testing::Contains(HasSubstr("sedimentation.interval_a = 20000 is longer")));
 }
 
+TEST_F(Stages, EveryIntervalBeyondTheEndIsSaid) {
+    const auto warnings =
+        load(text("[[stage]]\ndistance_m = 50.0\n"),
+             {"compaction.interval_a=1e6", "bond_healing.interval_a=1e6",
+              "fault_weakening.interval_a=1e6", "fault_weakening.update_interval_a=1e6",
+              "sedimentation.interval_a=1e6"})
+            .warnings;
+    for (const char* name :
+         {"compaction.interval_a", "bond_healing.interval_a", "fault_weakening.interval_a",
+          "fault_weakening.update_interval_a", "sedimentation.interval_a"})
+        EXPECT_EQ(std::ranges::count_if(warnings,
+                                        [&](const std::string& warning) {
+                                            return warning.starts_with(std::string(name) + " = ");
+                                        }),
+                  1)
+            << name;
+}
+
 TEST_F(Stages, ReadBackFromTheRunsRecord) {
     const Scene scene = load(there_and_back());
     const std::string record = to_toml(scene);

@@ -147,6 +147,24 @@ TEST(Study, RefusesWhatItDoesNotKnow) {
     request = small("speed", folder);
     request.seeds = 0;
     EXPECT_THROW(run_study(request), UsageError);
+    for (const char* fixed : {"coupling", "time-step", "precision"}) {
+        request = small(fixed, folder);
+        request.values = {2.0};
+        EXPECT_THROW(run_study(request), UsageError) << fixed;
+    }
+    EXPECT_THROW(run_study(small("footwall", folder)), UsageError); // it has no scene
+}
+
+TEST(Study, OfASceneWithoutACutoffLeavesItOut) {
+    const Folder folder;
+    StudyRequest request = small("speed", folder);
+    request.scene = "pure-shear";
+    request.values = {8.0, 4.0};
+    request.seeds = 1;
+    request.set = {"extension.distance_m=50.0"};
+    run_study(request);
+    for (const StudyPoint& p : points(request.output))
+        EXPECT_NE(p.quantity, "cutoff");
 }
 
 } // namespace

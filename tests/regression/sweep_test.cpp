@@ -1,6 +1,7 @@
 // `listric sweep` on scenes of a few hundred discs: killed and gone on, cut into tasks, with runs
 // that fail.
 
+#include "apps/archive/output_folder.hpp"
 #include "tests/program.hpp"
 
 #include <fmt/format.h>
@@ -141,6 +142,18 @@ TEST_F(SweepTest, TasksMergedAreOneTask) {
         EXPECT_EQ(contents(folder / "merged" / file), contents(folder / "whole" / file)) << file;
     EXPECT_TRUE(fs::exists(folder / "merged/sheet.png"));
 
+    // The tables tell enough, where the runs are elsewhere; those that are there are of this plan.
+    fs::remove_all(folder / "task-1/runs");
+    const Ended tables = sweep("tables", merge);
+    EXPECT_EQ(tables.code, 0) << tables.err;
+    EXPECT_THAT(tables.err, HasSubstr("warning: no sheet.png"));
+    EXPECT_EQ(contents(folder / "tables/effects.csv"), contents(folder / "whole/effects.csv"));
+    std::ofstream(folder / "plan.toml") << "set = \"extension.distance_m=250\"\n" + plan;
+    const Ended other = sweep("other", merge);
+    EXPECT_EQ(other.code, 2);
+    EXPECT_THAT(other.err, HasSubstr("is of another plan: extension.distance_m = "));
+    std::ofstream(folder / "plan.toml") << plan;
+
     merge.pop_back();
     const Ended incomplete = sweep("merged", merge);
     EXPECT_EQ(incomplete.code, 2);
@@ -176,12 +189,39 @@ TEST_F(SweepTest, AFailedRunIsARow) {
     EXPECT_THAT(some.err, HasSubstr("1 of them failed"));
     EXPECT_THAT(table("some"), HasSubstr("\n1,1,0.8,finished,0,"));
     EXPECT_THAT(table("some"), HasSubstr("\n2,1,8,"));
+    EXPECT_THAT(contents(folder / "some/runs/0002-seed=1/status.json"),
+                HasSubstr(R"("phase": "failed")"));
     EXPECT_THAT(table("some"), HasSubstr(",3,,\n"));
     const std::string before = table("some");
     EXPECT_EQ(sweep("some").code, 0);
     EXPECT_EQ(table("some"), before);
     vary("[8.0, 9.0]");
     EXPECT_EQ(sweep("all").code, 3);
+}
+
+TEST_F(SweepTest, ItWritesWhereNobodyElseDoes) {
+    std::ofstream(folder / "plan.toml")
+        << "scene = \"small.toml\"\nmeasures = [\"inertial_number\"]\nset = "
+           "\"extension.distance_m=100\"\n[[vary]]\nparameter = \"material.friction\"\n"
+           "values = [0.3]\n";
+    const fs::path run = folder / "out/runs/0001-seed=1";
+    fs::create_directories(run);
+    {
+        const archive::FolderLock other(folder / "out");
+        EXPECT_EQ(sweep("out").code, 2);
+        EXPECT_FALSE(fs::exists(run / "failure.json"));
+    }
+    {
+        const archive::FolderLock other(run);
+        EXPECT_EQ(sweep("out").code, 3); // its only run
+        EXPECT_THAT(table("out"), HasSubstr("another run is writing there,2,"));
+        EXPECT_FALSE(fs::exists(run / "failure.json"));
+    }
+    std::ofstream(folder / "out/sweep.csv") << "my,own,table\n";
+    const Ended foreign = sweep("out");
+    EXPECT_EQ(foreign.code, 2);
+    EXPECT_THAT(foreign.err, HasSubstr("sweep.csv: is no file of such a call"));
+    EXPECT_EQ(table("out"), "my,own,table\n");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // `listric validate` on a scene of a few hundred discs: it makes the runs, resumes where it was
 // stopped, measures and writes.
 
+#include "apps/archive/output_folder.hpp"
 #include "apps/support/version.hpp"
 #include "tests/small_halfgraben.hpp"
 
@@ -225,6 +226,12 @@ TEST_F(ValidationTest, ALaterSessionAddsSeeds) {
     fs::remove_all(folder / "runs");
     ASSERT_EQ(validate("--seeds 3 --first-seed 1 --without-runs"), 0) << said;
     EXPECT_EQ(record(), before);
+    std::ofstream(folder / "plan.toml") << "seeds = \"2-3\"\n" + plan;
+    ASSERT_EQ(validate("--seeds 1 --without-runs"), 0) << said; // the first of the plan's
+    EXPECT_THAT(document(), HasSubstr("| First | 1 of 2 |"));
+    EXPECT_EQ(validate("--seeds 3 --without-runs"), 2);
+    EXPECT_THAT(said, HasSubstr("--seeds 3: the plan has 2 seeds"));
+    std::ofstream(folder / "plan.toml") << "seeds = \"1-3\"\n" + plan;
     ASSERT_EQ(validate("--seeds 3-3"), 0) << said;
     EXPECT_FALSE(fs::exists(folder / "runs/tiny-1"));
     EXPECT_THAT(document(), AllOf(HasSubstr("4 of 4 runs"), HasSubstr("| First | 3 of 3 |")));
@@ -273,6 +280,62 @@ TEST_F(ValidationTest, NothingIsMixedOrReplacedWithoutAWord) {
     EXPECT_EQ(validate("--seeds 3"), 2);
     EXPECT_THAT(said, HasSubstr("plain-1 was run with other parameters"));
     EXPECT_FALSE(fs::exists(folder / "runs/tiny-3"));
+}
+
+// A document names plan and accuracy, which its runs must have even where nothing is left to add.
+TEST_F(ValidationTest, ARecordIsNotPublishedAsAnother) {
+    ASSERT_EQ(validate("--seeds 1 --only second"), 0) << said;
+    const std::string before = document();
+    EXPECT_EQ(validate("--seeds 1 --only second --without-runs"), 0) << said;
+    EXPECT_EQ(document(), before);
+    fs::remove_all(folder / "runs");
+    EXPECT_EQ(validate("--seeds 1 --only second --accuracy draft"), 2);
+    EXPECT_THAT(said, HasSubstr("plain-1 was run with other parameters"));
+    std::string other = plan;
+    other.replace(other.find("seeds = 1\n"), 10, "seeds = 1\nset = \"detachment.friction=0.4\"\n");
+    std::ofstream(folder / "plan.toml") << other;
+    EXPECT_EQ(validate("--seeds 1 --only second --without-runs"), 2);
+    EXPECT_THAT(said, AllOf(HasSubstr("plain-1 was run with other parameters"),
+                            HasSubstr("at accuracy standard"), HasSubstr("--mixed")));
+    EXPECT_EQ(document(), before);
+    EXPECT_EQ(validate("--seeds 1 --only second --without-runs --mixed"), 0) << said;
+    EXPECT_THAT(document(), HasSubstr("**This record is mixed**: other parameters than the plan's "
+                                      "had plain-1."));
+    // Another version may write the scene otherwise; its record is shown, and nothing added.
+    const std::string maker = "," + std::string(listric::version) + ",";
+    replace_in_record(maker, ",0.1.0+0123abcd,");
+    EXPECT_EQ(validate("--seeds 1 --only second --without-runs"), 0) << said;
+    EXPECT_THAT(document(), HasSubstr("1 of 1 runs"));
+    EXPECT_THAT(document(), HasSubstr("written otherwise than the plan's: 1;"));
+    EXPECT_EQ(validate("--seeds 1 --only first"), 2);
+    EXPECT_THAT(said, HasSubstr("plain-1 was run with other parameters"));
+}
+
+TEST_F(ValidationTest, ARunThatFailsCostsNoOther) {
+    std::string text = plan;
+    text.replace(text.find("seeds = 1\n"), 10, "seeds = 1\nset = \"cycle.time_step_safety=8\"\n");
+    std::ofstream(folder / "plan.toml") << text;
+    for (int call = 0; call < 2; ++call) {
+        EXPECT_EQ(validate("--seeds 1 --only first"), 3) << said;
+        EXPECT_THAT(record(), HasSubstr("tiny,1,200,"));
+        EXPECT_THAT(document(), AllOf(HasSubstr("1 of 2 runs"), HasSubstr("Runs that failed"),
+                                      HasSubstr("\n- plain-1: "), HasSubstr("| met (1 of 1) |")));
+    }
+    EXPECT_THAT(contents(folder / "runs/plain-1/status.json"), HasSubstr(R"("phase": "failed")"));
+}
+
+TEST_F(ValidationTest, WritesWhereNobodyElseDoes) {
+    fs::create_directories(folder / "doc/report");
+    {
+        const archive::FolderLock other(folder / "doc/report");
+        EXPECT_EQ(validate("--seeds 1"), 2);
+        EXPECT_THAT(said, HasSubstr("another run is writing there"));
+    }
+    std::ofstream(folder / "doc/report.md") << "# Notes\n";
+    EXPECT_EQ(validate("--seeds 1"), 2);
+    EXPECT_THAT(said, HasSubstr("report.md: is no file of such a call"));
+    EXPECT_EQ(document(), "# Notes\n");
+    EXPECT_FALSE(fs::exists(folder / "runs"));
 }
 
 TEST_F(ValidationTest, BadCalls) {

@@ -34,6 +34,16 @@ TEST(DeepOverlap, PairPartsWithItsEnergy) {
     }
 }
 
+TEST(DeepOverlap, TwoDiscsAtOnePlaceAreNotReturnedWithoutAPlace) {
+    for (const Execution& how : {Execution{1, Cycle::plain}, Execution{1, fast_cycle()}})
+        for (const std::int64_t cycles : {1, 100}) {
+            State state = make_state({{0.0, 0.0, r}, {0.0, 0.0, r}});
+            state.clock.time_step = 1e-3;
+            find_contacts(state, {});
+            EXPECT_THROW(advance(state, {}, {}, cycles, how), NumericalFailure) << cycles;
+        }
+}
+
 /// A box that is open above, filled by genesis or at once.
 struct Crowd {
     static constexpr double width = 20.0 * r, height = 20.0 * r;

@@ -59,6 +59,22 @@ TEST(AskedAccuracy, RefusesErrorsThatSayNothing) {
     EXPECT_THAT(message([] { parse_error_targets(""); }), HasSubstr("such as 2%"));
 }
 
+TEST(AskedAccuracy, PrintsTheCallThatWasAskedAbout) {
+    const SceneRequest request{.scene = "lis1", .set = {"extension.distance_m=5000"}, .seed = 7};
+    EXPECT_THAT(explain_asked({.within = "1d", .error = ""}, request, 1),
+                HasSubstr(" --set extension.distance_m=5000 --set extension.speed_m_per_s="));
+    EXPECT_THAT(explain_asked({.within = "1d", .error = ""}, request, 1),
+                testing::ContainsRegex("speed_m_per_s=[0-9.]+ --seed 7\n"));
+}
+
+TEST(AskedAccuracy, RefusesWhatItChoosesItself) {
+    for (const char* change : {"extension.speed_m_per_s=0.5", "hanging_wall.mean_radius_m=300"}) {
+        SceneRequest request{.scene = "lis1", .set = {change}};
+        EXPECT_THAT(message([&] { apply_asked({.within = "10min", .error = ""}, request, 1); }),
+                    HasSubstr("--within and --error choose"));
+    }
+}
+
 /// Draft is 0.3 off in 10 s, standard 0.1 in 100 s, both with a spread of 0.2 of nine seeds.
 KnownError error_of(double resolution) {
     KnownError error{.key = "rollover_tilt_deg", .resolution = {}, .speed = {}, .spread = {}};

@@ -1,6 +1,7 @@
 // The neighbour search lists exactly the pairs closer than the skin, and what a pair remembers
 // survives it. Comparisons are exact: the brute force below decides with the same arithmetic.
 
+#include "dem/cycle_physics.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "tests/support.hpp"
 
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -75,6 +77,19 @@ TEST(Contacts, OneDiscAndNoDisc) {
     State one = make_state({{5.0, 5.0, 1.0}});
     find_contacts(one, {});
     EXPECT_EQ(one.contacts.rows(), 0u);
+}
+
+TEST(Contacts, ADiscThatIsNowhereIsNamed) {
+    for (const double nowhere :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        State state = make_state({{0.0, 0.0, 1.0}, {5.0, nowhere, 1.0}});
+        try {
+            find_contacts(state, {});
+            FAIL();
+        } catch (const NumericalFailure& failure) {
+            EXPECT_THAT(failure.what(), testing::StartsWith("disc 1 ran away at x = 5.0"));
+        }
+    }
 }
 
 TEST(Contacts, SearchRemembersWhereDiscsWere) {

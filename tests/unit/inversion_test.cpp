@@ -19,6 +19,8 @@ using support::make_state;
 
 constexpr double radius = 50.0, width = 100.0; // m, of a column
 
+TargetLine level(double y) { return TargetLine({{0.0, y}}); }
+
 /// Discs in columns, each with its top at a height, m.
 template <class Top> State section(double from, double to, Top&& top) {
     std::vector<Disc> discs;
@@ -32,9 +34,24 @@ template <class Top> State section(double from, double to, Top&& top) {
 
 TEST(Inversion, AreaAboveTheRegionalIsThatOfARaisedSlab) {
     const State state = section(-2e3, 10e3, [](double x) { return x < 4e3 ? 300.0 : -200.0; });
-    EXPECT_NEAR(area_above_regional(state, 0.0), 6e3 * 300.0, width * 300.0);
-    EXPECT_NEAR(area_above_regional(state, -200.0), 6e3 * 500.0, width * 500.0);
-    EXPECT_EQ(area_above_regional(state, 400.0), 0.0);
+    EXPECT_NEAR(area_above_regional(state, level(0.0)), 6e3 * 300.0, width * 300.0);
+    EXPECT_NEAR(area_above_regional(state, level(-200.0)), 6e3 * 500.0, width * 500.0);
+    EXPECT_EQ(area_above_regional(state, level(400.0)), 0.0);
+}
+
+TEST(Inversion, RegionalIsTheTargetLineWhenShorteningBegins) {
+    Motion motion{1.0, 0.0};
+    motion.stages = {{.start = 0.0, .end = 5000.0},
+                     {.start = 5000.0, .end = 9000.0, .start_position = 5000.0, .slope = -1.0}};
+    const Target target(0.0, {{0.0, {{0.0, 0.0}}},
+                              {1e6, {{0.0, 0.0}, {10e3, -400.0}}}}); // twice as late, at 0.01 m/a
+    const TargetLine regional = regional_of(motion, target, 0.01);
+    EXPECT_NEAR(regional.height(0.0), 0.0, 1e-9);
+    EXPECT_NEAR(regional.height(10e3), -200.0, 1e-9);
+    // Ground that lies on it is not above it.
+    const State state = section(0.0, 10e3, [](double x) { return -0.02 * x; });
+    EXPECT_NEAR(area_above_regional(state, regional), 0.0, 0.02 * width * 10e3);
+    EXPECT_NEAR(area_above_regional(state, level(-200.0)), 0.5 * 10e3 * 200.0, 1e4);
 }
 
 TEST(Inversion, ReliefIsTheFallFromTheCrestIntoTheGraben) {
@@ -87,17 +104,22 @@ TEST(Inversion, NullPointIsWhereStrataAreBackAtTheRegional) {
     Motion motion{1.0, 0.0};
     motion.stages = {{.start = 0.0, .end = 5000.0},
                      {.start = 5000.0, .end = 9000.0, .start_position = 5000.0, .slope = -1.0}};
-    EXPECT_NEAR(null_point(state, motion, 0.0, 5000.0).value(), 2800.0, 1e-6);
-    EXPECT_FALSE(null_point(state, motion, -5000.0, 5000.0)); // all tops are above
-    EXPECT_FALSE(null_point(state, motion, 5000.0, 5000.0));
+    EXPECT_NEAR(null_point(state, motion, level(0.0), 5000.0).value(), 2800.0, 1e-6);
+    EXPECT_FALSE(null_point(state, motion, level(-5000.0), 5000.0)); // all tops are above
+    EXPECT_FALSE(null_point(state, motion, level(5000.0), 5000.0));
+    // 0.2 to 1.5 km from the breakaway a line counts by its mean.
+    EXPECT_NEAR(
+        null_point(state, motion, TargetLine({{0.0, -85.0}, {1700.0, 85.0}}), 5000.0).value(),
+        2800.0, 1e-6);
     // Nothing is lost where pores are as open as they were.
     state.discs.add<double>("porosity", "1", 0.5);
-    EXPECT_NEAR(null_point(state, motion, 0.0, 5000.0, Decompaction{0.5, 0.0}).value(), 2800.0,
-                1e-6);
+    EXPECT_NEAR(null_point(state, motion, level(0.0), 5000.0, Decompaction{0.5, 0.0}).value(),
+                2800.0, 1e-6);
     // Strata that have lost thickness stood higher: older ones are back at the regional.
     for (double& porosity : state.discs.get<double>("porosity"))
         porosity = 0.4;
-    EXPECT_LT(null_point(state, motion, 0.0, 5000.0, Decompaction{0.5, 0.0}).value(), 2800.0);
+    EXPECT_LT(null_point(state, motion, level(0.0), 5000.0, Decompaction{0.5, 0.0}).value(),
+              2800.0);
 }
 
 TEST(Inversion, ReactivatedShareIsThatOfTheMostStrainedTenth) {

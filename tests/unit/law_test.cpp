@@ -40,6 +40,13 @@ TEST(Law, SpringsInSeries) {
     EXPECT_FLOAT_EQ(p.friction, 0.1f);
 }
 
+TEST(Law, ASpringWithoutStiffnessInSeriesGivesNone) {
+    const Material smooth{3.0e9, 0.0, 0.3, true}, rough{3.0e9, 1.0e9, 0.3, true};
+    EXPECT_EQ(contact_parameters(smooth, smooth, 0.25).shear_stiffness_times_step, 0.0f);
+    EXPECT_EQ(contact_parameters(smooth, rough, 0.25).shear_stiffness_times_step, 0.0f);
+    EXPECT_FLOAT_EQ(contact_parameters(smooth, rough, 0.25).normal_stiffness, 1.5e9f);
+}
+
 TEST(Law, CompressionAndShearAreElastic) {
     const Outcome o = contact(0.25, -0.5, 3.0, false);
     EXPECT_EQ(o.normal, 256.0);

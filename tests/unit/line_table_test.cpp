@@ -30,5 +30,13 @@ TEST(LineTable, NamesStayInTheirHeaderOfGmt) {
                                             "1000\t2000\n"));
 }
 
+TEST(LineTable, ALineOfOnePositionIsAPointOfGeojson) {
+    LineTable table = layers();
+    EXPECT_THAT(to_geojson(table),
+                HasSubstr(R"("LineString", "coordinates": [[1000, -2000], [3000, -2500]])"));
+    table.lines[0].points.pop_back();
+    EXPECT_THAT(to_geojson(table), HasSubstr(R"("Point", "coordinates": [1000, -2000])"));
+}
+
 } // namespace
 } // namespace listric::archive

@@ -346,19 +346,28 @@ TEST(OldSediment, BondedShareOfDeepAndOldPairs) {
         d.stratum[i] = i == 0 ? 0 : i < 4 ? 1 : 9;
         d.start_extension[i] = i < 4 ? 500.0 : 4000.0;
     }
+    const auto level = [](double y) { return TargetLine({{0.0, y}}); };
     find_contacts(state, {});
-    EXPECT_EQ(bonded_share_of_old_sediment(state, 0.0, 1500.0, 2000.0), 0.0);
+    EXPECT_EQ(bonded_share_of_old_sediment(state, level(0.0), 1500.0, 2000.0), 0.0);
     bond(state, find_pair(state, 1, 2), 1.0f, 1.0f);
-    EXPECT_EQ(bonded_share_of_old_sediment(state, 0.0, 1500.0, 2000.0), 0.5);
-    EXPECT_EQ(bonded_share_of_old_sediment(state, 0.0, 1500.0, 500.0), 0.25); // the young ones too
-    EXPECT_FALSE(bonded_share_of_old_sediment(state, -200.0, 1500.0, 2000.0).has_value());
+    EXPECT_EQ(bonded_share_of_old_sediment(state, level(0.0), 1500.0, 2000.0), 0.5);
+    EXPECT_EQ(bonded_share_of_old_sediment(state, level(0.0), 1500.0, 500.0),
+              0.25); // the young ones too
+    EXPECT_FALSE(bonded_share_of_old_sediment(state, level(-200.0), 1500.0, 2000.0).has_value());
 
-    const auto profile = bonded_profile_of_old_sediment(state, 0.0, 2000.0);
+    const auto profile = bonded_profile_of_old_sediment(state, level(0.0), 2000.0);
     ASSERT_EQ(profile.size(), 1u);
     EXPECT_EQ(profile[0].depth, 2000.0); // 1,600 m are between 1.5 and 2.5 km
     EXPECT_EQ(profile[0].share, 0.5);
-    EXPECT_EQ(bonded_profile_of_old_sediment(state, -200.0, 2000.0).at(0).depth, 1000.0);
-    EXPECT_TRUE(bonded_profile_of_old_sediment(state, 0.0, 9000.0).empty());
+    EXPECT_EQ(bonded_profile_of_old_sediment(state, level(-200.0), 2000.0).at(0).depth, 1000.0);
+    EXPECT_TRUE(bonded_profile_of_old_sediment(state, level(0.0), 9000.0).empty());
+    // A target line counts where the discs are.
+    const TargetLine sloping({{-1e4, -200.0 - 1e4}, {1e4, -200.0 + 1e4}});
+    EXPECT_FALSE(bonded_share_of_old_sediment(state, sloping, 2000.0, 2000.0).has_value());
+    for (std::size_t i = 0; i < 6; ++i)
+        d.x[i] += 1000.0;
+    EXPECT_EQ(bonded_share_of_old_sediment(state, sloping, 2000.0, 2000.0), 0.5);
+    EXPECT_EQ(bonded_profile_of_old_sediment(state, sloping, 2000.0).back().depth, 3000.0);
 }
 
 } // namespace

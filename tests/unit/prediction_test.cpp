@@ -50,6 +50,16 @@ TEST(Prediction, KnowsThePriceOfEffects) {
     EXPECT_GT(predict(draft("lis1-elastic"), one_thread).seconds, 1.05 * all);
 }
 
+TEST(Prediction, LightSedimentShortensTheStepWhereMassesHaveNoFloor) {
+    const auto step = [](const std::vector<std::string>& set) {
+        return predict(draft("lis1", set), one_thread).time_step;
+    };
+    const std::string light = "sedimentation.surface_porosity=0.9",
+                      none = "cycle.inertial_mass_floor=0";
+    EXPECT_EQ(step({light}), step({}));
+    EXPECT_NEAR(step({light, none}), std::sqrt(0.2) * step({none}), 1e-9); // 0.1 instead of 0.5
+}
+
 TEST(Prediction, FillingToAHighLevelIsForeseen) {
     const auto end = [](const std::vector<std::string>& set) {
         return static_cast<double>(predict(draft("lis1", set)).discs_at_end);

@@ -8,6 +8,7 @@ import io
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -347,6 +348,11 @@ class Frames(Folder):
         self.assertEqual(self.frame().level, -0.1)
         self.assertIsNone(self.frame({"level_m": None}).level)
 
+    def test_where_the_surface_is_left_alone_the_level_is_no_target(self):
+        for meta, words in (({}, "target level of sediments"), ({"surface_rests": True}, "regional (target level before)")):
+            [ax, _] = sections.draw_figure(self.frame(meta), ["strata"], 20).axes
+            self.assertIn(words, [text.get_text() for text in ax.get_legend().get_texts()])
+
     def test_a_target_line_is_drawn_where_it_is(self):
         line = [[1000.0, 200.0], [3000.0, -300.0]]
         frame = self.frame(target_line=line)
@@ -556,7 +562,7 @@ class Drawing(Folder):
         many = [self.frame({"extension_m": 1000.0 * n}) for n in range(14)]
         words = [text.get_text() for ax in sheet.draw_sheet(many).axes for text in ax.texts]
         self.assertLessEqual({"z", "aa", "ab"}, set(words))
-        self.assertIn("(aa) intact bonds", caption.caption(["bonds"] * 27, None, many[0], plot.Order()))
+        self.assertIn("(aa) intact bonds", caption.caption(["bonds"] * 27, None, many[0], plot.Order(width_mm=85.0)))
 
     def test_a_row_of_sections_has_one_text_and_one_legend(self):
         early = self.frame({"extension_m": 0.0, "strata": 0}, discs_stratum=[0] * 4)
@@ -650,8 +656,8 @@ class Drawing(Folder):
         self.assertEqual(known["overview"], overview)
 
     def test_tops_after_a_turn_are_drawn_against_the_regional(self):
-        tops = [[0.0, 0.0, 0.0, -900.0], [0.0, 0.0, 3000.0, -300.0], [1.0, 1.0, 0.0, -200.0], [1.0, 1.0, 3000.0, 500.0],
-                [-1.0, 2.0, 0.0, -2500.0], [-1.0, 2.0, 3000.0, -2000.0]]
+        tops = [[0.0, 0.0, 0.0, -800.0], [0.0, 0.0, 3000.0, -200.0], [1.0, 1.0, 0.0, -100.0], [1.0, 1.0, 3000.0, 600.0],
+                [-1.0, 2.0, 0.0, -2400.0], [-1.0, 2.0, 3000.0, -1900.0]]  # heights above the regional
         meta = {"level_m": -100.0, "said": ["null point: laid down at 1.23 km of extension"]}
         frame = self.frame(meta, tops=tops)
         self.assertEqual(sections.figures_of(frame)["inversion"], ["strata", "inversion"])
@@ -821,8 +827,35 @@ class Print(Folder):
         true = box.height / (high - low) / (box.width / (right - left))
         self.assertAlmostEqual(float(told.split()[-1]), true, delta=0.051)
         self.assertIn(told, said[1])
-        page_figure = sections.draw_figure(self.wide(), ["sediment"], 50)
-        self.assertIn("heights × ", " ".join(text.get_text() for text, _ in texts(page_figure)))
+        # A page's panels are narrow where the section is high.
+        high = self.frame({"right_wall_x_m": 12000.0}, **{name: PRINTED[name] for name in ("profile", "tops")},
+                          detachment=[[0.0, 0.0], [4000.0, -11000.0], [12000.0, -15000.0]])
+        for frame in (self.wide(), high):
+            for name in ("sediment", "inversion"):
+                page_figure = sections.draw_figure(frame, [name], 50)
+                told = " ".join(text.get_text() for text, _ in texts(page_figure))
+                ax, box = page_figure.axes[0], page_figure.axes[0].get_window_extent()
+                true = box.height / abs(np.diff(ax.get_ylim())[0]) / (box.width / abs(np.diff(ax.get_xlim())[0]))
+                self.assertIn(f"heights × {true:.1f}", told)
+
+    def test_captions_of_pages_tell_all_panels_and_their_scales(self):
+        for only in ((), ("inversion", "sediment", "overview")):
+            with mock.patch.object(sections, "save"):
+                sections.save_sections([self.wide()], self.folder, self.order(0.0, only=only, caption=True))
+            told = dict(re.findall(r"(\S+)-2\.0km\n(.*)\n", Path(self.path("caption.txt")).read_text(encoding="utf-8")))
+            self.assertRegex(told["inversion"], r"syn-rift strata .* \(no vertical exaggeration\); below it height above the regional .* \(heights × ")
+            self.assertIn("Black lines: faults", told["inversion"])
+            self.assertRegex(told["sediment"], r"mean over 1 km.*\(heights × ")
+            self.assertEqual(told["overview"].count("; below it "), 4)
+
+    def test_seismic_images_tell_their_polarity(self):
+        for name in ("seismic", "seismic-depth"):
+            ax = sections.draw_figure(self.wide(), [name], 20).axes[0]
+            self.assertIn("rock below is harder", [text.get_text() for text in ax.get_legend().get_texts()])
+            self.assertIn("Black: the rock below is harder.", caption.caption([name], None, self.wide(), self.order(0.0)))
+            if name == "seismic-depth":   # the footwall's name can be read on the image
+                [words] = [text for text in ax.texts if text.get_text() == "footwall"]
+                self.assertEqual(words.get_bbox_patch().get_facecolor(), plot.matplotlib.colors.to_rgba(axes.FOOTWALL))
 
     def test_fonts_of_a_pdf_are_embedded(self):
         sections.save_sections([self.wide()], self.folder, self.order(85.0, formats=("pdf",), only=("strata", "strain")))
@@ -1054,6 +1087,10 @@ class SmallScripts(Folder):
         self.write("base.csv", "extension_m,x_m,y_m,ux_m,uy_m\n")
         with self.assertRaisesRegex(plot.InputError, "does not deform"):
             base.load(self.folder)
+
+    def test_a_run_of_a_kilometre_ends_at_1_km(self):
+        self.assertEqual([plot.moment_label(way, 999.9999) for way in (500.0, 999.9999)], ["0.5 km", "1.0 km"])
+        self.assertEqual([plot.moment_label(way, 999.0) for way in (250.0, 999.0)], ["250 m", "999 m"])
 
     def test_about_five_moments_are_shown_and_the_last(self):
         self.assertEqual(base.shown([1.0, 2.0]), [1.0, 2.0])

@@ -89,11 +89,15 @@ TEST(Results, LogHasTimesAndRepeatsItsWarnings) {
     const auto file = std::filesystem::path(testing::TempDir()) / "listric-results-log.txt";
     std::filesystem::remove(file);
     {
+        testing::internal::CaptureStderr();
         Log log(file, true);
         log.say("begun");
         log.say("warning: too fast");
         log.repeat_warnings();
         log.repeat_warnings();
+        // A quiet log hides no warning, and says it once.
+        EXPECT_EQ(testing::internal::GetCapturedStderr(),
+                  fmt::format("listric: warning: {}: too fast\n", file.parent_path().string()));
     }
     std::string text = support::contents(file);
     std::filesystem::remove(file);

@@ -1,5 +1,6 @@
 // Which files of a folder are a run's, and in what scenes differ.
 
+#include "apps/archive/output_folder.hpp"
 #include "apps/archive/run_files.hpp"
 #include "apps/archive/scene_lines.hpp"
 
@@ -39,6 +40,26 @@ protected:
 
     fs::path folder = fs::path(testing::TempDir()) / ("listric-files-" + std::to_string(getpid()));
 };
+
+TEST_F(RunFiles, OfCallsWithoutARunReplaceOnlyTheirOwn) {
+    write({"sweep.csv", "scene.toml"});
+    const fs::path table = folder / "sweep.csv";
+    const auto objection = [&](const std::string& mark, const std::vector<fs::path>& read) {
+        const OwnFile written[]{{table, mark}, {folder / "none.csv", mark}};
+        try {
+            require_own(written, read);
+        } catch (const UsageError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(objection("a file", {folder / "scene.toml", folder / "missing"}), "");
+    EXPECT_THAT(objection("run,seed", {}), testing::HasSubstr("is no file of such a call"));
+    EXPECT_THAT(objection("a file", {folder / "." / "sweep.csv"}),
+                testing::HasSubstr("is read by this call"));
+    std::ofstream(table).close(); // an empty one holds nothing
+    EXPECT_EQ(objection("run,seed", {}), "");
+}
 
 TEST_F(RunFiles, HaveNamesAsTheProgramMakesThem) {
     const std::vector<std::string> ours = {

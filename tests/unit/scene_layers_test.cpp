@@ -9,6 +9,7 @@
 #include "apps/support/file.hpp"
 #include "dem/events/old_faults.hpp"
 #include "dem/events/property_update.hpp"
+#include "tests/support.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -132,6 +133,18 @@ TEST_F(SceneLayers, ThatCannotBeAreRefused) {
     EXPECT_THAT(error(mica + "welded = false\n"),
                 StartsWith("scene.toml:11: layer[0].welded: is about bonds, and the scene has "
                            "none; add [bonds]"));
+    EXPECT_THAT(error(mica + "tensile_strength_pa = 1e4\n"),
+                StartsWith("scene.toml:11: layer[0].tensile_strength_pa: is about bonds, and the "
+                           "scene has none; add [bonds]"));
+    EXPECT_THAT(error("[bonds]\n" + mica + "weakened_friction = 0.7\n"),
+                StartsWith("scene.toml:12: layer[0].weakened_friction: is about weakened rock"));
+    // Strengths of a shelf's rock, and an effect that is left out for once, are no slips.
+    EXPECT_EQ(error("[[layer]]\nname = \"a\"\nmaterial = \"mat18-b\"\ntop_m = 2e3\n"
+                    "thickness_m = 500.0\n"),
+              "no error");
+    EXPECT_EQ(error("[bonds]\n[fault_weakening]\n" + mica + "weakened_friction = 0.7\n",
+                    {.without = {"fault_weakening"}}),
+              "no error");
     EXPECT_THAT(error(mica + "bottom_m = 3000.0\n"), HasSubstr("has several bottoms"));
     EXPECT_THAT(error(layer("a", "top_m = 2000.0\n")), HasSubstr("has no bottom"));
     EXPECT_THAT(error(layer("a", "thickness_m = 2000.0\n")), HasSubstr("has no top"));
@@ -207,6 +220,23 @@ TEST_F(SceneOldFaults, ThatCannotBeAreRefused) {
                 StartsWith("scene.toml:8: old_fault[0]: the fault is 100 m long, shorter than its "
                            "band is wide (400 m)"));
     EXPECT_THAT(refused("name = \"a\"\n"), HasSubstr("needs points"));
+}
+
+TEST_F(SceneOldFaults, ThatWeakenNoDiscEndTheRun) {
+    const Scene scene = load("[bonds]\n[fault_weakening]\n[[old_fault]]\nname = \"east\"\n"
+                             "points = [[14e3, 9e3], [19e3, 1e3]]\n");
+    const auto events = make_events(scene, make_parts(scene));
+    auto* faults = dem::find<dem::OldFaults>(events);
+    ASSERT_TRUE(faults);
+    dem::State state = support::make_state({{.x = 35e3, .y = -500.0, .radius = 100.0}});
+    faults->begin(state);
+    try {
+        faults->start(state, {});
+        FAIL() << "nothing said";
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(), StartsWith("old_fault[0], east: no disc of rock"));
+        EXPECT_THAT(error.what(), HasSubstr("400 m wide; raise band_width_diameters"));
+    }
 }
 
 } // namespace

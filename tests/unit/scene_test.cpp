@@ -710,6 +710,30 @@ TEST_F(SceneTest, EffectsThatNeedOthers) {
     EXPECT_EQ(error(minimal + "[fault_weakening]\n"), "no error");
 }
 
+TEST_F(SceneTest, SedimentAboveTheGroundBehindTheBreakawayIsRefused) {
+    const auto of = [](std::vector<std::string> set) {
+        set.insert(set.begin(), "detachment.footwall_top_m=30000");
+        return error_of({.scene = "lis1", .set = std::move(set)});
+    };
+    EXPECT_THAT(of({"sedimentation.level_m=400"}),
+                AllOf(HasSubstr("--set sedimentation.level_m=400"),
+                      HasSubstr("beside detachment.footwall_top_m = 30000"),
+                      HasSubstr("such as [[0.0, 0.0], [1000.0, 400]]")));
+    EXPECT_THAT(of({"sedimentation.target=[[-9000.0, 50.0], [0.0, 0.0]]"}),
+                HasSubstr("sedimentation.target: is 50 at x <= 0"));
+    EXPECT_EQ(of({"sedimentation.target=[[0.0, 0.0], [1000.0, 400.0]]"}), "no error");
+    EXPECT_EQ(of({"sedimentation.level_m=-400"}), "no error");
+    EXPECT_EQ(set_error("sedimentation.level_m=400"), "no error"); // a backstop holds it
+    // Erosion down to a line above the ground lays nothing there.
+    const std::string rising = "sedimentation.target=[{time_a=0.0, points=[[0.0, 0.0]]}, "
+                               "{time_a=500000.0, points=[[0.0, 0.0]]}, "
+                               "{time_a=900000.0, points=[[0.0, 300.0]]}]";
+    const std::string stages = "stage=[{distance_m=5000.0}, {distance_m=-4000.0, sedimentation=";
+    EXPECT_EQ(of({rising, "extension.distance_m=9000.0", stages + "\"erode\"}]"}), "no error");
+    EXPECT_THAT(of({rising, "extension.distance_m=9000.0", stages + "\"fill\"}]"}),
+                HasSubstr("sedimentation.target: is 300"));
+}
+
 // ------------------------------------------------------------------------------------------ files
 
 TEST_F(SceneTest, FilesThatAreNoScenes) {

@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
+#include <iterator>
 #include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 
 namespace listric::shared_loop_test {
@@ -54,6 +57,28 @@ TEST(SharedLoop, ATeamSharesUntilItIsGoneAndNotWithinItsLoops) {
         EXPECT_EQ(team_size(), 3);
     }
     EXPECT_EQ(threads_at_work(), 1u);
+}
+
+TEST(SharedLoop, AThreadIsStartedWhenThereIsAPieceForIt) {
+    const auto threads = [] {
+        const std::filesystem::path tasks = "/proc/self/task"; // where the system has it
+        std::error_code none;
+        std::filesystem::directory_iterator each(tasks, none);
+        return std::distance(each, std::filesystem::directory_iterator());
+    };
+    const Team team(500);
+    const auto before = threads();
+    for_each_shared(3, [](std::size_t) {});
+    EXPECT_LE(threads(), before + 2);
+    EXPECT_EQ(threads_at_hand(2), 2);
+    EXPECT_EQ(threads_at_hand(5), 5);
+    EXPECT_LE(threads(), before + 4);
+}
+
+TEST(SharedLoop, ATeamHasAThread) {
+    EXPECT_THROW(Team(0), std::invalid_argument);
+    EXPECT_THROW(Team(-1), std::invalid_argument);
+    EXPECT_EQ(team_size(), 1);
 }
 
 TEST(SharedLoop, Sorts) {

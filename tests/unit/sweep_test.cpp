@@ -89,6 +89,56 @@ TEST_F(SweepPlanFile, AListTakesValuesTogether) {
     EXPECT_THAT(complaint("\"grid\"", "\"list\"\nsamples = 3"), HasSubstr("latin-hypercube"));
 }
 
+// Alone, a hanging wall of 10 km does not fit above an arc of 15 km.
+TEST_F(SweepPlanFile, AListTriesItsPointsAndNotTheirValuesAlone) {
+    const std::string depths = R"(scene = "lis1"
+design = "list"
+measures = []
+[[vary]]
+parameter = "hanging_wall.thickness_m"
+values = [10000, 15000]
+[[vary]]
+parameter = "detachment.segments.0.arc.radius_m"
+values = [10000, 15000]
+)";
+    EXPECT_EQ(sweep_points(load(depths)).size(), 2u);
+    const std::string wrong = complaint(plan_text, replaced(depths, "[10000,", "[5000,"));
+    EXPECT_THAT(wrong, HasSubstr(".toml:4: vary: run 1, hanging_wall.thickness_m=5000, "
+                                 "detachment.segments.0.arc.radius_m=10000: "));
+}
+
+TEST_F(SweepPlanFile, AnIntegerHasNoRange) {
+    const std::string text = replaced(plan_text, "\"grid\"", "\"latin-hypercube\"\nsamples = 4");
+    EXPECT_THAT(complaint(plan_text, replaced(text, "fault_weakening.friction\"\nvalues = [0, 0.2]",
+                                              "fault_weakening.angles\"\nrange = [4, 9]")),
+                testing::AllOf(HasSubstr(":11: vary[0].range: "), HasSubstr("allowed: integer"),
+                               HasSubstr("values = [...]")));
+}
+
+TEST_F(SweepPlanFile, PointsOfANarrowRangeDiffer) {
+    std::string text = replaced(plan_text, "\"grid\"", "\"latin-hypercube\"\nsamples = 8");
+    text = replaced(text, "[0, 0.2]", "[0.0100001, 0.0100002]");
+    std::set<std::string> values;
+    for (const SweepPoint& point : sweep_points(load(replaced(text, "values", "range"))))
+        values.insert(point[0].text);
+    EXPECT_EQ(values.size(), 8u);
+}
+
+TEST_F(SweepPlanFile, PointsThatMakeNoSceneAreNamed) {
+    std::string text = replaced(plan_text, "fault_weakening.friction\"\nvalues = [0, 0.2]",
+                                "hanging_wall.mean_radius_m\"\nvalues = [186, 1000]");
+    text = replaced(text, "materials.basement\"\nvalues = [\"mat18-b\", \"mat18-b-calibrated\"]",
+                    "hanging_wall.length_m\"\nvalues = [10000, 40000]");
+    const SweepPlan plan = load(text);
+    try {
+        check_points(plan, sweep_points(plan), "plan.toml");
+        FAIL();
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("plan.toml: run 3, hanging_wall.mean_radius_m=1000, "
+                                            "hanging_wall.length_m=10000: "));
+    }
+}
+
 TEST_F(SweepPlanFile, ALatinHypercubeTakesEveryPartOnce) {
     std::string text = replaced(plan_text, "\"grid\"", "\"latin-hypercube\"\nsamples = 8");
     text = replaced(text, "values = [0, 0.2]", "range = [0.0, 0.8]");
@@ -143,7 +193,8 @@ TEST_F(SweepPlanFile, ValuesThatMakeEqualRunsAreRefused) {
     EXPECT_NO_THROW(load(replaced(list, "[0, 0.2]", "[0.2, 0.2]")));
     EXPECT_THAT(complaint(plan_text, replaced(replaced(list, "[0, 0.2]", "[0.2, 0.2]"),
                                               "mat18-b-calibrated", "mat18-b")),
-                HasSubstr("twice"));
+                HasSubstr("run 2, fault_weakening.friction=0.2, materials.basement=mat18-b makes "
+                          "the same run as run 1,"));
     EXPECT_THAT(complaint("[[vary]]\nparameter = \"fault_weakening.friction\"\nvalues = [0, 0.2]\n"
                           "[[vary]]\nparameter = \"materials.basement\"\nvalues = [\"mat18-b\", "
                           "\"mat18-b-calibrated\"]\n",

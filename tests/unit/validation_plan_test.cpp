@@ -70,6 +70,24 @@ protected:
     }
 };
 
+TEST_F(Plan, RowsThatNoRunCanMeetAreRefused) {
+    EXPECT_THAT(complaint("at_m = 5}", "at_m = 7}"),
+                HasSubstr("expects area_balance of a at 7 m, where that run is not measured; its "
+                          "at_m: 5, 10"));
+    EXPECT_THAT(complaint("at_m = 5}", "since_m = 7}"), HasSubstr("area_balance of a at 7 m"));
+    EXPECT_THAT(complaint("minus = \"b\", ", "minus = \"b\", at_m = 5, "),
+                HasSubstr("antithetic_turn_deg of b at 5 m"));
+    EXPECT_THAT(complaint("most = 3", "least = 5, most = 3"), HasSubstr("above most"));
+    EXPECT_THAT(complaint("name = \"b\"", "name = \"a\""), HasSubstr("another run is named a"));
+}
+
+TEST(Words, StayWholeInQuotesAndBrackets) {
+    EXPECT_THAT(words(" a.b=1  c=[[0, 0], [4, -5]] d.e=\"my file.csv\" it's f='x y' "),
+                testing::ElementsAre("a.b=1", "c=[[0, 0], [4, -5]]", "d.e=\"my file.csv\"", "it's",
+                                     "f='x y'"));
+    EXPECT_THAT(words(""), testing::IsEmpty());
+}
+
 TEST_F(Plan, SaysWhatIsRunAndExpected) {
     const ValidationPlan plan = load(plan_text);
     EXPECT_THAT(plan.run("a").set,

@@ -79,10 +79,13 @@ function termsOf(facts, schema, document, name) {
 function stableTimeStep(facts, schema, document) {
   const of = key => valueAt(facts, schema, document, key);
   const radius = of("hanging_wall.mean_radius_m"), smallest = 2 / (1 + of("hanging_wall.radius_ratio"));
-  const mass = of("hanging_wall.rock_density_kg_per_m3") / (1 - 0.166) * Math.PI * radius * radius;
-  const floor = of("cycle.inertial_mass_floor"), inertia = (floor > 0 ? floor : smallest * smallest) * mass;
+  const rock = of("hanging_wall.rock_density_kg_per_m3"), mass = rock / (1 - 0.166) * Math.PI * radius * radius;
   const rocks = ["material", ...Object.keys(facts.effects).filter(name => name in document)]
     .filter(table => schemaAt(schema, `${table}.normal_stiffness_pa`));
+  const sediments = rocks.filter(table => schemaAt(schema, `${table}.grain_density_kg_per_m3`))
+    .map(table => of(`${table}.grain_density_kg_per_m3`) * (1 - of(`${table}.surface_porosity`)));
+  const floor = of("cycle.inertial_mass_floor"), lightest = Math.min(rock, ...sediments) / rock * smallest * smallest;
+  const inertia = (floor > 0 ? floor : lightest) * mass;
   return Math.min(...rocks.map(table => {
     const normal = 0.5 * of(`${table}.normal_stiffness_pa`), shear = 0.5 * of(`${table}.shear_stiffness_pa`);
     const stiffness = Math.max(3 * (normal + shear), 12 * shear);

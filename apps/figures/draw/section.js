@@ -4,6 +4,7 @@
 const dataOf = id => JSON.parse(document.getElementById(id).textContent);
 const $ = id => document.getElementById(id);
 const vocabulary = dataOf("vocabulary");
+document.documentElement.style.setProperty("--pick", vocabulary.layers.picks.ink); // as in figures and report
 
 function svg(name, attributes = {}, parent = null) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", name);

@@ -38,12 +38,23 @@ def section_axes(ax, frame: Frame) -> None:
     ax.plot((frame.wall,) * 2, (line[-1, 1], ymax - 0.3 * frame.unit), color=FAINT, linewidth=1.0,
             zorder=5)
     ax.text(xmin + 0.3 * frame.unit, ymin + 0.25 * frame.unit, "footwall", color=FAINT, fontsize=9,
-            style="italic", va="bottom", zorder=6)
+            style="italic", va="bottom", zorder=6,   # on the footwall's grey, over an image, too
+            bbox={"facecolor": FOOTWALL, "linewidth": 0, "pad": 0.8})
     ax.set_xlim(xmin, xmax)
     ax.set_ylim(ymin, ymax)
     ax.set_aspect("equal", adjustable="box")
     depth_axis(ax, "Depth (km)")
     distance_axis(ax, frame)
+
+
+def exaggeration(ax) -> float:
+    """Height over width of a square of the axes, both in km."""
+    box, (left, right), (low, high) = ax.get_window_extent(), ax.get_xlim(), ax.get_ylim()
+    return (box.height / abs(high - low)) / (box.width / abs(right - left))
+
+
+def exaggeration_text(ratio: float) -> str:
+    return "no vertical exaggeration" if abs(ratio - 1.0) < 0.02 else f"heights × {ratio:.1f}"
 
 
 def depth_axis(ax, label: str) -> None:

@@ -12,18 +12,17 @@ SHOWN = {
     "bonds": "intact bonds between discs",
     "behaviour": "rock behaviour by the share of broken bonds",
     "strain": "maximum shear strain, {window}",
-    "sediment": "thickness of the sediment and depth of the pre-rift top",
+    "sediment": "thickness of the sediment (mean over 1 km) and depth of the pre-rift top",
     "kinematics": "pre-rift top beside kinematic predictions",
     "inversion": "height above the regional of the tops of all strata",
     "seismic": "synthetic seismic image in two-way time",
     "seismic-depth": "synthetic seismic image in depth",
     "underlay": "the model's horizons and faults over a picture of a section",
-    "overview": "strata, bonds, rock behaviour, strain and sediment",
 }
 SEISMIC = ("The seismic image is reflectivity convolved with a Ricker wavelet of {frequency:g} Hz: velocity by porosity "
            "(Wyllie et al. 1956), weakened rock slower by 15 %, layers faster and slower by turns (5 %, assumed); "
-           "neither migration nor noise.")
-FAULTS = ("strata", "strain", "behaviour", "overview", "underlay")
+           "neither migration nor noise. Black: the rock below is harder.")
+FAULTS = ("strata", "strain", "behaviour", "underlay", "seismic-depth")
 
 
 def shown_text(name: str, frame: Frame) -> str:
@@ -33,18 +32,21 @@ def shown_text(name: str, frame: Frame) -> str:
     return SHOWN.get(name, name).format(window=window_text(frame))
 
 
-def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, order: Order) -> str:
-    """A paragraph on the panels of these names of one frame."""
+def caption(names: Sequence[str], said: Sequence[str | None] | None, frame: Frame, order: Order) -> str:
+    """A paragraph on the panels of these names of one frame. The words for a panel end with its scale in
+    brackets. Panels have letters in a figure for print only."""
     meta = frame.meta
     texts = [shown_text(name, frame) for name in names]
-    if said:  # with what the figure itself says of its scale
-        texts = [text + (f" ({words[words.index('(') + 1:]}" if "(" in words else "") for text, words in zip(texts, said)]
-    panels = "; ".join(f"({letter(n)}) {text}" for n, text in enumerate(texts)) if len(texts) > 1 else texts[0]
+    if said:
+        texts = [text + (f" {words[words.rindex('('):]}" if words and "(" in words else "") for text, words in zip(texts, said)]
+    if order.width_mm and len(texts) > 1:
+        texts = [f"({letter(n)}) {text}" for n, text in enumerate(texts)]
+    panels = ("; " if order.width_mm else "; below it ").join(texts)
     rate = meta.get("way_m", meta["extension_m"]) / meta["time_a"] if meta["time_a"] else 0.0
     at = f" at {100 * rate:.3g} cm/yr" if rate else ""
     parts = [f"{order.software} model: {meta.get('title') or meta['scene']}.",
              f"After {moment_text(frame)}{at} ({time_text(frame)}): {panels}."]
-    if any(name in FAULTS for name in names) and frame.faults is not None and len(frame.faults):
+    if any(name in FAULTS or name.startswith("layer-") for name in names) and frame.faults is not None and len(frame.faults):
         parts.append("Black lines: faults active since the previous snapshot, wider where they slip faster.")
     for name, axes in (("seismic", frame.seismic_axes), ("seismic-depth", frame.seismic_depth_axes)):
         if name in names and axes is not None:
@@ -54,8 +56,6 @@ def caption(names: Sequence[str], said: Sequence[str] | None, frame: Frame, orde
         parts.append("; ".join(words).capitalize() + ".")
     parts.append(f"{len(frame.x):,} discs, mean radius {meta.get('mean_radius_m', 1000 * frame.radius.mean()):.3g} m, "
                  f"accuracy {meta.get('accuracy', 'custom')}, seed {meta.get('seed', '?')}.")
-    if not said and all(name not in ("sediment", "overview", "inversion", "seismic") for name in names):
-        parts.append("No vertical exaggeration.")
     return " ".join(filter(None, [*parts, order.errors, provenance_text(order)]))
 
 

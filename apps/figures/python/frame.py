@@ -20,7 +20,8 @@ origin), n discs:
     horizons                         all tops of the model, likewise; only with an underlay
     compared_horizons                the model's tops that they are compared with, likewise
     tops                             of strata and layers of rock, after a turn: stratum (0: pre-rift
-                                     top, below 0: layers), number of the piece, x, y
+                                     top, below 0: layers), number of the piece, x, height above
+                                     the regional
     predicted_shear, predicted_normals  x, y of the pre-rift top by kinematic constructions
     seismic, seismic_depth           amplitudes, a row per trace; only where they are asked for
     seismic_axes, seismic_depth_axes x of the first trace, distance of traces, height of the first

@@ -5,6 +5,7 @@ Lengths are in inches. Panels are those of the pages; only what is around them d
 import textwrap
 from collections.abc import Sequence
 
+from axes import exaggeration, exaggeration_text
 from frame import Frame
 from page import add_axes, extension_text, letter, moment_text, name_distance, time_text
 from panels import panel_of
@@ -37,16 +38,6 @@ def sizes(frame: Frame, names: Sequence[str], width: float) -> list[tuple[float,
     own = {"sediment": max(PROFILE_SHARE * across, LEAST_PROFILE), "seismic": max(0.4 * across, LEAST_TIME),
            "inversion": max(TOPS_SHARE * across, LEAST_TIME)}
     return [(across, own.get(name, across * frame.rise / frame.span)) for name in names]
-
-
-def exaggeration(ax, width: float, height: float) -> float:
-    """Height over width of a square of the panel's axes, both in km."""
-    (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
-    return (height / abs(high - low)) / (width / abs(right - left))
-
-
-def exaggeration_text(ratio: float) -> str:
-    return "no vertical exaggeration" if abs(ratio - 1.0) < 0.02 else f"heights × {ratio:.1f}"
 
 
 def thin_lines(figure: Figure) -> None:
@@ -124,7 +115,7 @@ def draw_print(frame: Frame, names: Sequence[str], order: Order) -> tuple[Figure
         name_distance(ax, lowest)
         figure.text(0.03 / across, (y + high + 0.05) / up, letter(index), fontsize=10, weight="bold", va="bottom")
         figure.text(LEFT / across, (y + high + 0.05) / up, title, fontsize=10, va="bottom")
-        ratio = None if own_axes[index] else exaggeration(ax, wide, high)
+        ratio = None if own_axes[index] else exaggeration(ax)
         if ratio is not None and abs(ratio - 1.0) >= 0.02:
             ax.text(0.99, 0.03, exaggeration_text(ratio), transform=ax.transAxes, fontsize=8, ha="right", va="bottom",
                     color=FAINT, zorder=9)

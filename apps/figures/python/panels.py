@@ -6,11 +6,11 @@ import math
 import struct
 import zlib
 
-from axes import (bar, depth_axis, describe, distance_axis, draw_faults, section_axes, stroke,
+from axes import (bar, depth_axis, describe, distance_axis, draw_faults, exaggeration, section_axes, stroke,
                   swatch)
 from discs import draw_discs
 from frame import Frame, Layer
-from page import PANEL_WIDTH, PROFILE_HEIGHT, TOPS_HEIGHT, time_texts, window_text
+from page import PANEL_WIDTH, PROFILE_HEIGHT, time_texts, window_text
 from plot import FAINT, INK, InputError
 from scales import strain_colours, strain_ticks, stratum_ticks
 from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, VOCABULARY, layer_colours,
@@ -28,7 +28,8 @@ from PIL import Image, ImageOps
 SEDIMENT, SEDIMENT_EDGE, SEDIMENT_PALE = "#fbeab4", "#b07d00", "#fdf6dc"
 WEAK = "#d7301f"
 BOND, BOND_SEDIMENT = INKS["bonds"], "#a87a10"
-UNDEFINED = "#e2e8ee"
+UNDEFINED = VOCABULARY["scale"]["undefined"]
+NO_SEDIMENT = "#e2e8ee"
 PICK, HORIZON, NORMALS_BLUE = INKS["picks"], INKS["horizons"], INKS["predictions"]
 LEVEL_BLUE, TOP_GREEN = INKS["target"], "#2b8a3e"
 TOPS = "Tops against the regional"
@@ -61,7 +62,9 @@ def strata_panel(ax, cax, frame: Frame) -> None:
             (left, right), line = ax.get_xlim(), frame.target_line
             ax.plot((left, *line[:, 0], right), (line[0, 1], *line[:, 1], line[-1, 1]), **style)
         what = "level" if frame.target_line is None else "line"
-        handles.append((stroke(LEVEL_BLUE, 1.0, dashes=(4, 2)), f"target {what} of sediments"))
+        # Where nothing is laid down or eroded it is what heights are told against, and no target.
+        label = f"regional (target {what} before)" if frame.meta.get("surface_rests") else f"target {what} of sediments"
+        handles.append((stroke(LEVEL_BLUE, 1.0, dashes=(4, 2)), label))
     handles += draw_layers(ax, frame)
     if frame.picked_fault is not None:
         x, y = frame.picked_fault.T
@@ -223,12 +226,12 @@ def strain_panel(ax, cax, frame: Frame) -> None:
     finite = np.isfinite(frame.strain)
     cmap, norm = strain_colours(), Normalize(0.0, limit, clip=True)
     rgb = cmap(norm(np.where(finite, frame.strain, 0.0)))[:, :3]
-    rgb[~finite] = to_rgb(UNDEFINED)
+    rgb[~finite] = to_rgb(UNDEFINED["colour"])
     draw_discs(ax, frame, rgb)
     strain_bar(cax, limit, frame.strain[finite].max() if finite.any() else 0.0)
     handles = []
     if not finite.all():
-        handles.append((swatch(UNDEFINED), "not defined"))
+        handles.append((swatch(UNDEFINED["colour"]), UNDEFINED["label"]))
     if frame.profile is not None and (frame.stratum > 0).any():
         ax.plot(frame.profile[:, 0], frame.profile[:, 1], color=TOP_GREEN, linewidth=1.0,
                 zorder=6)
@@ -266,8 +269,7 @@ def sediment_panel(ax, cax, frame: Frame) -> None:
     ax.set_ylim(-(1.32 if frame.legends is None else 1.6) * deepest, highest + 0.10 * deepest)
     depth_axis(ax, "Thickness, depth (km)" if frame.legends is None else "Depth (km)")
     if frame.legends is None:                   # a page
-        share = (PROFILE_HEIGHT / (highest + 1.42 * deepest)) / (PANEL_WIDTH / frame.span)
-        ax.text(0.99, 0.04, f"heights × {share:.1f}", transform=ax.transAxes, ha="right", va="bottom", fontsize=9,
+        ax.text(0.99, 0.04, f"heights × {exaggeration(ax):.1f}", transform=ax.transAxes, ha="right", va="bottom", fontsize=9,
                 color=FAINT, zorder=8)
     ax.grid(axis="y", color="#dddddd", linewidth=0.6, zorder=0)
     ax.set_axisbelow(True)
@@ -276,7 +278,7 @@ def sediment_panel(ax, cax, frame: Frame) -> None:
     ax.plot(x, top, color=INK, linewidth=1.1, dashes=(4, 2), zorder=4)
     ax.axhline(0.0, color=FAINT, linewidth=0.8, zorder=2)
     handles = [
-        (Patch(facecolor=SEDIMENT, edgecolor=SEDIMENT_EDGE, linewidth=1.2), "sediment thickness"),
+        (Patch(facecolor=SEDIMENT, edgecolor=SEDIMENT_EDGE, linewidth=1.2), "sediment thickness, mean over 1 km"),
         (stroke(INK, 1.1, dashes=(3, 1.5)), "depth of pre-rift top")]
     if frame.depocentres is not None and len(frame.depocentres):
         draw_depocentres(ax, frame.depocentres, is_small=frame.legends is not None)
@@ -291,9 +293,10 @@ def draw_depocentres(ax, depocentres: np.ndarray, is_small: bool) -> None:
     points = depocentres[np.argsort(-depocentres[:, 2], kind="stable")]
     xmin, xmax = ax.get_xlim()
     ymin, ymax = ax.get_ylim()
-    inches_x, inches_y = PANEL_WIDTH / (xmax - xmin), PROFILE_HEIGHT / (ymax - ymin)
+    inches_y = PROFILE_HEIGHT / (ymax - ymin)
+    inches_x = inches_y / exaggeration(ax)
     if is_small:                            # as if in the inches of a page
-        inches_x, inches_y = 0.4 * inches_x, 0.4 * inches_y
+        inches_x, inches_y = 0.4 * PANEL_WIDTH / (xmax - xmin), 0.4 * inches_y
     half, height = (0.15 if is_small else 0.37) / inches_x, 0.17 / inches_y
     placed = []
     for index, (x, thickness, prominence) in enumerate(points):
@@ -381,8 +384,7 @@ def inversion_panel(ax, cax, frame: Frame) -> None:
         ax.text(0.5, 0.5, "no shortening before this moment", color=FAINT, ha="center", va="center", transform=ax.transAxes)
         describe(ax, frame, TOPS)
         return
-    regional = frame.level or 0.0
-    heights = frame.tops[:, 3] - regional
+    heights = frame.tops[:, 3]
     lowest = heights[frame.tops[:, 0] >= 0].min(initial=-0.5 * frame.unit)
     ax.set_ylim(1.06 * lowest, max(heights.max(), 0.3 * frame.unit) * 1.12)
     colours = stratum_colours(frame.strata)
@@ -397,7 +399,7 @@ def inversion_panel(ax, cax, frame: Frame) -> None:
         stratum = int(piece[0, 0])
         style = {"color": colours[stratum - 1], "linewidth": 1.1} if stratum > 0 else \
             {"color": INK, "linewidth": 1.8} if stratum == 0 else {"color": FAINT, "linewidth": 0.9}
-        ax.plot(piece[:, 2], piece[:, 3] - regional, zorder=7 if stratum == 0 else 5, **style)
+        ax.plot(piece[:, 2], piece[:, 3], zorder=7 if stratum == 0 else 5, **style)
     if (frame.tops[:, 0] == 0).any():
         handles.append((stroke(INK, 1.8), "pre-rift top"))
     if (frame.tops[:, 0] < 0).any():
@@ -407,9 +409,7 @@ def inversion_panel(ax, cax, frame: Frame) -> None:
                         "tops of strata"))
     if frame.legends is None:                   # a page has room; captions say it, too
         ax.set_ylabel("Height above the regional (km)")
-        (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
-        ratio = (TOPS_HEIGHT / (high - low)) / (PANEL_WIDTH / (right - left))
-        ax.text(0.985, 0.06, "\n".join([*frame.meta.get("said", []), f"heights × {ratio:.1f}"]), transform=ax.transAxes,
+        ax.text(0.985, 0.06, "\n".join([*frame.meta.get("said", []), f"heights × {exaggeration(ax):.1f}"]), transform=ax.transAxes,
                 ha="right", va="bottom", fontsize=9.5, zorder=9)
     describe(ax, frame, TOPS if frame.legends is None else f"{TOPS}, height in km", handles)
 
@@ -421,14 +421,14 @@ def layer_panel(name: str):
         section_axes(ax, frame)
         colours = LinearSegmentedColormap.from_list(name, [SEDIMENT_PALE, layer.ink])
         rgb = colours(layer.rows)[:, :3]
-        rgb[frame.stratum == 0] = to_rgb(UNDEFINED)
+        rgb[frame.stratum == 0] = to_rgb(NO_SEDIMENT)
         inked = layer.rows > 0.0
         rgb[inked] = colours(layer.rows[inked])[:, :3]
         draw_discs(ax, frame, rgb)
         bar(cax, colours, Normalize(0.0, layer.full), layer.label.capitalize())
         arrows = draw_arrows(ax, frame, layer)
         describe(ax, frame, layer.label.capitalize(),
-                 [(swatch(UNDEFINED), "pre-rift"), *arrows, *draw_faults(ax, frame.faults)])
+                 [(swatch(NO_SEDIMENT), "pre-rift"), *arrows, *draw_faults(ax, frame.faults)])
     return panel
 
 
@@ -472,7 +472,7 @@ def seismic_panel(ax, cax, frame: Frame) -> None:
     ax.set_ylim((samples - 1) * interval, 0.0)
     ax.set_ylabel("Two-way time (s)")
     distance_axis(ax, frame)
-    describe(ax, frame, f"Synthetic seismic image, {frequency:g} Hz")
+    describe(ax, frame, f"Synthetic seismic image, {frequency:g} Hz", polarity())
 
 
 def seismic_depth_panel(ax, cax, frame: Frame) -> None:
@@ -485,7 +485,13 @@ def seismic_depth_panel(ax, cax, frame: Frame) -> None:
     draw_wiggles(ax, frame.seismic_depth, (x - spacing / 2) / 1000, (x + (traces - 0.5) * spacing) / 1000,
                  (datum + interval / 2) / 1000, (datum - (samples - 0.5) * interval) / 1000)
     ax.axis(limits)
-    describe(ax, frame, f"Synthetic seismic image in depth, {frequency:g} Hz", draw_faults(ax, frame.faults))
+    describe(ax, frame, f"Synthetic seismic image in depth, {frequency:g} Hz", [*polarity(), *draw_faults(ax, frame.faults)])
+
+
+def polarity() -> list:
+    """Legend entries of the greys."""
+    pale, *_, dark = palette(VOCABULARY["layers"]["seismic"]["palette"])
+    return [(swatch(dark), "rock below is harder"), (swatch(pale), "softer")]
 
 
 def draw_wiggles(ax, traces: np.ndarray, left: float, right: float, top: float, bottom: float) -> None:

@@ -10,11 +10,13 @@ import os
 import re
 from dataclasses import dataclass
 
-from script import InputError, forget_settings, library, run  # noqa: for those who import this module
+from script import NO_LIBRARY, InputError, end, forget_settings, library, run  # noqa: for those who import this module
 
 forget_settings()
 np = library("numpy")
 matplotlib = library("matplotlib")
+if not hasattr(matplotlib, "colormaps"):
+    end(NO_LIBRARY, f"matplotlib is {matplotlib.__version__}; needed: 3.5 or later")
 matplotlib.use("Agg")
 library("matplotlib.figure")
 library("matplotlib.backends.backend_agg")
@@ -150,8 +152,9 @@ def length_unit(span: float) -> tuple[str, float]:
 
 
 def moment_label(extension: float, last: float) -> str:
-    """An extension of at most `last`, both m: in km, or in m where 0.1 km cannot separate moments."""
-    return f"{extension / 1e3:.1f} km" if last >= 1e3 or last == 0.0 else f"{extension:.3g} m"
+    """An extension of at most `last`, both m: in km, or in m where 0.1 km cannot separate moments. A run of
+    1 km may end some millimetres before it."""
+    return f"{extension / 1e3:.1f} km" if last >= 999.5 or last == 0.0 else f"{extension:.3g} m"
 
 
 def new_figure(width: float, height: float, dpi: float, **options) -> Figure:

@@ -24,6 +24,10 @@ def end(status: int, text: str) -> None:
     sys.exit(status)
 
 
+if sys.version_info < (3, 10):
+    end(NO_LIBRARY, f"Python is {sys.version.split()[0]}; needed: 3.10 or later")
+
+
 @contextlib.contextmanager
 def elsewhere():
     """Within the scripts' folder: Matplotlib reads settings from the current one, which may also be

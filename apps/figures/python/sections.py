@@ -2,6 +2,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from axes import exaggeration, exaggeration_text
 from frame import Frame
 from page import (DPI, GAP, LEFT, PROFILE_HEIGHT, ROW_ABOVE, TITLE, TOPS_HEIGHT, WIDTH, add_axes, below,
                   extension_text, footer, headline, name_distance, panel_size, set_ticks, write_around)
@@ -65,11 +66,14 @@ def save_sections(frames: Sequence[Frame], folder: str, order: Order) -> None:
             captions[name] = caption(wanted or DEFAULT, said, frame, order)
             continue
         figures = figures_of(frame)
-        chosen = {name: [name] for name in require_panels(frame, order.only)} or figures
+        chosen = {name: figures[name] for name in require_panels(frame, order.only)} or figures
         for kind, panels in chosen.items():
             name = f"{kind}-{extension_text(frame)}km"
-            save(draw_figure(frame, panels, order.dpi or DPI, order.plain), folder, name, order)
-            captions[name] = caption([kind], None, frame, order)
+            figure = draw_figure(frame, panels, order.dpi or DPI, order.plain)
+            scales = [None if panel == "seismic" else f"({exaggeration_text(exaggeration(ax))})"
+                      for panel, ax in zip(panels, figure.axes[::2])]   # beside each its colour bar
+            save(figure, folder, name, order)
+            captions[name] = caption(panels, scales, frame, order)
     if order.caption:
         write_captions(captions, folder)
 

@@ -76,8 +76,9 @@ function discColours(run, k, mode, palette, top, strata) {
     run.codes[k].behaviour.forEach((behaviour, i) => { colours[i] = classes[behaviour]; });
   } else {
     const values = mode === "displacement" ? displacement(run, k) : run.values(k, modes[mode].needs[0]);
+    const undefinedColour = packedColour(vocabulary.scale.undefined.colour);
     for (let i = 0; i < colours.length; ++i)
-      colours[i] = table[Math.round(255 * Math.min(Math.max(values[i] / top, 0), 1))];
+      colours[i] = Number.isNaN(values[i]) ? undefinedColour : table[Math.round(255 * Math.min(Math.max(values[i] / top, 0), 1))];
   }
   return colours;
 }

@@ -91,11 +91,11 @@ class Run {
     const key = `${k} ${name}`;
     if (!this.numbers.has(key)) {
       if (this.numbers.size > 40) this.numbers.clear();
-      const codes = this.codes[k][name], scale = this.head.scales[name] || {step: 1, root: false};
+      const codes = this.codes[k][name], scale = this.head.scales[name] || {step: 1, root: false, none: 0};
       const values = new Float64Array(codes.length);
       for (let i = 0; i < codes.length; ++i) {
         const size = codes[i] * scale.step;
-        values[i] = scale.root ? Math.sign(size) * size * size : size;
+        values[i] = scale.none && codes[i] === scale.none ? NaN : scale.root ? Math.sign(size) * size * size : size;
       }
       this.numbers.set(key, values);
     }

@@ -89,6 +89,12 @@ function youngestTime() {
   return Math.max(...page.runs.map(run => timeOf(run, run.values(run.moments.length - 1, "start_extension_m").reduce((a, b) => Math.max(a, b), 0))));
 }
 
+/** Whether a disc that is shown has no strain of the window. */
+function hasUndefined(run) {
+  const k = momentOf(run), {present} = run.codes[k];
+  return run.values(k, "window_strain").some((value, id) => present[id] && Number.isNaN(value));
+}
+
 /** Entries of the legend of what is shown: a colour, or colours from one number to another, and a label. */
 function legendItems() {
   const {top, strata} = page.scale, {unit} = modes[page.mode], table = paletteOf(page.mode, page.palette), items = [];
@@ -103,6 +109,7 @@ function legendItems() {
       items.push({colour, label: n ? "by turns" : `pre-rift, layers of ${vocabulary.pre_rift.layer_m / 1000} km`}));
   } else items.push({label: modes[page.mode].label, from: 0, to: `${plain(top / (unit || 1))} or more`,
     colours: bar(share => table[Math.round(255 * share)])});
+  if (page.mode === "window" && page.runs.some(hasUndefined)) items.push(vocabulary.scale.undefined);
   for (const name of ["faults", "horizons", "picks", "target", "predictions"])
     if (page.shown.has(name) && name in page.layers) items.push({label: page.layers[name].label, colour: page.layers[name].ink});
   for (const [name, layer] of Object.entries(page.layers))
@@ -205,7 +212,8 @@ async function describe() {
       return void ($("picked").textContent = `${which}disc ${id}: not in the model at this moment`);
     await run.load(["start_x_m", "start_depth_m", "window_strain", "total_strain", "bonds", "mean_stress_pa", "shear_stress_pa"]);
     const value = name => run.has(name) ? run.values(k, name)[id] : NaN;
-    const say = (text, name, unit = 1, suffix = "") => run.has(name) ? `; ${text} ${plain(value(name) / unit)}${suffix}` : "";
+    const say = (text, name, unit = 1, suffix = "") => !run.has(name) ? "" :
+      `; ${text} ${Number.isNaN(value(name)) ? "not defined" : plain(value(name) / unit) + suffix}`;
     $("picked").textContent = `${which}disc ${id}: stratum ${run.codes[k].stratum[id]}, ` +
       `began at x ${metresText(value("start_x_m"))}, depth ${metresText(value("start_depth_m"))}; is at x ` +
       `${metresText(value("x_m"))}, depth ${metresText(value("depth_m"))}; radius ${value("radius_m").toFixed(1 + metreDecimals())} m` +
@@ -346,7 +354,8 @@ function readOut(section, column, row) {
     if (page.mode === "rock" && isRead) words.push(vocabulary.rock_classes[run.codes[k].behaviour[id]].label);
     else if (mode.end && isRead) {
       const value = page.mode === "displacement" ? displacement(run, k)[id] : run.values(k, mode.needs[0])[id];
-      words.push(`${mode.label.replace(/ \(.*/, "")} ${digits(value / (mode.unit || 1), 2)}${mode.unit ? " MPa" : page.mode === "displacement" ? " m" : ""}`);
+      words.push(`${mode.label.replace(/ \(.*/, "")} ${Number.isNaN(value) ? "not defined" : digits(value / (mode.unit || 1), 2) +
+        (mode.unit ? " MPa" : page.mode === "displacement" ? " m" : "")}`);
     }
   }
   readout.textContent = words.join("; ");

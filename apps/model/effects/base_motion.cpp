@@ -8,6 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace listric::effects::base_motion {
 
 namespace {
@@ -40,6 +43,34 @@ void check(const Scene& scene, const Refuse& refuse) {
                fmt::format("moves {:.3g} times as fast as extension, allowed: at most {}; spread "
                            "it over more time, or raise extension.rate_m_per_a",
                            speed, fastest));
+}
+
+/// Whether a displacement changes from time 0 to the end of a run, a.
+bool changes(const std::vector<dem::TargetStage>& stages, double end) {
+    constexpr double least = 1e-6; // m
+    if (stages.empty())
+        return false;
+    const dem::Target target(0.0, stages);
+    const dem::TargetLine before = target.at(0.0);
+    return std::ranges::any_of(stages, [&](const dem::TargetStage& stage) {
+        const dem::TargetLine now = target.at(std::min(stage.time, end));
+        const auto differs = [&](dem::Point p) {
+            return std::abs(now.height(p.x) - before.height(p.x)) > least;
+        };
+        return std::ranges::any_of(now.points(), differs) ||
+               std::ranges::any_of(before.points(), differs);
+    });
+}
+
+std::string warning(const Scene& scene) {
+    const P& motion = *scene.find<P>();
+    const double end = scene.extension.distance / scene.extension.rate;
+    if (changes(motion.uplift, end) || changes(motion.shift, end))
+        return "";
+    return fmt::format("base_motion moves nothing up to the end of the run at {:g} a: what counts "
+                       "is the change since time 0; give two stages {{time_a, points}} or more "
+                       "that differ before the end",
+                       end);
 }
 
 class BaseMotionDriver final : public BaseDriver {
@@ -77,8 +108,8 @@ const Effect& effect() {
         .parameters =
             {
                 {"uplift", at<&P::uplift>, "", ranges::height, "",
-                 "upward displacement of the detachment: points [x, uplift] in m, or stages "
-                 "{time_a, points}; the change since time 0 counts",
+                 "upward displacement of the detachment: stages {time_a, points} with points [x, "
+                 "uplift] in m; the change since time 0 counts, so that one stage moves nothing",
                  "Lifts and bends the detachment under the discs, as an elastic base would."},
                 {"shift", at<&P::shift>, "", ranges::height, "",
                  "displacement of the detachment to the right, given as uplift is",
@@ -89,6 +120,7 @@ const Effect& effect() {
                    "Stands in place of uplift and shift.", read_motion}},
         .needs = {"detachment"},
         .check = check,
+        .warning = warning,
         .contribute =
             [](const Scene&, ModelParts& parts) {
                 dem::follow_nodes(parts.base, 2);

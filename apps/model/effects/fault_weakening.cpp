@@ -187,11 +187,6 @@ const Effect& effect() {
                         return fmt::format("friction {:g}", scene.find<P>()->material.friction);
                     },
             },
-        .warning =
-            [](const Scene& scene) {
-                return warning_of_never(scene, "fault_weakening.interval_a",
-                                        scene.find<P>()->interval);
-            },
         .contribute =
             [](const Scene& scene, ModelParts& parts) {
                 const P& p = *scene.find<P>();

@@ -15,8 +15,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace listric::effects::layer {
 
@@ -100,9 +102,37 @@ template <class T> void take(std::optional<T>& into, T value) {
         into = value;
 }
 
-void take_material(Scene& scene, std::size_t item, const std::string& file, const Refuse&) {
+std::string path_of(std::size_t item, std::string_view key) {
+    return fmt::format("layer[{}].{}", item, key);
+}
+
+/// Refuses what the table itself says about bonds and weakened rock in a scene without them. What
+/// the file of its material says of bonds is for scenes that have some.
+void refuse_idle(const Scene& scene, const L& layer, std::size_t item, const Refuse& refuse) {
+    constexpr std::array<std::string_view, 4> of_bonds{"tensile_strength_pa",
+                                                       "tensile_strength_sd_pa",
+                                                       "shear_strength_pa", "shear_strength_sd_pa"};
+    for (std::size_t k = 0; k < of_bonds.size(); ++k)
+        if (layer.strength[k] && !has_effect(scene, "bonds"))
+            refuse(path_of(item, of_bonds[k]),
+                   "is about bonds, and the scene has none; add [bonds] or leave it out");
+    const std::pair<std::string_view, bool> of_weak[] = {
+        {"weakened_normal_stiffness_pa", layer.weakened_normal_stiffness.has_value()},
+        {"weakened_shear_stiffness_pa", layer.weakened_shear_stiffness.has_value()},
+        {"weakened_friction", layer.weakened_friction.has_value()}};
+    const bool is_weakened = std::ranges::any_of(scene.effects, [](const EffectPart& part) {
+        return part.effect->rock && part.effect->rock->key == "weakened";
+    });
+    for (const auto& [key, is_given] : of_weak)
+        if (is_given && !is_weakened)
+            refuse(path_of(item, key), "is about weakened rock, and the scene has no fault "
+                                       "weakening; add its table or leave it out");
+}
+
+void take_material(Scene& scene, std::size_t item, const std::string& file, const Refuse& refuse) {
     const RockMaterial rock = read_material(file);
     L& layer = item_of(scene, item);
+    refuse_idle(scene, layer, item, refuse);
     take(layer.normal_stiffness, rock.material.normal_stiffness);
     take(layer.shear_stiffness, rock.material.shear_stiffness);
     take(layer.friction, rock.material.friction);
@@ -113,10 +143,6 @@ void take_material(Scene& scene, std::size_t item, const std::string& file, cons
     take(layer.strength[2], rock.bonds->shear_mean);
     take(layer.strength[3], rock.bonds->shear_deviation);
     layer.strength_is = rock.bonds->reading;
-}
-
-std::string path_of(std::size_t item, std::string_view key) {
-    return fmt::format("layer[{}].{}", item, key);
 }
 
 void take_weakened(Scene& scene, std::size_t item, const std::string& file, const Refuse& refuse) {

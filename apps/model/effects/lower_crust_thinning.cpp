@@ -62,11 +62,13 @@ std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
     const auto& base = *bending_base(scene);
     const double thinner = coupling::lower_crust_thinning(p, greatest_extension(scene));
+    const double contrast = base.mantle_density - base.crust_density; // at most the springs'
+    const double springs = base.mantle_density - base.infill_density;
     return fmt::format(
         "    lower crust: {:g} km over {:g} km thins by {:.0f} m at most; the mantle in its "
         "place\n    lowers a wide area by {:.0f} m\n",
         p.thickness / 1e3, p.width / 1e3, thinner,
-        thinner * (base.mantle_density - base.crust_density) / base.mantle_density);
+        contrast > 0.0 ? thinner * contrast / springs : 0.0);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/old_fault.hpp"
 #include "apps/scene/scene.hpp"
+#include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
 #include "dem/hypotenuse.hpp"
@@ -107,10 +108,20 @@ void check(const Scene& scene, const Refuse& refuse) {
 
 void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
     dem::OldFaultsParameters p;
-    for (const F& fault : *scene.find<OldFaultList>())
-        for (const auto& [name, points] : lines_of(fault)) {
+    p.on_empty = [](const dem::OldFaultsParameters::Fault& fault) {
+        throw SceneError(fmt::format(
+            "{}: no disc of rock that faults can weaken has its centre in its band, {} m wide; "
+            "raise band_width_diameters, move it out of layers with weakens_to = \"none\", or "
+            "leave it out",
+            fault.name, text(fault.width)));
+    };
+    const OldFaultList& faults = *scene.find<OldFaultList>();
+    for (std::size_t k = 0; k < faults.size(); ++k)
+        for (const auto& [name, points] : lines_of(faults[k])) {
             dem::OldFaultsParameters::Fault& line = p.faults.emplace_back();
-            line.width = width_of(scene, fault);
+            line.name = fmt::format("old_fault[{}]{}{}", k, name.empty() ? "" : ", ",
+                                    name.empty() ? "" : shown_start(name));
+            line.width = width_of(scene, faults[k]);
             for (const dem::Point& point : points)
                 line.points.push_back({point.x, -point.y});
         }

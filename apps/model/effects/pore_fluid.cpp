@@ -51,7 +51,7 @@ std::vector<Parameter> parameters() {
          "Lowering it makes faults in sediment seals."},
         {"level_m", at<&P::level>, "m", ranges::height, "",
          "height of the water above the original surface; default: the level that the basin is "
-         "filled to",
+         "filled to, 0 where that is a line",
          "Moves the pressure of water at rest, no excess pressure and no weight."},
         {"hydrostatic", at<&P::hydrostatic>, "", ranges::any, "",
          "water at rest: buoyancy and nothing else",
@@ -142,6 +142,17 @@ std::string warning(const Scene& scene) {
                        interval, most);
 }
 
+/// Time that the wall takes to pull the base away, s: no floor sinks in pauses and on the way back.
+double seconds_of_extension(const Scene& scene) {
+    double travel = 0.0;
+    for (const dem::MotionStage& one : make_motion(scene).stages)
+        if (one.slope > 0.0)
+            travel += one.end - one.start;
+    if (!scene.find<Stages>())
+        travel = scene.extension.distance;
+    return dem::Schedule{travel / scene.extension.rate, scene.extension.rate}.seconds();
+}
+
 /// Pressure and porosity of a column of this mud at the depocentre.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
@@ -157,9 +168,7 @@ std::string explain(const Scene& scene, EffectList) {
         return fmt::format(
             "pore fluid\n  discs weigh {:.3f} of their weight in air; nothing sinks\n",
             parts.physics.gravity / parts.gravity);
-    const double seconds =
-        dem::Schedule{scene.extension.distance / scene.extension.rate, scene.extension.rate}
-            .seconds();
+    const double seconds = seconds_of_extension(scene);
     constexpr std::size_t steps = 100;
     const coupling::SunkColumn sunk =
         coupling::sink(column, coupling::steady_floor(depth, steps), seconds / steps);

@@ -100,7 +100,8 @@ double price(const Scene& scene, const Workload& work) {
                static_cast<double>(dem::disc_count(scene.hanging_wall, area_above_surface(scene)));
 }
 
-/// Refuses a target that leaves nothing of the hanging wall.
+/// Refuses a target that leaves nothing of the hanging wall, and one above the ground behind the
+/// breakaway, where sediment would be laid only near the hanging wall and fall off at the end.
 void check(const Scene& scene, const Refuse& refuse) {
     const P& p = *scene.find<P>();
     const double thickness = scene.hanging_wall.thickness;
@@ -113,6 +114,17 @@ void check(const Scene& scene, const Refuse& refuse) {
             fmt::format("is {} at its highest, below the whole hanging wall, which erosion would "
                         "take away; allowed: above {}, its base",
                         text(lowest), text(-thickness)));
+    if (!scene.detachment || !scene.detachment->footwall_top)
+        return;
+    const double fill = dem::highest_fill_behind_breakaway(
+        p, make_motion(scene), scene.extension.rate, scene.extension.distance);
+    if (fill > 0.0)
+        refuse(p.target.empty() ? "sedimentation.level_m" : "sedimentation.target",
+               fmt::format("is {} at x <= 0 beside detachment.footwall_top_m = {}: sediment cannot "
+                           "be laid on that level ground; give a sedimentation.target that is 0 or "
+                           "less there, such as [[0.0, 0.0], [1000.0, {}]], or leave out "
+                           "footwall_top_m",
+                           text(fill), text(*scene.detachment->footwall_top), text(fill)));
 }
 
 const dem::SedimentStress* stress_in(const Observation& now) {
@@ -231,11 +243,6 @@ const Effect& effect() {
                     },
             },
         .check = check,
-        .warning =
-            [](const Scene& scene) {
-                return warning_of_never(scene, "sedimentation.interval_a",
-                                        scene.find<P>()->interval);
-            },
         .contribute =
             [](const Scene& scene, ModelParts& parts) {
                 const P& p = *scene.find<P>();

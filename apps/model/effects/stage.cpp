@@ -8,19 +8,17 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace listric::effects::stage {
 
 namespace {
 
-/// Where shortening begins for the first time, m of travel.
-std::optional<double> turn_of(const dem::Motion& motion) {
-    const auto first = std::ranges::find_if(
-        motion.stages, [](const dem::MotionStage& one) { return one.slope < 0.0; });
-    return first == motion.stages.end() ? std::nullopt : std::optional(first->start);
+dem::TargetLine regional_in(const Scene& scene, const ModelParts& parts) {
+    return regional_of(parts.base.motion,
+                       parts.sediment ? parts.sediment->surface : dem::Target(0.0),
+                       scene.extension.rate);
 }
-
-double regional_of(const ModelParts& parts) { return parts.sediment ? parts.sediment->level : 0.0; }
 
 /// Remembers what the way back is compared with: the column `turn_strain`, and rows at the turn and
 /// a kilometre after it.
@@ -28,8 +26,9 @@ class TurnRecord final : public dem::Observer {
 public:
     static constexpr double start_of_balance = 1e3; ///< m after the turn
 
-    TurnRecord(double turn, double regional)
-        : Observer("turn", dem::never, dem::Stage::load), turn_(turn), regional_(regional) {}
+    TurnRecord(double turn, dem::TargetLine regional)
+        : Observer("turn", dem::never, dem::Stage::load), turn_(turn),
+          regional_(std::move(regional)) {}
 
     double next_due() const override {
         return applied == 0   ? turn_
@@ -58,15 +57,16 @@ public:
     }
 
 private:
-    double turn_, regional_;
+    double turn_;
+    dem::TargetLine regional_;
 };
 
-void add_events(const Scene&, const ModelParts& parts, dem::Events& events) {
+void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events) {
     const dem::Motion& motion = parts.base.motion;
     if (dem::StageChange::is_needed(motion))
         dem::add(events, std::make_unique<dem::StageChange>(motion));
     if (const auto turn = turn_of(motion))
-        dem::add(events, std::make_unique<TurnRecord>(*turn, regional_of(parts)));
+        dem::add(events, std::make_unique<TurnRecord>(*turn, regional_in(scene, parts)));
 }
 
 /// Number of a row of the record; none before.
@@ -82,14 +82,15 @@ bool has_turned(const Observation& now) {
            now.parts.base.motion.shortens(now.state.clock.travel);
 }
 
-/// Growth of the area above the regional since a row, what was eroded meanwhile included, m^2.
+/// Growth of the area above the regional since a row, m^2, with what was eroded meanwhile: its mass
+/// at the hanging wall's density, as nothing keeps of which rock it was.
 std::optional<double> uplift_since(const Observation& now, std::size_t row) {
     const auto before = recorded(now, "uplift_area_m2", row);
     if (!before || !has_turned(now))
         return std::nullopt;
     const double eroded = (now.state.ledger.removed - *recorded(now, "removed_mass", row)) /
                           now.scene.hanging_wall.rock_density;
-    return area_above_regional(now.state, regional_of(now.parts)) - *before + eroded;
+    return area_above_regional(now.state, regional_in(now.scene, now.parts)) - *before + eroded;
 }
 
 std::optional<double> uplift_balance(const Observation& now) {
@@ -118,7 +119,8 @@ std::optional<double> null_deposited_at(const Observation& now, bool decompacted
         pores = {s.surface_porosity, *s.porosity_decay};
     }
     const dem::Motion& motion = now.parts.base.motion;
-    return stage::null_point(now.state, motion, regional_of(now.parts), *turn_of(motion), pores);
+    return stage::null_point(now.state, motion, regional_in(now.scene, now.parts), *turn_of(motion),
+                             pores);
 }
 
 /// Shortening over extension that the null point tells.
@@ -163,8 +165,9 @@ std::vector<Measure<Observation>> measures_of_stages() {
              return static_cast<double>(now.parts.base.motion.stage(now.state.clock.travel));
          }},
         {"uplift_area_m2", "m2",
-         "growth since the turn of the area above the regional, over the footwall, too, and of "
-         "rock eroded: thickness times shortening, less what rock and pores take up",
+         "growth since the turn of the area above the regional, over the footwall, too, with what "
+         "was eroded, its mass at the hanging wall's density (sediment counts by half): thickness "
+         "times shortening, less what rock and pores take up",
          [](const Observation& now) { return or_nan(uplift_since(now, 0)); }},
         {"uplift_balance", "1",
          "growth of the area above the regional since 1 km after the turn, over shortening since × "

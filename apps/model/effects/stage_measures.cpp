@@ -22,6 +22,8 @@ struct ColumnTops {
     double left = 0.0, width = 1.0; ///< m
     std::vector<double> height;     ///< m; minus infinity: there is none
 
+    double middle(std::size_t k) const { return left + (static_cast<double>(k) + 0.5) * width; }
+
     ColumnTops(double from, double column, double count)
         : left(from), width(column), height(static_cast<std::size_t>(count), no_top) {}
 
@@ -65,15 +67,25 @@ std::vector<double> means_of_tops(const ColumnTops& tops, double width) {
 
 } // namespace
 
-double area_above_regional(const State& state, double level) {
+std::optional<double> turn_of(const Motion& motion) {
+    const auto first =
+        std::ranges::find_if(motion.stages, [](const MotionStage& one) { return one.slope < 0.0; });
+    return first == motion.stages.end() ? std::nullopt : std::optional(first->start);
+}
+
+TargetLine regional_of(const Motion& motion, const Target& target, double rate) {
+    return target.at(turn_of(motion).value_or(std::numeric_limits<double>::max()) / rate);
+}
+
+double area_above_regional(const State& state, const TargetLine& regional) {
     const ConstDiscColumns d = disc_columns(state);
     const auto [left, right] = std::ranges::minmax(d.x);
     ColumnTops tops = all_columns(left, right, 2.0 * state.mean_radius);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         tops.add(d.x[i], d.y[i] + d.radius[i]);
     double area = 0.0;
-    for (const double h : tops.height)
-        area += std::max(0.0, h - level) * tops.width;
+    for (std::size_t k = 0; k < tops.height.size(); ++k)
+        area += std::max(0.0, tops.height[k] - regional.height(tops.middle(k))) * tops.width;
     return area;
 }
 
@@ -95,8 +107,9 @@ double graben_relief(const State& state) {
     return relief;
 }
 
-std::optional<double> null_point(const State& state, const Motion& motion, double level,
-                                 double turn, const std::optional<Decompaction>& decompaction) {
+std::optional<double> null_point(const State& state, const Motion& motion,
+                                 const TargetLine& regional, double turn,
+                                 const std::optional<Decompaction>& decompaction) {
     constexpr double from = 200.0, to = 1500.0; // m
     const ConstDiscColumns d = disc_columns(state);
     std::map<std::int32_t, double> deposited; // travel, m, by stratum
@@ -113,15 +126,16 @@ std::optional<double> null_point(const State& state, const Motion& motion, doubl
         for (std::size_t i = 0; i < d.x.size(); ++i)
             if (d.stratum[i] <= stratum)
                 tops.add(d.x[i], d.y[i] + d.radius[i]);
-        double sum = 0.0, found = 0.0;
-        for (const double h : tops.height)
-            if (h > no_top) {
-                sum += h;
+        double sum = 0.0, level = 0.0, found = 0.0;
+        for (std::size_t k = 0; k < tops.height.size(); ++k)
+            if (tops.height[k] > no_top) {
+                sum += tops.height[k];
+                level += regional.height(tops.middle(k));
                 found += 1.0;
             }
         if (found == 0.0)
             continue;
-        double height = sum / found - level;
+        double height = (sum - level) / found;
         if (!porosity.empty()) {
             const double top = sum / found;
             double lost = 0.0; // area of the column, m^2

@@ -1,18 +1,26 @@
 #pragma once
 
+#include "dem/base/target_line.hpp"
 #include "dem/motion.hpp"
 #include "dem/state.hpp"
 
 #include <optional>
 
 // Measures of inverted basins. Strata know the travel at which they were deposited; heights
-// are above the regional, the level that the basin was filled to.
+// are above the regional, the line that the basin was filled to when shortening began.
 
 namespace listric::effects::stage {
 
+/// Where shortening begins for the first time, m of travel.
+std::optional<double> turn_of(const dem::Motion& motion);
+
+/// The regional of a basin that is filled to a target, at the end where nothing shortens.
+/// @param rate  of extension, m/a
+dem::TargetLine regional_of(const dem::Motion& motion, const dem::Target& target, double rate);
+
 /// Area between the regional and the ground above it, over the footwall, too, m^2. Columns are a
-/// mean diameter wide, so that a rough ground at the level has some.
-double area_above_regional(const dem::State& state, double level);
+/// mean diameter wide, so that a rough ground at the regional has some.
+double area_above_regional(const dem::State& state, const dem::TargetLine& regional);
 
 /// Greatest fall of the pre-rift top (means over 2.5 km) toward the wall, from the crest of the
 /// rollover into the graben behind it, m; 0 where it only rises.
@@ -31,8 +39,9 @@ struct Decompaction {
 /// @param turn  travel at which shortening began, m: later strata do not count
 /// @param decompaction  adds the thickness that strata below a top have lost since it was laid
 ///     down, from their porosity now (column `porosity`) and what it was that far below the top
-std::optional<double> null_point(const dem::State& state, const dem::Motion& motion, double level,
-                                 double turn, const std::optional<Decompaction>& decompaction = {});
+std::optional<double> null_point(const dem::State& state, const dem::Motion& motion,
+                                 const dem::TargetLine& regional, double turn,
+                                 const std::optional<Decompaction>& decompaction = {});
 
 /// Share of the shear strain since the turn (columns `total_strain`, `turn_strain`) of the pre-rift
 /// rock that lies in the tenth of its area which extension had strained most. None before any.

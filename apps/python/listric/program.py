@@ -1,5 +1,6 @@
 """The program, found and called."""
 
+import contextlib
 import json
 import os
 import re
@@ -7,6 +8,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
+import warnings
 from pathlib import Path
 
 from .errors import ProgramError, finite_number
@@ -27,9 +30,10 @@ def find_program() -> Path:
                                "installation, or build/native/listric of the source tree")
         return Path(wanted).absolute()
     # PREFIX/lib/python3/dist-packages/listric, and apps/python/listric of the source tree.
+    is_installed = _HERE.parent.name in ("dist-packages", "site-packages")
     installed, launcher = _HERE.parents[3] / "bin/listric", _HERE.parents[2] / "listric"
     on_path = shutil.which("listric")
-    for found in (installed, on_path and Path(on_path), launcher):
+    for found in (is_installed and installed, on_path and Path(on_path), launcher):
         if found and found.is_file() and os.access(found, os.X_OK):
             return found.absolute()
     raise ProgramError("the program listric is not found: put it on the PATH, or name it in "
@@ -39,9 +43,14 @@ def find_program() -> Path:
 def call(*words, quiet: bool = True) -> str:
     """Calls the program, as `call("sweep", "plan.toml")`, and returns what it prints.
 
-    Its progress appears on stderr unless `quiet`. Throws ProgramError with its last
-    line and exit code. Interrupted (Ctrl-C, the stop button), the program saves what it has reached.
+    Its progress appears on stderr unless `quiet`; then its warnings are Python's. Throws ProgramError with
+    its last line and exit code. Interrupted (Ctrl-C, the stop button), the program saves what it has reached.
     """
+    return _call(words, quiet)
+
+
+def _call(words, quiet) -> str:
+    """As call(); a warning names the line that called the caller of this."""
     command = [str(find_program()), *map(str, words)]
     last = ""
     with tempfile.TemporaryFile("w+", encoding="utf-8") as printed:
@@ -56,6 +65,8 @@ def call(*words, quiet: bool = True) -> str:
                     last = line.strip() or last
                     if not quiet:
                         sys.stderr.write(line)
+                    elif last.startswith("listric: warning: "):
+                        warnings.warn(last.removeprefix("listric: warning: "), stacklevel=3)
             except KeyboardInterrupt:
                 process.wait()  # it saves
                 raise
@@ -78,15 +89,15 @@ def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=N
     seed       of the packing and of everything random
     threads    processor cores to use
     until_m    ends at this extension, m
-    output     folder of results; without it out/SCENE, as the program has it
+    output     folder of results; without it out/NAME, by the scene's key `name` or its file's, as the program has it
     resume     goes on from the newest snapshot of that folder
     force      replaces a run that is in that folder; else this is refused
-    quiet      False: progress on stderr
+    quiet      False: progress on stderr; else the program's warnings are Python's
 
     Throws ProgramError.
     """
     from .run import Run  # which finds lines by the program
-    output = Path(output or Path("out", Path(scene).name.removesuffix(".toml")))
+    output = Path(output or Path("out", (set or {}).get("name") or _name_of(scene)))
     words = ["run", scene, "--output", output]
     for name, value in (set or {}).items():
         words += ["--set", f"{name}={_toml(value)}"]
@@ -98,8 +109,19 @@ def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=N
         if value is not None:
             words += [option, value]
     flags = {"--resume": resume, "--force": force, "--quiet": quiet}
-    call(*words, *(flag for flag, on in flags.items() if on), quiet=quiet)
+    _call([*words, *(flag for flag, on in flags.items() if on)], quiet)
     return Run(output)
+
+
+def _name_of(scene) -> str:
+    """Name of a scene, given by its file or by its name; errors of a file are left to the program."""
+    path = Path(scene)
+    if not path.is_file():
+        return path.name.removesuffix(".toml")
+    name = None
+    with contextlib.suppress(OSError, ValueError, RecursionError):
+        name = tomllib.loads(path.read_text(encoding="utf-8")).get("name")
+    return str(name or path.stem)
 
 
 def _toml(value, nested: bool = False) -> str:

@@ -7,6 +7,8 @@ import numpy as np
 from .errors import BadValue, finite_number
 from .table import Column, Table
 
+_MOST_CELLS = 3 * 10**7  # 0.7 GB
+
 
 class Raster(NamedTuple):
     """Values at the middles of square cells, as `pyplot.pcolormesh(*raster)` draws them; depth then
@@ -44,6 +46,9 @@ def draw_raster(discs: Table, values: Column, spacing: float, extent, reach: flo
     first_column, first_row = (int(np.floor(low / spacing)) for low in extent[::2])
     columns = max(0, int(np.ceil(extent[1] / spacing)) - first_column)
     rows = max(0, int(np.ceil(extent[3] / spacing)) - first_row)
+    if rows * columns > _MOST_CELLS:
+        raise BadValue(f"spacing = {spacing}: gives {rows * columns:.1e} cells; at most {_MOST_CELLS:.0e}: take "
+                       "a larger spacing or a smaller extent")
     owner = _owners(x / spacing - first_column - 0.5, depth / spacing - first_row - 0.5,
                     radius / spacing, reach / spacing, (rows, columns))
     drawn = np.full(rows * columns, np.nan)

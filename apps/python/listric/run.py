@@ -78,6 +78,8 @@ class Run:
         except FileNotFoundError:
             raise RunError(f"{path}: is not there: the run has not ended; `listric run ... --resume` "
                            "goes on") from None
+        except OSError as error:
+            raise RunError(f"{path}: cannot be read: {error.strerror}") from error
         except (ValueError, TypeError, RecursionError) as error:
             raise RunError(f"{path}: is damaged ({error}); run the scene again") from error
 
@@ -87,6 +89,8 @@ class Run:
         path = self.folder / "scene.toml"
         try:
             return Named(tomllib.loads(path.read_text(encoding="utf-8")), str(path))
+        except OSError as error:
+            raise RunError(f"{path}: cannot be read: {error.strerror}") from error
         except (ValueError, TypeError, RecursionError) as error:
             raise RunError(f"{path}: is damaged ({error})") from error
 

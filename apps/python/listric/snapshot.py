@@ -169,6 +169,8 @@ class Snapshot:
                 yield file
         except FileNotFoundError:
             raise RunError(f"{self.path}: is not there any more; open the run again") from None
+        except PermissionError as error:
+            raise RunError(f"{self.path}: cannot be read: {error.strerror}") from error
         except (OSError, RuntimeError, KeyError, ValueError) as error:
             if isinstance(error, UnknownName):
                 raise
