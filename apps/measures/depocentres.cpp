@@ -30,13 +30,8 @@ double prominence(std::span<const double> t, std::size_t k, std::size_t last) {
 
 } // namespace
 
-double least_prominence(const Profile& profile) {
-    const double diameter = profile.x.empty() ? 0.0 : 2.0 * profile.x.front(); // a column's width
-    return std::max(depocentre_prominence, diameter);
-}
-
 std::vector<Depocentre> find_depocentres(std::span<const double> x, std::span<const double> t,
-                                         double least) {
+                                         double least_prominence) {
     assert(x.size() == t.size());
     std::vector<Depocentre> found;
     for (std::size_t k = 0; k < t.size(); ++k) {
@@ -48,7 +43,7 @@ std::vector<Depocentre> find_depocentres(std::span<const double> x, std::span<co
             ++last;
         if (last + 1 < t.size() && t[last + 1] > t[k])
             continue;
-        if (const double height = prominence(t, k, last); height >= least)
+        if (const double height = prominence(t, k, last); height >= least_prominence)
             found.push_back({x[k], t[k], height});
     }
     std::ranges::sort(found, std::ranges::greater{}, &Depocentre::thickness);
@@ -56,7 +51,7 @@ std::vector<Depocentre> find_depocentres(std::span<const double> x, std::span<co
 }
 
 std::vector<Depocentre> find_basins(const Profile& profile) {
-    return find_depocentres(profile.x, smoothed_depth(profile), least_prominence(profile));
+    return find_depocentres(profile.x, smoothed_depth(profile), depocentre_prominence);
 }
 
 std::vector<Depocentre> collapse_grabens(std::span<const Depocentre> basins) {
@@ -71,8 +66,9 @@ std::vector<Depocentre> collapse_grabens(std::span<const Depocentre> basins) {
 }
 
 std::optional<std::size_t> find_intervening_high(std::span<const double> x,
-                                                 std::span<const double> depth, double least) {
-    const std::vector<Depocentre> all = find_depocentres(x, depth, least);
+                                                 std::span<const double> depth,
+                                                 double least_prominence) {
+    const std::vector<Depocentre> all = find_depocentres(x, depth, least_prominence);
     if (all.size() < 2)
         return std::nullopt;
     const double first = std::ranges::min(all, {}, &Depocentre::x).x;

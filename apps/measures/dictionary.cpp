@@ -162,8 +162,8 @@ constinit const Quantity quasi_static{
 
 constinit const Quantity depocentres{
     "depocentres", "",
-    "maxima of the sediment thickness (smoothed over 1 km) with a prominence of 250 m or more "
-    "(of a mean disc diameter, where that is longer), thickest first"};
+    "maxima of the sediment thickness (smoothed over 1 km) with a prominence of 250 m or more, "
+    "thickest first; one that is thinner than a mean disc diameter may be a few discs in a dent"};
 
 std::span<const Measure<Depocentre>> depocentre_measures() {
     using D = Depocentre;

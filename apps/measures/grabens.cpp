@@ -9,11 +9,9 @@ namespace listric::measures {
 
 namespace {
 
-constexpr Quantity basin_count{
-    "basins", "1",
-    "maxima of the depth of the pre-rift top (smoothed over 1 km) with "
-    "a prominence of 250 m or more (of a mean disc diameter, where that is "
-    "longer)"};
+constexpr Quantity basin_count{"basins", "1",
+                               "maxima of the depth of the pre-rift top (smoothed over 1 km) with "
+                               "a prominence of 250 m or more"};
 constexpr Quantity graben_count{"collapse_grabens", "1",
                                 "number of basins except the one nearest the breakaway"};
 constexpr Quantity graben_prominence{"collapse_graben_prominence_m", "m",

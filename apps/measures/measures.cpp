@@ -74,7 +74,7 @@ void add_prediction(Measures& m, const Setting& setting, const Chain& detachment
 
 void add_intervening_high(Measures& m, const Profile& profile, double column) {
     const std::vector<double> depth = smoothed_depth(profile);
-    if (const auto high = find_intervening_high(profile.x, depth, least_prominence(profile))) {
+    if (const auto high = find_intervening_high(profile.x, depth, depocentre_prominence)) {
         m.intervening_high = Point{profile.x[*high], depth[*high]};
         m.halfgraben_area_share =
             area_above(profile, *high + 1, column) / area_above(profile, profile.x.size(), column);
@@ -92,8 +92,7 @@ void add_sediment(Measures& m, const Setting& setting, const State& state, const
             bonded_share_of_old_sediment(state, surface, old_sediment_depth, age);
         m.old_sediment_bonded_profile = bonded_profile_of_old_sediment(state, surface, age);
     }
-    m.depocentres =
-        find_depocentres(profile.x, profile.sediment_thickness, least_prominence(profile));
+    m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, depocentre_prominence);
 }
 
 void add_localisation(Measures& m, const Setting& setting, const State& state, Events events) {

@@ -42,7 +42,7 @@ struct Columns {
 std::optional<Columns> find_columns(const Profile& profile) {
     const std::vector<Depocentre> basins = find_basins(profile);
     const auto high =
-        find_intervening_high(profile.x, smoothed_depth(profile), least_prominence(profile));
+        find_intervening_high(profile.x, smoothed_depth(profile), depocentre_prominence);
     if (!high)
         return std::nullopt;
     const auto column = [&](double x) {

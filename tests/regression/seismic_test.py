@@ -59,11 +59,10 @@ class Seismic(unittest.TestCase):
         # Labels are of the same samples: rock is deformed within faults more than beside them.
         self.assertEqual(image.shape, faults.shape)
         self.assertEqual(image.shape, strain.shape)
-        rock = np.isfinite(strain)
-        self.assertTrue(0.2 < rock.mean() < 1.0)
+        strained = np.isfinite(strain)  # neither outside rock nor in sediment that has come since
+        self.assertTrue(0.2 < strained.mean() < 1.0)
         self.assertEqual(set(np.unique(faults)), {0, 1})
-        self.assertFalse((faults[~rock] == 1).any())
-        self.assertGreater(strain[faults == 1].mean(), 3.0 * strain[rock & (faults == 0)].mean())
+        self.assertGreater(strain[strained & (faults == 1)].mean(), 3.0 * strain[strained & (faults == 0)].mean())
 
     def test_flat_layers_far_from_the_basin_are_where_they_began(self):
         [image, *_, axes] = self.export("--format", "npy", "--depth")

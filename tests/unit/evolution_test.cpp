@@ -118,17 +118,6 @@ TEST(Basins, OfTheDepthOfThePreRiftTop) {
     EXPECT_NEAR(basins[1].prominence, 1e3, 50.0);
 }
 
-TEST(Basins, TwoDiscsInADentAreNone) {
-    for (const double diameter : {186.0, 372.0}) {
-        Profile profile;
-        for (double x = 0.5 * diameter; x < 40e3; x += diameter) {
-            profile.x.push_back(x);
-            profile.pre_rift_top.push_back(-300.0 * std::exp(-std::pow((x - 20e3) / 3e3, 2.0)));
-        }
-        EXPECT_EQ(find_basins(profile).size(), diameter < 300.0 ? 1u : 0u) << diameter;
-    }
-}
-
 /// Ten sediment discs 1 km deep; one of them has the porosity of a place twice as deep. The discs
 /// of the surface are of basement; what was just laid down on them is no burial yet.
 TEST(Compaction, PorosityBesideThatOfTheDepth) {
