@@ -22,7 +22,7 @@
 
 namespace listric {
 
-enum class Phase { genesis, extension, stopped, failed, finished };
+enum class Phase { genesis, extension, stopped, finished, failed };
 
 /// A run as its outputs see it: what it is, where it has come to, and what several of them need,
 /// made once. Scene, options, log and simulation must outlive it.

@@ -11,7 +11,7 @@ namespace listric {
 namespace {
 
 const char* name(Phase phase) {
-    constexpr const char* names[] = {"genesis", "extension", "stopped", "failed", "finished"};
+    constexpr const char* names[] = {"genesis", "extension", "stopped", "finished", "failed"};
     return names[static_cast<int>(phase)];
 }
 
