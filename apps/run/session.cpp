@@ -39,11 +39,12 @@ RunOutcome Session::run() {
                                  resume_hint(run_.options.output)));
         return RunOutcome::interrupted;
     } catch (...) {
-        try {
-            enter(Phase::failed);
-        } catch (const std::exception&) {
-            // what ended the run says more
-        }
+        if (run_.ranks() == 1) // other processes answer no more
+            try {
+                enter(Phase::failed);
+            } catch (const std::exception&) {
+                // what ended the run says more
+            }
         throw;
     }
 }
