@@ -142,6 +142,7 @@ void run_team(int threads, const std::function<void(int)>& work) {
         return work(0);
     const auto count = static_cast<std::size_t>(threads);
     assert(threads == threads_at_hand(count));
+    // NOLINTNEXTLINE(bugprone-exception-escape): a team of one does not throw
     team_at_hand->helpers(count).share(count, [&](std::size_t k) noexcept {
         const Team alone(1);
         const Pinned pinned(static_cast<int>(k), threads);
