@@ -2,6 +2,7 @@
 
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/output_folder.hpp"
+#include "apps/archive/run_files.hpp"
 #include "apps/laboratory/report.hpp"
 #include "apps/laboratory/slab_sweep.hpp"
 #include "apps/laboratory/tests.hpp"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 namespace listric {
@@ -151,11 +153,12 @@ void run_laboratory(const LaboratoryRequest& request) {
     archive::require_no_run(output);
     make_folder(output);
     const fs::path copy = output / "material.toml";
-    std::error_code error;
-    if (fs::equivalent(materials.find(request.material), copy, error) && !error)
-        throw UsageError(copy.string() + ": is read by this call, which would write over it; "
-                                         "--output writes elsewhere");
-    write_text(copy, to_toml(rock));
+    const std::string text = to_toml(rock);
+    const bool is_known =
+        archive::holds(output / "summary.json", "\"test\"", 1 << 16); // an earlier test's
+    archive::require_own(std::array{archive::OwnFile{copy, is_known ? "" : text}},
+                         std::array{materials.find(request.material)});
+    write_text(copy, text);
     Laboratory lab = make_laboratory(request, test);
     Log log(request.quiet);
     lab.report = [&](std::string_view stage, std::size_t done, std::size_t all) {

@@ -240,6 +240,17 @@ std::vector<std::string> effects_of(const ValidationPlan& plan) {
     return names;
 }
 
+/// Refuses a moment at which a run is not measured.
+/// @param what  asks for it
+void need_moment(const ValidationPlan& plan, const Entry& entry, const std::string& what,
+                 const std::string& run, double at) {
+    const std::vector<double>& moments = plan.run(run).at;
+    if (std::ranges::find(moments, at) == moments.end())
+        fail(entry,
+             fmt::format("{} of {} at {:g} m, where that run is not measured; its at_m: {:g}", what,
+                         run, at, fmt::join(moments, ", ")));
+}
+
 /// A plan's own keys.
 struct ValidationText {
     std::string extends, seeds;
@@ -297,19 +308,12 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
             fail(entry, fmt::format("{} {}", name, why));
     };
     const auto check_moments = [&](const Entry& entry, const Expectation& e) {
-        const auto need_moment = [&](const std::string& run, double at) {
-            const std::vector<double>& moments = plan.run(run).at;
-            if (std::ranges::find(moments, at) == moments.end())
-                fail(entry, fmt::format("expects {} of {} at {:g} m, where that run is not "
-                                        "measured; its at_m: {:g}",
-                                        e.measure, run, at, fmt::join(moments, ", ")));
-        };
         const double at = e.at.value_or(plan.run(e.run).at.back());
-        need_moment(e.run, at);
+        need_moment(plan, entry, "expects " + e.measure, e.run, at);
         if (!e.minus.empty())
-            need_moment(e.minus, at);
+            need_moment(plan, entry, "expects " + e.measure, e.minus, at);
         if (e.since)
-            need_moment(e.run, *e.since);
+            need_moment(plan, entry, "expects " + e.measure, e.run, *e.since);
     };
     for (const Entry& entry : tables(top, "experiment")) {
         const ValidationExperiment x = read_experiment(entry, known, check_measure);
@@ -328,6 +332,7 @@ ValidationPlan read_plan(const std::filesystem::path& file, bool extended) {
             for (const auto& row : picture.rows) {
                 need(entry, "run in rows of its pictures", !row.run.empty());
                 check(entry, row.run);
+                need_moment(plan, entry, "has picture " + picture.name, row.run, row.at);
             }
     }
     return plan;

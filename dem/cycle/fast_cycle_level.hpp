@@ -21,9 +21,19 @@ inline void store_four(double* to, Double4 numbers) { std::memcpy(to, &numbers, 
 
 /// Mean velocity in single precision, with zeros where there is no mean.
 inline Double4 mean_velocity(const float* from) {
-    Float4 mean = {};
-    std::memcpy(&mean, from, 2 * sizeof(float));
-    return __builtin_convertvector(mean, Double4);
+#if LISTRIC_LEVEL >= 3
+    const __m128i both = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+    return reinterpret_cast<Double4>(_mm256_zextpd128_pd256(_mm_cvtps_pd(_mm_castsi128_ps(both))));
+#else
+    const Double4 mean = {from[0], from[1], 0.0, 0.0};
+    return mean;
+#endif
+}
+
+/// The numbers but the last, which is 0.
+inline Double4 and_not_last(Double4 numbers) {
+    const Mask4 kept = {-1, -1, -1, 0};
+    return reinterpret_cast<Double4>(reinterpret_cast<Mask4>(numbers) & kept);
 }
 
 /// Element `k`, or the end.
@@ -158,8 +168,8 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
                 Disc& disc = discs[group * group_discs + m];
                 Inertia& inertia = inertias[group * group_discs + m];
                 const Double4 c = load_four(&inertia); // the last holds the means
-                const Double4 gain = __builtin_shufflevector(c, no_force, 0, 0, 2, 4);
-                const Double4 weight = __builtin_shufflevector(c, no_force, 4, 1, 4, 4);
+                const Double4 gain = and_not_last(__builtin_shufflevector(c, c, 0, 0, 2, 2));
+                const Double4 weight = __builtin_shufflevector(c, no_force, 4, 1, 6, 7);
                 const Double4 f = force[m] - weight;
                 const Double4 place = load_four(disc.place), v = load_four(disc.velocity);
                 Double4 departs = v;

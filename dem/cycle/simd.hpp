@@ -29,6 +29,8 @@ inline Lanes load(const double* from) {
 inline Lanes load(const float* from) {
 #if LISTRIC_LEVEL >= 4
     return reinterpret_cast<Lanes>(_mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from)));
+#elif LISTRIC_LEVEL >= 3
+    return reinterpret_cast<Lanes>(_mm256_cvtps_pd(_mm_loadu_ps(from)));
 #else
     FloatLanes v;
     std::memcpy(&v, from, sizeof v);
@@ -128,32 +130,32 @@ inline Lanes4 transpose(const Lanes (&r)[4]) {
 
 #else
 
-/// Half of rows k and k + 2 at numbers + places[lane].
+/// First or second half of rows k and k + 2 at numbers + places[lane].
+template <int half>
 inline Double4 load_halves(const double* numbers, const std::uint32_t* places, int k) {
+    const double* const one = numbers + places[k];
+    const double* const other = numbers + places[k + 2];
 #if LISTRIC_LEVEL >= 3
+    // One is spread over the register by its load, the other lies in its place already.
+    const auto spread = [](const double* from) {
+        return _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(from));
+    };
     return reinterpret_cast<Double4>(
-        _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(numbers + places[k])),
-                             _mm_loadu_pd(numbers + places[k + 2]), 1));
+        half == 0 ? _mm256_blend_pd(spread(other), _mm256_load_pd(one), 0b0011)
+                  : _mm256_blend_pd(spread(one + 2), _mm256_load_pd(other), 0b1100));
 #else
     Double4 both;
-    std::memcpy(&both, numbers + places[k], sizeof both / 2);
-    std::memcpy(reinterpret_cast<char*>(&both) + sizeof both / 2, numbers + places[k + 2],
+    std::memcpy(&both, one + 2 * half, sizeof both / 2);
+    std::memcpy(reinterpret_cast<char*>(&both) + sizeof both / 2, other + 2 * half,
                 sizeof both / 2);
     return both;
 #endif
 }
 
-/// Stores (a, b) of lanes 0 and 2, or 1 and 3, as halves of rows that are eight numbers apart.
-inline void store_halves(double* to, Double4 halves) {
-#if LISTRIC_LEVEL >= 3
-    const auto all = reinterpret_cast<__m256d>(halves);
-    _mm_storeu_pd(to, _mm256_castpd256_pd128(all));
-    _mm_storeu_pd(to + 16, _mm256_extractf128_pd(all, 1));
-#else
-    std::memcpy(to, &halves, sizeof halves / 2);
-    std::memcpy(to + 16, reinterpret_cast<const char*>(&halves) + sizeof halves / 2,
-                sizeof halves / 2);
-#endif
+/// Stores (a, b) and (c, d) of lanes 0 and 2, or 1 and 3, as rows that are sixteen numbers apart.
+inline void store_two(double* to, Double4 ab, Double4 cd) {
+    store(to, __builtin_shufflevector(ab, cd, 0, 1, 4, 5));
+    store(to + 16, __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
 }
 
 #endif
@@ -176,9 +178,9 @@ template <int own>
 #else
     Lanes apart[2], own_i[2], own_j[2];
     for (int k = 0; k < 2; ++k) {
-        apart[k] = load_halves(numbers, second, k) - load_halves(numbers, first, k);
-        own_i[k] = load_halves(numbers + 2, first, k);
-        own_j[k] = load_halves(numbers + 2, second, k);
+        apart[k] = load_halves<0>(numbers, second, k) - load_halves<0>(numbers, first, k);
+        own_i[k] = load_halves<1>(numbers, first, k);
+        own_j[k] = load_halves<1>(numbers, second, k);
     }
     return {even_numbers(apart[0], apart[1]), odd_numbers(apart[0], apart[1]),
             of_own(own_i[0], own_i[1]), of_own(own_j[0], own_j[1])};
@@ -194,9 +196,7 @@ inline void store_rows(double* to, const Lanes4& columns) {
     store(to + 16, c);
     store(to + 24, d);
 #else
-    store_halves(to, even_numbers(columns.a, columns.b));
-    store_halves(to + 2, even_numbers(columns.c, columns.d));
-    store_halves(to + 8, odd_numbers(columns.a, columns.b));
-    store_halves(to + 10, odd_numbers(columns.c, columns.d));
+    store_two(to, even_numbers(columns.a, columns.b), even_numbers(columns.c, columns.d));
+    store_two(to + 8, odd_numbers(columns.a, columns.b), odd_numbers(columns.c, columns.d));
 #endif
 }

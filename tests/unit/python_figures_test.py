@@ -612,6 +612,15 @@ class Drawing(Folder):
         self.assertEqual(shown("LIS1 filled with mud: " + 8 * "overpressure "), "LIS1 filled with mud")
         self.assertEqual(shown(8 * "overpressure "), " ".join(6 * ["overpressure"]) + "…")
 
+    def test_a_headline_with_a_long_moment_fits_on_the_page(self):
+        title = "Inversion of LIS2: 5 km of extension, then 4 km of shortening"
+        frame = self.frame({"title": title, "extension_m": 4600.0, "way_m": 5400.0, "extension_km": "5.4"})
+        figure = sections.draw_figure(frame, ["strata"], 20)
+        headline = next(text for text in figure.texts if text.get_weight() == "bold")
+        self.assertTrue(headline.get_text().startswith("Inversion of LIS2: 4.6 km of extension after"))
+        self.assertLess(headline.get_window_extent().x1, figure.bbox.x1)
+        self.assertIn(title, page.footer(frame)[0])   # in full
+
     def test_a_section_has_equal_scales_and_fits(self):
         frame = self.frame()
         width, height = page.panel_size(frame)

@@ -79,6 +79,9 @@ TEST_F(Plan, RowsThatNoRunCanMeetAreRefused) {
                 HasSubstr("antithetic_turn_deg of b at 5 m"));
     EXPECT_THAT(complaint("most = 3", "least = 5, most = 3"), HasSubstr("above most"));
     EXPECT_THAT(complaint("name = \"b\"", "name = \"a\""), HasSubstr("another run is named a"));
+    EXPECT_THAT(complaint("seen_of = \"6-8\"",
+                          R"(picture = [{name = "all", rows = [{run = "b", at_m = 5}]}])"),
+                HasSubstr("has picture all of b at 5 m, where that run is not measured"));
 }
 
 TEST(Words, StayWholeInQuotesAndBrackets) {

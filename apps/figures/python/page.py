@@ -103,30 +103,33 @@ def window_text(frame: Frame) -> str:
     return f"{(until - window) / 1000:g} to {until / 1000:g} km of {of}"
 
 
-LONGEST_TITLE = 80        # letters that fit beside the moment
+LONGEST_TITLE = 80        # letters
+LONGEST_HEADLINE = 110    # letters that fit on the page's width
 
 
-def title_of(frame: Frame) -> str:
-    """The scene's description, in at most a line: a longer one without its source, else up to its colon,
-    else some of its words; a scene without one has its name."""
+def title_of(frame: Frame, longest: int = LONGEST_TITLE) -> str:
+    """The scene's description, in at most so many letters: a longer one without its source, else up to its
+    colon, else some of its words; a scene without one has its name."""
     title = str(frame.meta.get("title") or frame.meta["scene"].upper())
     for end in (" [", ": "):
-        if len(title) > LONGEST_TITLE:
+        if len(title) > longest:
             title = title.partition(end)[0]
-    return textwrap.shorten(title, LONGEST_TITLE, placeholder="…")
+    return textwrap.shorten(title, longest, placeholder="…")
 
 
 def headline(frame: Frame) -> str:
     """Description and moment."""
-    return f"{title_of(frame)}: {moment_text(frame).removesuffix(' of extension')}, {time_text(frame)}"
+    moment = f": {moment_text(frame).removesuffix(' of extension')}, {time_text(frame)}"
+    return title_of(frame, min(LONGEST_TITLE, LONGEST_HEADLINE - len(moment))) + moment
 
 
 def footer(frame: Frame) -> list[str]:
     """Provenance of the run, as wrapped lines of small print."""
     meta, parts = frame.meta, []
     parts.append(f"scene {meta['scene']}")
-    if len(str(meta.get("title", ""))) > LONGEST_TITLE:   # the headline has its beginning
-        parts.append(str(meta["title"]))
+    title = str(meta.get("title", ""))
+    if not headline(frame).startswith(title):   # it has the title's beginning
+        parts.append(title)
     radius = meta.get("mean_radius_m", frame.radius.mean() * 1000)
     parts.append(f"{len(frame.x):,} discs, mean radius {radius:.3g} m")
     parts += [f"{key} {meta[key]}" for key in ("accuracy", "seed") if key in meta]
