@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Criteria of faulting that each lever meets beside today's parameters, on the same seeds.
+"""Criteria of faulting that each lever meets beside today's parameters, on the same seeds; bold is met.
 
 levers.py VALIDATION.toml RECORD/measures.csv LEVERS/measures.csv
 
-Levers have no control of their own: a criterion that compares with one takes the record's, which weakened rock's
-parameters do not touch; a lever that changes the packing has no such rows.
+Levers have no control of their own. A criterion that compares with one takes the record's, which parameters of weakened
+rock do not touch; a lever of another packing has no such rows.
 """
 import csv
 import sys
 import tomllib
 
 OTHER_PACKING = ("fine", "dense")
+BOUNDS = ("expected", "least", "most")
 
 
 def measures(path):
@@ -20,15 +21,11 @@ def measures(path):
 
 def value(found, row, run, seed, at):
     """The criterion's number of a run; none where a part of it is missing."""
-    def number(of, moment):
-        text = found.get((of, seed, moment), {}).get(row["measure"], "")
-        return float(text) if text else None
-    parts = [number(run, at)]
-    if "minus" in row:
-        parts.append(number(row["minus"], at))
-    if "since_m" in row:
-        parts.append(number(run, float(row["since_m"])))
-    return None if None in parts else (parts[0] - sum(parts[1:])) / row.get("unit", 1.0)
+    parts = [(run, at), (row.get("minus"), at), (run, row.get("since_m"))]
+    numbers = [found.get((of, seed, float(moment)), {}).get(row["measure"]) for of, moment in parts if of and moment]
+    if not all(numbers):
+        return None
+    return (float(numbers[0]) - sum(map(float, numbers[1:]))) / row.get("unit", 1.0)
 
 
 def meets(row, number):
@@ -37,47 +34,43 @@ def meets(row, number):
     return row.get("least", number) <= number <= row.get("most", number)
 
 
+def asked(row):
+    if "expected" in row:
+        return f"{row['expected']:g} ± {row.get('tolerance', 0.0):g}"
+    return ", ".join(f"at {key} {row[key]:g}" for key in ("least", "most") if key in row)
+
+
 def cell(numbers, row):
-    there = [number for number in numbers if number is not None]
-    digits = row.get("digits", 2)
-    texts = [f"**{n:.{digits}f}**" if meets(row, n) else f"{n:.{digits}f}" for n in there]
-    return ", ".join(texts) or "no case"
+    texts = [f"{number:.{row.get('digits', 2)}f}" for number in numbers]
+    return ", ".join(f"**{text}**" if meets(row, number) else text for text, number in zip(texts, numbers)) or "no case"
 
 
 with open(sys.argv[1], "rb") as file:
     plan = tomllib.load(file)
 moments = {run["name"]: run["at_m"] for run in plan["run"]}
-record, levers = measures(sys.argv[2]), measures(sys.argv[3])
-record |= levers
-names = list(dict.fromkeys(run for run, _, _ in levers))
-sums = {}
+levers = measures(sys.argv[3])
+found = measures(sys.argv[2]) | levers
 for experiment in plan["experiment"]:
     base = experiment["name"]
-    mine = [name for name in names if name.startswith(base + "-")]
+    runs = [base] + sorted({run for run, _, _ in levers if run.startswith(base + "-")})
+    seeds = sorted({seed for run, seed, _ in levers if run in runs})
     rows = [row for row in experiment.get("expect", []) if row.get("kind", "faults") == "faults"
-            and {"least", "most", "expected"} & set(row) and row.get("run", base) == base]
-    if not mine or base not in ("lis1", "lis2", "rfr"):
+            and any(key in row for key in BOUNDS) and row.get("run", base) == base]
+    if not (seeds and rows):
         continue
-    print(f"\n| {base.upper()} | asked | today | " + " | ".join(name[len(base) + 1:] for name in mine) + " |")
-    print("|---" * (3 + len(mine)) + "|")
-    seeds = sorted({seed for run, seed, _ in levers if run in mine})
+    print(f"\n| {base.upper()}, seeds {', '.join(map(str, seeds))} | asked | today | "
+          + " | ".join(run.removeprefix(base + "-") for run in runs[1:]) + " |" + "\n" + "|---" * (2 + len(runs)) + "|")
+    met, of = dict.fromkeys(runs, 0), dict.fromkeys(runs, 0)
     for row in rows:
         at = float(row.get("at_m", moments[base][-1]))
-        asked = " to ".join(f"{row[key]:g}" for key in ("least", "most") if key in row) \
-            if "expected" not in row else f"{row['expected']:g} ± {row.get('tolerance', 0.0):g}"
-        if "least" in row and "most" not in row:
-            asked = "at least " + asked
-        if "most" in row and "least" not in row:
-            asked = "at most " + asked
         cells = []
-        for name in [base, *mine]:
-            if name.split("-")[-1] in OTHER_PACKING and "minus" in row:
+        for run in runs:
+            if "minus" in row and run.endswith(OTHER_PACKING):
                 cells.append("")
                 continue
-            numbers = [value(record, row, name, seed, at) for seed in seeds]
-            done = sums.setdefault((base, name), [0, 0])
-            done[0] += sum(n is not None and meets(row, n) for n in numbers)
-            done[1] += sum(n is not None for n in numbers)
+            numbers = [number for seed in seeds if (number := value(found, row, run, seed, at)) is not None]
+            met[run] += sum(meets(row, number) for number in numbers)
+            of[run] += len(numbers)
             cells.append(cell(numbers, row))
-        print(f"| {row['what']}, {at / 1000:g} km | {asked} | " + " | ".join(cells) + " |")
-    print("| all, met of seeds | | " + " | ".join("{} of {}".format(*sums[base, name]) for name in [base, *mine]) + " |")
+        print(f"| {row['what']}, {at / 1000:g} km | {asked(row)} | " + " | ".join(cells) + " |")
+    print("| all, met by so many | | " + " | ".join(f"{met[run]} of {of[run]}" for run in runs) + " |")
