@@ -154,8 +154,8 @@ void run_laboratory(const LaboratoryRequest& request) {
     make_folder(output);
     const fs::path copy = output / "material.toml";
     const std::string text = to_toml(rock);
-    const bool is_known =
-        archive::holds(output / "summary.json", "\"test\"", 1 << 16); // an earlier test's
+    const fs::path earlier = output / "summary.json"; // of a test, whose material is replaced
+    const bool is_known = fs::exists(earlier) && archive::holds(earlier, "\"test\"", 1 << 16);
     archive::require_own(std::array{archive::OwnFile{copy, is_known ? "" : text}},
                          std::array{materials.find(request.material)});
     write_text(copy, text);

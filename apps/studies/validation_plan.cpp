@@ -241,7 +241,7 @@ std::vector<std::string> effects_of(const ValidationPlan& plan) {
 }
 
 /// Refuses a moment at which a run is not measured.
-/// @param what  asks for it
+/// @param what  asks for it, with its verb: "expects weak_fraction"
 void need_moment(const ValidationPlan& plan, const Entry& entry, const std::string& what,
                  const std::string& run, double at) {
     const std::vector<double>& moments = plan.run(run).at;

@@ -19,7 +19,8 @@ inline Double4 load_four(const void* from) {
 
 inline void store_four(double* to, Double4 numbers) { std::memcpy(to, &numbers, sizeof numbers); }
 
-/// Mean velocity in single precision, with zeros where there is no mean.
+/// Mean velocity, m/s, with zeros where there is no mean. Converted by name: g++ 12 would store it
+/// and load it again, which waits for the store.
 inline Double4 mean_velocity(const float* from) {
 #if LISTRIC_LEVEL >= 3
     const __m128i both = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
@@ -30,8 +31,8 @@ inline Double4 mean_velocity(const float* from) {
 #endif
 }
 
-/// The numbers but the last, which is 0.
-inline Double4 and_not_last(Double4 numbers) {
+/// The numbers with 0 in place of the last.
+inline Double4 without_last(Double4 numbers) {
     const Mask4 kept = {-1, -1, -1, 0};
     return reinterpret_cast<Double4>(reinterpret_cast<Mask4>(numbers) & kept);
 }
@@ -168,7 +169,7 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
                 Disc& disc = discs[group * group_discs + m];
                 Inertia& inertia = inertias[group * group_discs + m];
                 const Double4 c = load_four(&inertia); // the last holds the means
-                const Double4 gain = and_not_last(__builtin_shufflevector(c, c, 0, 0, 2, 2));
+                const Double4 gain = without_last(__builtin_shufflevector(c, c, 0, 0, 2, 2));
                 const Double4 weight = __builtin_shufflevector(c, no_force, 4, 1, 6, 7);
                 const Double4 f = force[m] - weight;
                 const Double4 place = load_four(disc.place), v = load_four(disc.velocity);

@@ -1,6 +1,7 @@
 // Vectors of the compiler (gcc and clang). Every lane is computed as a scalar would be, so all
 // widths give the same bits. One source serves them: `Lanes` is the widest that LISTRIC_LEVEL has
-// in one register. Only the square root and the test for any set lane need the machine's own names.
+// in one register. The machine's own names stand for what vectors do not have (square root, any set
+// lane) and where g++ 12 makes several instructions of one (conversions, rows and halves).
 // Text for fast_cycle_level.hpp.
 using Double4 [[gnu::vector_size(32)]] = double;
 using Double8 [[gnu::vector_size(64)]] = double;

@@ -67,6 +67,13 @@ TEST(Laboratory, UniaxialTestFindsTheRocksStiffness) {
     EXPECT_TRUE(fs::exists(folder.path / "uniaxial.png"));
 }
 
+TEST(Laboratory, ReplacesNoMaterialThatSomebodyKeeps) {
+    const Folder folder;
+    std::ofstream(folder.path / "material.toml") << "# mine\n";
+    EXPECT_THROW(run_laboratory(small("uniaxial", "mat18-b", folder.path)), UsageError);
+    EXPECT_EQ(fs::file_size(folder.path / "material.toml"), 7U);
+}
+
 TEST(Laboratory, BiaxialStrengthGrowsWithConfinementWhateverTheThreads) {
     const Folder one, two;
     LaboratoryRequest request = small("biaxial", "mat18-b-calibrated", one.path);
