@@ -27,6 +27,8 @@ struct Rocks {
     std::optional<RockMaterial> weak;
 };
 
+std::string name_of_weak(const std::string& name) { return name + "-weak"; }
+
 Rocks find_rocks(Calibration& c, const std::string& name) {
     Rocks rocks;
     RockMaterial& rock = rocks.sound;
@@ -37,7 +39,7 @@ Rocks find_rocks(Calibration& c, const std::string& name) {
     fit_stiffness(c, rock);
     fit_strength(c, rock);
     if (c.targets.bulk_friction)
-        rocks.weak = fit_weak(c, rock, name + "-weak", *c.targets.bulk_friction);
+        rocks.weak = fit_weak(c, rock, name_of_weak(name), *c.targets.bulk_friction);
     return rocks;
 }
 
@@ -140,8 +142,12 @@ void run_calibration(const CalibrationRequest& request) {
                          " holds a calibration: --resume continues it, --output writes elsewhere");
     archive::require_no_run(output);
     const fs::path material = output / (request.name + ".toml");
-    if (!request.resume && fs::exists(material))
-        throw UsageError(material.string() + ": is there already, and would be written over; "
+    std::vector<fs::path> written = {material, output / "summary.json"};
+    if (request.targets.bulk_friction)
+        written.push_back(output / (name_of_weak(request.name) + ".toml"));
+    for (const fs::path& file : written)
+        if (!request.resume && fs::exists(file))
+            throw UsageError(file.string() + ": is there already, and would be written over; "
                                              "--output writes elsewhere");
 
     Laboratory lab;

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <vector>
 
 namespace listric {
 
@@ -131,6 +132,34 @@ void carry_out(LaboratoryReport& report, const LaboratoryRequest& request, Test 
     }
 }
 
+/// Files of a test, beside its material.toml.
+std::vector<std::string_view> files_of(Test test) {
+    switch (test) {
+    case Test::uniaxial:
+        return {"summary.json", "curves.csv", "uniaxial.png"};
+    case Test::biaxial:
+        return {"summary.json", "curves.csv", "envelopes.csv", "biaxial.png"};
+    case Test::shear_box:
+        return {"summary.json", "curves.csv", "profiles.csv", "shear-box.png"};
+    case Test::pure_shear:
+        return {"summary.json", "slabs.csv", "faults.csv", "pure-shear.png"};
+    }
+    return {};
+}
+
+/// Refuses a folder in which the test would replace a file that no earlier test has left. Only a
+/// summary tells that one has: before it there is the material, which begins a test.
+void require_own_folder(const fs::path& output, Test test, const std::string& material,
+                        const fs::path& read) {
+    const fs::path earlier = output / "summary.json";
+    const bool is_known = fs::exists(earlier) && archive::holds(earlier, "\"test\"", 1 << 16);
+    const std::string mark = is_known ? "" : material;
+    std::vector<archive::OwnFile> written = {{output / "material.toml", mark}};
+    for (const std::string_view name : files_of(test))
+        written.push_back({output / name, mark});
+    archive::require_own(written, std::array{read});
+}
+
 } // namespace
 
 std::span<const std::string_view> laboratory_tests() { return test_names; }
@@ -152,13 +181,9 @@ void run_laboratory(const LaboratoryRequest& request) {
                                 : request.output;
     archive::require_no_run(output);
     make_folder(output);
-    const fs::path copy = output / "material.toml";
     const std::string text = to_toml(rock);
-    const fs::path earlier = output / "summary.json"; // of a test, whose material is replaced
-    const bool is_known = fs::exists(earlier) && archive::holds(earlier, "\"test\"", 1 << 16);
-    archive::require_own(std::array{archive::OwnFile{copy, is_known ? "" : text}},
-                         std::array{materials.find(request.material)});
-    write_text(copy, text);
+    require_own_folder(output, test, text, materials.find(request.material));
+    write_text(output / "material.toml", text);
     Laboratory lab = make_laboratory(request, test);
     Log log(request.quiet);
     lab.report = [&](std::string_view stage, std::size_t done, std::size_t all) {

@@ -74,6 +74,32 @@ TEST(Laboratory, ReplacesNoMaterialThatSomebodyKeeps) {
     EXPECT_EQ(fs::file_size(folder.path / "material.toml"), 7U);
 }
 
+TEST(Laboratory, ReplacesNoResultsThatSomebodyKeeps) {
+    for (const char* const name : {"summary.json", "curves.csv", "envelopes.csv", "biaxial.png"}) {
+        const Folder folder;
+        std::ofstream(folder.path / name) << "mine\n";
+        EXPECT_THROW(run_laboratory(small("biaxial", "mat18-b", folder.path)), UsageError) << name;
+        EXPECT_EQ(fs::file_size(folder.path / name), 5U) << name;
+        EXPECT_FALSE(fs::exists(folder.path / "material.toml"));
+    }
+}
+
+TEST(Calibration, ReplacesNoFileThatSomebodyKeeps) {
+    for (const char* const name : {"mine.toml", "mine-weak.toml", "summary.json"}) {
+        const Folder folder;
+        std::ofstream(folder.path / name) << "mine\n";
+        CalibrationRequest request;
+        request.name = "mine";
+        request.targets.bulk_friction = 0.3;
+        request.discs = 60;
+        request.seeds = 1;
+        request.output = folder.path;
+        request.quiet = true;
+        EXPECT_THROW(run_calibration(request), UsageError) << name;
+        EXPECT_EQ(fs::file_size(folder.path / name), 5U) << name;
+    }
+}
+
 TEST(Laboratory, BiaxialStrengthGrowsWithConfinementWhateverTheThreads) {
     const Folder one, two;
     LaboratoryRequest request = small("biaxial", "mat18-b-calibrated", one.path);
