@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Criteria of faulting that each lever meets beside today's parameters, on the same seeds; bold is met.
+"""Criteria of faulting that each lever meets beside today's parameters, on the same seeds: a table for levers that share seeds.
+
+Bold is met; of more than two seeds: in how many it is met, mean and standard deviation.
 
 levers.py VALIDATION.toml RECORD/measures.csv LEVERS/measures.csv
 
@@ -7,6 +9,7 @@ Levers have no control of their own. A criterion that compares with one takes th
 rock do not touch; a lever of another packing has no such rows.
 """
 import csv
+import statistics
 import sys
 import tomllib
 
@@ -41,25 +44,20 @@ def asked(row):
 
 
 def cell(numbers, row):
-    texts = [f"{number:.{row.get('digits', 2)}f}" for number in numbers]
+    digits = row.get("digits", 2)
+    if len(numbers) > 2:
+        met = sum(meets(row, number) for number in numbers)
+        spread = f"{statistics.mean(numbers):.{digits}f} ± {statistics.stdev(numbers):.{digits}f}"
+        return f"{met} of {len(numbers)}: {spread}"
+    texts = [f"{number:.{digits}f}" for number in numbers]
     return ", ".join(f"**{text}**" if meets(row, number) else text for text, number in zip(texts, numbers)) or "no case"
 
 
-with open(sys.argv[1], "rb") as file:
-    plan = tomllib.load(file)
-moments = {run["name"]: run["at_m"] for run in plan["run"]}
-levers = measures(sys.argv[3])
-found = measures(sys.argv[2]) | levers
-for experiment in plan["experiment"]:
-    base = experiment["name"]
-    runs = [base] + sorted({run for run, _, _ in levers if run.startswith(base + "-")})
-    seeds = sorted({seed for run, seed, _ in levers if run in runs})
-    rows = [row for row in experiment.get("expect", []) if row.get("kind", "faults") == "faults"
-            and any(key in row for key in BOUNDS) and row.get("run", base) == base]
-    if not (seeds and rows):
-        continue
+def table(base, rows, runs, seeds):
+    """Prints a table of runs beside the base's, on the base's seeds."""
     print(f"\n| {base.upper()}, seeds {', '.join(map(str, seeds))} | asked | today | "
-          + " | ".join(run.removeprefix(base + "-") for run in runs[1:]) + " |" + "\n" + "|---" * (2 + len(runs)) + "|")
+          + " | ".join(run.removeprefix(base + "-") for run in runs) + " |\n" + "|---" * (3 + len(runs)) + "|")
+    runs = [base] + runs
     met, of = dict.fromkeys(runs, 0), dict.fromkeys(runs, 0)
     for row in rows:
         at = float(row.get("at_m", moments[base][-1]))
@@ -74,3 +72,20 @@ for experiment in plan["experiment"]:
             cells.append(cell(numbers, row))
         print(f"| {row['what']}, {at / 1000:g} km | {asked(row)} | " + " | ".join(cells) + " |")
     print("| all, met by so many | | " + " | ".join(f"{met[run]} of {of[run]}" for run in runs) + " |")
+
+
+with open(sys.argv[1], "rb") as file:
+    plan = tomllib.load(file)
+moments = {run["name"]: run["at_m"] for run in plan["run"]}
+levers = measures(sys.argv[3])
+found = measures(sys.argv[2]) | levers
+for experiment in plan["experiment"]:
+    base = experiment["name"]
+    rows = [row for row in experiment.get("expect", []) if row.get("kind", "faults") == "faults"
+            and any(key in row for key in BOUNDS) and row.get("run", base) == base]
+    groups = {}
+    for name in sorted({run for run, _, _ in levers if run.startswith(base + "-")}):
+        seeds = tuple(sorted({seed for run, seed, _ in levers if run == name}))
+        groups.setdefault(seeds, []).append(name)
+    for seeds, runs in groups.items():
+        table(base, rows, runs, seeds)
