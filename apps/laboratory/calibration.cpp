@@ -145,8 +145,9 @@ void run_calibration(const CalibrationRequest& request) {
     std::vector<fs::path> written = {material, output / "summary.json"};
     if (request.targets.bulk_friction)
         written.push_back(output / (name_of_weak(request.name) + ".toml"));
+    const bool has_begun = fs::exists(history); // else no file here is a calibration's
     for (const fs::path& file : written)
-        if (!request.resume && fs::exists(file))
+        if (!has_begun && fs::exists(file))
             throw UsageError(file.string() + ": is there already, and would be written over; "
                                              "--output writes elsewhere");
 

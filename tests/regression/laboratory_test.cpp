@@ -95,7 +95,10 @@ TEST(Calibration, ReplacesNoFileThatSomebodyKeeps) {
         request.seeds = 1;
         request.output = folder.path;
         request.quiet = true;
-        EXPECT_THROW(run_calibration(request), UsageError) << name;
+        for (const bool resume : {false, true}) { // with nothing to resume
+            request.resume = resume;
+            EXPECT_THROW(run_calibration(request), UsageError) << name;
+        }
         EXPECT_EQ(fs::file_size(folder.path / name), 5U) << name;
     }
 }

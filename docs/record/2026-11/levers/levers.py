@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Criteria of faulting that each lever meets beside today's parameters, on the same seeds: a table for levers that share seeds.
 
-Bold is met; of more than two seeds: in how many it is met, mean and standard deviation.
+A bold number meets its criterion. Of more than two seeds a cell tells how many meet it, their mean and standard deviation.
 
 levers.py VALIDATION.toml RECORD/measures.csv LEVERS/measures.csv
 
