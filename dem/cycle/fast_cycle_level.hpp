@@ -17,24 +17,99 @@ inline Double4 load_four(const void* from) {
     return numbers;
 }
 
-inline void store_four(double* to, Double4 numbers) { std::memcpy(to, &numbers, sizeof numbers); }
+// Motion has a disc's four numbers in four lanes, of two discs where there are eight.
+
+/// Four numbers for each disc.
+inline Lanes for_each_disc(double a, double b, double c, double d) {
+#if LISTRIC_LEVEL >= 4
+    const Lanes numbers = {a, b, c, d, a, b, c, d};
+#else
+    const Lanes numbers = {a, b, c, d};
+#endif
+    return numbers;
+}
+
+inline Lanes of_discs(const Double4* each) {
+#if LISTRIC_LEVEL >= 4
+    return first_halves(__builtin_shufflevector(each[0], each[0], 0, 1, 2, 3, 0, 1, 2, 3),
+                        __builtin_shufflevector(each[1], each[1], 0, 1, 2, 3, 0, 1, 2, 3));
+#else
+    return each[0];
+#endif
+}
+
+struct Motion {
+    Lanes place, velocity;
+};
+
+inline Motion load_motion(const Disc* discs) {
+#if LISTRIC_LEVEL >= 4
+    const double* const numbers = reinterpret_cast<const double*>(discs);
+    const Lanes one = load(numbers), other = load(numbers + disc_numbers);
+    return {first_halves(one, other), second_halves(one, other)};
+#else
+    return {load(discs->place), load(discs->velocity)};
+#endif
+}
+
+inline void store_motion(Disc* discs, const Motion& motion) {
+#if LISTRIC_LEVEL >= 4
+    double* const numbers = reinterpret_cast<double*>(discs);
+    store(numbers, first_halves(motion.place, motion.velocity));
+    store(numbers + disc_numbers, second_halves(motion.place, motion.velocity));
+#else
+    store(discs->place, motion.place);
+    store(discs->velocity, motion.velocity);
+#endif
+}
+
+/// Time step over inertia by number of a disc, 0 for the rate of its radius.
+inline Lanes gain_of(Lanes inertia) {
+#if LISTRIC_LEVEL >= 4
+    return reinterpret_cast<Lanes>(
+        _mm512_maskz_movedup_pd(0b01110111, reinterpret_cast<__m512d>(inertia)));
+#else
+    const Mask4 kept = {-1, -1, -1, 0};
+    return reinterpret_cast<Lanes>(
+        reinterpret_cast<Mask>(__builtin_shufflevector(inertia, inertia, 0, 0, 2, 2)) & kept);
+#endif
+}
+
+inline Lanes weight_of(Lanes inertia) {
+    const Lanes zero = {};
+#if LISTRIC_LEVEL >= 4
+    return __builtin_shufflevector(inertia, zero, 8, 1, 10, 11, 12, 5, 14, 15);
+#else
+    return __builtin_shufflevector(inertia, zero, 4, 1, 6, 7);
+#endif
+}
 
 /// Mean velocity, m/s, with zeros where there is no mean. Converted by name: g++ 12 would store it
 /// and load it again, which waits for the store.
-inline Double4 mean_velocity(const float* from) {
-#if LISTRIC_LEVEL >= 3
-    const __m128i both = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
-    return reinterpret_cast<Double4>(_mm256_zextpd128_pd256(_mm_cvtps_pd(_mm_castsi128_ps(both))));
+inline Lanes mean_velocity([[maybe_unused]] const Inertia* discs, [[maybe_unused]] Lanes inertia) {
+#if LISTRIC_LEVEL >= 4
+    const __m512i last = {3, 3, 7, 7, 3, 3, 7, 7};
+    const auto both = reinterpret_cast<Lanes>(
+        _mm512_maskz_permutexvar_pd(0xff, last, reinterpret_cast<__m512d>(inertia)));
+    return reinterpret_cast<Lanes>(
+        _mm512_maskz_cvtps_pd(0b00110011, reinterpret_cast<__m256>(first_half(both))));
+#elif LISTRIC_LEVEL >= 3
+    const __m128i both = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(discs->mean_velocity));
+    return reinterpret_cast<Lanes>(_mm256_zextpd128_pd256(_mm_cvtps_pd(_mm_castsi128_ps(both))));
 #else
-    const Double4 mean = {from[0], from[1], 0.0, 0.0};
+    const Lanes mean = {discs->mean_velocity[0], discs->mean_velocity[1], 0.0, 0.0};
     return mean;
 #endif
 }
 
-/// The numbers with 0 in place of the last.
-inline Double4 without_last(Double4 numbers) {
-    const Mask4 kept = {-1, -1, -1, 0};
-    return reinterpret_cast<Double4>(reinterpret_cast<Mask4>(numbers) & kept);
+/// -1 for each number of the discs that count.
+inline Mask own_discs(const std::int64_t* own) {
+#if LISTRIC_LEVEL >= 4
+    const Mask mask = {own[0], own[0], own[0], own[0], own[1], own[1], own[1], own[1]};
+#else
+    const Mask mask = {own[0], own[0], own[0], own[0]};
+#endif
+    return mask;
 }
 
 /// Element `k`, or the end.
@@ -42,71 +117,119 @@ template <class Element> const Element* ahead(std::span<Element> elements, std::
     return elements.data() + std::min(k, elements.size());
 }
 
-/// The contact law of law.hpp and plain_cycle.cpp, as many contacts at a time as there are lanes.
-template <bool bonded, bool frictional>
-[[gnu::always_inline]] inline void compute(Block& block, const double* discs, Slot* slots) {
-    constexpr bool shears = bonded || frictional;
-    for (int start = 0; start < 8; start += lane_count) {
-        const std::uint32_t* const first = block.first + start;
-        const std::uint32_t* const second = block.second + start;
-        const auto [dx, dy, radius_i, radius_j] = pair_columns<3>(discs, first, second);
+/// Pairs of discs, as many as there are lanes, up to what takes longest: root and quotient.
+struct Pairs {
+    Lanes dx, dy, radius_i, radius_j;
+#if LISTRIC_LEVEL >= 4
+    Lanes dvx, dvy, spin_i, spin_j; // four lanes load them late, for lack of registers
+#endif
+    Lanes square, distance, inverse;
+};
 
-        const Lanes reach = radius_i + radius_j;
-        const Lanes square = dx * dx + dy * dy;
-        const Lanes distance = square_root(square);
-        const Lanes inverse = 1.0 / distance;
-        const Lanes nx = dx * inverse, ny = dy * inverse;
-        const Lanes overlap = reach - distance;
-        const Lanes half = 0.5 * overlap;
-        const Lanes arm_i = radius_i - half, arm_j = radius_j - half;
-        const Lanes elastic = load(block.normal_stiffness + start) * overlap;
-        const Lanes zero = {};
-        const Mask pressed = (square < reach * reach) & (overlap > zero);
-
-        Mask holds = {}; // the bond
-        Lanes shear = zero;
-        if constexpr (shears) {
-            const auto [dvx, dvy, spin_i, spin_j] = pair_columns<2>(discs + 4, first, second);
-            const Lanes slip_rate = dvy * nx - dvx * ny - (arm_i * spin_i + arm_j * spin_j);
-            const Lanes stuck = load(block.shear_force + start) -
-                                load(block.shear_stiffness_times_step + start) * slip_rate;
-            if constexpr (frictional) {
-                const Lanes limit = load(block.friction + start) * elastic;
-                const Lanes raised = stuck < -limit ? -limit : stuck;
-                const Lanes clipped = limit < raised ? limit : raised;
-                shear = (pressed & (limit > zero)) ? clipped : zero;
-            }
-            if constexpr (bonded) {
-                const Lanes tensile_strength = load(block.tensile_strength + start);
-                holds = (-elastic <= tensile_strength) &
-                        (magnitude(stuck) <= load(block.shear_strength + start));
-                shear = holds ? stuck : shear;
-                const Mask breaks = ~holds & (tensile_strength > static_cast<double>(not_bonded));
-                if (any(breaks)) [[unlikely]]
-                    for (int k = 0; k < lane_count; ++k)
-                        if (breaks[k])
-                            block.tensile_strength[start + k] = not_bonded;
-            }
-        }
-        const Lanes normal = (holds | pressed) ? elastic : zero;
-        store(block.shear_force + start, shear);
-
-        store_rows(
-            reinterpret_cast<double*>(slots + block.slot) + start,
-            {normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear, -(arm_j * shear)});
-    }
+[[gnu::always_inline]] inline Pairs pairs_of(const Block& block, int start, const double* discs) {
+#if LISTRIC_LEVEL >= 4
+    const auto [dx, dy, radius_i, radius_j, dvx, dvy, spin_i, spin_j] =
+        pair_columns(discs, block.first + start, block.second + start);
+#else
+    const auto [dx, dy, radius_i, radius_j] =
+        pair_columns<3>(discs, block.first + start, block.second + start);
+#endif
+    const Lanes square = dx * dx + dy * dy;
+    const Lanes distance = square_root(square);
+    const Lanes inverse = 1.0 / distance;
+#if LISTRIC_LEVEL >= 4
+    return {dx, dy, radius_i, radius_j, dvx, dvy, spin_i, spin_j, square, distance, inverse};
+#else
+    return {dx, dy, radius_i, radius_j, square, distance, inverse};
+#endif
 }
 
-/// Computes contacts whose slots nothing else reads or writes meanwhile.
+/// The contact law of law.hpp and plain_cycle.cpp.
+template <bool bonded, bool frictional>
+[[gnu::always_inline]] inline void compute(Block& block, int start, const Pairs& pairs,
+                                           [[maybe_unused]] const double* discs, Slot* slots) {
+    constexpr bool shears = bonded || frictional;
+#if LISTRIC_LEVEL >= 4
+    const auto [dx, dy, radius_i, radius_j, dvx, dvy, spin_i, spin_j, square, distance, inverse] =
+        pairs;
+#else
+    const auto [dx, dy, radius_i, radius_j, square, distance, inverse] = pairs;
+#endif
+    const Lanes reach = radius_i + radius_j;
+    const Lanes nx = dx * inverse, ny = dy * inverse;
+    const Lanes overlap = reach - distance;
+    const Lanes half = 0.5 * overlap;
+    const Lanes arm_i = radius_i - half, arm_j = radius_j - half;
+    const Lanes elastic = load(block.normal_stiffness + start) * overlap;
+    const Lanes zero = {};
+    // An overlap that is rounded to 0 needs no question: its forces are 0.
+    const Mask pressed = square < reach * reach;
+
+    Mask holds = {}; // the bond
+    Lanes shear = zero;
+    if constexpr (shears) {
+#if LISTRIC_LEVEL < 4
+        const auto [dvx, dvy, spin_i, spin_j] =
+            pair_columns<2>(discs + 4, block.first + start, block.second + start);
+#endif
+        const Lanes slip_rate = dvy * nx - dvx * ny - (arm_i * spin_i + arm_j * spin_j);
+        const Lanes stuck = load(block.shear_force + start) -
+                            load(block.shear_stiffness_times_step + start) * slip_rate;
+        if constexpr (frictional) {
+            const Lanes limit = load(block.friction + start) * elastic;
+            const Lanes raised = stuck < -limit ? -limit : stuck;
+            const Lanes clipped = limit < raised ? limit : raised;
+            shear = (pressed & (limit > zero)) ? clipped : zero;
+        }
+        if constexpr (bonded) {
+            const Lanes tensile_strength = load(block.tensile_strength + start);
+            holds = (-elastic <= tensile_strength) &
+                    (magnitude(stuck) <= load(block.shear_strength + start));
+            shear = holds ? stuck : shear;
+            const Lanes unbonded = zero + static_cast<double>(not_bonded);
+            const Lanes lost = holds ? unbonded : tensile_strength;
+            if (any_above(lost, not_bonded)) [[unlikely]]
+                for (int k = 0; k < lane_count; ++k)
+                    if (lost[k] > static_cast<double>(not_bonded))
+                        block.tensile_strength[start + k] = not_bonded;
+        }
+    }
+    const Lanes normal = (holds | pressed) ? elastic : zero;
+    store(block.shear_force + start, shear);
+
+    store_rows(
+        reinterpret_cast<double*>(slots + block.slot) + start,
+        {normal * nx - shear * ny, normal * ny + shear * nx, arm_i * shear, -(arm_j * shear)});
+}
+
+/// Computes contacts whose slots nothing else reads or writes meanwhile. Eight lanes begin a block
+/// before the law of the one before it, which then waits for neither root nor quotient; four have
+/// too few registers for it.
 template <bool bonded, bool frictional>
 void compute_blocks(const Shared& shared, Blocks& blocks, std::size_t begin, std::size_t end) {
     const double* const discs = reinterpret_cast<const double*>(shared.discs.data());
-    Slot* const slots = shared.slots;
+    Block* block = blocks.blocks.data() + begin;
     Block* const last = blocks.blocks.data() + end;
-    for (Block* block = blocks.blocks.data() + begin; block != last; ++block) {
-        // It does no harm to ask for memory beyond the end.
-        prefetch(block + 16, sizeof(Block));
-        compute<bonded, frictional>(*block, discs, slots);
+    // It does no harm to ask for memory beyond the end.
+    const auto fetch_later_block = [&block] { prefetch(block + 16, sizeof(Block)); };
+    if constexpr (lane_count == 8) {
+        if (block == last)
+            return;
+        Pairs pairs = pairs_of(*block, 0, discs);
+        for (; block + 1 != last; ++block) {
+            fetch_later_block();
+            const Pairs next = pairs_of(block[1], 0, discs);
+            compute<bonded, frictional>(*block, 0, pairs, discs, shared.slots);
+            pairs = next;
+        }
+        compute<bonded, frictional>(*block, 0, pairs, discs, shared.slots);
+    } else {
+        for (; block != last; ++block) {
+            fetch_later_block();
+            for (int start = 0; start < 8; start += lane_count)
+                compute<bonded, frictional>(*block, start, pairs_of(*block, start, discs), discs,
+                                            shared.slots);
+        }
     }
 }
 
@@ -128,19 +251,17 @@ template <int sign>
 
 template <bool bonded, bool frictional, DampedAgainst motion, bool has_ghosts>
 double sweep(const Shared& shared, Strip& strip, Stretching thins) {
-    const Double4 no_force = {};
-    const Double4 damping = no_force + shared.damping;
-    const Double4 stretches = {thins.rate, -thins.rate, 0.0, 0.0};
-    const Double4 floor = {0.0, thins.floor, 0.0, 0.0};
-    const Double4 time_step = no_force + shared.time_step;
-    const Mask4 sign = {std::numeric_limits<std::int64_t>::min(),
-                        std::numeric_limits<std::int64_t>::min(),
-                        std::numeric_limits<std::int64_t>::min(), 0};
+    const Lanes no_force = {};
+    const Lanes damping = no_force + shared.damping;
+    const Lanes stretches = for_each_disc(thins.rate, -thins.rate, 0.0, 0.0);
+    const Lanes floor = for_each_disc(0.0, thins.floor, 0.0, 0.0);
+    const Lanes time_step = no_force + shared.time_step;
+    const auto sign = reinterpret_cast<Mask>(for_each_disc(-0.0, -0.0, -0.0, 0.0));
     constexpr bool averages =
         motion == DampedAgainst::mean_motion || motion == DampedAgainst::mean_motion_sampled;
     // Share of the sample in the mean; spin is damped as it is, its mean stays 0.
-    const Double4 share = no_force + shared.mean_share;
-    Mask4 fastest = {}; // as greater() has it
+    const Lanes share = no_force + shared.mean_share;
+    Mask fastest = {}; // as greater() has it
     const std::span discs = shared.discs;
     const std::span inertias = shared.inertia;
     const std::span<const std::uint32_t> gathers = strip.gathers;
@@ -165,43 +286,45 @@ double sweep(const Shared& shared, Strip& strip, Stretching thins) {
                 f = __builtin_shufflevector(f, f, 0, 1, 3, 2);
             gather<-1>(force, slots, usual_slots, list);
             gather<-1>(force, slots, more_out, list);
-            for (std::size_t m = 0; m < group_discs; ++m) {
-                Disc& disc = discs[group * group_discs + m];
-                Inertia& inertia = inertias[group * group_discs + m];
-                const Double4 c = load_four(&inertia); // the last holds the means
-                const Double4 gain = without_last(__builtin_shufflevector(c, c, 0, 0, 2, 2));
-                const Double4 weight = __builtin_shufflevector(c, no_force, 4, 1, 6, 7);
-                const Double4 f = force[m] - weight;
-                const Double4 place = load_four(disc.place), v = load_four(disc.velocity);
-                Double4 departs = v;
-                Double4 mean = no_force;
+            for (std::size_t m = 0; m < group_discs; m += rows_at_once) {
+                Disc* const moved = &discs[group * group_discs + m];
+                Inertia* const of_moved = &inertias[group * group_discs + m];
+                // The last number of a disc holds its means.
+                const Lanes inertia = load(reinterpret_cast<const double*>(of_moved));
+                const Lanes f = of_discs(force + m) - weight_of(inertia);
+                const auto [place, v] = load_motion(moved);
+                Lanes departs = v;
+                Lanes mean = no_force;
                 if constexpr (averages) {
-                    mean = mean_velocity(inertia.mean_velocity);
+                    mean = mean_velocity(of_moved, inertia);
                     departs = v - mean;
                 }
                 if constexpr (motion == DampedAgainst::stretching)
                     departs = v - stretches * (place - floor);
-                const Double4 drag =
-                    reinterpret_cast<Double4>(reinterpret_cast<Mask4>(damping * magnitude(f)) |
-                                              (reinterpret_cast<Mask4>(departs) & sign));
-                const Double4 damped = departs == no_force ? f : f - drag;
-                const Double4 velocity = v + damped * gain;
+                const Lanes drag =
+                    reinterpret_cast<Lanes>(reinterpret_cast<Mask>(damping * magnitude(f)) |
+                                            (reinterpret_cast<Mask>(departs) & sign));
+                const Lanes damped = departs == no_force ? f : f - drag;
+                const Lanes velocity = v + damped * gain_of(inertia);
                 if constexpr (motion == DampedAgainst::mean_motion_sampled) {
                     mean += (velocity - mean) * share;
-                    inertia.mean_velocity[0] = static_cast<float>(mean[0]);
-                    inertia.mean_velocity[1] = static_cast<float>(mean[1]);
+                    for (std::size_t k = 0; k < rows_at_once; ++k)
+                        for (std::size_t n = 0; n < 2; ++n)
+                            of_moved[k].mean_velocity[n] = static_cast<float>(mean[4 * k + n]);
                 }
-                store_four(disc.velocity, velocity);
-                store_four(disc.place, place + velocity * time_step);
-                auto speed = reinterpret_cast<Mask4>(magnitude(velocity));
+                store_motion(moved, {place + velocity * time_step, velocity});
+                auto speed = reinterpret_cast<Mask>(magnitude(velocity));
                 if constexpr (has_ghosts)
-                    speed &= shared.own[group * group_discs + m];
+                    speed &= own_discs(shared.own + group * group_discs + m);
                 fastest = fastest < speed ? speed : fastest;
             }
         }
     }
-    const auto speeds = reinterpret_cast<Double4>(fastest);
-    return greater(speeds[0], speeds[1]);
+    const auto speeds = reinterpret_cast<Lanes>(fastest);
+    double greatest = 0.0;
+    for (int k = 0; k < lane_count; k += 4)
+        greatest = greater(greatest, greater(speeds[k], speeds[k + 1]));
+    return greatest;
 }
 
 template <bool bonded, bool frictional, bool has_ghosts> Kernels kernels_of(DampedAgainst motion) {

@@ -20,6 +20,7 @@ using Mask = Mask4;
 using FloatLanes = Float4;
 #endif
 inline constexpr int lane_count = sizeof(Lanes) / sizeof(double);
+inline constexpr std::size_t rows_at_once = lane_count / 4; ///< rows of four numbers
 
 inline Lanes load(const double* from) {
     Lanes v;
@@ -53,13 +54,16 @@ inline Lanes square_root(Lanes v) {
 #endif
 }
 
-inline bool any(Mask mask) {
+/// Whether any lane is above the bound.
+inline bool any_above(Lanes v, double bound) {
+    const Lanes bounds = Lanes{} + bound;
 #if LISTRIC_LEVEL >= 4
-    const auto bits = reinterpret_cast<__m512i>(mask);
-    return _mm512_test_epi64_mask(bits, bits) != 0;
+    return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(v), reinterpret_cast<__m512d>(bounds),
+                              _CMP_GT_OQ) != 0;
 #elif LISTRIC_LEVEL >= 3
-    return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+    return _mm256_movemask_pd(reinterpret_cast<__m256d>(v > bounds)) != 0;
 #else
+    const Mask mask = v > bounds;
     std::int64_t all = 0;
     for (int lane = 0; lane < lane_count; ++lane)
         all |= mask[lane];
@@ -84,9 +88,9 @@ struct Lanes4 {
 };
 
 // Rows of four numbers, one row a lane, and columns of lanes. What moves between the halves of a
-// register takes as long as three operations within them, so rows are loaded to where their columns
-// are put together: by halves where four lanes are one register, the halves of rows k and k + 2 in
-// one; whole where eight are, rows k and k + 4 in one, as loads would be twice as many.
+// register takes as long as three operations within them. Where four lanes are one register, rows
+// are loaded by halves, those of rows k and k + 2 into one, so that columns come from moves within
+// halves; where eight are, a disc is one register, and rows k and k + 4 of a column share one.
 
 /// (a0, b0, a2, b2) of every four numbers.
 inline Lanes even_numbers(Lanes a, Lanes b) {
@@ -108,25 +112,30 @@ inline Lanes odd_numbers(Lanes a, Lanes b) {
 
 #if LISTRIC_LEVEL >= 4
 
-/// Rows k and k + 4 at numbers + places[lane]. The compiler would load two rows and shuffle.
-inline Double8 load_rows(const double* numbers, const std::uint32_t* places, int k) {
-    return reinterpret_cast<Double8>(
-        _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_loadu_pd(numbers + places[k])),
-                                 _mm256_loadu_pd(numbers + places[k + 4]), 1));
+inline Double4 first_half(Double8 v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
+
+/// First halves of two registers, and second ones. The compiler would permute both.
+inline Double8 first_halves(Double8 a, Double8 b) {
+    return reinterpret_cast<Double8>(_mm512_maskz_insertf64x4(
+        0xff, reinterpret_cast<__m512d>(a), reinterpret_cast<__m256d>(first_half(b)), 1));
+}
+inline Double8 second_halves(Double8 a, Double8 b) {
+    return reinterpret_cast<Double8>(_mm512_maskz_shuffle_f64x2(
+        0xff, reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b), 0xee));
 }
 
 /// From rows to columns, or from columns to rows.
 inline Lanes4 transpose(const Lanes (&r)[4]) {
     const Lanes even_ab = even_numbers(r[0], r[1]), odd_ab = odd_numbers(r[0], r[1]);
     const Lanes even_cd = even_numbers(r[2], r[3]), odd_cd = odd_numbers(r[2], r[3]);
-    const auto first_halves = [](Lanes a, Lanes b) {
+    const auto first_pairs = [](Lanes a, Lanes b) {
         return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
     };
-    const auto second_halves = [](Lanes a, Lanes b) {
+    const auto second_pairs = [](Lanes a, Lanes b) {
         return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
     };
-    return {first_halves(even_ab, even_cd), first_halves(odd_ab, odd_cd),
-            second_halves(even_ab, even_cd), second_halves(odd_ab, odd_cd)};
+    return {first_pairs(even_ab, even_cd), first_pairs(odd_ab, odd_cd),
+            second_pairs(even_ab, even_cd), second_pairs(odd_ab, odd_cd)};
 }
 
 #else
@@ -161,32 +170,55 @@ inline void store_two(double* to, Double4 ab, Double4 cd) {
 
 #endif
 
+#if LISTRIC_LEVEL >= 4
+
+/// Columns of pairs of discs: places and velocities of the second less those of the first, radius
+/// and spin of each.
+struct PairColumns {
+    Lanes dx, dy, radius_i, radius_j, dvx, dvy, spin_i, spin_j;
+};
+
+[[gnu::always_inline]] inline PairColumns
+pair_columns(const double* discs, const std::uint32_t* first, const std::uint32_t* second) {
+    Lanes rows[8];
+    for (int k = 0; k < 8; ++k) {
+        const Lanes i = load(discs + first[k]), j = load(discs + second[k]);
+        // Places 2, 3, 6 and 7 are radii and spins in place of differences.
+        rows[k] = reinterpret_cast<Lanes>(_mm512_mask_shuffle_pd(
+            reinterpret_cast<__m512d>(j - i), 0b11001100, reinterpret_cast<__m512d>(i),
+            reinterpret_cast<__m512d>(j), 0b00001100));
+    }
+    Lanes places[4], velocities[4];
+    for (int k = 0; k < 4; ++k) {
+        places[k] = first_halves(rows[k], rows[k + 4]);
+        velocities[k] = second_halves(rows[k], rows[k + 4]);
+    }
+    const auto [dx, dy, radius_i, radius_j] = transpose(places);
+    const auto [dvx, dvy, spin_i, spin_j] = transpose(velocities);
+    return {dx, dy, radius_i, radius_j, dvx, dvy, spin_i, spin_j};
+}
+
+#else
+
 /// Columns of pairs of rows, first and second: numbers 0 and 1 of the second less those of the
 /// first, and the number `own` (2 or 3) of each.
 template <int own>
 [[gnu::always_inline]] inline Lanes4 pair_columns(const double* numbers, const std::uint32_t* first,
                                                   const std::uint32_t* second) {
-    const auto of_own = [](Lanes a, Lanes b) {
-        return own == 2 ? even_numbers(a, b) : odd_numbers(a, b);
-    };
-#if LISTRIC_LEVEL >= 4
-    Lanes rows[4];
-    for (int k = 0; k < 4; ++k) {
-        const Lanes i = load_rows(numbers, first, k), j = load_rows(numbers, second, k);
-        rows[k] = __builtin_shufflevector(j - i, of_own(i, j), 0, 1, 10, 11, 4, 5, 14, 15);
-    }
-    return transpose(rows);
-#else
     Lanes apart[2], own_i[2], own_j[2];
     for (int k = 0; k < 2; ++k) {
         apart[k] = load_halves<0>(numbers, second, k) - load_halves<0>(numbers, first, k);
         own_i[k] = load_halves<1>(numbers, first, k);
         own_j[k] = load_halves<1>(numbers, second, k);
     }
+    const auto of_own = [](Lanes a, Lanes b) {
+        return own == 2 ? even_numbers(a, b) : odd_numbers(a, b);
+    };
     return {even_numbers(apart[0], apart[1]), odd_numbers(apart[0], apart[1]),
             of_own(own_i[0], own_i[1]), of_own(own_j[0], own_j[1])};
-#endif
 }
+
+#endif
 
 /// Stores columns as rows of four numbers, eight numbers apart: by stored_row().
 inline void store_rows(double* to, const Lanes4& columns) {
