@@ -165,7 +165,7 @@ void prepare_output(const FolderUse& use, const fs::path& output, ExistingRun ex
     if (error)
         throw StorageError(output.string() + ": cannot make the output folder: " + error.message());
     remove_all(remains(output));
-    const fs::path test = output / ".listric-write-test";
+    const fs::path test = output / write_test;
     listric::write_text(test, "x");
     fs::remove(test, error);
     fs::remove(output / "summary.json", error); // of a run that now goes on

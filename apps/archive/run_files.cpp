@@ -233,6 +233,7 @@ std::vector<fs::path> remains(const fs::path& output) {
             folder, [&](std::string_view name) { return ours(written_in_part(name)); }, found);
     };
     parts(output, is_top_name);
+    parts(output, [](std::string_view name) { return name == write_test; });
     parts(output / "snapshots", is_snapshot_name);
     parts(output / "paraview", is_series_file);
     parts(output / "export", is_export);

@@ -12,6 +12,9 @@ namespace listric::archive {
 // may give their files, too, are a run's where the file begins as a run's does. What is not listed
 // here is nobody's to remove or to write over.
 
+/// Name of the file by which a run tries whether it can write to its folder.
+inline constexpr std::string_view write_test = ".listric-write-test";
+
 /// Whether a text occurs in the first so many bytes of a file, or the file is empty.
 bool holds(const std::filesystem::path& file, std::string_view mark, std::size_t bytes);
 
