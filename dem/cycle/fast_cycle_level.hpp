@@ -29,6 +29,7 @@ inline Lanes for_each_disc(double a, double b, double c, double d) {
     return numbers;
 }
 
+/// Four numbers of each of the discs that lie in the lanes together.
 inline Lanes of_discs(const Double4* each) {
 #if LISTRIC_LEVEL >= 4
     return first_halves(__builtin_shufflevector(each[0], each[0], 0, 1, 2, 3, 0, 1, 2, 3),
