@@ -411,7 +411,8 @@ INSTANTIATE_TEST_SUITE_P(Seeds, KilledRunTest, testing::Values(1, 2, 3));
 
 TEST_F(RunTest, WhatAKilledSessionHadHalfWrittenIsRemoved) {
     const fs::path output = folder / "run";
-    for (const char* name : {".listric-write-test", "history.csv", "snapshots/extension-00000.00m.h5"})
+    for (const char* name :
+         {".listric-write-test", "history.csv", "snapshots/extension-00000.00m.h5"})
         write(output / fmt::format("{}.123.part", name), "x");
     EXPECT_EQ(call_run(output, {"--until", "0"}).code, 0);
     EXPECT_THAT(names_ending(output, ".part"), IsEmpty());
