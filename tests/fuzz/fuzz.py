@@ -37,6 +37,8 @@ SHARES = {"scenes": 4, "runs": 2, "damaged": 8, "snapshots": 4, "sequences": 1}
 KINDS = tuple(SHARES)
 LONGEST = {"check": 20.0, "explain": 20.0, "run": 60.0}   # s
 EACH = 0.2   # s more for each further scene of a call
+BRIEF = 30   # s that check forecasts for the program under test: small runs up to it are run
+SLOWER = 5.0   # times the forecast, on a machine that became busy
 LEAST = 1   # cases of each kind, however soon the time is over: else a busy machine finds nothing in nothing
 SHRINKING = 60.0   # s after the end, for all that failed
 RUN = ["--threads", "1", "--quiet", "--no-report"]
@@ -52,9 +54,10 @@ def finite(one):
     return not isinstance(one, float) or math.isfinite(one)
 
 
-def is_short(line):
-    """Whether `check` forecasts seconds, not minutes: "5 tables, about 175 discs, 3 s, ..."."""
-    return re.search(r" discs[^,;]*, \d+ s,", line) is not None
+def forecast(line):
+    """Seconds that `check` forecasts: "5 tables, about 175 discs, 3 s, ..."; infinite where it forecasts more."""
+    found = re.search(r" discs[^,;]*, (\d+) s,", line)
+    return int(found.group(1)) if found else math.inf
 
 
 class Fuzzer:
@@ -71,9 +74,9 @@ class Fuzzer:
 
     # ------------------------------------------------------------------------------ calls
 
-    def call(self, words, folder, scenes=1):
-        """What is wrong with a call, and its exit code."""
-        return self.runner.call(words, folder, LONGEST.get(words[0], 60.0) + EACH * (scenes - 1))
+    def call(self, words, folder, more=0.0):
+        """What is wrong with a call, and its exit code; it may take so many more seconds than others."""
+        return self.runner.call(words, folder, LONGEST.get(words[0], 60.0) + more)
 
     def checked(self, text, folder, words=("check",)):
         folder.mkdir(parents=True, exist_ok=True)
@@ -83,12 +86,12 @@ class Fuzzer:
             why = "explain tells a number that is none"
         return why, code, said
 
-    def run(self, text, folder):
-        """What is wrong with a run of a scene, and its exit code."""
+    def run(self, text, folder, seconds=0):
+        """What is wrong with a run of a scene, of which check forecasts the seconds, and its exit code."""
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         (folder / "a.toml").write_text(text, encoding="utf-8")
-        why, code, said = self.call(["run", "@a.toml", "--output", "@out", *RUN], folder)
+        why, code, said = self.call(["run", "@a.toml", "--output", "@out", *RUN], folder, SLOWER * seconds)
         if not why and code == 0:
             summary = json.loads((folder / "out/summary.json").read_text(encoding="utf-8"))
             if not summary.get("finished") or not finite(summary):
@@ -115,7 +118,7 @@ class Fuzzer:
         if none fails, the batch has."""
         files = {f"{k}.toml": scenes.to_toml(scene).encode() for k, scene in enumerate(made)}
         damaged_inputs.write(folder, files)
-        why, code, said = self.call(["check", *(f"@{name}" for name in files)], folder, len(made))
+        why, code, said = self.call(["check", *(f"@{name}" for name in files)], folder, EACH * (len(made) - 1))
         self.add(what, len(made))
         self.tell(f"checks of {what}", code)
         if why and not any([self.shrunk_scene(scene, f"{what}-{number}-{k}", ("check",)) for k, scene in enumerate(made)]):
@@ -135,21 +138,21 @@ class Fuzzer:
         return True
 
     def runs(self, number, folder):
-        """Small scenes, a third of a batch: those that are valid and short by the forecast of check are run."""
+        """Small scenes, a third of a batch: those that are valid and brief by the forecast of check are run."""
         made = [scenes.make_scene(random.Random(f"{self.seed}:runs:{number}:{k}"), share_beyond=0.0, small=True)
                 for k in range(max(1, self.batch // 3))]
         correct = self.correct_ones(made, number, folder, "runs")
-        short = [k for k, line in correct.items() if is_short(line)]
-        self.add("not run", len(made) - len(short))
-        for k in short:
-            self.run_one(made[k], f"{number}-{k}", folder)
+        brief = {k: seconds for k, seconds in zip(correct, map(forecast, correct.values())) if seconds <= BRIEF}
+        self.add("not run", len(made) - len(brief))
+        for k, seconds in brief.items():
+            self.run_one(made[k], seconds, f"{number}-{k}", folder)
 
-    def run_one(self, scene, name, folder):
-        why, code, said = self.run(scenes.to_toml(scene), folder / "run")
+    def run_one(self, scene, seconds, name, folder):
+        why, code, said = self.run(scenes.to_toml(scene), folder / "run", seconds)
         self.add("ran to the end", code == 0)
         self.tell("runs", code)
         if why:
-            smallest = shrink.shrink_scene(scene, lambda s: self.run(scenes.to_toml(s), folder / "run")[0] == why,
+            smallest = shrink.shrink_scene(scene, lambda s: self.run(scenes.to_toml(s), folder / "run", seconds)[0] == why,
                                            scenes.BASE, budget=40, end=self.shrink_end)
             self.fail(f"run-{name}", (why, code, said), {"a.toml": scenes.to_toml(smallest).encode()},
                       [["run", "a.toml", "--output", "out", *RUN]])

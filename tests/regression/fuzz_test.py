@@ -3,12 +3,14 @@
     LISTRIC_PROGRAM=../../build/native/listric python3 -m unittest fuzz_test
 """
 
+import math
 import random
 import sys
 import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from program import PROGRAM, SOURCES
 
@@ -26,14 +28,21 @@ class Fuzz(unittest.TestCase):
         self.assertGreater(fuzzer.count["valid scenes"], 10)   # else only refusals are tested
         self.assertEqual(fuzzer.count["snapshots"], 2 * fuzz.SHARES["snapshots"])
 
-    def test_a_small_scene_is_short_enough_to_run(self):
+    def test_a_small_scene_is_brief_enough_to_run(self):
         with tempfile.TemporaryDirectory() as scratch:
             fuzzer = fuzz.Fuzzer(PROGRAM, Path(scratch), Path(scratch) / "kept", "test", 1)
             wrong = {**scenes.BASE, "gravity": {"acceleration": 9.81}}
             correct = fuzzer.correct_ones([wrong, scenes.BASE], 0, Path(scratch), "runs")
         self.assertEqual(list(correct), [1])
-        self.assertTrue(fuzz.is_short(correct[1]), correct[1])
-        self.assertFalse(fuzz.is_short("7 tables, about 176 discs, 52.0 min, 3 snapshots, 1 MB of disk"))
+        self.assertLessEqual(fuzz.forecast(correct[1]), fuzz.BRIEF, correct[1])
+        self.assertEqual(fuzz.forecast("7 tables, about 176 discs, 52 s, 3 snapshots, 1 MB of disk"), 52)
+        self.assertEqual(fuzz.forecast("7 tables, about 176 discs, 52.0 min, 3 snapshots, 1 MB of disk"), math.inf)
+
+    def test_a_run_that_was_forecast_to_be_long_may_be(self):
+        with tempfile.TemporaryDirectory() as scratch, mock.patch.dict(fuzz.LONGEST, {"run": 0.1}):
+            fuzzer = self.fuzzer_of(scratch, "sleep 1; echo refused; exit 2")
+            self.assertEqual(fuzzer.run("", Path(scratch, "run"), seconds=1), (None, 2, b"refused\n"))
+            self.assertRegex(fuzzer.run("", Path(scratch, "run"))[0], "no end in")
 
     def test_what_crashes_is_found_and_shrunk(self):
         class Broken(fuzz.Fuzzer):
