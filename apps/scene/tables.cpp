@@ -180,7 +180,7 @@ std::vector<Parameter> cycle_parameters() {
          "Lowering it lets discs oscillate for longer before they come to rest."},
         {"averaging_time_s", at<&P::averaging_time>, "s", between(0, 1e9), "",
          "model time over which a disc's mean motion is taken, which is not damped",
-         "At 0 all motion is damped, as in PFC: damping then carries 20 to 33 % of the weight of "
+         "At 0 all motion is damped, as in PFC: damping then carries 5 to 8 % of the weight of "
          "sinking sediment."},
         {"time_step_safety", at<&P::time_step_safety>, "", between(1e-6, 10), "",
          "time step over the stability limit; above 1 is unstable",
