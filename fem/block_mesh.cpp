@@ -79,14 +79,42 @@ void BlockMesher::add(const Block& block, const Fractions& u, const Fractions& v
     }
 }
 
-BlockMesh BlockMesher::take() { return std::exchange(mesh_, {}); }
+BlockMesh BlockMesher::take() {
+    vertices_by_square_.clear();
+    return std::exchange(mesh_, {});
+}
 
+/// The first that was added within the tolerance, or a new one.
 unsigned BlockMesher::vertex(Vector p) {
-    for (std::size_t k = 0; k < mesh_.vertices.size(); ++k)
-        if (std::abs(mesh_.vertices[k].x - p.x) + std::abs(mesh_.vertices[k].y - p.y) < tolerance_)
-            return static_cast<unsigned>(k);
-    mesh_.vertices.push_back(p);
-    return static_cast<unsigned>(mesh_.vertices.size() - 1);
+    const double width = 1000.0 * tolerance_; // of squares: more than one is seldom within reach
+    const auto place = [&](double x) { return std::floor(x / width); };
+    const auto key = [](double column, double row) { // far squares may share one
+        return 31 * std::hash<double>{}(column) + std::hash<double>{}(row);
+    };
+    const auto added = static_cast<unsigned>(mesh_.vertices.size());
+    unsigned first = added;
+    const auto look = [&](double column, double row) {
+        const auto [begin, end] = vertices_by_square_.equal_range(key(column, row));
+        for (auto it = begin; it != end; ++it) {
+            const Vector& q = mesh_.vertices[it->second];
+            if (std::abs(q.x - p.x) + std::abs(q.y - p.y) < tolerance_)
+                first = std::min(first, it->second);
+        }
+    };
+    const double left = place(p.x - tolerance_), right = place(p.x + tolerance_);
+    const double low = place(p.y - tolerance_), high = place(p.y + tolerance_);
+    look(left, low);
+    if (right != left)
+        look(right, low);
+    if (high != low)
+        look(left, high);
+    if (right != left && high != low)
+        look(right, high);
+    if (first == added) {
+        mesh_.vertices.push_back(p);
+        vertices_by_square_.emplace(key(place(p.x), place(p.y)), added);
+    }
+    return first;
 }
 
 } // namespace listric::fem

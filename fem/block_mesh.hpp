@@ -3,8 +3,10 @@
 #include "fem/curve.hpp"
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace listric::fem {
@@ -76,6 +78,7 @@ private:
 
     BlockMesh mesh_;
     double tolerance_;
+    std::unordered_multimap<std::size_t, unsigned> vertices_by_square_;
 };
 
 } // namespace listric::fem

@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <thread>
@@ -67,6 +68,18 @@ SceneRequest request_of(const std::string& scene, const std::string& set,
     return {.scene = scene, .set = std::move(tables), .accuracy = "draft"};
 }
 
+/// How a call ends; a failure, and killed, if it takes more than a minute.
+Ended ended_soon(const Program& program, const std::string& what) {
+    const auto begun = std::chrono::steady_clock::now();
+    while (program.runs() && std::chrono::steady_clock::now() - begun < std::chrono::seconds(60))
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    const bool hangs = program.runs();
+    if (hangs)
+        program.send(SIGKILL);
+    EXPECT_FALSE(hangs) << what;
+    return program.wait();
+}
+
 const std::string every_effect = support::test_scene("every-effect.toml");
 
 TEST_F(RangeEnds, ExplainIsFinite) {
@@ -115,15 +128,7 @@ TEST_F(RangeEnds, ARunEndsOrIsRefused) {
         const Program program(folder,
                               {"run", every_effect, "--until", "2m", "--set", end, "--threads", "1",
                                "--quiet", "--force", "--output", (folder / "out").string()});
-        const auto begun = std::chrono::steady_clock::now();
-        while (program.runs() &&
-               std::chrono::steady_clock::now() - begun < std::chrono::seconds(60))
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        const bool hangs = program.runs();
-        if (hangs)
-            program.send(SIGKILL);
-        const Ended ended = program.wait();
-        EXPECT_FALSE(hangs) << end;
+        const Ended ended = ended_soon(program, end);
         EXPECT_THAT(ended.code, AnyOf(0, 2, 3)) << end << '\n' << ended.err;
         EXPECT_TRUE(ended.code == 0 || !ended.err.empty()) << end;
     }
@@ -147,6 +152,28 @@ TEST_F(RangeEnds, WhatNobodyWaitsForIsRefusedByTheNameOfItsCause) {
     EXPECT_EQ(cause("sedimentation.target=[[0.0, 100000.0]]", memory), "sedimentation.target");
     EXPECT_EQ(cause("output.interval_m=0.5", memory, 20e9), "output.interval_m");
     EXPECT_EQ(cause("output.interval_m=0.5", memory), "");
+}
+
+// Found by the fuzzer: for each new vertex all former ones were looked at, two minutes long.
+TEST_F(RangeEnds, ABaseOfManyElementsIsSoonChecked) {
+    const std::filesystem::path deep = folder / "deep.toml";
+    std::ofstream(deep) << R"([hanging_wall]
+length_m = 20000.0
+thickness_m = 1500.0
+mean_radius_m = 90.0
+[detachment]
+segments = [{arc = {radius_m = 1500.0, end_dip_deg = 0.0}}, {line = {length_m = 30000.0}}]
+[gravity]
+[extension]
+distance_m = 100.0
+[elastic_base]
+cell_size_m = 100.0
+depth_m = 1e6
+)";
+    const Program program(folder, {"check", deep.string()});
+    const Ended ended = ended_soon(program, "a deep base of small elements");
+    EXPECT_THAT(ended.out + ended.err, // by the memory of the machine
+                AnyOf(testing::HasSubstr("correct"), testing::HasSubstr("GB of memory")));
 }
 
 TEST_F(RangeEnds, ARefusalNamesFileValueAndCure) {

@@ -50,6 +50,18 @@ TEST(Prediction, KnowsThePriceOfEffects) {
     EXPECT_GT(predict(draft("lis1-elastic"), one_thread).seconds, 1.05 * all);
 }
 
+TEST(Prediction, SmallDiscsAmongLargeOnesTakeLongToLayDown) {
+    // Measured: ten times as long at a ratio of 10 (sedimentation.cpp).
+    const auto per_event = [](const char* ratio) {
+        const std::string radii = std::string("hanging_wall.radius_ratio=") + ratio;
+        const auto seconds = [&](const char* interval) {
+            return predict(draft("lis1", {radii, interval}), one_thread).seconds;
+        };
+        return seconds("sedimentation.interval_a=500") - seconds("sedimentation.interval_a=1000");
+    };
+    EXPECT_GT(per_event("10"), 8.0 * per_event("1.66"));
+}
+
 TEST(Prediction, LightSedimentShortensTheStepWhereMassesHaveNoFloor) {
     const auto step = [](const std::vector<std::string>& set) {
         return predict(draft("lis1", set), one_thread).time_step;
