@@ -109,6 +109,10 @@ void check_base(const Scene& scene, const toml::table& document) {
     if (!scene.detachment && !scene.stretching)
         fail(entry_at(document, "hanging_wall"),
              "needs [detachment], the surface on which it slides, or [stretching]; add one");
+    if (scene.picked_fault && !scene.detachment)
+        fail(entry_at(document, "picked_fault"),
+             "has the points that a [detachment] was fitted to, which the scene does not have; "
+             "leave out [picked_fault]");
     if (scene.detachment)
         check_detachment(scene, document);
 }

@@ -536,6 +536,10 @@ TEST_F(SceneTest, TheBlockAndItsDetachmentBelongTogether) {
         "scene.toml:4: stretching: stands in place of [detachment]; leave out one of the two");
     EXPECT_THAT(error("[hanging_wall]\n[detachment]\n"),
                 StartsWith("scene.toml:2: detachment.segments: has no arc and no line"));
+    // Found by the fuzzer: check and explain described the fit of a detachment that is not there.
+    EXPECT_EQ(error("[hanging_wall]\n[stretching]\n[picked_fault]\n"),
+              "scene.toml:3: picked_fault: has the points that a [detachment] was fitted to, which "
+              "the scene does not have; leave out [picked_fault]");
 }
 
 TEST_F(SceneTest, SegmentsAreArcsOrLines) {
