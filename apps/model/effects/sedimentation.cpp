@@ -93,10 +93,11 @@ double new_area(const Scene& scene) {
            area_above_surface(scene);
 }
 
-/// Tries that find no room at last, of one sedimentation: as many as its patience, where they are
-/// near an opening. A try takes the longer, the smaller the steps are in which it rolls. Measured
-/// at ratios of radii of 1.2, 1.66, 3, 5 and 10: 5 to 7, 7 to 10, 17 to 19, 19 to 29 and 72 to 98
-/// ms, where the cycle makes 80 million disc-steps a second.
+/// Price of the tries that find no room at the end of one sedimentation, in disc-steps. As many are
+/// made as fill() has patience; those cost that Room finds near an opening, within 8 largest radii
+/// on either side, and the more, the smaller the steps are in which a disc rolls. Measured at
+/// ratios of radii of 1.2, 1.66, 3, 5 and 10: 5 to 7, 7 to 10, 17 to 19, 19 to 29 and 72 to 98 ms,
+/// where the cycle makes 80 million disc-steps a second.
 double price_of_tries(const Scene& scene) {
     const double ratio = scene.hanging_wall.radius_ratio;
     const double smallest = dem::radius_range(scene.hanging_wall.mean_radius, ratio).smallest;
