@@ -150,7 +150,8 @@ Json terms_json(const PriceTerms& terms) {
             {"per_start_disc", terms.per_start_disc},
             {"per_cycle", terms.per_cycle},
             {"per_year", terms.per_year},
-            {"per_disc_year", terms.per_disc_year}};
+            {"per_disc_year", terms.per_disc_year},
+            {"per_area_ratio_year", terms.per_area_ratio_year}};
 }
 
 /// Defaults of an effect at the levels of accuracy, as far as these change them.

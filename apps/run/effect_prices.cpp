@@ -10,9 +10,9 @@ namespace listric {
 
 namespace {
 
-constexpr std::array members{&PriceTerms::fixed, &PriceTerms::per_start_disc,
-                             &PriceTerms::per_cycle, &PriceTerms::per_year,
-                             &PriceTerms::per_disc_year};
+constexpr std::array members{&PriceTerms::fixed,         &PriceTerms::per_start_disc,
+                             &PriceTerms::per_cycle,     &PriceTerms::per_year,
+                             &PriceTerms::per_disc_year, &PriceTerms::per_area_ratio_year};
 
 /// A scene of nothing but the effect, with defaults.
 Scene alone(const Effect& effect) {
@@ -30,6 +30,8 @@ PriceTerms terms_of(const Effect& effect, const Scene& scene) {
     terms.per_cycle = price({.cycles = 1.0}) - terms.fixed;
     terms.per_year = price({.years = 1.0}) - terms.fixed;
     terms.per_disc_year = price({.discs = 1.0, .years = 1.0}) - terms.fixed - terms.per_year;
+    terms.per_area_ratio_year =
+        price({.years = 1.0, .area_ratio = 1.0}) - terms.fixed - terms.per_year;
     return terms;
 }
 
@@ -58,7 +60,8 @@ std::optional<Scene> changed(const Effect& effect, const Parameter& parameter) {
 
 double price_of(const PriceTerms& terms, const Workload& work) {
     return terms.fixed + terms.per_start_disc * work.at_start + terms.per_cycle * work.cycles +
-           work.years * (terms.per_year + terms.per_disc_year * work.discs);
+           work.years * (terms.per_year + terms.per_disc_year * work.discs +
+                         terms.per_area_ratio_year * work.area_ratio);
 }
 
 EffectPrice effect_price(const Effect& effect) {

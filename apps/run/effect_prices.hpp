@@ -8,9 +8,11 @@
 namespace listric {
 
 /// Price of an effect by the factors of a Workload, disc-steps of the bare cycle: fixed +
-/// per_start_disc * at_start + per_cycle * cycles + years * (per_year + per_disc_year * discs).
+/// per_start_disc * at_start + per_cycle * cycles + years * (per_year + per_disc_year * discs +
+/// per_area_ratio_year * area_ratio).
 struct PriceTerms {
-    double fixed = 0.0, per_start_disc = 0.0, per_cycle = 0.0, per_year = 0.0, per_disc_year = 0.0;
+    double fixed = 0.0, per_start_disc = 0.0, per_cycle = 0.0;
+    double per_year = 0.0, per_disc_year = 0.0, per_area_ratio_year = 0.0;
 };
 
 /// Sum of the terms for a workload.

@@ -188,6 +188,7 @@ struct Workload {
     double at_start = 0.0;
     double cycles = 0.0;
     double years = 0.0;
+    double area_ratio = 0.0; ///< of the largest disc to the smallest
 };
 
 /// Where an effect's parameters are in the std::any that holds them.

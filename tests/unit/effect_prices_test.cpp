@@ -10,9 +10,12 @@ namespace listric::effect_prices_test {
 namespace {
 
 PriceTerms scaled(const PriceTerms& terms, const PriceTerms& part, double by) {
-    return {terms.fixed + by * part.fixed, terms.per_start_disc + by * part.per_start_disc,
-            terms.per_cycle + by * part.per_cycle, terms.per_year + by * part.per_year,
-            terms.per_disc_year + by * part.per_disc_year};
+    return {terms.fixed + by * part.fixed,
+            terms.per_start_disc + by * part.per_start_disc,
+            terms.per_cycle + by * part.per_cycle,
+            terms.per_year + by * part.per_year,
+            terms.per_disc_year + by * part.per_disc_year,
+            terms.per_area_ratio_year + by * part.per_area_ratio_year};
 }
 
 /// Multiplies the numbers on which the price depends by random factors.
@@ -47,8 +50,12 @@ TEST(EffectPrices, AreThoseOfTheEffectsWhateverTheParameters) {
             Scene scene;
             scene.effects.push_back({effect, effect->defaults()});
             const PriceTerms terms = changed_terms(*effect, price, scene, random);
+            dem::HangingWallParameters& wall = scene.hanging_wall; // no factor of its own
+            wall.length *= 1.0 + share(random);
+            wall.mean_radius *= 1.0 + share(random);
+            wall.radius_ratio *= 1.0 + share(random);
             const Workload work{1e5 * share(random), 1e4 * share(random), 1e6 * share(random),
-                                1e6 * share(random)};
+                                1e6 * share(random), 1e2 * share(random)};
             const double own = effect->price ? effect->price(scene, work) : 0.0;
             EXPECT_NEAR(price_of(terms, work), own, 1e-6 * own) << effect->name;
         }
@@ -73,7 +80,7 @@ TEST(EffectPrices, OfASwitchAreAllTerms) {
                 *std::ranges::find(effect->parameters, one.key, &Parameter::key);
             bool& flag = std::get<Place<bool>>(parameter.value).reach(object);
             flag = !flag;
-            const Workload work{5e4, 2e4, 3e5, 7e5};
+            const Workload work{5e4, 2e4, 3e5, 7e5, 30.0};
             EXPECT_DOUBLE_EQ(price_of(one.terms, work), effect->price(scene, work))
                 << effect->name << '.' << one.key;
         }

@@ -106,13 +106,15 @@ function predictCost(facts, schema, document) {
   const end = start + (newArea > 0 ? discsIn(newArea) : 0), discs = 0.5 * (start + end);
   const timeStep = stableTimeStep(facts, schema, document);
   const cycles = Math.floor(modelTime(facts, schema, document) / timeStep);
+  const areaRatio = of("hanging_wall.radius_ratio") ** 2;
   const years = distance / of("extension.rate_m_per_a"), steps = discs * cycles, interval = of("output.interval_m");
   const marks = document.output?.figures_at_m ?? [5000, 10000], movesBase = effects.some(name => facts.effects[name].moves_base);
   const figures = marks.filter(at => at < distance - 0.5 * interval).length * p.early_figure_disc * discs + p.figures +
     p.figures_disc * discs + (movesBase ? p.figures_of_moving_base : 0);
   const ofEffects = effects.reduce((sum, name) => {
     const terms = termsOf(facts, schema, document, name);
-    return sum + terms.fixed + terms.per_start_disc * start + terms.per_cycle * cycles + years * (terms.per_year + terms.per_disc_year * discs);
+    return sum + terms.fixed + terms.per_start_disc * start + terms.per_cycle * cycles + years *
+      (terms.per_year + terms.per_disc_year * discs + terms.per_area_ratio_year * areaRatio);
   }, 0);
   let shared = p.cycle * steps + start * (p.genesis + p.genesis_crossing * thickness / radius) +
     years / p.sample_interval * p.sample_disc * discs;

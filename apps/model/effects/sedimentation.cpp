@@ -8,7 +8,6 @@
 #include "apps/scene/target_csv.hpp"
 #include "apps/support/spelling.hpp"
 #include "dem/genesis/genesis.hpp"
-#include "dem/genesis/packing.hpp"
 
 #include <fmt/format.h>
 
@@ -93,22 +92,14 @@ double new_area(const Scene& scene) {
            area_above_surface(scene);
 }
 
-/// Price of the tries that find no room at the end of one sedimentation, in disc-steps. As many are
-/// made as fill() has patience; those cost that Room finds near an opening, within 8 largest radii
-/// on either side, and the more, the smaller the steps are in which a disc rolls. Measured at
-/// ratios of radii of 1.2, 1.66, 3, 5 and 10: 5 to 7, 7 to 10, 17 to 19, 19 to 29 and 72 to 98 ms,
-/// where the cycle makes 80 million disc-steps a second.
-double price_of_tries(const Scene& scene) {
-    const double ratio = scene.hanging_wall.radius_ratio;
-    const double smallest = dem::radius_range(scene.hanging_wall.mean_radius, ratio).smallest;
-    const double width = scene.hanging_wall.length + greatest_extension(scene);
-    return 20.0 * std::min(width / smallest, 16.0 * ratio) * (750.0 + 115.0 * ratio);
-}
-
-/// Looking for room, and laying down a heap whose columns are looked through for every disc.
+/// Tries that find no room at the end of every sedimentation, and laying down a heap whose columns
+/// are looked through for every disc. A try costs the more, the more small discs lie around a large
+/// one. All tries took at ratios of radii of 1.2, 1.66, 3, 5 and 10: 5 to 7, 7 to 10, 17 to 19, 19
+/// to 29 and 72 to 98 ms, where the cycle makes 80 million disc-steps a second.
 double price(const Scene& scene, const Workload& work) {
     constexpr double of_a_heaped_disc = 2e5;
-    return work.years / scene.find<P>()->interval * (price_of_tries(scene) + 40.0 * work.discs) +
+    const double tries = 4e5 + 6.5e4 * work.area_ratio;
+    return work.years / scene.find<P>()->interval * (tries + 40.0 * work.discs) +
            of_a_heaped_disc *
                static_cast<double>(dem::disc_count(scene.hanging_wall, area_above_surface(scene)));
 }
