@@ -50,7 +50,7 @@ TEST(EffectPrices, AreThoseOfTheEffectsWhateverTheParameters) {
             Scene scene;
             scene.effects.push_back({effect, effect->defaults()});
             const PriceTerms terms = changed_terms(*effect, price, scene, random);
-            dem::HangingWallParameters& wall = scene.hanging_wall; // no factor of its own
+            dem::HangingWallParameters& wall = scene.hanging_wall; // counts by the workload alone
             wall.length *= 1.0 + share(random);
             wall.mean_radius *= 1.0 + share(random);
             wall.radius_ratio *= 1.0 + share(random);

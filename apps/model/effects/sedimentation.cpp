@@ -93,9 +93,9 @@ double new_area(const Scene& scene) {
 }
 
 /// Tries that find no room at the end of every sedimentation, and laying down a heap whose columns
-/// are looked through for every disc. A try costs the more, the more small discs lie around a large
-/// one. All tries took at ratios of radii of 1.2, 1.66, 3, 5 and 10: 5 to 7, 7 to 10, 17 to 19, 19
-/// to 29 and 72 to 98 ms, where the cycle makes 80 million disc-steps a second.
+/// are looked through for every disc. The tries of one sedimentation were measured to take 5 to 7,
+/// 7 to 10, 17 to 19, 19 to 29 and 72 to 98 ms at ratios of radii of 1.2, 1.66, 3, 5 and 10, where
+/// the cycle makes 80 million disc-steps a second.
 double price(const Scene& scene, const Workload& work) {
     constexpr double of_a_heaped_disc = 2e5;
     const double tries = 4e5 + 6.5e4 * work.area_ratio;
