@@ -218,6 +218,8 @@ Json prices_json() {
             {"lists_shared_from", p.lists_shared_from},
             {"list_alone", p.list_alone},
             {"list_shared", p.list_shared},
+            {"lists_far_from", p.lists_far_from},
+            {"list_far", p.list_far},
             {"genesis", p.genesis},
             {"genesis_crossing", p.genesis_crossing},
             {"window", p.window},

@@ -206,8 +206,10 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     double serial = windows + price_of_effects(scene, work) + figures;
     if (start < run_prices.lists_shared_from)
         serial += run_prices.list_alone * p.disc_steps;
-    else
+    else if (start < run_prices.lists_far_from)
         shared += run_prices.list_shared * p.disc_steps;
+    else
+        shared += run_prices.list_far * p.disc_steps;
     p.work = shared + serial;
     p.seconds = shared / speed.team + serial / speed.one_thread;
     p.forecast = {.before = price_of_genesis(h, start) / speed.team,

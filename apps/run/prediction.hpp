@@ -33,16 +33,18 @@ struct Prediction {
 Prediction predict(const Scene& scene, const CycleSpeed& speed = {});
 
 /// Prices of a run's parts besides effects, disc-steps of the bare cycle, so that they follow the
-/// machine's speed. Measured on lis1, lis2 and rfr at draft and lis1 at standard.
+/// machine's speed. Measured on lis1, lis2 and rfr at draft and lis1 at standard; genesis and
+/// lists of many discs on lis1 up to sandbox (docs/record/2026-11/sandbox.md).
 struct RunPrices {
     /// Contacts of a moving packing are less regular than those of the lattice, and are listed anew
     /// more often.
     double cycle = 1.05;
     double lists_shared_from = 10000.0; ///< discs; one thread makes the lists of fewer
-    double list_alone = 0.15, list_shared = 0.07;
+    double lists_far_from = 200000.0;   ///< discs; the lists of as many are in no cache
+    double list_alone = 0.15, list_shared = 0.07, list_far = 0.31;
     /// A disc of the hanging wall that is made. Settling takes as many cycles as waves need to
     /// cross it: so many more per radius of its thickness.
-    double genesis = 24000.0, genesis_crossing = 24.0;
+    double genesis = 6000.0, genesis_crossing = 245.0;
     double window = 1e6, window_disc = 1300.0; ///< history and a snapshot
     double sample_interval = 2500.0;           ///< of how quasi-static the run is, a
     double sample_disc = 30.0;

@@ -28,6 +28,19 @@ TEST(Prediction, CountsTheWorkOfTheScenes) {
     }
 }
 
+// Times of runs by the speeds that `bench` measured beside them (docs/record/2026-11/sandbox.md). A
+// tenth is what two predictions in different minutes differ by.
+TEST(Prediction, ManyDiscsTakeAsLongAsTheyTook) {
+    SceneRequest request{.scene = "lis1",
+                         .set = {"extension.speed_m_per_s=3", "extension.ramp_s=800"}};
+    request.accuracy = "sandbox";
+    const CycleSpeed two_threads{.team = 138e6, .one_thread = 75e6};
+    const Prediction p = predict(load_scene(request), two_threads);
+    const double genesis = 680.0, all_else = 7139.0; // s
+    EXPECT_NEAR(p.seconds, genesis + all_else, 0.1 * (genesis + all_else));
+    EXPECT_NEAR(p.forecast.before, genesis, 0.15 * genesis);
+}
+
 TEST(Prediction, FollowsTheSpeedOfTheMachine) {
     const Scene scene = draft("lis1");
     const double seconds = predict(scene, one_thread).seconds;

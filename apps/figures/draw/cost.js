@@ -120,7 +120,7 @@ function predictCost(facts, schema, document) {
     years / p.sample_interval * p.sample_disc * discs;
   let serial = distance / interval * (p.window + p.window_disc * discs) + ofEffects + figures;
   if (start < p.lists_shared_from) serial += p.list_alone * steps;
-  else shared += p.list_shared * steps;
+  else shared += (start < p.lists_far_from ? p.list_shared : p.list_far) * steps;
   const speed = speedAt(facts.speeds, start, effects.some(name => facts.effects[name].accounts_energy));
   return {discs: start, discsAtEnd: end, timeStep, cycles, work: shared + serial,
     seconds: shared / speed.team + serial / speed.one_thread};
