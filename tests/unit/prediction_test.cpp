@@ -28,8 +28,8 @@ TEST(Prediction, CountsTheWorkOfTheScenes) {
     }
 }
 
-// Times of runs by the speeds that `bench` measured beside them (docs/record/2026-11/sandbox.md). A
-// tenth is what two predictions in different minutes differ by.
+// The run that the prices of many discs come from, at the speed that `bench` measured after it
+// (docs/record/2026-11/sandbox.md). A tenth is what two predictions in different minutes differ by.
 TEST(Prediction, ManyDiscsTakeAsLongAsTheyTook) {
     SceneRequest request{.scene = "lis1",
                          .set = {"extension.speed_m_per_s=3", "extension.ramp_s=800"}};
