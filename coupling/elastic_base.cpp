@@ -264,7 +264,7 @@ void ElasticBase::book(State& state, const DiscLoad& load) const {
 void ElasticBase::respond(State& state, const Clock& clock) {
     const auto start = SteadyClock::now();
     const double cycles = interval;
-    DiscLoad discs = take_disc_load(state, cycles, clock.extension);
+    DiscLoad discs = take_disc_load(state, cycles, clock.extension.m);
     book(state, discs);
     load_ = std::move(discs.forces);
     add_footwall_loads(state, load_);

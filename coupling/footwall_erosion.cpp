@@ -173,7 +173,7 @@ double FootwallErosion::cover(double x) const {
 
 bool FootwallErosion::apply(State& state, const RigidBase&) {
     const FootwallCover cover{memory.get<double>("eroded"), memory.get<double>("deposited")};
-    const TargetLine line = target_.at(state.clock.travel / schedule().extension_rate);
+    const TargetLine line = target_.at(state.clock.travel.m / schedule().extension_rate);
     std::vector<double> heights;
     for (double x : response_.x)
         heights.push_back(line.height(x));

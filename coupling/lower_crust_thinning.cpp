@@ -76,7 +76,7 @@ void LowerCrustThinning::begin(State& state) {
 double LowerCrustThinning::extension(const State& state) const {
     return memory.rows() > 0 && memory.has(applied_extension)
                ? memory.get<double>(applied_extension)[0]
-               : state.clock.extension; // an older version has begun the run
+               : state.clock.extension.m; // an older version has begun the run
 }
 
 std::vector<double> LowerCrustThinning::amounts(const State& state) const {
@@ -86,7 +86,7 @@ std::vector<double> LowerCrustThinning::amounts(const State& state) const {
 
 bool LowerCrustThinning::apply(State& state, const RigidBase&) {
     memory.resize(1);
-    memory.add<double>(applied_extension, "m", 0.0)[0] = state.clock.extension;
+    memory.add<double>(applied_extension, "m", 0.0)[0] = state.clock.extension.m;
     const std::vector<double> now = superpose(amounts(state), forces_);
     std::ranges::copy(now, footwall_load(state, name(), now.size()).begin());
     return false;

@@ -16,12 +16,12 @@
 
 namespace listric::dem {
 
-/// Geological time between applications, and the extension that it stands for.
+/// Geological time between applications, and the travel that it stands for.
 struct Schedule {
     double interval = 0.0;       ///< a
     double extension_rate = 0.0; ///< m/a
 
-    double spacing() const { return interval * extension_rate; } ///< m of extension
+    double spacing() const { return interval * extension_rate; } ///< m of travel
     double seconds() const;                                      ///< s of geological time
 };
 
@@ -31,7 +31,7 @@ inline constexpr Schedule never{std::numeric_limits<double>::infinity(), 1.0};
 /// worked on is then left as it is.
 using StepReport = std::function<void(const std::string& done)>;
 
-/// Order of events that are due at the same extension.
+/// Order of events that are due at the same travel.
 enum class Stage {
     sample,  ///< looks at what the cycles have left
     adjust,  ///< radii and densities follow load and depth
@@ -58,10 +58,10 @@ public:
     const Schedule& schedule() const { return schedule_; }
     Stage stage() const { return stage_; }
 
-    /// Extension at which it is to be applied next, m: ascending with `applied`, and of nothing
-    /// else that changes. Once in the schedule's spacing, unless an event says otherwise.
-    virtual double next_due() const {
-        return static_cast<double>(applied + 1) * schedule_.spacing();
+    /// When it is to be applied next: ascending with `applied`, and of nothing else that changes.
+    /// Once in the schedule's spacing, unless an event says otherwise.
+    virtual Travel next_due() const {
+        return Travel(static_cast<double>(applied + 1) * schedule_.spacing());
     }
 
     /// Adds the event's columns to a state in which extension has not begun.
@@ -94,7 +94,7 @@ public:
     virtual bool begins_any_time() const { return false; }
 };
 
-/// Events in the order in which they are applied at the same extension.
+/// Events in the order in which they are applied at the same travel.
 using Events = std::vector<std::unique_ptr<Event>>;
 
 /// Puts an event behind those of its stage and of the stages before.

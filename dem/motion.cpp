@@ -22,21 +22,21 @@ double lost_to_change(double distance) {
 
 } // namespace
 
-std::size_t Motion::stage(double travel) const {
+std::size_t Motion::stage(Travel travel) const {
     std::size_t k = 0;
     while (k + 1 < stages.size() && travel >= stages[k].end)
         ++k;
     return k;
 }
 
-MotionInstant Motion::staged_at(double time, double travel) const {
+MotionInstant Motion::staged_at(double time, Travel travel) const {
     const std::size_t k = stage(travel);
     const MotionStage& now = stages[k];
     double distance = std::numeric_limits<double>::infinity(); // from the next change
     if (k > 0)
-        distance = travel - now.start;
+        distance = (travel - now.start).m;
     if (k + 1 < stages.size())
-        distance = std::min(distance, now.end - travel);
+        distance = std::min(distance, (now.end - travel).m);
     double share = time < ramp ? time / ramp : 1.0;
     if (distance < change) // s = a t^2 / 2
         share *= std::sqrt(std::max(distance, crawl) / change);
@@ -45,12 +45,25 @@ MotionInstant Motion::staged_at(double time, double travel) const {
             now.detachment_friction};
 }
 
-double Motion::staged_position(double travel) const {
+Extension Motion::staged_position(Travel travel) const {
     const MotionStage& now = stages[stage(travel)];
-    return now.start_position + now.slope * (travel - now.start);
+    return now.start_position + Extension(now.slope * (travel - now.start).m);
 }
 
-bool Motion::shortens(double travel) const {
+Extension Motion::way(Travel from, Travel to) const {
+    if (stages.empty())
+        return position(to) - position(from);
+    Extension way;
+    for (std::size_t k = stage(from); k <= stage(to); ++k) {
+        const MotionStage& one = stages[k];
+        const Travel start = k == stage(from) ? from : one.start;
+        const Travel end = k == stage(to) ? to : one.end;
+        way = way + Extension(std::abs(one.slope) * (end - start).m);
+    }
+    return way;
+}
+
+bool Motion::shortens(Travel travel) const {
     if (stages.empty())
         return false;
     for (std::size_t k = stage(travel) + 1; k-- > 0;)
@@ -59,7 +72,7 @@ bool Motion::shortens(double travel) const {
     return false;
 }
 
-SurfaceWork Motion::surface_work(double from, double to) const {
+SurfaceWork Motion::surface_work(Travel from, Travel to) const {
     return stages.empty() ? SurfaceWork::both : stages[stage(0.5 * (from + to))].surface;
 }
 
@@ -70,31 +83,38 @@ double Motion::greatest_speed() const {
     return greatest;
 }
 
-double Motion::greatest_position(double travel) const {
-    double greatest = position(travel);
+double Motion::greatest_wall_speed() const {
+    double greatest = stages.empty() ? speed : 0.0;
+    for (const MotionStage& one : stages)
+        greatest = std::max(greatest, std::abs(one.slope) * one.speed);
+    return greatest;
+}
+
+Extension Motion::greatest_position(Travel travel) const {
+    Extension greatest = position(travel);
     for (const MotionStage& one : stages)
         if (one.end < travel)
             greatest = std::max(greatest, position(one.end));
     return greatest;
 }
 
-double Motion::time_at(double travel) const {
-    assert(speed > 0.0 && travel >= 0.0);
+double Motion::time_at(Travel travel) const {
+    assert(speed > 0.0 && travel.m >= 0.0);
     if (stages.empty()) {
         const double in_ramp = 0.5 * speed * ramp;
-        return travel < in_ramp ? std::sqrt(2.0 * travel * ramp / speed)
-                                : ramp + (travel - in_ramp) / speed;
+        return travel.m < in_ramp ? std::sqrt(2.0 * travel.m * ramp / speed)
+                                  : ramp + (travel.m - in_ramp) / speed;
     }
-    double time = std::min(0.5 * ramp, travel / stages.front().speed);
+    double time = std::min(0.5 * ramp, travel.m / stages.front().speed);
     for (std::size_t k = 0; k < stages.size(); ++k) {
         const MotionStage& one = stages[k];
         const bool is_last = k + 1 == stages.size();
         if (travel <= one.start && k > 0)
             break;
-        const double past = (is_last ? travel : std::min(travel, one.end)) - one.start;
+        const double past = ((is_last ? travel : std::min(travel, one.end)) - one.start).m;
         time += (past + (k > 0 ? lost_to_change(past) : 0.0)) / one.speed;
         if (!is_last)
-            time += (change - lost_to_change(std::max(0.0, one.end - travel))) / one.speed;
+            time += (change - lost_to_change(std::max(0.0, (one.end - travel).m))) / one.speed;
     }
     return time;
 }

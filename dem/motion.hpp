@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dem/clocks.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -12,12 +14,11 @@ enum class SurfaceWork { both, fill, erode, none };
 
 /// Part of a run in which base and right wall move steadily, or rest.
 struct MotionStage {
-    double start = 0.0;          ///< travel, m
-    double end = 0.0;            ///< travel, m
-    double start_position = 0.0; ///< of the wall, m
-    double slope = 1.0;     ///< of the wall's position over travel; 0: it rests, < 0: it returns
-    double speed = 0.0;     ///< of travel, m/s; that of the wall is slope * speed
-    bool base_moves = true; ///< the detachment's conveyor goes with the wall
+    Travel start, end;
+    Extension start_position; ///< of the wall
+    double slope = 1.0;       ///< of the wall's position over travel; 0: it rests, < 0: it returns
+    double speed = 0.0;       ///< of travel, m/s; that of the wall is slope * speed
+    bool base_moves = true;   ///< the detachment's conveyor goes with the wall
     std::optional<double> detachment_friction = {}; ///< in place of the surface's
     std::optional<double> sediment_friction = {};   ///< of sediment discs, in place of their own
     SurfaceWork surface = SurfaceWork::both;
@@ -45,7 +46,7 @@ struct Motion {
     double speed_at(double time) const { return time < ramp ? speed * (time / ramp) : speed; }
 
     /// @param time  model time, s
-    MotionInstant at(double time, double travel) const {
+    MotionInstant at(double time, Travel travel) const {
         if (!stages.empty())
             return staged_at(time, travel);
         const double now = speed_at(time);
@@ -53,37 +54,42 @@ struct Motion {
     }
 
     /// Displacement of the right wall since extension began, m.
-    double position(double travel) const {
-        return stages.empty() ? travel : staged_position(travel);
+    Extension position(Travel travel) const {
+        return stages.empty() ? Extension(travel.m) : staged_position(travel);
     }
 
-    /// Number of the stage that a travel, m, is in; 0 where there are none.
-    std::size_t stage(double travel) const;
+    /// Way of the right wall, back and forth, from one travel to a later one: a pause adds nothing.
+    Extension way(Travel from, Travel to) const;
+
+    /// Number of the stage that a travel is in; 0 where there are none.
+    std::size_t stage(Travel travel) const;
 
     /// Whether the wall returns, or did so before it came to rest.
-    bool shortens(double travel) const;
+    bool shortens(Travel travel) const;
 
-    /// Work at the surface for the travel from `from` to `to`, m: that of the stage which holds
-    /// their middle.
-    SurfaceWork surface_work(double from, double to) const;
+    /// Work at the surface between two travels: that of the stage which holds their middle.
+    SurfaceWork surface_work(Travel from, Travel to) const;
 
     /// Greatest speed of travel, m/s.
     double greatest_speed() const;
 
-    /// When it has come to a travel, m; s from rest. Where the speed passes zero between two stages
-    /// to some seconds.
-    double time_at(double travel) const;
+    /// Greatest speed of the right wall, m/s.
+    double greatest_wall_speed() const;
 
-    /// Greatest displacement of the right wall up to a travel, m.
-    double greatest_position(double travel) const;
+    /// When it has come to a travel, s from rest. Where the speed passes zero between two stages
+    /// to some seconds.
+    double time_at(Travel travel) const;
+
+    /// Greatest displacement of the right wall up to a travel.
+    Extension greatest_position(Travel travel) const;
 
     /// Travel on each side of a change of stages over which the speed falls to zero, and grows
     /// again with a constant acceleration, m.
     static constexpr double change = 20.0;
 
 private:
-    MotionInstant staged_at(double time, double travel) const;
-    double staged_position(double travel) const;
+    MotionInstant staged_at(double time, Travel travel) const;
+    Extension staged_position(Travel travel) const;
 };
 
 } // namespace listric::dem

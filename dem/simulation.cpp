@@ -75,20 +75,24 @@ void Simulation::resume(State state) {
     has_state_ = true;
 }
 
-bool Simulation::extend_to(double goal, const Execution& execution, const Report& report) {
+bool Simulation::extend_to(double travel_in_metres, const Execution& execution,
+                           const Report& report) {
     if (!has_state_)
         throw std::logic_error("Simulation::extend_to: there is no state; call begin() or resume() "
                                "before");
-    if (const double position = base_.motion.greatest_position(goal); position > end_ + tolerance())
+    const Travel goal(travel_in_metres);
+    if (const Extension position = base_.motion.greatest_position(goal);
+        position.m > end_.m + tolerance().m)
         throw std::invalid_argument("Simulation::extend_to: the extension would be " +
-                                    std::to_string(position) + " m, but the base is made for " +
-                                    std::to_string(end_) + " m; raise Model::distance");
+                                    std::to_string(position.m) + " m, but the base is made for " +
+                                    std::to_string(end_.m) + " m; raise Model::distance");
     assert(!execution.energy); // that is EnergyAccount's
     const Team team(execution.threads);
-    while (travel() < goal - tolerance()) {
-        const double stop = std::min(next_due(), goal);
+    while (!has_come_to(travel(), goal, tolerance())) {
+        const Travel stop = std::min(next_due(), goal);
         cycle_toward(stop, execution);
-        const bool goes_on = !report || report(*this), is_due = travel() >= stop - tolerance();
+        const bool goes_on = !report || report(*this),
+                   is_due = has_come_to(travel(), stop, tolerance());
         if (is_due || !goes_on)
             collect();
         if (is_due)
@@ -99,15 +103,15 @@ bool Simulation::extend_to(double goal, const Execution& execution, const Report
     return true;
 }
 
-double Simulation::next_due() const {
-    double due = std::numeric_limits<double>::infinity();
+Travel Simulation::next_due() const {
+    Travel due(std::numeric_limits<double>::infinity());
     for (const auto& event : events_)
         due = std::min(due, event->next_due());
     return due;
 }
 
-double Simulation::tolerance() const {
-    return 0.5 * base_.motion.greatest_speed() * state_.clock.time_step;
+Travel Simulation::tolerance() const {
+    return Travel(0.5 * base_.motion.greatest_speed() * state_.clock.time_step);
 }
 
 template <class Work> void Simulation::timed(const std::string& part, Work&& work) {
@@ -159,12 +163,13 @@ void Simulation::collect() {
         timed("cycle", [&] { collect_(state_); });
 }
 
-/// Makes a batch of cycles, at most up to the extension.
-void Simulation::cycle_toward(double goal, Execution execution) {
+/// Makes a batch of cycles, at most up to the goal.
+void Simulation::cycle_toward(Travel goal, Execution execution) {
     const double per_cycle = base_.motion.greatest_speed() * state_.clock.time_step;
     const auto discs = static_cast<double>(state_.discs.rows());
-    const auto batch = static_cast<std::int64_t>(std::clamp(
-        std::floor((goal - travel()) / per_cycle), 1.0, greatest_batch(discs, execution.threads)));
+    const auto batch =
+        static_cast<std::int64_t>(std::clamp(std::floor((goal - travel()).m / per_cycle), 1.0,
+                                             greatest_batch(discs, execution.threads)));
     EnergyFlows flows;
     if (energy_) {
         flows = energy_->flows();

@@ -62,8 +62,8 @@ public:
     }
     void respond_by(BaseResponse& response);
 
-    /// Greatest extension that the base is made for, m: extend_to() refuses to go beyond it.
-    void end_at(double extension) { end_ = extension; }
+    /// Greatest extension that the base is made for: extend_to() refuses to go beyond it.
+    void end_at(Extension extension) { end_ = extension; }
 
     /// Told how long, s of wall time, a part of the work has taken: "cycle", "rebuild" (of the
     /// neighbour lists), or the event of that name.
@@ -90,10 +90,10 @@ public:
     /// events throw, and std::invalid_argument beyond end_at().
     bool extend_to(double travel, const Execution& execution = {}, const Report& report = {});
 
-    double travel() const { return state_.clock.travel; }       ///< m
-    double extension() const { return state_.clock.extension; } ///< m
-    double next_due() const;  ///< travel at which the next event is due, m
-    double tolerance() const; ///< half a cycle's travel, m
+    Travel travel() const { return state_.clock.travel; }
+    Extension extension() const { return state_.clock.extension; }
+    Travel next_due() const;  ///< of the next event
+    Travel tolerance() const; ///< half a cycle
 
     const State& state() const { return state_; }
     /// For what is no event, before the next cycles: keep contacts up to date.
@@ -126,7 +126,7 @@ private:
     void apply_due_events();
     void search_contacts();
     void touch();
-    void cycle_toward(double extension, Execution execution);
+    void cycle_toward(Travel goal, Execution execution);
     void collect();
 
     RigidBase base_;
@@ -140,7 +140,7 @@ private:
     bool is_untouched_ = false; ///< whether the state is as the last cycles left it
     TimeReport time_report_;
     double disc_steps_ = 0.0;
-    double end_ = std::numeric_limits<double>::infinity(); ///< m of extension
+    Extension end_{std::numeric_limits<double>::infinity()};
     bool has_state_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 namespace listric::dem {
 
@@ -25,7 +26,7 @@ State empty_state() {
     discs.add<double>("mass", "kg", 0.0);
     discs.add<std::uint8_t>("material", "1", basement);
     discs.add<std::int32_t>("stratum", "1", 0);
-    for (const char* name : {"start_x", "start_y", "start_extension", "searched_x", "searched_y"})
+    for (const char* name : {"start_x", "start_y", "start_travel", "searched_x", "searched_y"})
         discs.add<double>(name, "m", 0.0);
 
     Table& contacts = state.contacts;
@@ -62,7 +63,7 @@ template <class Columns, class AnyTable> Columns discs_of(AnyTable& t) {
             entry("stratum", std::int32_t()),
             entry("start_x", double()),
             entry("start_y", double()),
-            entry("start_extension", double()),
+            entry("start_travel", double()),
             number("searched_x"),
             number("searched_y")};
 }
@@ -230,10 +231,15 @@ void mix(std::uint64_t& h, std::int64_t value) { mix(h, static_cast<std::uint64_
 void mix(std::uint64_t& h, std::int32_t value) { mix(h, static_cast<std::int64_t>(value)); }
 void mix(std::uint64_t& h, std::uint8_t value) { mix(h, static_cast<std::uint64_t>(value)); }
 
+/// Recorded hashes keep the name that a column had before.
+std::string_view hashed_name(std::string_view name) {
+    return name == "start_travel" ? "start_extension" : name;
+}
+
 void mix(std::uint64_t& h, const Table& table) {
     mix(h, static_cast<std::uint64_t>(table.rows()));
     for (const Column& column : table.columns()) {
-        for (char letter : column.name)
+        for (char letter : hashed_name(column.name))
             mix(h, static_cast<std::uint8_t>(letter));
         std::visit(
             [&](const auto& values) {
@@ -285,7 +291,7 @@ std::uint64_t hash(const State& state) {
     }
     mix(h, state.clock.cycle);
     for (double value :
-         {state.clock.time_step, state.clock.travel, state.ledger.initial, state.ledger.deposited,
+         {state.clock.time_step, state.clock.travel.m, state.ledger.initial, state.ledger.deposited,
           state.ledger.removed, state.mean_radius, state.inertial_mass_floor, state.skin,
           state.searched_extension, state.displacement_bound, state.window_speed})
         mix(h, value);

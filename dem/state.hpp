@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/clocks.hpp"
 #include "dem/column.hpp"
 #include "dem/material.hpp"
 
@@ -13,13 +14,12 @@
 
 namespace listric::dem {
 
-/// Where the simulation is. Geological time is extension over extension rate.
+/// Where the simulation is. Geological time is travel over the rate of extension.
 struct Clock {
     std::int64_t cycle = 0; ///< cycles since extension began
     double time_step = 0.0; ///< s
-    double travel = 0.0;    ///< way of base and right wall back and forth, and in pauses: the clock
-                            ///< of all events, see Motion, m
-    double extension = 0.0; ///< displacement of the right wall: Motion::position(travel), m
+    Travel travel;          ///< the clock of all events, see Motion
+    Extension extension;    ///< Motion::position(travel)
 
     double time() const { return static_cast<double>(cycle) * time_step; } ///< s
 };
@@ -70,7 +70,7 @@ template <bool writable> struct BasicDiscColumns {
     Values<std::uint8_t> material;         ///< MaterialIndex
     Values<std::int32_t> stratum;          ///< 0 before the rift, n for the n-th sedimentation (1)
     Values<double> start_x, start_y;       ///< where the disc entered the model, m (1)
-    Values<double> start_extension;        ///< and when, m of travel (1)
+    Values<double> start_travel;           ///< and when, m of travel (1)
     Values<double> searched_x, searched_y; ///< where the last neighbour search found it, m
 };
 

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
             else if (strain[i] > 0.1)
                 sheared += area;
         }
-        std::printf("%11.0f %13.1f %12.1f\n", state.clock.extension, sediment / 1e6, sheared / 1e6);
+        std::printf("%11.0f %13.1f %12.1f\n", state.clock.extension.m, sediment / 1e6,
+                    sheared / 1e6);
     }
 }

@@ -55,13 +55,14 @@ WellLines begin_well(const WellPlace& place, const Observation& drilled, double 
     WellLines well{place, rock_of_well(setting, drilled.state, grain_density, place.x), {}};
     for (const auto& [number, stratum] : well.rock)
         well.lines[number].values = {place.name, static_cast<double>(number),
-                                     stratum.deposited_at / setting.extension_rate,
+                                     stratum.deposited_at.m / setting.extension_rate,
                                      to_millimetre(drilled.state, stratum.deposited_thickness),
                                      setting.sediment->surface_porosity};
     return well;
 }
 
-void add_moment(WellLines& well, const Observation& now, double drilled_at, double grain_density) {
+void add_moment(WellLines& well, const Observation& now, dem::Travel drilled_at,
+                double grain_density) {
     const Setting setting = make_setting(now.scene, now.parts);
     const dem::Clock& clock = now.state.clock;
     for (const BuriedStratum& b :
@@ -71,8 +72,9 @@ void add_moment(WellLines& well, const Observation& now, double drilled_at, doub
         line.points.push_back({metres(b.x), -metres(b.top)});
         line.at_points.insert(line.at_points.end(),
                               {metres(b.base), metres(b.top - b.ground), metres(b.base - b.top),
-                               b.porosity, clock.extension, clock.travel / setting.extension_rate,
-                               (drilled_at - clock.travel) / setting.extension_rate});
+                               b.porosity, clock.extension.m,
+                               clock.travel.m / setting.extension_rate,
+                               (drilled_at - clock.travel).m / setting.extension_rate});
     }
 }
 
@@ -101,7 +103,7 @@ LineTable burial_table(const RunFolder& run, const std::filesystem::path& drille
         return table;
     const double grain_density = run.parts.sediment->grain_density;
     std::vector<WellLines> all;
-    double drilled_at = 0.0;
+    dem::Travel drilled_at;
     {
         const Moment moment = run.read(drilled);
         const Observation now{run.scene, run.parts, moment.state, moment.events};

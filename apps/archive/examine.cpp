@@ -45,12 +45,18 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
             std::abs(snapshot_extension(path) - extension) <= run.scene.output.interval)
             wanted[path].push_back(extension);
     std::vector<std::pair<double, NamedNumbers>> found;
-    std::vector<Past> past;
-    std::vector<DiscPlaces> places;
+    std::vector<Past> moments;
+    std::vector<Travel> times;
     for (const fs::path& path : run.snapshots) {
         const Moment moment = run.read(path);
         const State& now = moment.state;
         if (wanted.contains(path)) {
+            std::vector<Past> past;
+            std::vector<DiscPlaces> places;
+            for (const std::size_t k : whole_windows(times, now.clock.travel, setting)) {
+                past.push_back(moments[k]);
+                places.push_back(moments[k].places);
+            }
             const Measures measures = measure(setting, now, base, moment.events);
             const FaultReport faults = measures::report_faults(setting, base, now, places);
             NamedNumbers numbers = history_row(now, measures);
@@ -61,10 +67,8 @@ std::vector<std::pair<double, NamedNumbers>> examine_run(const fs::path& output,
             for (const double extension : wanted[path])
                 found.emplace_back(extension, numbers);
         }
-        if (!past.empty() && !setting.is_window(past.back().places.extension, now.clock.travel))
-            continue;
-        past.push_back(remember(setting, base, now, past));
-        places.push_back(past.back().places);
+        moments.push_back(remember(setting, base, now, moments));
+        times.push_back(now.clock.travel);
     }
     return found;
 }

@@ -145,7 +145,7 @@ LineTable reference_surfaces_table(const ExportedMoment& at) {
     add("original surface", {{0.0, 0.0}, {right, 0.0}});
     if (setting.sediment) {
         const TargetLine target =
-            setting.sediment->target.at(state.clock.travel / setting.extension_rate);
+            setting.sediment->target.at(state.clock.travel.m / setting.extension_rate);
         Polyline points{{0.0, target.height(0.0)}};
         for (const Point p : target.points())
             if (p.x > 0.0 && p.x < right)
@@ -234,8 +234,8 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
     std::vector<double> start_depth, start_extension;
     for (const double y : d.start_y)
         start_depth.push_back(-y);
-    for (const double travel : d.start_extension)
-        start_extension.push_back(motion.position(travel));
+    for (const double travel : d.start_travel)
+        start_extension.push_back(motion.position(Travel(travel)).m);
     std::vector<DiscColumn> columns{
         {"id", numbers(d.id)},
         {"radius_m", numbers(d.radius)},
@@ -252,7 +252,7 @@ std::vector<DiscColumn> exported_columns(const ExportedMoment& at) {
         {"stress_xy_pa", component(&Stress::xy)},
     };
     if (!motion.stages.empty())
-        columns.push_back({"start_travel_m", numbers(d.start_extension)});
+        columns.push_back({"start_travel_m", numbers(d.start_travel)});
     if (state.discs.has("layer"))
         columns.push_back({"layer", numbers(state.discs.get<std::uint8_t>("layer"))});
     for (const char* name :

@@ -78,14 +78,14 @@ constexpr FaultField fields[] = {
      "extension at which the fault formed. A fault counts as active in a window if at least half "
      "of its length slips in its present sense; it must be active in two thirds of all windows "
      "after birth",
-     of<&Fault::born_at>, 9, "born at", true, true},
+     [](P p) -> Json { return p.fault().born_at.m; }, 9, "born at", true, true},
     {field_dip_at_birth, "deg",
      "dip of the fault when it formed: dip of the line traced at its place in the window of its "
      "birth, or in the first window after it that has such a line. Discs of its footwall (6 "
      "diameters below the trace) mark its place",
      of<&Fault::dip_at_birth>, 10, "dip at birth", true, true},
     {"traced_since_m", "m", "extension at the end of the window of `dip_at_birth_deg`",
-     of<&Fault::traced_since>, 11, "", true, true},
+     [](P p) -> Json { return p.fault().traced_since.m; }, 11, "", true, true},
     {"footwall_turn_deg", "deg",
      "rotation of the footwall discs as one block since `traced_since_m`, positive toward the "
      "detachment",

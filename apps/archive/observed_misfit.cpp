@@ -64,7 +64,7 @@ void compare(ObservedHorizon& row, std::span<const Point> points, const Horizon&
 std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const State& state,
                                               const std::vector<Horizon>& horizons) {
     const double end = scene.extension.distance / scene.extension.rate;
-    const double now = state.clock.travel / scene.extension.rate;
+    const double now = state.clock.travel.m / scene.extension.rate;
     const double slack = slack_of_ages(scene, state, end);
     const double diameter = 2.0 * state.mean_radius;
     std::vector<ObservedHorizon> rows;

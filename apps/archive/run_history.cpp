@@ -8,6 +8,7 @@
 
 namespace listric::archive {
 
+using namespace dem;
 using namespace measures;
 
 RunHistory::RunHistory(std::span<const std::filesystem::path> snapshots, const std::string& scene) {
@@ -23,23 +24,40 @@ RunHistory::RunHistory(std::span<const std::filesystem::path> snapshots, const s
 }
 
 void RunHistory::add(DiscPlaces places) {
-    while (!moments_.empty() && moments_.back().extension >= places.extension)
+    while (!moments_.empty() && moments_.back().travel >= places.travel)
         moments_.pop_back();
     moments_.push_back(std::move(places));
 }
 
-std::vector<DiscPlaces> RunHistory::before(double extension, const Setting& setting,
-                                           std::size_t most) const {
-    std::vector<DiscPlaces> found;
-    double next = extension;
-    for (auto moment = moments_.rbegin(); moment != moments_.rend() && found.size() < most;
-         ++moment) {
-        if (!setting.is_window(moment->extension, next))
-            continue;
-        next = moment->extension;
-        found.push_back(*moment);
+std::vector<std::size_t> whole_windows(std::span<const Travel> moments, Travel now,
+                                       const Setting& setting, std::size_t most) {
+    std::vector<std::size_t> found;
+    Travel next = now;
+    for (std::size_t k = moments.size(); k-- > 0 && found.size() < most;)
+        if (moments[k] < next && setting.is_window(moments[k], next)) {
+            next = moments[k];
+            found.push_back(k);
+        }
+    // What is left over at the start, in a stage that is slower than the others, goes to the first.
+    if (found.size() < most && !moments.empty() && moments.front() < next) {
+        if (!found.empty())
+            found.back() = 0;
+        else if (setting.motion.way(moments.front(), now).m > 0.0)
+            found.push_back(0);
     }
     std::ranges::reverse(found);
+    return found;
+}
+
+std::vector<DiscPlaces> RunHistory::before(Travel now, const Setting& setting,
+                                           std::size_t most) const {
+    std::vector<Travel> moments;
+    for (const DiscPlaces& places : moments_)
+        moments.push_back(places.travel);
+    std::vector<DiscPlaces> found;
+    for (const std::size_t k : whole_windows(moments, now, setting, most))
+        if (setting.is_window(moments[k], now))
+            found.push_back(moments_[k]);
     return found;
 }
 

@@ -13,6 +13,14 @@
 
 namespace listric::archive {
 
+/// Indices of those of some moments, ascending, that measures of `now` look back at: whole windows
+/// apart (Setting::is_window), counted back from there, so that the last window of a run that ends
+/// within one is not too short. The first moment is one of them if the wall has moved since.
+/// @param most  how many
+std::vector<std::size_t> whole_windows(std::span<const dem::Travel> moments, dem::Travel now,
+                                       const measures::Setting& setting,
+                                       std::size_t most = std::numeric_limits<std::size_t>::max());
+
 /// Where the discs were at the past moments of a run: what the faults' history needs of its
 /// snapshots, kept so that they are read once.
 class RunHistory {
@@ -31,15 +39,13 @@ public:
     /// Adds a moment, and forgets those that are not older: the run has gone back.
     void add(measures::DiscPlaces places);
 
-    /// The last moments before `extension`, m, oldest first. They are whole windows apart, counted
-    /// back from there, so that the last window of a run that ends within one is not too short.
-    /// @param most  how many
+    /// The whole_windows() before `now`, oldest first; none before the first is over.
     std::vector<measures::DiscPlaces>
-    before(double extension, const measures::Setting& setting,
+    before(dem::Travel now, const measures::Setting& setting,
            std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
 private:
-    std::vector<measures::DiscPlaces> moments_; ///< by extension
+    std::vector<measures::DiscPlaces> moments_; ///< by travel
 };
 
 } // namespace listric::archive

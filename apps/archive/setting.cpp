@@ -48,8 +48,9 @@ measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
     setting.gravity = parts.physics.gravity;
     setting.extension_rate = scene.extension.rate;
     setting.extension_speed = scene.extension.speed;
+    setting.motion = parts.base.motion;
     setting.output_interval = scene.output.interval;
-    setting.youngest_sediment = parts.youngest_sediment * scene.extension.rate;
+    setting.youngest_sediment = dem::Travel(parts.youngest_sediment * scene.extension.rate);
     setting.detection_circle = parts.detection_circle;
     if (const auto& s = parts.sediment)
         setting.sediment = {s->surface, s->surface_porosity, s->disc_density, s->porosity_decay};
@@ -68,7 +69,8 @@ fault_segments(std::span<const std::unique_ptr<dem::Event>> events) {
         const auto angle = found.get<double>("angle_rad"), slip = found.get<double>("slip_m"),
                    at = found.get<double>("found_at_m");
         for (std::size_t k = 0; k < at.size(); ++k)
-            segments.push_back({{x[k], y[k]}, angle[k] * 180.0 / dem::pi, slip[k], at[k]});
+            segments.push_back(
+                {{x[k], y[k]}, angle[k] * 180.0 / dem::pi, slip[k], dem::Travel(at[k])});
     }
     return segments;
 }

@@ -36,7 +36,7 @@ template <class AnyState, class Visit> void for_each_number(AnyState& s, Visit&&
     visit("seed", s.seed);
     visit("cycle", s.clock.cycle);
     visit("time_step", s.clock.time_step);
-    visit("extension", s.clock.extension);
+    visit("extension", s.clock.extension.m);
     visit("initial_mass", s.ledger.initial);
     visit("deposited_mass", s.ledger.deposited);
     visit("removed_mass", s.ledger.removed);
@@ -162,8 +162,8 @@ std::uint64_t content_hash(const Content& content) {
 
 void write_state(hid_t file, const State& state) {
     for_each_number(state, writes_numbers(file));
-    if (state.clock.travel != state.clock.extension) // the way and the place: stages of motion
-        write_number(file, "travel", state.clock.travel);
+    if (state.clock.travel.m != state.clock.extension.m) // the way and the place: stages of motion
+        write_number(file, "travel", state.clock.travel.m);
     for_each_table(state, [&](const char* name, const Table& table) {
         write_table(create_group(file, name), table);
     });
@@ -192,8 +192,8 @@ void write_state(hid_t file, const State& state) {
 State read_state(hid_t file) {
     State state;
     for_each_number(state, reads_numbers(file));
-    state.clock.travel =
-        H5Aexists(file, "travel") > 0 ? read_number<double>(file, "travel") : state.clock.extension;
+    state.clock.travel = Travel(H5Aexists(file, "travel") > 0 ? read_number<double>(file, "travel")
+                                                              : state.clock.extension.m);
     for_each_table(state, [&](const char* name, Table& table) { table = read_table(file, name); });
     if (H5Lexists(file, "base_nodes", H5P_DEFAULT) > 0) {
         state.base_nodes = read_table(file, "base_nodes");

@@ -149,7 +149,7 @@ std::span<const HeadField> head_fields() {
          "hash of every column and number of the state; equal for equal runs, whatever the threads",
          [](C c) -> Json { return fmt::format("{:016x}", c.state_hash); }},
         {"extension_m", "m", "displacement of base and right wall",
-         [](C c) -> Json { return c.state.clock.extension; }},
+         [](C c) -> Json { return c.state.clock.extension.m; }},
         {"cycle", "1", "cycles so far (`history.csv`)"},
         {"provenance", "",
          "`version`, `commit`, `compiler` and `instruction_set` (see also `cycle_level`) of the "
@@ -165,7 +165,7 @@ std::span<const HeadField> head_fields() {
 
 NamedNumbers history_row(const State& state, const Measures& m) {
     NamedNumbers row = {
-        {"extension_m", state.clock.extension},
+        {"extension_m", state.clock.extension.m},
         {"cycle", static_cast<double>(state.clock.cycle)},
         {"discs", static_cast<double>(state.discs.rows())},
     };

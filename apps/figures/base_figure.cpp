@@ -46,10 +46,10 @@ void write_table(const RunFolder& run, const char* name, const std::string& head
 /// First columns of a row.
 std::string moment_columns(const RunFolder& run, const State& state) {
     const int decimals = decimals_for(run.scene.output.interval);
-    const std::string extension = fmt::format("{:.{}f},", state.clock.extension, decimals);
+    const std::string extension = fmt::format("{:.{}f},", state.clock.extension.m, decimals);
     return run.parts.base.motion.stages.empty()
                ? extension
-               : fmt::format("{:.{}f},{}", state.clock.travel, decimals, extension);
+               : fmt::format("{:.{}f},{}", state.clock.travel.m, decimals, extension);
 }
 
 /// Beyond this x the picture ends, m, left of the breakaway and right of the wall.

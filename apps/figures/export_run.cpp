@@ -97,7 +97,7 @@ void Trajectory::add(const ExportedMoment& at) {
             bonded.insert(bonded.end(), {c.first[k], c.second[k]});
     write_npy<std::int32_t>(folder / "bonded.npy", bonded, 2);
     write_npy<double>(folder / "moment.npy",
-                      std::vector{static_cast<double>(state.clock.cycle), state.clock.extension});
+                      std::vector{static_cast<double>(state.clock.cycle), state.clock.extension.m});
 }
 
 void Trajectory::write(const fs::path& file) const {

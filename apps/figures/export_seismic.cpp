@@ -28,9 +28,9 @@ std::vector<std::string> words_of(const archive::ExportedMoment& at,
         fmt::format("SCENE {}, SEED {}, {} DISCS", at.now.scene.name, at.now.scene.seed,
                     at.now.state.discs.rows()),
         at.now.parts.base.motion.stages.empty()
-            ? fmt::format("EXTENSION {:.2f} M", at.now.state.clock.travel)
+            ? fmt::format("EXTENSION {:.2f} M", at.now.state.clock.travel.m)
             : fmt::format("EXTENSION {:.2f} M AFTER A WAY OF {:.2f} M",
-                          at.now.state.clock.extension, at.now.state.clock.travel),
+                          at.now.state.clock.extension.m, at.now.state.clock.travel.m),
         fmt::format("RICKER WAVELET, ZERO PHASE, {:g} HZ", o.frequency),
         o.in_depth
             ? fmt::format("SAMPLES BY DEPTH, {:g} M; HEADERS HAVE MILLIMETRES", o.sample_interval)

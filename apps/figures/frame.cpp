@@ -222,8 +222,8 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
     nlohmann::json frame = {
         {"scene", scene.name},
         {"title", scene.description},
-        {"extension_m", state.clock.extension},
-        {"time_a", state.clock.travel / scene.extension.rate},
+        {"extension_m", state.clock.extension.m},
+        {"time_a", state.clock.travel.m / scene.extension.rate},
         {"end_a", scene.extension.distance / scene.extension.rate},
         {"interval_a", scene.output.interval / scene.extension.rate},
         {"mean_radius_m", state.mean_radius},
@@ -241,21 +241,21 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
     std::map<int, double> laid_down; // strata by their numbers, if none is gone, a
     for (std::size_t i = 0; i < d.stratum.size(); ++i)
         if (d.stratum[i] > 0)
-            laid_down[d.stratum[i]] = d.start_extension[i] / scene.extension.rate;
+            laid_down[d.stratum[i]] = d.start_travel[i] / scene.extension.rate;
     if (!laid_down.empty() && laid_down.rbegin()->first == static_cast<int>(laid_down.size()))
         for (const auto& [stratum, age] : laid_down)
             frame["strata_a"].push_back(age);
     for (const LayerFacts& layer : now.parts.layers)
         frame["rock_layers"].push_back(layer.name);
     if (!now.parts.base.motion.stages.empty())
-        frame["way_m"] = state.clock.travel;
+        frame["way_m"] = state.clock.travel.m;
     if (now.parts.sediment)
         frame["level_m"] =
-            now.parts.sediment->surface.at(state.clock.travel / scene.extension.rate).height(0.0);
+            now.parts.sediment->surface.at(state.clock.travel.m / scene.extension.rate).height(0.0);
     // The stage behind it counts: the next one begins where a snapshot is of the end of one.
-    const double travel = state.clock.travel;
+    const Travel travel = state.clock.travel;
     frame["surface_rests"] =
-        now.parts.base.motion.surface_work(travel - 1.0, travel) == SurfaceWork::none;
+        now.parts.base.motion.surface_work(travel - Travel(1.0), travel) == SurfaceWork::none;
     return frame;
 }
 
@@ -304,7 +304,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     }
     if (const auto& sediment = now.parts.sediment) {
         const TargetLine line =
-            sediment->surface.at(now.state.clock.travel / now.scene.extension.rate);
+            sediment->surface.at(now.state.clock.travel.m / now.scene.extension.rate);
         if (line.points().size() > 1)
             writer.points("target_line", line.points());
     }
@@ -321,12 +321,12 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
         write_tops(writer, now);
         frame["said"] = said_in_figures(now);
     }
-    const double extension = now.state.clock.travel;
-    frame["extension_km"] = names.value_or(MomentNames(now.scene.output.interval, {&extension, 1}))
-                                .kilometres(extension);
+    const double travel = now.state.clock.travel.m;
+    frame["extension_km"] =
+        names.value_or(MomentNames(now.scene.output.interval, {&travel, 1})).kilometres(travel);
     // Picks are of the section as it is at the end of extension.
     const bool observed =
-        now.scene.observed && now.state.clock.travel >= 0.999 * now.scene.extension.distance;
+        now.scene.observed && now.state.clock.travel.m >= 0.999 * now.scene.extension.distance;
     std::vector<Horizon> horizons;
     if (observed || underlay)
         horizons = trace_horizons(archive::make_setting(now.scene, now.parts), now.parts.base,

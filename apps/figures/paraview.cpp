@@ -119,8 +119,8 @@ std::string discs_file(const State& state, const RigidBase& base) {
     PolyData file(n, n, 0);
     file.array(file.points, "Points", points(d), 3);
     if (!base.motion.stages.empty()) {
-        file.number("extension_m", state.clock.extension);
-        file.number(travel_column, state.clock.travel);
+        file.number("extension_m", state.clock.extension.m);
+        file.number(travel_column, state.clock.travel.m);
     }
     std::vector<std::int64_t> connectivity(n);
     for (std::size_t i = 0; i < n; ++i)
@@ -212,8 +212,8 @@ std::string base_file(const State& state, const RigidBase& given) {
         for (std::int64_t k = 0; k <= steps; ++k) {
             Point p = point_at(surface.chain,
                                length * static_cast<double>(k) / static_cast<double>(steps));
-            p.x += surface.translation.x * state.clock.extension;
-            p.y += surface.translation.y * state.clock.extension;
+            p.x += surface.translation.x * state.clock.extension.m;
+            p.y += surface.translation.y * state.clock.extension.m;
             if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y)
                 continue;
             connectivity.push_back(static_cast<std::int64_t>(connectivity.size()));
@@ -278,11 +278,11 @@ void write_paraview(const fs::path& output, const State& state, const RigidBase&
     const fs::path folder = output / "paraview";
     std::error_code error;
     fs::create_directories(folder, error);
-    const std::string moment = names.metres(state.clock.travel) + "m.vtp";
+    const std::string moment = names.metres(state.clock.travel.m) + "m.vtp";
     write_text(folder / ("discs-" + moment), discs_file(state, base));
     write_text(folder / ("contacts-" + moment), contacts_file(state));
     write_text(folder / ("base-" + moment), base_file(state, base));
-    write_series(output, names, state.clock.travel, extension_rate);
+    write_series(output, names, state.clock.travel.m, extension_rate);
     copy_view(output);
 }
 

@@ -11,7 +11,7 @@ std::optional<PredictedTops> predict_tops(const Observation& now, const Measures
         return std::nullopt;
     const double angle = *measures.inclined_shear_angle;
     const dem::Chain& detachment = now.parts.base.surfaces.front().chain;
-    const double extension = now.state.clock.extension, right = now.right_end();
+    const double extension = now.state.clock.extension.m, right = now.right_end();
     return PredictedTops{angle, inclined_shear_top(detachment, extension, angle, right),
                          normals_top(detachment, extension, right)};
 }

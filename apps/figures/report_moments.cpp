@@ -65,7 +65,7 @@ std::map<std::string, Scale> scales(double mean_radius) {
             {"radius_m", {mean_radius / 1024.0}},
             {"start_x_m", length},
             {"start_depth_m", length},
-            {"start_extension_m", {1.0 / fineness(mean_radius)}},
+            {"start_travel_m", {1.0 / fineness(mean_radius)}},
             {"window_strain", strain},
             {"total_strain", strain},
             {"mean_stress_pa", stress},
@@ -341,7 +341,7 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
     add("stratum", [d](std::size_t i) { return d.stratum[i]; });
     add("start_x_m", [d](std::size_t i) { return d.start_x[i]; });
     add("start_depth_m", [d](std::size_t i) { return -d.start_y[i]; });
-    add("start_extension_m", [d](std::size_t i) { return d.start_extension[i]; });
+    add("start_travel_m", [d](std::size_t i) { return d.start_travel[i]; });
     add("rock", [rock](std::size_t i) { return rock[i]; });
     ends["displacement_m"] = scale_end(by_disc(
         [d](std::size_t i) { return hypotenuse(d.x[i] - d.start_x[i], d.y[i] - d.start_y[i]); }));
@@ -381,23 +381,23 @@ std::vector<ReportMoments::Stream> ReportMoments::streams(const Observation& now
 
 void ReportMoments::add(const Observation& now, const SectionLines& lines) {
     const Clock& clock = now.state.clock;
-    if (extension_ != clock.travel) {
+    if (at_ != clock.travel) {
         std::map<std::string, double> ends;
         const std::vector<Stream> to_pack = streams(now, ends);
         std::vector<std::string> packed(to_pack.size());
         for_each_shared(to_pack.size(), [&](std::size_t k) { packed[k] = to_pack[k](); });
         const std::string travel = now.parts.base.motion.stages.empty()
                                        ? ""
-                                       : fmt::format("\"{}\":{},", travel_column, clock.travel);
+                                       : fmt::format("\"{}\":{},", travel_column, clock.travel.m);
         moments_.push_back(
             {fmt::format("\"extension_m\":{},{}\"time_a\":{},\"discs\":{},"
                          "\"ends\":{},\"streams\":{{{}}}",
-                         travel.empty() ? clock.travel : clock.extension, travel,
-                         clock.travel / now.scene.extension.rate, now.state.discs.rows(),
-                         to_text(nlohmann::json(ends)), fmt::join(packed, ",")),
+                         clock.extension.m, travel, clock.travel.m / now.scene.extension.rate,
+                         now.state.discs.rows(), to_text(nlohmann::json(ends)),
+                         fmt::join(packed, ",")),
              ""});
     }
-    extension_ = clock.travel;
+    at_ = clock.travel;
     moments_.back().lines = lines.packed;
     followed_ = lines.followed;
 }

@@ -28,8 +28,7 @@ struct SectionLines {
     bool followed = false; ///< faults back to their birth
 };
 
-/// By extension, m.
-using LinesOfMoments = std::map<double, SectionLines>;
+using LinesOfMoments = std::map<dem::Travel, SectionLines>;
 
 /// Faults, horizons, surfaces, the base, predictions and what effects draw.
 /// @param followed  whether the faults are followed back to their birth; then horizons, which
@@ -44,16 +43,16 @@ class ReportMoments {
 public:
     explicit ReportMoments(const ReportDetail& detail = {}) : detail_(detail) {}
 
-    /// Adds the discs of a moment and the lines of its section. The extension that was added last
+    /// Adds the discs of a moment and the lines of its section. The moment that was added last
     /// may come again, with other lines.
     void add(const Observation& now, const SectionLines& lines);
 
     /// About how many bytes json() has.
     std::size_t bytes() const;
 
-    /// Whether the last moment is at that extension, m, and as much of it is there.
-    bool has(double extension, bool followed) const {
-        return extension_ == extension && followed_ >= followed;
+    /// Whether the last moment is that one, and as much of it is there.
+    bool has(dem::Travel moment, bool followed) const {
+        return at_ == moment && followed_ >= followed;
     }
 
     /// A JSON array of all moments.
@@ -69,8 +68,8 @@ private:
     std::string bonds(const dem::State& state);
 
     ReportDetail detail_;
-    std::optional<double> extension_; ///< of the last moment, m
-    bool followed_ = false;           ///< whether its faults are
+    std::optional<dem::Travel> at_; ///< the last moment
+    bool followed_ = false;         ///< whether its faults are
     std::vector<Text> moments_;
     std::map<std::string, std::vector<std::int32_t>> before_; ///< codes of the last moment
     std::vector<std::int64_t> bonded_; ///< pairs of ids that were bonded then, as one number each

@@ -58,10 +58,10 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
             continue;
         frames.push_back({{"scene", run.scene.name},
                           {"extension_km", run.names.kilometres(snapshot_extension(path))},
-                          {"extension_m", moment.state.clock.extension},
+                          {"extension_m", moment.state.clock.extension.m},
                           {"wells", list}});
         if (!run.parts.base.motion.stages.empty())
-            frames.back()["way_m"] = moment.state.clock.travel;
+            frames.back()["way_m"] = moment.state.clock.travel.m;
     }
     if (frames.empty())
         return false;

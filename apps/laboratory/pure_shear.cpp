@@ -95,7 +95,7 @@ std::vector<SlabFault> trace_births(const std::vector<DiscPlaces>& states, const
     std::vector<SlabFault> born;
     std::vector<FaultTrace> known;
     for (std::size_t k = 0; k + 1 < states.size(); ++k) {
-        const ShearField field = shear_field(states[k], states[k + 1], 0.0);
+        const ShearField field = shear_field(states[k], states[k + 1], {});
         const double reach = 5.0 * field.diameter;
         const std::size_t older = known.size();
         for (FaultTrace& trace : trace_faults(field, base, options)) {
@@ -111,7 +111,7 @@ std::vector<SlabFault> trace_births(const std::vector<DiscPlaces>& states, const
             const bool normal = (slip > 0.0) == falls_right;
             if (normal && 2 * followed < std::ssize(trace.points))
                 born.push_back(
-                    {dip_of(trace.points), trace.length(), falls_right, states[k + 1].extension});
+                    {dip_of(trace.points), trace.length(), falls_right, states[k + 1].extension.m});
             known.push_back(std::move(trace));
         }
     }

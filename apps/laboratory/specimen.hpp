@@ -32,7 +32,7 @@ public:
     /// Throws Interrupted if a stop is requested.
     void advance(std::int64_t cycles);
 
-    double time() const { return state.clock.travel; } ///< s
+    double time() const { return state.clock.travel.m; } ///< s
 
 private:
     double surface_travel_ = 0.0; ///< upper bound since the surfaces were searched, m

@@ -138,10 +138,11 @@ struct Edge {
     Polyline points;
 };
 
-/// @param extension  between the moments, m
+/// @param extension  between the moments
 std::optional<Edge> find_edge(const Block& block, const std::vector<Point>& before,
-                              const std::vector<Point>& after, double extension, double diameter) {
-    auto inside = followers(before, after, block.core, std::min(most_off, off * extension));
+                              const std::vector<Point>& after, Extension extension,
+                              double diameter) {
+    auto inside = followers(before, after, block.core, std::min(most_off, off * extension.m));
     if (!inside)
         return std::nullopt;
     Polyline points = block_edge(after, *inside, block.side, edge_layer(diameter), block.lowest);
@@ -226,10 +227,10 @@ std::string edge_name(const char* attitude, const KindOfEdge& kind, const Measur
 std::optional<std::size_t> half_way(const RunSoFar& run) {
     std::optional<std::size_t> nearest;
     const auto distance = [&](std::size_t k) {
-        return std::abs(run.past[k].places.extension - 0.5 * run.extension);
+        return std::abs((run.past[k].places.extension - 0.5 * run.extension).m);
     };
     for (std::size_t k = 0; k < run.past.size(); ++k)
-        if (run.past[k].places.extension > 0.0 && (!nearest || distance(k) < distance(*nearest)))
+        if (run.past[k].places.extension.m > 0.0 && (!nearest || distance(k) < distance(*nearest)))
             nearest = k;
     return nearest;
 }
@@ -239,7 +240,8 @@ NamedNumbers measure_translation(const RunSoFar& run, const Basement& rock, cons
                                  const Edge& edge) {
     const double flat = run.detachment.back().end.y;
     NamedNumbers numbers;
-    add(numbers, foot, edge_at(edge.points, flat) - run.extension - run.detachment.back().start.x);
+    add(numbers, foot,
+        edge_at(edge.points, flat) - run.extension.m - run.detachment.back().start.x);
     const double x = edge_at(edge.points, 0.5 * flat);
     add(numbers, place, x);
     if (const auto k = half_way(run)) {
@@ -247,7 +249,7 @@ NamedNumbers measure_translation(const RunSoFar& run, const Basement& rock, cons
         if (const auto former = find_edge(block, rock.start, places_then(run, rock, then),
                                           then.extension, run.diameter))
             add(numbers, shift,
-                (x - edge_at(former->points, 0.5 * flat)) / (run.extension - then.extension));
+                (x - edge_at(former->points, 0.5 * flat)) / (run.extension - then.extension).m);
     }
     return numbers;
 }
@@ -326,7 +328,7 @@ double edge_at(const Polyline& edge, double y) {
 
 NamedNumbers measure_block_edges(const RunSoFar& run, std::optional<double> rollover_tilt) {
     constexpr double least_tilt = 1.0; // degrees
-    if (run.past.empty() || !run.setting.has_detachment || !(run.extension > 0.0))
+    if (run.past.empty() || !run.setting.has_detachment || !(run.extension.m > 0.0))
         return {};
     const Basement rock = basement_of(run);
     const std::vector<Point> before = places_then(run, rock, run.past.back().places);

@@ -139,7 +139,7 @@ std::vector<std::size_t> lower_block(const State& state, const Chain& detachment
 }
 
 std::vector<std::size_t> head_block(const State& state, const Chain& detachment, double thickness) {
-    const double turns = turning_length(detachment), still = turns - state.clock.extension;
+    const double turns = turning_length(detachment), still = turns - state.clock.extension.m;
     const double depth = turns > 0.0 ? -point_at(detachment, turns).y : thickness;
     const Point down = detachment.front().start_tangent;
     const double least_dip = std::atan2(-down.y, down.x) / 3.0; // flatter, it hardly turns anything
@@ -160,7 +160,7 @@ std::optional<double> head_block_tilt(const State& state, const Chain& detachmen
 
 RampFlatRampRotations measure_ramp_flat_ramp(const State& state, const Chain& detachment,
                                              const RampFlatRamp& parts) {
-    const double extension = state.clock.extension, end = turning_ends(detachment);
+    const double extension = state.clock.extension.m, end = turning_ends(detachment);
     const auto breakaway = block_of(state, detachment, [](Point start, const auto&) {
         return hypotenuse(start.x, start.y) < block_size;
     });

@@ -104,7 +104,7 @@ WellRock rock_of_well(const Setting& setting, const State& state, double grain_d
             continue;
         WellStratum& stratum = rock[d.stratum[i]];
         stratum.ids.push_back(d.id[i]);
-        stratum.deposited_at = d.start_extension[i];
+        stratum.deposited_at = Travel(d.start_travel[i]);
         sums[d.stratum[i]].discs += 1.0;
         sums[d.stratum[i]].start_x += d.start_x[i];
     }

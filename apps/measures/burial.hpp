@@ -12,8 +12,8 @@ namespace listric::measures {
 
 /// Rock of one stratum that a well meets, and how much was laid down where that rock came from.
 struct WellStratum {
-    std::vector<std::int64_t> ids;    ///< of its discs, ascending
-    double deposited_at = 0.0;        ///< m of extension
+    std::vector<std::int64_t> ids; ///< of its discs, ascending
+    dem::Travel deposited_at;
     double deposited_thickness = 0.0; ///< m, with the porosity as deposited
 };
 

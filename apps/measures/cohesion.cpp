@@ -42,7 +42,7 @@ template <class Counts> Pairs count_touching(const State& state, Counts&& counts
 }
 
 bool is_old_sediment(const State& state, const ConstDiscColumns& d, std::size_t i, double age) {
-    return d.stratum[i] > 0 && state.clock.travel - d.start_extension[i] > age;
+    return d.stratum[i] > 0 && state.clock.travel.m - d.start_travel[i] > age;
 }
 
 std::optional<double> share(std::int64_t part, std::int64_t all) {

@@ -55,7 +55,7 @@ NamedNumbers measure_dilation(const RunSoFar& run) {
     const double grown = growth * all / closed;
     add(numbers, dilation, grown);
     if (!run.base.motion.shortens(run.now.clock.travel))
-        add(numbers, dilation_fraction, grown / (run.extension * run.setting.thickness));
+        add(numbers, dilation_fraction, grown / (run.extension.m * run.setting.thickness));
     return numbers;
 }
 

@@ -15,19 +15,20 @@ inline constexpr double least_main_dip = 30.0;
 /// An active fault with its history (docs/measures.md defines the numbers).
 struct Fault {
     FaultTrace trace;
-    double dip = 0.0;           ///< of the best straight line, degrees
-    bool normal = true;         ///< sense of slip in the last window; false: reverse
-    bool synthetic = true;      ///< dips the way the detachment does at the breakaway
-    double rate = 0.0;          ///< median slip rate along the trace, mm/a
-    double width = 0.0;         ///< median along the trace, mean disc diameters
-    double curvature = 0.0;     ///< 1/m, > 0: convex upward
-    double born_at = 0.0;       ///< extension since which its place has been active, m
-    double dip_at_birth = 0.0;  ///< of the line traced in the first window since, degrees
-    double traced_since = 0.0;  ///< end of that window, m of extension
-    dem::Point foot_at_birth;   ///< of that line, as foot, m
-    double footwall_turn = 0.0; ///< rotation of the footwall block since birth, degrees, > 0
-                                ///< counter-clockwise: toward the detachment
-    dem::Point foot;            ///< lower end, extended to the detachment if that is close, m
+    double dip = 0.0;            ///< of the best straight line, degrees
+    bool normal = true;          ///< sense of slip in the last window; false: reverse
+    bool synthetic = true;       ///< dips the way the detachment does at the breakaway
+    double rate = 0.0;           ///< median slip rate along the trace, mm/a
+    double width = 0.0;          ///< median along the trace, mean disc diameters
+    double curvature = 0.0;      ///< 1/m, > 0: convex upward
+    dem::Extension born_at;      ///< since which its place has been active
+    dem::Travel born_travel;     ///< and when that was
+    double dip_at_birth = 0.0;   ///< of the line traced in the first window since, degrees
+    dem::Extension traced_since; ///< end of that window
+    dem::Point foot_at_birth;    ///< of that line, as foot, m
+    double footwall_turn = 0.0;  ///< rotation of the footwall block since birth, degrees, > 0
+                                 ///< counter-clockwise: toward the detachment
+    dem::Point foot;             ///< lower end, extended to the detachment if that is close, m
     /// By stratum, 0: pre-rift top, m; > 0: normal. None of a fault whose birth is not known.
     std::map<int, double> throws;
     std::map<int, Cutoffs> cutoffs;       ///< by stratum, which the throws are of

@@ -182,10 +182,11 @@ public:
     /// @param older  earlier states, oldest first; window k ends at older[k + 1]
     /// @param unit   of lengths, m
     Windows(std::span<const DiscPlaces> older, const Chain& detachment, double unit,
-            double youngest_sediment)
+            const Setting& setting)
         : older_(older), detachment_(detachment) {
         for (std::size_t k = 0; k + 1 < older.size(); ++k) {
-            fields_.push_back(shear_field(older[k], older[k + 1], youngest_sediment));
+            fields_.push_back(
+                shear_field(older[k], older[k + 1], setting.youngest_sediment, setting.motion));
             coarsen(fields_.back(), unit);
             cells_.emplace_back(fields_.back().x, fields_.back().y, 1.5 * unit);
         }
@@ -233,7 +234,8 @@ Fault describe(const FaultTrace& trace, const State& now, const Chain& detachmen
     f.foot = foot_of(trace, detachment, unit);
     f.throw_error = diameter;
     f.pre_rift_throw = pre_rift_throw(now, trace.points);
-    f.born_at = f.traced_since = now.clock.travel;
+    f.born_at = f.traced_since = now.clock.extension;
+    f.born_travel = now.clock.travel;
     f.dip_at_birth = f.dip;
     f.foot_at_birth = f.foot;
     return f;
@@ -257,6 +259,7 @@ void trace_back(Fault& f, const std::vector<Companions>& footwall, Windows& wind
         lived.emplace_back(k, std::move(former));
         if (slid && 3.0 * active >= 2.0 * all) {
             f.born_at = windows.end(k).extension;
+            f.born_travel = windows.end(k).travel;
             f.footwall_turn = lived.back().second.turn * 180.0 / pi;
             since_birth = lived.size();
         }
@@ -296,7 +299,7 @@ void summarise(FaultReport& report, const Chain& detachment, double diameter) {
     report.main_synthetic = strongest(report.faults, true, half_depth);
     if (report.main_antithetic) {
         const Fault& f = report.faults[*report.main_antithetic];
-        report.antithetic_foot = f.foot_at_birth.x - (f.traced_since - f.born_at);
+        report.antithetic_foot = f.foot_at_birth.x - (f.traced_since - f.born_at).m;
     }
     std::vector<double> widths;
     for (const Fault& f : report.faults)
@@ -315,26 +318,27 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
     const Chain detachment = standing_base(base, now).surfaces.front().chain;
     const double diameter = 2.0 * now.mean_radius;
     const double unit = std::max(diameter, coarsest_unit * setting.thickness);
-    ShearField field = shear_field(older.back(), DiscPlaces(now), setting.youngest_sediment);
+    ShearField field =
+        shear_field(older.back(), DiscPlaces(now), setting.youngest_sediment, setting.motion);
+    const double years = (now.clock.travel - older.back().travel).m / setting.extension_rate;
     coarsen(field, unit);
     const std::vector<FaultTrace> traces = trace_faults(field, detachment);
     if (!traces.empty()) {
-        Windows windows(older, detachment, unit, setting.youngest_sediment);
+        Windows windows(older, detachment, unit, setting);
         const ConstDiscColumns d = disc_columns(now);
         const Cells cells(d.x, d.y, 3.0 * unit);
         report.faults.resize(traces.size());
         for_each_shared(traces.size(), [&](std::size_t k) {
-            report.faults[k] =
-                describe(traces[k], now, detachment, unit, field.window / setting.extension_rate);
+            report.faults[k] = describe(traces[k], now, detachment, unit, years);
         });
         for (Fault& fault : report.faults)
             trace_back(fault, footwall_of(fault.trace, now, cells, unit), windows, detachment,
                        unit);
         // Without earlier windows the birth is not known, and with it which strata are younger.
-        if (older.size() > 1 || older.front().extension <= 0.0)
+        if (older.size() > 1 || older.front().travel.m <= 0.0)
             for_each_shared(traces.size(), [&](std::size_t k) {
                 Fault& fault = report.faults[k];
-                fault.cutoffs = fault_cutoffs(now, fault.trace.points, fault.born_at);
+                fault.cutoffs = fault_cutoffs(now, fault.trace.points, fault.born_travel);
                 fault.throws = throws_of(fault.cutoffs);
             });
     }

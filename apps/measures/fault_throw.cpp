@@ -66,20 +66,20 @@ std::vector<BesideFault> discs_beside(const State& state, const Polyline& line, 
     return discs;
 }
 
-/// By stratum: extension at which it was laid down, m; the pre-rift top: before all.
+/// By stratum: travel at which it was laid down, m; the pre-rift top: before all.
 std::map<int, double> strata_of(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     std::map<int, double> strata{{0, -std::numeric_limits<double>::infinity()}};
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.stratum[i] > 0)
-            strata[d.stratum[i]] = d.start_extension[i];
+            strata[d.stratum[i]] = d.start_travel[i];
     return strata;
 }
 
 /// Leaves out what is older than a fault but the surface that it broke, the youngest such stratum.
-void leave_out_older(std::map<int, double>& strata, double born_at) {
+void leave_out_older(std::map<int, double>& strata, Travel born_at) {
     constexpr double tolerance = 1.0; // m: a window and a stratum may end in the same cycle
-    while (strata.size() > 1 && std::next(strata.begin())->second < born_at - tolerance)
+    while (strata.size() > 1 && std::next(strata.begin())->second < born_at.m - tolerance)
         strata.erase(strata.begin());
 }
 
@@ -249,7 +249,7 @@ std::vector<Layer> layers_beside(const State& state, const Cells& cells, const P
 
 } // namespace
 
-std::map<int, Cutoffs> fault_cutoffs(const State& state, const Polyline& trace, double born_at) {
+std::map<int, Cutoffs> fault_cutoffs(const State& state, const Polyline& trace, Travel born_at) {
     assert(trace.size() > 1);
     const double diameter = 2.0 * state.mean_radius;
     const Polyline line = extended_upward(trace, extended * diameter);
@@ -282,7 +282,7 @@ std::map<int, double> throws_of(const std::map<int, Cutoffs>& cutoffs) {
     return throws;
 }
 
-std::map<int, double> fault_throws(const State& state, const Polyline& trace, double born_at) {
+std::map<int, double> fault_throws(const State& state, const Polyline& trace, Travel born_at) {
     return throws_of(fault_cutoffs(state, trace, born_at));
 }
 

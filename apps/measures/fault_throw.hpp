@@ -18,8 +18,9 @@ namespace listric::measures {
 /// side, of the mean tilt of the stratum and the two next to it; their distance is the throw. A top
 /// lies between the discs below it and those above. The trace is extended upward by up to 15
 /// diameters along its upper end, since young sediment slips too little to be traced.
-/// @param born_at  extension at which the fault formed, m
-std::map<int, double> fault_throws(const dem::State& state, const Polyline& trace, double born_at);
+/// @param born_at  when the fault formed
+std::map<int, double> fault_throws(const dem::State& state, const Polyline& trace,
+                                   dem::Travel born_at);
 
 /// Where a stratum's top meets a fault, on both sides.
 struct Cutoffs {
@@ -33,7 +34,7 @@ struct Cutoffs {
 /// Cutoffs by which fault_throws() tells throws, also of strata that are too thin for one: between
 /// two in succession is the thickness of the upper stratum on both sides.
 std::map<int, Cutoffs> fault_cutoffs(const dem::State& state, const Polyline& trace,
-                                     double born_at);
+                                     dem::Travel born_at);
 
 /// Throws by stratum of those cutoffs that have one, m.
 std::map<int, double> throws_of(const std::map<int, Cutoffs>& cutoffs);

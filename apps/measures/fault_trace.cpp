@@ -163,9 +163,9 @@ void cut(const SurveyedLine& line, std::size_t fewest, std::vector<FaultTrace>& 
 std::vector<FaultTrace> trace_faults(const ShearField& field, const Chain& detachment,
                                      const FaultTraceOptions& options) {
     std::vector<FaultTrace> traces;
-    if (field.x.empty() || field.window <= 0.0)
+    if (field.x.empty() || field.window.m <= 0.0)
         return traces;
-    const double scale = field.window / strain_window;
+    const double scale = field.window.m / strain_window;
     const double least = options.least_strain * scale, certain = options.certain_strain * scale;
     const std::vector<Polyline> ridges =
         find_ridges(field, {least, certain, options.least_length * field.diameter,

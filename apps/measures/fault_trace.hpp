@@ -30,9 +30,9 @@ struct FaultTraceOptions {
     double least_contrast = 3.5;
     double profile_reach = 20.0; ///< of the shear profile to either side, mean diameters
 
-    /// least_strain of a window of that many m of extension.
-    double least_strain_in(double window) const {
-        return least_strain * window / dem::strain_window;
+    /// least_strain of a window of that much extension.
+    double least_strain_in(dem::Extension window) const {
+        return least_strain * window.m / dem::strain_window;
     }
 };
 

@@ -33,7 +33,7 @@ NamedNumbers measure_order(std::span<const Past> past) {
     NamedNumbers numbers;
     std::optional<double> alone; // place of the only one, less the extension
     for (const Past& p : past) {
-        const double e = p.places.extension;
+        const double e = p.places.extension.m;
         std::vector<double> places;
         if (e > 0.0)
             for (const Depocentre& b : collapse_grabens(p.basins))

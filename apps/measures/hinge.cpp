@@ -55,8 +55,8 @@ std::optional<double> hinge(const RunSoFar& run, const ShearField& field) {
 NamedNumbers measure_hinge(const RunSoFar& run) {
     std::vector<double> early;
     for (std::size_t k = 0; k + 1 < run.past.size(); ++k) {
-        const double end = run.end_of_window(k);
-        if (end < early_from * run.extension || end > early_to * run.extension)
+        const Extension end = run.end_of_window(k).extension;
+        if (!run.has_come_to(end, early_from * run.extension) || end > early_to * run.extension)
             continue;
         if (const auto x = hinge(run, run.window(k)))
             early.push_back(*x);

@@ -289,15 +289,15 @@ std::vector<Horizon> trace_horizons(const Setting& setting, const RigidBase& bas
     const ConstDiscColumns d = disc_columns(state);
     const double diameter = 2.0 * state.mean_radius;
     const std::vector<int> strata = strata_of(state, options.pre_rift_layer, setting.boundaries);
-    std::map<int, double> extension; // of the first disc, m
+    std::map<int, double> travel; // of the first disc, m
     for (std::size_t i = 0; i < strata.size(); ++i)
-        extension.emplace(strata[i], d.start_extension[i]);
+        travel.emplace(strata[i], d.start_travel[i]);
     const Room room(setting, base, state);
     const OwnerMap map(state, room, fineness * diameter);
     const Shares shares(map, blur * diameter, strata);
     const std::vector<Polyline> traces = cutting_traces(faults);
     std::vector<Horizon> horizons;
-    for (const auto& [stratum, at] : extension)
+    for (const auto& [stratum, at] : travel)
         horizons.push_back({stratum,
                             stratum > 0 ? std::optional(at / setting.extension_rate) : std::nullopt,
                             {},

@@ -33,11 +33,10 @@ constexpr double gentlest = 20.0, steepest = 80.0;     ///< dip of reverse fault
 
 bool is_reverse_dip(double degrees) { return degrees > gentlest && degrees < steepest; }
 
-/// Centres of the segments found from one extension to another that slid as reverse faults dipping
-/// to the breakaway.
-std::vector<Point> reverse_segments(std::span<const FaultSegment> segments, double from,
-                                    double to) {
-    constexpr double tolerance = 1.0; // m: an interval and a window may end in the same cycle
+/// Centres of the segments found in a window that slid as reverse faults dipping to the breakaway.
+std::vector<Point> reverse_segments(std::span<const FaultSegment> segments, Travel from,
+                                    Travel to) {
+    constexpr Travel tolerance(1.0); // an interval and a window may end in the same cycle
     std::vector<Point> centres;
     for (const FaultSegment& s : segments)
         if (s.found_at > from + tolerance && s.found_at < to + tolerance && s.slip > 0.0 &&
@@ -82,11 +81,12 @@ NamedNumbers measure_above_kink(const RunSoFar& run, std::span<const FaultSegmen
                                 double kink, double flat_depth) {
     double strain = 0.0, reverse = 0.0, on_faults = 0.0, shortening = 0.0;
     for (std::size_t k = 0; k < run.past.size(); ++k) {
-        const double start = run.past[k].places.extension, end = run.end_of_window(k);
-        if (end < 0.5 * run.extension + 1.0)
+        const DiscPlaces& end = run.end_of_window(k);
+        if (run.has_come_to(0.5 * run.extension, end.extension))
             continue;
         const AboveKink sum = sum_above_kink(
-            run, run.window(k), reverse_segments(segments, start, end), kink, flat_depth);
+            run, run.window(k), reverse_segments(segments, run.past[k].places.travel, end.travel),
+            kink, flat_depth);
         strain += sum.strain;
         reverse += sum.reverse;
         on_faults += sum.on_faults;

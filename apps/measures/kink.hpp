@@ -21,10 +21,10 @@ ShearPlane shear_plane(const ShearField& field, std::size_t k);
 
 /// A piece of a fault that detection found.
 struct FaultSegment {
-    dem::Point centre;     ///< m
-    double dip = 0.0;      ///< degrees; below 90 it falls to the breakaway
-    double slip = 0.0;     ///< of the interval, m; > 0: reverse
-    double found_at = 0.0; ///< m of extension
+    dem::Point centre; ///< m
+    double dip = 0.0;  ///< degrees; below 90 it falls to the breakaway
+    double slip = 0.0; ///< of the interval, m; > 0: reverse
+    dem::Travel found_at;
 };
 
 /// Whether the rock above the kink of a ramp-flat-ramp shears on reverse faults.

@@ -52,6 +52,17 @@ double mean_of_densest(const std::vector<double>& density, const std::vector<dou
     return 10.0 * mean * share_of_densest(density, area, densest);
 }
 
+/// Time in the model of the last whole window, or of what there is of the first, s.
+double seconds_of_window(const Setting& setting, const State& state, const Strain& strain) {
+    const double spacing = strain.schedule().spacing();
+    const Travel end = strain.applied > 0 ? Travel(static_cast<double>(strain.applied) * spacing)
+                                          : state.clock.travel;
+    const Travel start = strain.applied > 0 ? end - Travel(spacing) : Travel();
+    if (setting.motion.stages.empty()) // at full speed
+        return (end - start).m / setting.extension_speed;
+    return setting.motion.time_at(end) - setting.motion.time_at(start);
+}
+
 } // namespace
 
 double share_of_densest(std::span<const double> density, std::span<const double> area,
@@ -92,16 +103,15 @@ double gini(std::span<const double> density, std::span<const double> area) {
 
 Localisation measure_localisation(const Setting& setting, const State& state,
                                   const Strain& strain) {
-    const double extension = state.clock.travel;
-    assert(extension > 0.0);
+    assert(state.clock.travel.m > 0.0);
     const bool whole = strain.applied > 0;
     const std::vector<double> so_far = whole ? std::vector<double>() : shear_strain(state);
     const std::span<const double> window =
         whole ? state.discs.get<double>("window_strain") : std::span<const double>(so_far);
     const std::span<const double> total =
         whole ? state.discs.get<double>("total_strain") : std::span<const double>(so_far);
-    const double rate = setting.extension_speed / (whole ? strain.schedule().spacing() : extension);
-    const BasementStrain s = basement_strain(state, window, total, rate, setting.gravity);
+    const BasementStrain s = basement_strain(
+        state, window, total, 1.0 / seconds_of_window(setting, state, strain), setting.gravity);
     return {share_of_densest(s.last, s.area, densest), share_of_densest(s.sum, s.area, densest),
             gini(s.last, s.area), mean_of_densest(s.inertial, s.area)};
 }

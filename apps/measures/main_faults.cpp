@@ -61,7 +61,7 @@ std::optional<double> turn_over_head_block(const RunSoFar& run, const Fault& f,
     constexpr double least = 1.0; // degrees
     if (!rollover_tilt || f.born_at >= run.extension)
         return std::nullopt;
-    const double turned = *rollover_tilt - normals_tilt(run.detachment, f.born_at);
+    const double turned = *rollover_tilt - normals_tilt(run.detachment, f.born_at.m);
     return turned > least ? std::optional(f.footwall_turn / turned) : std::nullopt;
 }
 
@@ -84,7 +84,7 @@ using F = const MainFault&;
 // Names begin with the fault's attitude.
 constexpr Measure<MainFault> of_main_fault[] = {
     {"_born_at_m", "m", "`born_at_m` of the main fault of that attitude",
-     [](F f) -> Value { return f.fault.born_at; }},
+     [](F f) -> Value { return f.fault.born_at.m; }},
     {"_dip_at_birth_deg", "deg", "`dip_at_birth_deg` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.dip_at_birth; }},
     {"_turn_deg", "deg", "`footwall_turn_deg` of the main fault of that attitude",
@@ -182,7 +182,7 @@ NamedNumbers measure_main_faults(const RunSoFar& run, const FaultReport& report,
         if (main)
             append(numbers, measure_main_fault({run, report.faults[*main], rollover_tilt}));
     add(numbers, throw_over_throw, throw_ratio(report));
-    add(numbers, inner_step, inner_fault_step(report.faults));
+    add(numbers, inner_step, inner_fault_step(report.faults, run.cycle));
     append(numbers, measure_throws_by_age(report.faults));
     return numbers;
 }
@@ -229,8 +229,9 @@ std::vector<Quantity> main_fault_quantities() {
     return all;
 }
 
-double inner_fault_step(const std::vector<Fault>& faults) {
-    constexpr double steep = 45.0, younger = 2e3;
+double inner_fault_step(const std::vector<Fault>& faults, Extension tolerance) {
+    constexpr double steep = 45.0;
+    constexpr Extension younger(2e3);
     double step = 0.0;
     for (const Fault& inner : faults) {
         if (!inner.normal || inner.dip < steep)
@@ -238,7 +239,8 @@ double inner_fault_step(const std::vector<Fault>& faults) {
         const Point middle = inner.trace.points[inner.trace.points.size() / 2];
         std::optional<double> nearest;
         for (const Fault& older : faults) {
-            if (!older.normal || older.dip < steep || older.born_at > inner.born_at - younger)
+            if (!older.normal || older.dip < steep ||
+                !has_come_to(inner.born_at, older.born_at + younger, tolerance))
                 continue;
             const Point beside = *std::ranges::min_element(
                 older.trace.points, {}, [&](Point p) { return std::abs(p.y - middle.y); });

@@ -31,7 +31,7 @@ std::vector<Quantity> main_fault_quantities();
 /// How far nearer to the breakaway a steep normal fault has come up than those born 2 km of
 /// extension before it, m: distance from the nearest of them, at the height of its middle. Steep:
 /// 45 degrees. 0: none has.
-double inner_fault_step(const std::vector<Fault>& faults);
+double inner_fault_step(const std::vector<Fault>& faults, dem::Extension tolerance = {});
 
 /// Rank correlation of a fault's throws with the strata's numbers (Spearman), -1 where throw falls
 /// from each stratum to the next younger. None for fewer than five strata.

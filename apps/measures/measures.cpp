@@ -30,13 +30,13 @@ bool rock_is_eroded(const Setting& setting, const State& state) {
         if (d.stratum[i] == 0)
             rock += d.mass[i];
     const double share = 1.0 - rock / state.ledger.initial; // of the hanging wall
-    return share * setting.length > most_eroded * state.clock.extension;
+    return share * setting.length > most_eroded * state.clock.extension.m;
 }
 
 using Events = std::span<const std::unique_ptr<Event>>;
 
 void add_area(Measures& m, const Setting& setting, const State& state, const Profile& profile) {
-    const double extension = state.clock.extension;
+    const double extension = state.clock.extension.m;
     m.basin_area = area_above(profile, profile.x.size(), 2.0 * state.mean_radius) -
                    area_above_start(setting, state);
     if (extension > 0.0 && !rock_is_eroded(setting, state))
@@ -45,7 +45,7 @@ void add_area(Measures& m, const Setting& setting, const State& state, const Pro
 
 void add_rotations(Measures& m, const Setting& setting, const State& state,
                    const Chain& detachment) {
-    if (head_block_turns(detachment, state.clock.extension))
+    if (head_block_turns(detachment, state.clock.extension.m))
         m.rollover_tilt = head_block_tilt(state, detachment, setting.thickness);
     if (const auto parts = find_ramp_flat_ramp(detachment)) {
         const auto rotations = measure_ramp_flat_ramp(state, detachment, *parts);
@@ -86,7 +86,7 @@ void add_sediment(Measures& m, const Setting& setting, const State& state, const
         return;
     if (setting.has_bonds) {
         const TargetLine surface =
-            setting.sediment->target.at(state.clock.travel / setting.extension_rate);
+            setting.sediment->target.at(state.clock.travel.m / setting.extension_rate);
         const double age = old_sediment_age * setting.extension_rate;
         m.old_sediment_bonded_fraction =
             bonded_share_of_old_sediment(state, surface, old_sediment_depth, age);
@@ -97,7 +97,7 @@ void add_sediment(Measures& m, const Setting& setting, const State& state, const
 
 void add_localisation(Measures& m, const Setting& setting, const State& state, Events events) {
     const auto* strain = find<Strain>(events);
-    if (!strain || state.clock.travel <= 0.0)
+    if (!strain || state.clock.travel.m <= 0.0)
         return;
     const Localisation found = measure_localisation(setting, state, *strain);
     m.strain_top10 = found.top10;
@@ -132,7 +132,7 @@ void add_conservation(Measures& m, const State& state) {
 Measures measure(const Setting& setting, const State& state, const RigidBase& base, Events events) {
     assert(!base.surfaces.empty());
     const Chain& detachment = base.surfaces.front().chain;
-    const double extension = state.clock.extension;
+    const double extension = state.clock.extension.m;
     const Profile profile = measure_profile(setting, state, base);
     Measures m;
     add_area(m, setting, state, profile);

@@ -112,7 +112,7 @@ std::string objection_to(const MovedPoints& points) {
 ShearField shear_field(const MovedPoints& points) {
     ShearField field;
     field.diameter = spacing_of(points);
-    field.window = strain_window;
+    field.window = Extension(strain_window);
     for (std::size_t i = 0; i < points.x.size(); ++i) {
         field.x.push_back(points.x[i] + points.dx[i]);
         field.y.push_back(points.y[i] + points.dy[i]);

@@ -15,7 +15,7 @@ Room::Room(const Setting& setting, const RigidBase& base, const State& state)
     : floor(standing_base(base, state).surfaces.front().chain),
       // The backstop follows the breakaway; a box's floor goes on beyond its walls.
       left(setting.has_detachment ? floor.front().start.x : 0.0),
-      right(setting.length + state.clock.extension) {}
+      right(setting.length + state.clock.extension.m) {}
 
 double Room::inside(Point p) const {
     return std::min({p.y - height_at(floor, p.x), p.x - left, right - p.x});

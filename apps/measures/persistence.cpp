@@ -16,7 +16,7 @@ using namespace dem;
 
 namespace {
 
-constexpr double lag = 3e3;      ///< of extension, m
+constexpr dem::Extension lag(3e3);
 constexpr double strained = 0.2; ///< share of the discs that counts as strained
 
 constexpr Quantity persistence{
@@ -68,9 +68,9 @@ NamedNumbers measure_persistence(const RunSoFar& run) {
     for (std::size_t k = 0; k < run.past.size(); ++k) {
         const ShearField field = run.window(k);
         strains.push_back(strain_by_id(run, field));
-        const double wanted = run.end_of_window(k) - lag;
+        const Extension wanted = run.end_of_window(k).extension - lag;
         for (std::size_t early = 0; early < k; ++early)
-            if (std::abs(run.end_of_window(early) - wanted) < 0.5 * field.window)
+            if (std::abs((run.end_of_window(early).extension - wanted).m) < 0.5 * field.window.m)
                 if (const auto r = strain_correlation(strains[early], strains[k], strained))
                     correlations.push_back(*r);
     }

@@ -45,7 +45,7 @@ constexpr Quantity shear_between{
     "bedding_shear_between_layers", "1",
     "`bedding_shear_in_layers` in rock of no layer between the highest and the lowest one"};
 
-/// A layer compacts, and what is below it, in this extension after it was laid down, m: in four
+/// A layer compacts, and what is below it, in this travel after it was laid down, m: in four
 /// looks of Compaction (its `approach`). Until then it is left out, as it counts for no burial yet.
 constexpr double settling = 100.0;
 constexpr double porosity_tolerance = 0.02; ///< from which on porosity is off, relative
@@ -132,7 +132,7 @@ NamedNumbers measure_porosity(const State& state, const Sediment& sediment) {
         weakens ? state.discs.get<double>("rock_radius") : std::span<const double>();
     double all = 0.0, error = 0.0, beyond = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] == 0 || state.clock.travel - d.start_extension[i] < settling)
+        if (d.stratum[i] == 0 || state.clock.travel.m - d.start_travel[i] < settling)
             continue;
         const double radius = weakens && rock_radius[i] > 0.0 ? rock_radius[i] : d.radius[i];
         const double grains = (1.0 - sediment.surface_porosity) * d.mass[i] /
@@ -162,7 +162,7 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
     if (!setting.sediment)
         return numbers;
     const Sediment& sediment = *setting.sediment;
-    const TargetLine surface = sediment.target.at(state.clock.travel / setting.extension_rate);
+    const TargetLine surface = sediment.target.at(state.clock.travel.m / setting.extension_rate);
     if (sediment.porosity_decay)
         append(numbers, measure_porosity(state, sediment));
     append(numbers, measure_layering(state, surface));

@@ -32,21 +32,23 @@ RunSoFar::RunSoFar(const Setting& the_setting, const RigidBase& the_base, const 
     : setting(the_setting), base(the_base), detachment(the_base.surfaces.front().chain), now(state),
       past(before), discs(disc_columns(state)), places(state),
       profile(measure_profile(the_setting, state, the_base)), diameter(2.0 * state.mean_radius),
-      extension(state.clock.travel) {
+      travel(state.clock.travel), extension(state.clock.extension),
+      cycle(the_base.motion.greatest_wall_speed() * state.clock.time_step) {
     if (!past.empty())
-        last_window = shear_field(past.back().places, places, setting.youngest_sediment);
+        last_window =
+            shear_field(past.back().places, places, setting.youngest_sediment, base.motion);
 }
 
 ShearField RunSoFar::window(std::size_t k) const {
     assert(k < past.size());
     return k + 1 < past.size() ? only_present(shear_field(past[k].places, past[k + 1].places,
-                                                          setting.youngest_sediment),
+                                                          setting.youngest_sediment, base.motion),
                                               places)
                                : last_window;
 }
 
-double RunSoFar::end_of_window(std::size_t k) const {
-    return k + 1 < past.size() ? past[k + 1].places.extension : extension;
+const DiscPlaces& RunSoFar::end_of_window(std::size_t k) const {
+    return k + 1 < past.size() ? past[k + 1].places : places;
 }
 
 std::size_t RunSoFar::row(const ShearField& field, std::size_t k) const {

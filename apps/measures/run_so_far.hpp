@@ -35,14 +35,21 @@ struct RunSoFar {
     DiscPlaces places;           ///< now
     Profile profile;             ///< now
     double diameter = 0.0;       ///< mean, of the basement, m
-    double extension = 0.0;      ///< m
+    dem::Travel travel;          ///< now
+    dem::Extension extension;    ///< now
+    dem::Extension cycle;        ///< way in one: moments may miss each other by as much
     ShearField last_window;      ///< since the last of the past; empty if there is none
 
     /// Shear from past[k] to the moment after it, of the discs that are still there.
     ShearField window(std::size_t k) const;
 
-    /// Extension at the end of that window, m.
-    double end_of_window(std::size_t k) const;
+    /// Places at the end of that window.
+    const DiscPlaces& end_of_window(std::size_t k) const;
+
+    /// Whether one extension is another or above it: both are those of moments, to half a cycle.
+    bool has_come_to(dem::Extension at, dem::Extension asked) const {
+        return dem::has_come_to(at, asked, cycle);
+    }
 
     /// Row now of the disc k of a field; it must still be there.
     std::size_t row(const ShearField& field, std::size_t k) const;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "dem/base/target_line.hpp"
+#include "dem/clocks.hpp"
+#include "dem/motion.hpp"
 
 #include <optional>
 #include <string>
@@ -31,9 +33,10 @@ struct Setting {
     double gravity = 0.0;         ///< m/s^2; 0: none
     double extension_rate = 0.01; ///< geological, m/a
     double extension_speed = 1.0; ///< in the model, m/s
-    double output_interval = 0.0; ///< extension between states that are kept, m
-    /// Sediment younger than this, m of extension, is too loose for a fault: it creeps all over.
-    double youngest_sediment = 0.0;
+    double output_interval = 0.0; ///< travel between states that are kept, m
+    dem::Motion motion = {};      ///< of the wall
+    /// Sediment younger than this is too loose for a fault: it creeps all over.
+    dem::Travel youngest_sediment;
     /// Diameter of the circle that fault detection (AFD) measures with, mean disc diameters; none:
     /// faults are not looked for and do not weaken.
     std::optional<double> detection_circle;
@@ -41,9 +44,11 @@ struct Setting {
     /// Tops and bottoms of layers of rock before extension, from the highest down.
     std::vector<LayerBoundary> boundaries = {};
 
-    /// Whether strain between states at two extensions, m, is of a whole window: an extra state of
-    /// a run that was stopped is too near to the one before.
-    bool is_window(double from, double to) const { return to - from >= 0.75 * output_interval; }
+    /// Whether strain between states is of a whole window, by the wall's way between them: an extra
+    /// state of a run that was stopped is too near to the one before, and one of a pause adds none.
+    bool is_window(dem::Travel from, dem::Travel to) const {
+        return motion.way(from, to).m >= 0.75 * output_interval;
+    }
 };
 
 } // namespace listric::measures

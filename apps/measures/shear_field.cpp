@@ -20,15 +20,15 @@ constexpr double flattest = 1e-3;
 } // namespace
 
 DiscPlaces::DiscPlaces(const State& state)
-    : extension(state.clock.travel), diameter(2.0 * state.mean_radius),
-      row_of(static_cast<std::size_t>(state.next_id), -1) {
+    : travel(state.clock.travel), extension(state.clock.extension),
+      diameter(2.0 * state.mean_radius), row_of(static_cast<std::size_t>(state.next_id), -1) {
     const ConstDiscColumns d = disc_columns(state);
     x.assign(d.x.begin(), d.x.end());
     y.assign(d.y.begin(), d.y.end());
     id.assign(d.id.begin(), d.id.end());
     for (std::size_t i = 0; i < id.size(); ++i) {
         row_of[static_cast<std::size_t>(id[i])] = static_cast<std::int32_t>(i);
-        age.push_back(d.stratum[i] > 0 ? extension - d.start_extension[i]
+        age.push_back(d.stratum[i] > 0 ? travel.m - d.start_travel[i]
                                        : std::numeric_limits<double>::infinity());
     }
 }
@@ -77,14 +77,15 @@ void coarsen(ShearField& field, double unit) {
     field.diameter = unit;
 }
 
-ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age) {
+ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, Travel least_age,
+                       const Motion& motion) {
     ShearField field;
     field.diameter = now.diameter;
-    field.window = now.extension - before.extension;
+    field.window = motion.way(before.travel, now.travel);
     std::vector<double> old_x, old_y;
     for (std::size_t i = 0; i < now.id.size(); ++i) {
         const auto id = static_cast<std::size_t>(now.id[i]);
-        if (id >= before.row_of.size() || before.row_of[id] < 0 || now.age[i] < least_age)
+        if (id >= before.row_of.size() || before.row_of[id] < 0 || now.age[i] < least_age.m)
             continue;
         const auto old = static_cast<std::size_t>(before.row_of[id]);
         field.x.push_back(now.x[i]);

@@ -15,12 +15,13 @@ namespace listric::measures {
 struct DiscPlaces {
     explicit DiscPlaces(const dem::State& state);
 
-    double extension = 0.0;           ///< m
+    dem::Travel travel;
+    dem::Extension extension;
     double diameter = 0.0;            ///< mean of the basement, m
     std::vector<double> x, y;         ///< m
     std::vector<std::int64_t> id;     ///< of the disc in the row
     std::vector<std::int32_t> row_of; ///< of the disc with the id; -1: none
-    std::vector<double> age;          ///< extension since the disc was deposited, m; basement: all
+    std::vector<double> age;          ///< travel since the disc was deposited, m; basement: all
 };
 
 /// Shear strain in the plane, whatever the direction, or a sum of such.
@@ -50,7 +51,7 @@ struct ShearField {
     std::vector<double> xx, xy, yx, yy; ///< xy: change of u_x with y
     double diameter = 0.0;              ///< mean of the basement, or what coarsen() made of it, m
     double discs_across = 1.0;          ///< mean diameters in that
-    double window = 0.0;                ///< extension between the states, m
+    dem::Extension window;              ///< way of the wall between the states
 
     /// Engineering shear strain of disc k, without sign.
     double shear(std::size_t k) const { return components(k).size(); }
@@ -65,7 +66,9 @@ void fit_gradients(ShearField& field, std::span<const double> old_x, std::span<c
 /// small discs a fault is a zone of tens of them, whose width is no matter of theirs.
 void coarsen(ShearField& field, double unit);
 
-/// Discs of both states that are `least_age` m of extension old in `now` or belong to the basement.
-ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, double least_age);
+/// Discs of both states that are `least_age` old in `now` or belong to the basement.
+/// @param motion  of the wall
+ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, dem::Travel least_age,
+                       const dem::Motion& motion = {});
 
 } // namespace listric::measures

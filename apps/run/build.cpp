@@ -78,15 +78,15 @@ void end_window(Simulation& simulation, RunView& run, const std::function<void()
     run.past.add(measures::DiscPlaces(run.state()));
 }
 
-bool extend_by_windows(Simulation& simulation, const RunView& run, double goal,
+bool extend_by_windows(Simulation& simulation, const RunView& run, Travel goal,
                        const Simulation::Report& report,
                        const std::function<bool()>& end_of_window) {
-    const double tolerance = simulation.tolerance();
+    const Travel tolerance = simulation.tolerance();
     bool goes_on = true;
-    while (goes_on && run.travel() < goal - tolerance) {
-        const double window = run.next_window_end();
-        goes_on = simulation.extend_to(std::min(window, goal), run.options.execution(), report);
-        if (run.travel() >= window - tolerance)
+    while (goes_on && !has_come_to(run.travel(), goal, tolerance)) {
+        const Travel window = run.next_window_end();
+        goes_on = simulation.extend_to(std::min(window, goal).m, run.options.execution(), report);
+        if (has_come_to(run.travel(), window, tolerance))
             goes_on = end_of_window() && goes_on;
     }
     return goes_on;

@@ -22,9 +22,9 @@ void start(dem::Simulation& simulation, RunView& run);
 /// moment for what follows faults back.
 void end_window(dem::Simulation& simulation, RunView& run, const std::function<void()>& tell);
 
-/// Extends to `goal`, m, and ends windows where they end. False: the report or a window's end,
+/// Extends to `goal` and ends windows where they end. False: the report or a window's end,
 /// which return whether to go on, has stopped it.
-bool extend_by_windows(dem::Simulation& simulation, const RunView& run, double goal,
+bool extend_by_windows(dem::Simulation& simulation, const RunView& run, dem::Travel goal,
                        const dem::Simulation::Report& report,
                        const std::function<bool()>& end_of_window);
 

@@ -47,7 +47,7 @@ bool Run::extend_to(double goal, const Report& report) {
                                      goal, scene().name, most));
     const dem::Team team(parts_->options.threads);
     return extend_by_windows(
-        parts_->simulation, parts_->view, goal,
+        parts_->simulation, parts_->view, dem::Travel(goal),
         [&](const dem::Simulation&) { return !report || report(*this); },
         [&] {
             parts_->end_window();
@@ -57,7 +57,7 @@ bool Run::extend_to(double goal, const Report& report) {
 
 const Scene& Run::scene() const { return parts_->scene; }
 const dem::State& Run::state() const { return parts_->view.state(); }
-double Run::extension() const { return parts_->view.extension(); }
+double Run::extension() const { return parts_->view.extension().m; }
 std::uint64_t Run::hash() const { return parts_->simulation.hash(); }
 
 NamedNumbers Run::measures() {

@@ -188,7 +188,7 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
     const double ramp = 0.5 * scene.extension.ramp; // s that it costs
     const double time = parts.base.motion.stages.empty()
                             ? scene.extension.distance / scene.extension.speed + ramp
-                            : parts.base.motion.time_at(scene.extension.distance);
+                            : parts.base.motion.time_at(Travel(scene.extension.distance));
     p.cycles = std::floor(time / p.time_step);
     p.disc_steps = 0.5 * static_cast<double>(p.discs_at_start + p.discs_at_end) * p.cycles;
     const auto start = static_cast<double>(p.discs_at_start);
@@ -246,7 +246,8 @@ Forecast forecast_now(const Scene& scene, double target, int threads, int ranks)
         forecast.picture = run_prices.figure_beside / speed.one_thread;
         for (const double at : scene.output.figures)
             if (at < target - 0.5 * scene.output.interval)
-                forecast.pictures.push_back(motion.time_at(at) / motion.time_at(target));
+                forecast.pictures.push_back(motion.time_at(Travel(at)) /
+                                            motion.time_at(Travel(target)));
         forecast.extension += forecast.picture * static_cast<double>(forecast.pictures.size());
     }
     for (double* const part : {&forecast.before, &forecast.extension, &forecast.after,

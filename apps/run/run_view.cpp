@@ -33,18 +33,18 @@ MomentNames RunView::names() const { return {scene.output.interval, window_ends(
 
 /// The first multiple of the interval that has not been reached; windows shorter than a cycle are
 /// passed over. Windows are counted, not summed up, so that a resumed run has the same ends.
-double RunView::next_window_end() const {
-    const double window = scene.output.interval, tolerance = simulation.tolerance();
+dem::Travel RunView::next_window_end() const {
+    const dem::Travel window(scene.output.interval), tolerance = simulation.tolerance();
     double count = std::floor((travel() + tolerance) / window);
-    while (travel() >= count * window - tolerance)
+    while (has_come_to(travel(), count * window, tolerance))
         count += 1.0;
     return count * window;
 }
 
-bool RunView::is_drawn() const { return is_drawn_at(scene, travel()); }
+bool RunView::is_drawn() const { return is_drawn_at(scene, travel().m); }
 
 fs::path RunView::snapshot() const {
-    return options.output / "snapshots" / snapshot_name(names().metres(travel()));
+    return options.output / "snapshots" / snapshot_name(names().metres(travel().m));
 }
 
 std::vector<fs::path> RunView::ended_windows() const {
@@ -52,7 +52,7 @@ std::vector<fs::path> RunView::ended_windows() const {
     std::vector<fs::path> ended = list_snapshots(options.output);
     std::erase_if(ended, [&](const fs::path& path) {
         const auto end = moments.window_end(*moment_of_snapshot(path.filename().string()));
-        return !end || *end > travel();
+        return !end || *end > travel().m;
     });
     return ended;
 }
@@ -98,9 +98,9 @@ std::string RunView::place_text(std::optional<double> interval) const {
     const auto text = [&](double length) {
         return interval ? length_text(length, *interval) : length_text(length);
     };
-    return has_stages()
-               ? fmt::format("{} of extension after a way of {}", text(extension()), text(travel()))
-               : fmt::format("{} of extension", text(travel()));
+    return has_stages() ? fmt::format("{} of extension after a way of {}", text(extension().m),
+                                      text(travel().m))
+                        : fmt::format("{} of extension", text(extension().m));
 }
 
 void RunView::require_elasticity() const {
@@ -119,8 +119,8 @@ void RunView::count_cycles() {
 void RunView::show_progress(const std::string& what) {
     log.progress([&](std::size_t columns) {
         return progress_line({time_left_.share_done(seconds_since(started_)),
-                              what.empty() ? way_text(travel(), target()) : what, seconds_left(),
-                              std::time(nullptr)},
+                              what.empty() ? way_text(travel().m, target().m) : what,
+                              seconds_left(), std::time(nullptr)},
                              columns);
     });
 }

@@ -49,9 +49,9 @@ public:
     std::string summary;                            ///< summary.json, once the run is closed
 
     const dem::State& state() const { return simulation.state(); }
-    double travel() const { return simulation.travel(); }                   ///< m
-    double extension() const { return simulation.extension(); }             ///< m
-    double target() const { return options.end(scene.extension.distance); } ///< of travel, m
+    dem::Travel travel() const { return simulation.travel(); }
+    dem::Extension extension() const { return simulation.extension(); }
+    dem::Travel target() const { return dem::Travel(options.end(scene.extension.distance)); }
     Observation now() const { return {scene, parts, state(), simulation.events()}; }
 
     bool has_stages() const { return !simulation.base().motion.stages.empty(); }
@@ -68,9 +68,9 @@ public:
 
     /// By the windows that have ended.
     MomentNames names() const;
-    bool is_window_end() const { return names().is_window_end(travel()); }
-    double next_window_end() const; ///< extension, m
-    bool is_drawn() const;          ///< whether the scene wants pictures of the present moment
+    bool is_window_end() const { return names().is_window_end(travel().m); }
+    dem::Travel next_window_end() const;
+    bool is_drawn() const; ///< whether the scene wants pictures of the present moment
 
     /// Path of the present moment's snapshot, whether that file exists or not.
     std::filesystem::path snapshot() const;
@@ -112,8 +112,8 @@ private:
     /// Measures and faults of a moment, as far as they have been made.
     template <class T> struct Made {
         std::optional<T> value;
-        double at = -1.0; ///< extension, m
-        bool is_of(double extension) const { return value && at == extension; }
+        dem::Travel at;
+        bool is_of(dem::Travel moment) const { return value && at == moment; }
     };
     template <class T, class Make> const T& made_once(Made<T>& made, Make&& make);
 

@@ -131,7 +131,7 @@ struct Observation {
     std::span<const std::unique_ptr<dem::Event>> events;
 
     /// Place of the hanging wall's right end, m.
-    double right_end() const { return scene.hanging_wall.length + state.clock.extension; }
+    double right_end() const { return scene.hanging_wall.length + state.clock.extension.m; }
 };
 
 /// An object of summary.json, or a list of such objects.

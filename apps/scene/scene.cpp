@@ -22,17 +22,19 @@ Motion make_motion(const Scene& scene) {
     const Stages* stages = scene.find<Stages>();
     if (!stages)
         return motion;
-    double travel = 0.0, position = 0.0;
+    Travel travel;
+    Extension position;
     for (const auto& one : *stages) {
         const double speed = one.speed.value_or(scene.extension.speed);
         const double distance = one.distance.value_or(0.0);
         const double ratio = one.rate.value_or(scene.extension.rate) / scene.extension.rate;
         MotionStage made;
         made.start = travel;
-        travel += one.pause ? *one.pause * scene.extension.rate : std::abs(distance) / ratio;
+        travel = travel +
+                 Travel(one.pause ? *one.pause * scene.extension.rate : std::abs(distance) / ratio);
         made.end = travel;
         made.start_position = position;
-        position += distance;
+        position = position + Extension(distance);
         made.slope = distance == 0.0 ? 0.0 : std::copysign(ratio, distance);
         made.speed = distance == 0.0 ? speed : speed / ratio;
         made.base_moves = one.base_moves;

@@ -130,7 +130,7 @@ const std::vector<Parameter>& stage_parameters() {
 void complete_stages(Scene& scene, const IsGiven& is_given, const Refuse& refuse) {
     const Stages& stages = *scene.find<Stages>();
     check_each(stages, refuse);
-    const double travel = make_motion(scene).stages.back().end;
+    const double travel = make_motion(scene).stages.back().end.m;
     // A run's own record has it.
     if (is_given("extension.distance_m") &&
         std::abs(scene.extension.distance - travel) > 1e-9 * travel)

@@ -24,7 +24,7 @@ inline BaseInstant base_instant(const MotionInstant& motion, double extension) {
 }
 
 inline BaseInstant base_instant(const RigidBase& base, const Clock& clock) {
-    return base_instant(base.motion.at(clock.time(), clock.travel), clock.extension);
+    return base_instant(base.motion.at(clock.time(), clock.travel), clock.extension.m);
 }
 
 /// Friction of a surface now.

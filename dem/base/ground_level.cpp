@@ -9,7 +9,7 @@ namespace listric::dem {
 GroundLevel::GroundLevel(const State& state, double least_age) : width_(2.0 * state.mean_radius) {
     const ConstDiscColumns d = disc_columns(state);
     const auto counts = [&](std::size_t i) {
-        return d.stratum[i] == 0 || state.clock.travel - d.start_extension[i] >= least_age;
+        return d.stratum[i] == 0 || state.clock.travel.m - d.start_travel[i] >= least_age;
     };
     left_ = std::numeric_limits<double>::infinity();
     double right = -left_;

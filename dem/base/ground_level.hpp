@@ -11,7 +11,7 @@ namespace listric::dem {
 /// averaged over five, so that it is smooth where the discs are rough.
 class GroundLevel {
 public:
-    /// @param least_age  of sediment that counts: extension since it was laid down, m
+    /// @param least_age  of sediment that counts: travel since it was laid down, m
     explicit GroundLevel(const State& state, double least_age = 0.0);
 
     double height(double x) const; ///< m, linear between the columns' middles

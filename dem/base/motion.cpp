@@ -37,7 +37,7 @@ Point BaseMotion::displacement(double x, double time) const {
 void BaseMotion::respond(State& state, const Clock& clock) {
     const double step = interval * clock.time_step;
     const double time =
-        (clock.travel + motion_.at(clock.time(), clock.travel).travel_speed * step) / rate_;
+        (clock.travel.m + motion_.at(clock.time(), clock.travel).travel_speed * step) / rate_;
     const TargetLine shift = shift_.at(time), shift_before = shift_.at(0.0);
     const TargetLine uplift = uplift_.at(time), uplift_before = uplift_.at(0.0);
     const BaseNodeColumns nodes = base_node_columns(state);

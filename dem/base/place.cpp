@@ -22,7 +22,7 @@ template <class Distance> double greatest(std::size_t count, Distance&& distance
 
 BasePlace base_place(const State& state) {
     const ConstBaseNodeColumns n = base_node_columns(state);
-    return {state.clock.extension, n.x, n.y, n.ux, n.uy};
+    return {state.clock.extension.m, n.x, n.y, n.ux, n.uy};
 }
 
 BasePlace searched_base_place(const State& state) {

@@ -227,7 +227,7 @@ template <class Columns> double displacement_square(const Columns& d, std::size_
 
 /// From now on all surfaces were found where they are.
 void mark_surfaces(State& state) {
-    state.searched_extension = state.clock.extension;
+    state.searched_extension = state.clock.extension.m;
     const BaseNodeColumns n = base_node_columns(state);
     std::ranges::copy(n.ux, n.searched_ux.begin());
     std::ranges::copy(n.uy, n.searched_uy.begin());
@@ -264,7 +264,7 @@ double greatest_displacement(const State& state, const RigidBase& base) {
              return most;
          }))
         greatest = greater(greatest, of_piece);
-    return greater(std::sqrt(greatest), surface_travel(state, base, state.clock.extension));
+    return greater(std::sqrt(greatest), surface_travel(state, base, state.clock.extension.m));
 }
 
 void find_surface_contacts(State& state, const RigidBase& base) {
@@ -288,7 +288,7 @@ bool update_contacts(State& state, const RigidBase& base) {
         return rows;
     }));
     bool changed = find_disc_contacts(state, searched);
-    if (surface_travel(state, base, state.clock.extension) > stays) {
+    if (surface_travel(state, base, state.clock.extension.m) > stays) {
         mark_surfaces(state);
         searched = all_discs(state);
     }

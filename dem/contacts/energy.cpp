@@ -81,16 +81,16 @@ StoredEnergy stored_energy(const State& state, const RigidBase& base, double gra
         const ContactParameters p =
             base_contact_parameters(base.material, state.materials[d.material[i]], dt);
         const BaseContactDisc disc{d.x[i], d.y[i], d.vx[i], d.vy[i], d.spin[i], d.radius[i]};
-        const BasePlace before{clock.extension - speed_before * dt, nodes.x, nodes.y, ux_before,
+        const BasePlace before{clock.extension.m - speed_before * dt, nodes.x, nodes.y, ux_before,
                                uy_before};
         std::optional<BaseContactMotion> motion;
         if (before.deforms(surface)) {
             double place = state.base_contacts.get<double>("place")[k];
             motion = surface_motion(
-                surface, node_contact_motion(surface, nodes, clock.extension, disc, place),
-                {clock.extension, speed}, disc);
+                surface, node_contact_motion(surface, nodes, clock.extension.m, disc, place),
+                {clock.extension.m, speed}, disc);
         } else {
-            motion = base_contact_motion(surface, {clock.extension, speed}, disc);
+            motion = base_contact_motion(surface, {clock.extension.m, speed}, disc);
         }
         const auto foot_before =
             nearest(surface, before, {d.x[i] - d.vx[i] * dt, d.y[i] - d.vy[i] * dt});

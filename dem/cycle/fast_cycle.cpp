@@ -202,7 +202,7 @@ private:
             for_free_strips([&](Strip& strip) { strip.furthest = fast_.furthest(strip); });
             piece_.barrier.wait();
             if (thread_ == 0) {
-                fast_.displacement_ = fast_.greatest_displacement(state, clock_.extension);
+                fast_.displacement_ = fast_.greatest_displacement(state, clock_.extension.m);
                 piece_.around.agree_on({&fast_.displacement_, 1});
             }
             piece_.barrier.wait();
@@ -218,7 +218,7 @@ private:
 
     void cycle() {
         const MotionInstant motion = fast_.base_->motion.at(clock_.time(), clock_.travel);
-        const BaseInstant now = base_instant(motion, clock_.extension);
+        const BaseInstant now = base_instant(motion, clock_.extension.m);
         for_free_strips([&](Strip& strip) {
             if (fast_.deforms_)
                 fast_.compute_nodes(strip, piece_.nodes, now);
@@ -230,7 +230,7 @@ private:
         if (fast_.deforms_ && thread_ == 0)
             fast_.fastest_node_[parity] =
                 fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.around);
-        const Stretching thins = stretching(*fast_.base_, clock_.extension, motion.speed);
+        const Stretching thins = stretching(*fast_.base_, clock_.extension.m, motion.speed);
         const auto sweep =
             clock_.cycle % averaging_interval == 0 ? &Kernels::sampling_sweep : &Kernels::sweep;
         double& mine = piece_.fastest[static_cast<std::size_t>(thread_)].in[parity];
@@ -263,7 +263,7 @@ private:
             exchange(fastest);
         else
             watch_.enter(fastest, clock_.time_step);
-        clock_.travel += motion.travel_speed * clock_.time_step;
+        clock_.travel.m += motion.travel_speed * clock_.time_step;
         clock_.extension = fast_.base_->motion.position(clock_.travel);
         ++clock_.cycle;
     }

@@ -21,7 +21,7 @@ struct PlainAccount::BaseContact {
 PlainAccount::PlainAccount(State& state, const RigidBase& base)
     : state_(state), base_(base),
       now_(base_instant(base.motion.at(state.clock.time(), state.clock.travel),
-                        state.clock.extension)),
+                        state.clock.extension.m)),
       d_(disc_columns(state)), c_(contact_columns(state)), b_(base_contact_columns(state)),
       nodes_(base_node_columns(state)), radii_(state), of_nodes_(state.base_nodes.rows()) {}
 
@@ -56,7 +56,7 @@ void PlainAccount::enter(const BaseContact& contact) {
         ((last_speed + speed) * (force.x * moves.x + force.y * moves.y) +
          (speed + next_speed) * surface.conveyor * (force.x * n.y - force.y * n.x));
     if (surface.stretched_length > 0.0) {
-        const double length = surface.stretched_length + clock.extension;
+        const double length = surface.stretched_length + clock.extension.m;
         flows_.boundary_work += 0.5 * dt * force.x *
                                 (speed * disc.x / length +
                                  next_speed * (disc.x + dt * disc.vx) / (length + dt * speed));

@@ -176,14 +176,14 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
     const MotionInstant motion = base.motion.at(clock.time(), clock.travel);
     base_forces(state, base, force, account);
     contact_forces(state, pairs, force, account);
-    const Stretching thins = stretching(base, clock.extension, motion.speed);
+    const Stretching thins = stretching(base, clock.extension.m, motion.speed);
     const double disc_speed = move_discs(state, physics, {state, physics, thins}, force, account);
     account.enter_half_step();
     around.respond(state, clock, response);
     account.enter_half_step();
     const double fastest_node = move_nodes(base_node_columns(state), clock.time_step);
     const double fastest_wall = greatest_translation(base) * std::abs(motion.speed);
-    clock.travel += motion.travel_speed * clock.time_step;
+    clock.travel.m += motion.travel_speed * clock.time_step;
     clock.extension = base.motion.position(clock.travel);
     ++clock.cycle;
     return greater(around.after_cycle(state, disc_speed), greater(fastest_wall, fastest_node));

@@ -49,7 +49,7 @@ bool BondHealing::apply(State& state, const RigidBase&) {
     const HealedColumns h = healed_columns(state);
     const double strain = parameters_.strain_rate * schedule().seconds();
     // Discs laid down at the last healing, to half a cycle, have a whole interval behind them.
-    const double latest = state.clock.travel - 0.75 * schedule().spacing();
+    const double latest = state.clock.travel.m - 0.75 * schedule().spacing();
     const std::vector<bool> touches = touching(state);
     in_pieces(c.first.size(), 4096, [&](std::size_t k, std::size_t end) {
         for (; k < end; ++k) {
@@ -57,7 +57,7 @@ bool BondHealing::apply(State& state, const RigidBase&) {
                        j = static_cast<std::size_t>(c.second[k]);
             if (c.bonded[k] || !touches[k] ||
                 !may_bond(state.materials, d.material[i], d.material[j]) ||
-                std::max(d.start_extension[i], d.start_extension[j]) > latest)
+                std::max(d.start_travel[i], d.start_travel[j]) > latest)
                 continue;
             const double dx = d.x[j] - d.x[i], dy = d.y[j] - d.y[i];
             const double old_dx = h.x[j] - h.x[i], old_dy = h.y[j] - h.y[i];

@@ -41,9 +41,8 @@ bool Compaction::apply(State& state, const RigidBase& base) {
     const auto rock_radius =
         weakening ? state.discs.get<double>("rock_radius") : std::span<double>{};
     const auto rock_area = weakening ? state.discs.get<double>("rock_area") : std::span<double>{};
-    const double extension = state.clock.travel;
-    const double seconds =
-        base.motion.time_at(extension + schedule().spacing()) - base.motion.time_at(extension);
+    const Travel now = state.clock.travel, next = now + Travel(schedule().spacing());
+    const double seconds = base.motion.time_at(next) - base.motion.time_at(now);
     const GroundLevel ground(state);
     const bool given = state.discs.has("wanted_porosity");
     const auto wanted_porosity =

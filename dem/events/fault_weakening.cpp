@@ -47,7 +47,7 @@ Displacements displacements(State& state, double youngest, bool loose) {
     Displacements s;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (d.stratum[i] > 0 && !is_weak(state.materials, d.material[i]) &&
-            (!(loose || rock[i]) || state.clock.travel - d.start_extension[i] < youngest))
+            (!(loose || rock[i]) || state.clock.travel.m - d.start_travel[i] < youngest))
             continue;
         s.row.push_back(static_cast<std::int32_t>(i));
         s.x.push_back(d.x[i]);
@@ -315,7 +315,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
     put("y_m", [](const FaultSegment& f) { return f.centre.y; });
     put("angle_rad", [](const FaultSegment& f) { return f.angle; });
     put("slip_m", [](const FaultSegment& f) { return f.slip; });
-    put("found_at_m", [&](const FaultSegment&) { return state.clock.travel; });
+    put("found_at_m", [&](const FaultSegment&) { return state.clock.travel.m; });
 
     const DiscColumns d = disc_columns(state);
     std::ranges::copy(d.x, state.discs.get<double>("scanned_x").begin());

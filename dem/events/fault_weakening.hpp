@@ -64,7 +64,8 @@ double critical_rate(const FaultWeakeningParameters& p, double mean_diameter);
 /// with it. Its bonds come by bond healing.
 ///
 /// Its memory lists the fault segments found: centre x_m, y_m, dip direction angle_rad, slip_m of
-/// the interval (> 0: the upper side of the plane moved along its direction), found_at_m.
+/// the interval (> 0: the upper side of the plane moved along its direction), found_at_m (of
+/// travel).
 class FaultWeakening : public Event {
 public:
     FaultWeakening(const FaultWeakeningParameters& parameters, double extension_rate,

@@ -15,7 +15,7 @@ namespace listric::dem {
 namespace {
 
 constexpr double samples = 16.0;         ///< of a kind in a window, about
-constexpr double just_after_event = 0.5; ///< m of extension
+constexpr double just_after_event = 0.5; ///< m of travel
 constexpr double least_cover = 0.5;      ///< of a layer by sediment discs; a packing covers 0.83
 
 /// Middles of the eighths of an interval in the order of bits reversed, which covers it soon.
@@ -88,7 +88,7 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
     const bool relative = physics.averaging_time > 0.0;
     const auto mean_vy = relative ? state.discs.get<float>("mean_vy") : std::span<const float>();
     const double speed = base.motion.at(state.clock.time(), state.clock.travel).speed;
-    const Stretching thins = stretching(base, state.clock.extension, speed);
+    const Stretching thins = stretching(base, state.clock.extension.m, speed);
     const auto undamped = [&](std::size_t i) { // as in the cycle, m/s
         return relative ? static_cast<double>(mean_vy[i]) : -thins.rate * (d.y[i] - thins.floor);
     };
@@ -135,16 +135,16 @@ SedimentStress::SedimentStress(double window, std::optional<double> compaction,
 }
 
 /// In every period first just after its first compaction, then in one interval of it.
-double SedimentStress::next_due() const {
+Travel SedimentStress::next_due() const {
     const std::int64_t period = compaction_ ? applied / 2 : applied;
     const double phase = phases[static_cast<std::size_t>(period) % phases.size()];
     const double start = static_cast<double>(period) * schedule().spacing();
     if (!compaction_)
-        return start + phase * schedule().spacing();
+        return Travel(start + phase * schedule().spacing());
     if (is_after_event())
-        return start + phase * std::min(just_after_event, *compaction_);
+        return Travel(start + phase * std::min(just_after_event, *compaction_));
     const auto interval = static_cast<double>(period % stride(window_, compaction_));
-    return start + (interval + phase) * *compaction_;
+    return Travel(start + (interval + phase) * *compaction_);
 }
 
 bool SedimentStress::apply(State& state, const RigidBase& base) {
@@ -153,7 +153,7 @@ bool SedimentStress::apply(State& state, const RigidBase& base) {
     const auto damping = memory.get<double>("damping");
     const auto weight_after = memory.get<double>("weight_after");
     const auto contacts_after = memory.get<double>("contacts_after");
-    const double now = std::floor(state.clock.travel / window_);
+    const double now = std::floor(state.clock.travel.m / window_);
     const std::vector<LayerLoad> loads = layer_loads(state, base, physics_);
     for (std::size_t k = 0; k < loads.size(); ++k) {
         if (window[k] != now) {

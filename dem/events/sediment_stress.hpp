@@ -63,7 +63,7 @@ public:
     SedimentStress(double window, std::optional<double> compaction, double extension_rate,
                    const CyclePhysics& physics);
 
-    double next_due() const override;
+    Travel next_due() const override;
     bool begins_any_time() const override { return true; }
     bool apply(State& state, const RigidBase& base) override;
 

@@ -231,7 +231,7 @@ double highest_fill_behind_breakaway(const SedimentationParameters& parameters,
         look_from(0.0, end);
     for (const MotionStage& one : motion.stages)
         if (one.surface == SurfaceWork::both || one.surface == SurfaceWork::fill)
-            look_from(one.start, one.end);
+            look_from(one.start.m, one.end.m);
     return highest;
 }
 
@@ -244,11 +244,11 @@ Sedimentation::Sedimentation(const SedimentationParameters& parameters, double r
 bool Sedimentation::apply(State& state, const RigidBase& base) {
     const double smallest = 2.0 * state.mean_radius / (1.0 + radius_ratio_);
     const double largest = radius_ratio_ * smallest;
-    const auto stratum =
-        static_cast<std::int32_t>(std::lround(state.clock.travel / schedule().spacing()));
-    const TargetLine line = target_.at(state.clock.travel / schedule().extension_rate);
-    const double travel = state.clock.travel;
-    const SurfaceWork work = base.motion.surface_work(travel - schedule().spacing(), travel);
+    const Travel travel = state.clock.travel;
+    const auto stratum = static_cast<std::int32_t>(std::lround(travel.m / schedule().spacing()));
+    const TargetLine line = target_.at(travel.m / schedule().extension_rate);
+    const SurfaceWork work =
+        base.motion.surface_work(travel - Travel(schedule().spacing()), travel);
     const bool erodes = work == SurfaceWork::both || work == SurfaceWork::erode;
     const bool fills = work == SurfaceWork::both || work == SurfaceWork::fill;
     const double removed = erodes ? erode(state, line) : 0.0;
@@ -269,7 +269,7 @@ bool Sedimentation::apply(State& state, const RigidBase& base) {
         const std::size_t i = first + k;
         d.x[i] = d.start_x[i] = placed[k].centre.x;
         d.y[i] = d.start_y[i] = placed[k].centre.y;
-        d.start_extension[i] = state.clock.travel;
+        d.start_travel[i] = travel.m;
         d.radius[i] = placed[k].radius;
         d.mass[i] = density * pi * placed[k].radius * placed[k].radius;
         d.material[i] = sediment;

@@ -26,9 +26,10 @@ StageChange::StageChange(const Motion& motion) : Event("stage", never) {
                  changes);
 }
 
-double StageChange::next_due() const {
+Travel StageChange::next_due() const {
     const auto next = static_cast<std::size_t>(applied);
-    return next < changes_.size() ? changes_[next].start : std::numeric_limits<double>::infinity();
+    return next < changes_.size() ? changes_[next].start
+                                  : Travel(std::numeric_limits<double>::infinity());
 }
 
 void StageChange::begin(State& state) {

@@ -14,7 +14,7 @@ public:
     /// Whether a motion has a stage that changes something.
     static bool is_needed(const Motion& motion);
 
-    double next_due() const override;
+    Travel next_due() const override;
     void begin(State& state) override;
     bool apply(State& state, const RigidBase& base) override;
 

@@ -220,7 +220,8 @@ void begin_history(State& state) {
     std::ranges::fill(d.rotation, 0.0);
     state.ledger.initial = std::accumulate(d.mass.begin(), d.mass.end(), 0.0);
     state.clock.cycle = 0;
-    state.clock.travel = state.clock.extension = 0.0;
+    state.clock.travel = {};
+    state.clock.extension = {};
 }
 
 } // namespace

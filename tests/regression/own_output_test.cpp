@@ -27,7 +27,7 @@ std::optional<Output> keep_diary(const RunView& of) {
         return std::nullopt;
     const auto told = [](const std::string& what) {
         return [what](RunView& run) {
-            diary += fmt::format("{} {:.0f}\n", what, run.extension());
+            diary += fmt::format("{} {:.0f}\n", what, run.extension().m);
             std::ofstream(run.options.output / "diary.txt") << diary;
         };
     };

@@ -233,7 +233,7 @@ TEST_F(ParaviewTest, EveryMomentHoldsWhatTheSnapshotDoes) {
         const ConstContactColumns c = contact_columns(state);
         // File names tell the moment to 0.01 m.
         EXPECT_NEAR(moment["time_ma"].get<double>(),
-                    state.clock.extension / scene.extension.rate / 1e6,
+                    state.clock.extension.m / scene.extension.rate / 1e6,
                     0.005 / scene.extension.rate / 1e6);
         EXPECT_EQ(moment["discs"], d.x.size());
         EXPECT_EQ(moment["contacts"], std::ranges::count(touching(state), true));
@@ -257,7 +257,7 @@ TEST_F(ParaviewTest, EveryMomentHoldsWhatTheSnapshotDoes) {
         EXPECT_EQ(moment["surfaces"], base.surfaces.size());
         // The right wall is where the extension has brought it.
         EXPECT_FLOAT_EQ(moment["right_wall_x_m"].get<float>(),
-                        static_cast<float>(scene.hanging_wall.length + state.clock.extension));
+                        static_cast<float>(scene.hanging_wall.length + state.clock.extension.m));
     }
     // The run has made strata and weak rock, which the numbers are about.
     EXPECT_GE(moments.back()["highest"]["stratum"], 2);

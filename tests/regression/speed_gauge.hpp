@@ -43,7 +43,7 @@ public:
             now = std::max(now, speed);
         }
         memory.resize(memory.rows() + 1);
-        memory.get<double>("extension").back() = state.clock.extension;
+        memory.get<double>("extension").back() = state.clock.extension.m;
         memory.get<double>("greatest_speed").back() = now;
         return false;
     }

@@ -196,8 +196,8 @@ sedimentation = "fill"
     run(plain, "picked");
     const archive::RunFolder folder_of_run(options("picked").output);
     const State state = folder_of_run.read(folder_of_run.snapshots.back()).state;
-    EXPECT_NEAR(state.clock.travel, 900.0, 0.5);
-    EXPECT_NEAR(state.clock.extension, 400.0, 0.5);
+    EXPECT_NEAR(state.clock.travel.m, 900.0, 0.5);
+    EXPECT_NEAR(state.clock.extension.m, 400.0, 0.5);
     const ModelParts& parts = folder_of_run.parts;
     const auto horizons =
         measures::trace_horizons(archive::make_setting(plain, parts), parts.base, state, {});

@@ -37,7 +37,7 @@ inline int escaped(const State& state, const RigidBase& base) {
     int count = 0;
     for (std::size_t i = 0; i < d.x.size(); ++i)
         count += std::ranges::any_of(base.surfaces, [&](const Surface& s) {
-            const auto foot = nearest(s, state.clock.extension, {d.x[i], d.y[i]});
+            const auto foot = nearest(s, state.clock.extension.m, {d.x[i], d.y[i]});
             return foot && !(foot->distance > 0.0);
         });
     return count;

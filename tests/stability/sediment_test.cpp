@@ -29,7 +29,7 @@ struct Basin {
         p.level = 1000.0;
         Sedimentation event(p, 1.66, 0.01);
         const std::size_t rock = state.discs.rows();
-        state.clock.travel = state.clock.extension =
+        state.clock.travel.m = state.clock.extension.m =
             event.schedule().spacing(); // the first stratum
         const double before = total_mass(state);
         EXPECT_TRUE(event.apply(state, r.base));

@@ -27,7 +27,7 @@ struct Pair {
         : state(make_state({{0.0, 0.0, r}, {2.0 * r - overlap, 0.0, r}})),
           event(parameters, {}, rate) {
         event.begin(state);
-        state.clock.travel = state.clock.extension = event.schedule().spacing();
+        state.clock.travel.m = state.clock.extension.m = event.schedule().spacing();
     }
     bool heals() {
         find_contacts(state, {});
@@ -87,7 +87,7 @@ TEST(BondHealing, SlipCountsFromTheLastHealing) {
     Pair p;
     p.discs().y[1] = 5.0 * allowed;
     EXPECT_FALSE(p.heals());
-    p.state.clock.travel = p.state.clock.extension += p.event.schedule().spacing();
+    p.state.clock.travel.m = p.state.clock.extension.m += p.event.schedule().spacing();
     EXPECT_TRUE(p.heals()); // it has not moved since
 }
 
@@ -115,16 +115,16 @@ TEST(BondHealing, WeakDiscsNeverHeal) {
 
 TEST(BondHealing, DiscsWithoutAHistoryWait) {
     Pair p;
-    p.discs().start_extension[1] = 0.5 * p.state.clock.extension;
+    p.discs().start_travel[1] = 0.5 * p.state.clock.extension.m;
     EXPECT_FALSE(p.heals());
-    p.state.clock.travel = p.state.clock.extension += p.event.schedule().spacing();
+    p.state.clock.travel.m = p.state.clock.extension.m += p.event.schedule().spacing();
     EXPECT_TRUE(p.heals());
 }
 
 TEST(BondHealing, DiscsLaidDownAtTheLastHealingAreJudgedAsAllOthers) {
     for (const double late : {-0.01, 0.0, 0.01}) { // events come half a cycle early or late
         Pair still, slips;
-        still.discs().start_extension[1] = slips.discs().start_extension[1] = late;
+        still.discs().start_travel[1] = slips.discs().start_travel[1] = late;
         slips.discs().y[1] = 1.01 * allowed;
         EXPECT_TRUE(still.heals()) << late;
         EXPECT_FALSE(slips.heals()) << late;

@@ -51,7 +51,7 @@ struct Burial {
     void pass() {
         for (std::size_t i = 0; i < state.discs.rows(); ++i)
             disc_columns(state).radius[i] += rate(i) * event.schedule().spacing();
-        state.clock.travel = state.clock.extension += event.schedule().spacing();
+        state.clock.travel.m = state.clock.extension.m += event.schedule().spacing();
     }
     void last(int intervals) {
         for (; intervals > 0; --intervals) {

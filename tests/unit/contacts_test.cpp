@@ -212,7 +212,7 @@ TEST(Contacts, DiscsBesideAnOpenEndAreListed) {
     find_contacts(state, base);
     EXPECT_THAT(base_contact_columns(state).disc, testing::ElementsAre(0, 1));
     base.surfaces[0].translation = {1.0, 0.0}; // ends move along
-    state.clock.travel = state.clock.extension = 1000.0;
+    state.clock.travel.m = state.clock.extension.m = 1000.0;
     find_contacts(state, base);
     EXPECT_THAT(base_contact_columns(state).disc, testing::ElementsAre(1));
 }
@@ -221,7 +221,7 @@ TEST(Contacts, TranslatingSurfacesAreFoundWhereTheyAre) {
     RigidBase base = box(2000.0, 5000.0);
     base.surfaces[2].translation = {1.0, 0.0};
     State state = make_state({{1950.0, 2000.0, 100.0}, {2950.0, 2000.0, 100.0}});
-    state.clock.travel = state.clock.extension = 1000.0;
+    state.clock.travel.m = state.clock.extension.m = 1000.0;
     find_contacts(state, base);
     EXPECT_THAT(base_contact_columns(state).disc, testing::ElementsAre(1));
 }

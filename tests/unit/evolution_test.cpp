@@ -129,14 +129,14 @@ TEST(Compaction, PorosityBesideThatOfTheDepth) {
         discs[i].y = -r;
     discs.push_back({r, 5.0 * r, r});
     State state = make_state(discs);
-    state.clock.travel = state.clock.extension = 500.0;
+    state.clock.travel.m = state.clock.extension.m = 500.0;
     const DiscColumns c = disc_columns(state);
     const auto mass_of = [](double depth) { // of grains in a disc
         return 1300.0 * pi * r * r * (1.0 - 0.5 * std::exp(-4e-4 * depth)) / 0.5;
     };
     for (std::size_t i = 0; i < discs.size(); ++i) {
         c.stratum[i] = i < 10 || i == 20 ? 1 : 0;
-        c.start_extension[i] = i == 20 ? 450.0 : 0.0;
+        c.start_travel[i] = i == 20 ? 450.0 : 0.0;
         c.mass[i] = mass_of(i == 3 ? 2e3 + r : 1e3 + r);
     }
     Setting setting;
@@ -155,7 +155,8 @@ Fault fault_at(double x, double born_at, bool falls_right = true, double run = 0
         f.trace.points.push_back(
             {x + (falls_right ? run : -run) * 100.0 * (k - 20), -3e3 - 100.0 * k});
     f.dip = std::atan(1.0 / run) / degree;
-    f.born_at = born_at;
+    f.born_at = dem::Extension(born_at);
+    f.born_travel = dem::Travel(born_at);
     return f;
 }
 
@@ -188,7 +189,7 @@ TEST(Dilation, OfThePackingAlone) {
             c.x[i] = p.x;
             c.y[i] = p.y;
         }
-        state.clock.travel = state.clock.extension = 1e3;
+        state.clock.travel.m = state.clock.extension.m = 1e3;
         const auto found = measure_dilation(RunSoFar(setting, base, state, past));
         EXPECT_NEAR(found.at(1).second, found.at(0).second / (1e3 * 15e3), 1e-12);
         double all = 0.0;
@@ -220,7 +221,7 @@ TEST(Grabens, TheOneThatIsThereFirst) {
         base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
         State state = make_state(row(20, r));
         const auto past = [&](double extension, std::vector<double> grabens) {
-            state.clock.travel = state.clock.extension = extension;
+            state.clock.travel.m = state.clock.extension.m = extension;
             Past p{DiscPlaces(state), {{5e3, 4e3, 4e3}}, {}};
             for (double x : grabens)
                 p.basins.push_back({x + extension, 1e3, 500.0});
@@ -229,7 +230,7 @@ TEST(Grabens, TheOneThatIsThereFirst) {
         // In the second moment two maxima of one graben.
         const std::vector<Past> story{past(0.0, {}), past(1e3, {alone, alone + 1e3}),
                                       past(2e3, {alone}), past(3e3, {20e3, 30e3})};
-        state.clock.travel = state.clock.extension = 4e3;
+        state.clock.travel.m = state.clock.extension.m = 4e3;
         const NamedNumbers found = measure_evolution(setting, base, state, {}, {}, {}, story);
         const std::map<std::string, double> numbers(found.begin(), found.end());
         EXPECT_EQ(numbers.at("first_graben_at_m"), 1e3);
@@ -249,7 +250,7 @@ TEST(ReverseFaults, AboveTheKink) {
     const DiscColumns c = disc_columns(state);
     for (std::size_t i = 0; i < discs.size(); ++i)
         c.stratum[i] = c.y[i] > -2e3 ? 1 : 0;
-    state.clock.travel = state.clock.extension = 5e3;
+    state.clock.travel.m = state.clock.extension.m = 5e3;
     const std::vector<Past> past{{DiscPlaces(state), {}, {}}};
     const ShearField shear = sheared(50.0, false, true, 0.02);
     const Point middle{12e3, -3.5e3};
@@ -260,7 +261,7 @@ TEST(ReverseFaults, AboveTheKink) {
         c.y[i] += shear.yx[0] * x + shear.yy[0] * y;
         near += std::hypot(c.x[i] - middle.x, c.y[i] - middle.y) < 2.5 * d;
     }
-    state.clock.travel = state.clock.extension = 10e3;
+    state.clock.travel.m = state.clock.extension.m = 10e3;
 
     const FaultWeakeningParameters weakening;
     Setting setting;
@@ -268,7 +269,7 @@ TEST(ReverseFaults, AboveTheKink) {
     setting.thickness = 15e3;
     setting.has_detachment = true;
     setting.output_interval = 500.0;
-    setting.youngest_sediment = weakening.youngest_sediment * setting.extension_rate;
+    setting.youngest_sediment = dem::Travel(weakening.youngest_sediment * setting.extension_rate);
     setting.detection_circle = weakening.circle_diameters;
     auto detection = std::make_unique<FaultWeakening>(weakening, 0.01, 9.81);
     const double segments[4][5] = {// x, y, angle, slip, found at

@@ -45,7 +45,7 @@ struct Block {
             disc.y -= 79.0 * std::sqrt(3.0) * r;
         before = make_state(discs);
         now = before;
-        now.clock.travel = now.clock.extension = 500.0;
+        now.clock.travel.m = now.clock.extension.m = 500.0;
         const DiscColumns columns = disc_columns(now);
         for (std::size_t i = 0; i < columns.x.size(); ++i) {
             const Point u = motion({columns.x[i], columns.y[i]});
@@ -54,7 +54,7 @@ struct Block {
         }
     }
     std::vector<FaultTrace> trace() const {
-        return trace_faults(shear_field(DiscPlaces(before), DiscPlaces(now), 0.0), {});
+        return trace_faults(shear_field(DiscPlaces(before), DiscPlaces(now), {}), {});
     }
 };
 
@@ -204,7 +204,7 @@ TEST(FaultTrace, WeakSlipIsNotTraced) {
 
 TEST(FaultTrace, ZonesOnTheDetachmentAreLeftOut) {
     const Block block(zone(middle, 1e-3, 250.0, 3.0));
-    const ShearField field = shear_field(DiscPlaces(block.before), DiscPlaces(block.now), 0.0);
+    const ShearField field = shear_field(DiscPlaces(block.before), DiscPlaces(block.now), {});
     EXPECT_EQ(trace_faults(field, {}).size(), 1u);
     const Chain under{line({-1e5, middle.y - d}, {1e5, middle.y - d})};
     EXPECT_TRUE(trace_faults(field, under).empty());
@@ -262,7 +262,7 @@ struct Growth {
 
 TEST(FaultThrow, FallsWithYoungerAge) {
     const Growth growth;
-    const std::map<int, double> throws = fault_throws(growth.state, growth.fault, 0.0);
+    const std::map<int, double> throws = fault_throws(growth.state, growth.fault, {});
     // Tops in 12 columns a side scatter by some 0.35 diameters; their lines differ by 0.15, and the
     // tilt of three tops brings 0.25 to where the fault is.
     for (int stratum = 1; stratum <= 4; ++stratum) {
@@ -274,7 +274,7 @@ TEST(FaultThrow, FallsWithYoungerAge) {
     std::vector<Point> left = growth.fault;
     for (Point& p : left)
         p.x = 2.0 * middle.x - p.x;
-    for (const auto& [stratum, value] : fault_throws(growth.state, left, 0.0))
+    for (const auto& [stratum, value] : fault_throws(growth.state, left, {}))
         EXPECT_LT(value, 200.0) << stratum;
 }
 
@@ -282,10 +282,11 @@ TEST(FaultThrow, OnlyOfStrataYoungerThanTheFaultAndOfItsFirstSurface) {
     Growth growth;
     const DiscColumns c = disc_columns(growth.state);
     for (std::size_t i = 0; i < c.x.size(); ++i)
-        c.start_extension[i] = 500.0 * c.stratum[i];
+        c.start_travel[i] = 500.0 * c.stratum[i];
     const auto strata = [&](double born_at) {
         std::vector<int> numbers;
-        for (const auto& [stratum, value] : fault_throws(growth.state, growth.fault, born_at))
+        for (const auto& [stratum, value] :
+             fault_throws(growth.state, growth.fault, Travel(born_at)))
             if (stratum <= 4)
                 numbers.push_back(stratum);
         return numbers;
@@ -303,7 +304,7 @@ TEST(FaultThrow, NoneOfStrataThinnerThanThreeDiscs) {
         if (c.stratum[i] > 0) // the older half of each keeps its number, the younger gets its own
             c.stratum[i] =
                 2 * c.stratum[i] - (c.start_y[i] < 4.0 * d * c.stratum[i] - 2.0 * d ? 1 : 0);
-    const auto throws = fault_throws(growth.state, growth.fault, 0.0);
+    const auto throws = fault_throws(growth.state, growth.fault, {});
     EXPECT_EQ(throws.size(), 1u);
     EXPECT_TRUE(throws.contains(0));
 }
@@ -319,10 +320,10 @@ struct Story {
     /// @param turn  of the footwall per window, degrees, counter-clockwise
     Story(int windows, int birth, double turn) {
         setting.extension_rate = 0.01;
-        setting.youngest_sediment = 2e3;
+        setting.youngest_sediment = Travel(2e3);
         base.surfaces = {{"detachment", {line({0.0, -1e5}, {3e5, -1e5})}, 0.0}};
         now = Block([](Point) { return Point{}; }).now;
-        now.clock.travel = now.clock.extension = 0.0;
+        now.clock.travel.m = now.clock.extension.m = 0.0;
         places.emplace_back(now);
         Point pivot = middle;
         double dip = 60.0;
@@ -343,7 +344,7 @@ struct Story {
             }
             pivot.x += 500.0;
             dip += turn;
-            now.clock.travel = now.clock.extension = 500.0 * window;
+            now.clock.travel.m = now.clock.extension.m = 500.0 * window;
             if (window < windows)
                 places.emplace_back(now);
         }
@@ -357,7 +358,7 @@ TEST(FaultHistory, TranslatedWithoutRotation) {
     const Fault& f = report.faults[0];
     EXPECT_TRUE(f.normal);
     EXPECT_FALSE(f.synthetic);
-    EXPECT_EQ(f.born_at, 1500.0); // the end of the third window
+    EXPECT_EQ(f.born_at.m, 1500.0); // the end of the third window
     EXPECT_NEAR(f.dip, 60.0, 1.0);
     EXPECT_NEAR(f.dip_at_birth, 60.0, 2.0);
     EXPECT_NEAR(f.footwall_turn, 0.0, 0.5);
@@ -366,7 +367,7 @@ TEST(FaultHistory, TranslatedWithoutRotation) {
     ASSERT_TRUE(report.antithetic_foot.has_value());
     // The foot of the line traced at birth, three windows ago. Here it is the line's end, which is
     // known to four diameters along it.
-    EXPECT_EQ(f.traced_since, 1500.0);
+    EXPECT_EQ(f.traced_since.m, 1500.0);
     EXPECT_NEAR(*report.antithetic_foot, f.foot.x - 1500.0, 2.0 * d);
     EXPECT_NEAR(*report.antithetic_foot, f.foot_at_birth.x, 1e-6);
     EXPECT_NEAR(f.foot.x, f.trace.points.back().x, d); // the detachment is far below
@@ -377,7 +378,7 @@ TEST(FaultHistory, RotatedWithItsFootwall) {
     const FaultReport report = Story(6, 1, 2.0).report();
     ASSERT_EQ(report.faults.size(), 1u);
     const Fault& f = report.faults[0];
-    EXPECT_EQ(f.born_at, 500.0);
+    EXPECT_EQ(f.born_at.m, 500.0);
     EXPECT_NEAR(f.dip, 60.0 + 12.0, 1.5);
     // The trace is at the end of the first window at the earliest: five windows of turning.
     EXPECT_NEAR(f.footwall_turn, 10.0, 1.0);

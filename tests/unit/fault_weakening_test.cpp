@@ -52,7 +52,7 @@ struct Block {
         threshold = critical_slip(parameters, diameter);
         bond_all(state, {});
         event.begin(state);
-        state.clock.travel = state.clock.extension = 500.0;
+        state.clock.travel.m = state.clock.extension.m = 500.0;
     }
 
     /// Distance of a point from the plane through the block's middle, > 0 on the left of the
@@ -282,13 +282,13 @@ TEST(FaultWeakening, NothingHealsUnlessAskedFor) {
 
 TEST(FaultWeakening, YoungSedimentIsLeftAlone) {
     Block b;
-    b.state.clock.travel = b.state.clock.extension =
+    b.state.clock.travel.m = b.state.clock.extension.m =
         5000.0; // sediment younger than 2 km of extension is young
     const DiscColumns d = disc_columns(b.state);
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.y[i] > b.middle.y) {
             d.stratum[i] = d.x[i] < b.middle.x ? 1 : 2;
-            d.start_extension[i] = d.x[i] < b.middle.x ? 2900.0 : 3100.0;
+            d.start_travel[i] = d.x[i] < b.middle.x ? 2900.0 : 3100.0;
         }
     b.slide(0.5 * pi - 1e-9, 1.3 * b.threshold); // between the two strata
     b.slide(60.0 * degree, 1.3 * b.threshold);
@@ -305,7 +305,7 @@ TEST(FaultWeakening, TheWholeDomainHasLooseAndYoungSediment) {
         FaultWeakeningParameters p;
         p.whole_domain = whole;
         Block b(p);
-        b.state.clock.travel = b.state.clock.extension = 500.0;
+        b.state.clock.travel.m = b.state.clock.extension.m = 500.0;
         const DiscColumns d = disc_columns(b.state);
         std::ranges::fill(d.stratum, 1); // deposited when the last scan was over
         std::ranges::fill(contact_columns(b.state).bonded, std::uint8_t{0});
@@ -318,7 +318,7 @@ TEST(FaultWeakening, TheWholeDomainHasLooseAndYoungSediment) {
 TEST(FaultWeakening, LooseSedimentIsLeftAlone) {
     for (const bool loose : {true, false}) {
         Block b;
-        b.state.clock.travel = b.state.clock.extension = 5000.0;
+        b.state.clock.travel.m = b.state.clock.extension.m = 5000.0;
         const DiscColumns d = disc_columns(b.state);
         for (std::size_t i = 0; i < d.x.size(); ++i)
             d.stratum[i] = d.y[i] > b.middle.y ? 1 : 0;

@@ -115,7 +115,7 @@ TEST(Genesis, MakesASettledBondedHangingWall) {
         EXPECT_EQ(d.rotation[i], 0.0);
     }
     EXPECT_EQ(state.clock.cycle, 0);
-    EXPECT_EQ(state.clock.extension, 0.0);
+    EXPECT_EQ(state.clock.extension.m, 0.0);
     EXPECT_EQ(state.materials[basement].friction, 0.05);
 }
 

@@ -35,8 +35,8 @@ TEST(GroundLevel, MayLeaveOutWhatWasLaidDownLately) {
     State state = make_state(discs);
     const DiscColumns d = disc_columns(state);
     std::ranges::fill(d.stratum.subspan(40), 1);
-    std::ranges::fill(d.start_extension.subspan(40), 200.0);
-    state.clock.travel = state.clock.extension = 250.0;
+    std::ranges::fill(d.start_travel.subspan(40), 200.0);
+    state.clock.travel.m = state.clock.extension.m = 250.0;
     EXPECT_NEAR(GroundLevel(state).height(777.0), 150.0, 1e-9);
     EXPECT_NEAR(GroundLevel(state, 50.0).height(777.0), 150.0, 1e-9);
     EXPECT_NEAR(GroundLevel(state, 51.0).height(777.0), 50.0, 1e-9);

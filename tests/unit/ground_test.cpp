@@ -108,7 +108,7 @@ TEST(Ground, WallMovesWithTheExtension) {
     const RigidBase base = listric_base(15e3, 40e3);
     State state = make_state({{39.5e3, -15e3 + 100.0, 100.0}});
     EXPECT_GT(Ground(state, base, 100.0).height(40.2e3, 90.0), 1e4); // the wall, not the ground
-    state.clock.travel = state.clock.extension = 500.0;
+    state.clock.travel.m = state.clock.extension.m = 500.0;
     EXPECT_NEAR(Ground(state, base, 100.0).height(40.2e3, 90.0), -15e3 + 90.0, 1e-6);
 }
 

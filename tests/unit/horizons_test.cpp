@@ -96,7 +96,7 @@ protected:
         const DiscColumns d = disc_columns(state);
         for (std::size_t i = 0; i < discs.size(); ++i) {
             d.stratum[i] = stratum({discs[i].x, discs[i].y});
-            d.start_extension[i] = 500.0 * d.stratum[i];
+            d.start_travel[i] = 500.0 * d.stratum[i];
         }
     }
 

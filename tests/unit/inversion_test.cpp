@@ -41,8 +41,11 @@ TEST(Inversion, AreaAboveTheRegionalIsThatOfARaisedSlab) {
 
 TEST(Inversion, RegionalIsTheTargetLineWhenShorteningBegins) {
     Motion motion{1.0, 0.0};
-    motion.stages = {{.start = 0.0, .end = 5000.0},
-                     {.start = 5000.0, .end = 9000.0, .start_position = 5000.0, .slope = -1.0}};
+    motion.stages = {{.start = Travel(0.0), .end = Travel(5000.0)},
+                     {.start = Travel(5000.0),
+                      .end = Travel(9000.0),
+                      .start_position = Extension(5000.0),
+                      .slope = -1.0}};
     const Target target(0.0, {{0.0, {{0.0, 0.0}}},
                               {1e6, {{0.0, 0.0}, {10e3, -400.0}}}}); // twice as late, at 0.01 m/a
     const TargetLine regional = regional_of(motion, target, 0.01);
@@ -98,27 +101,31 @@ TEST(Inversion, NullPointIsWhereStrataAreBackAtTheRegional) {
     state.mean_radius = radius;
     const DiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < at.size(); ++i) {
-        d.start_extension[i] = at[i];
+        d.start_travel[i] = at[i];
         d.stratum[i] = static_cast<std::int32_t>(std::lround(at[i] / 500.0));
     }
     Motion motion{1.0, 0.0};
-    motion.stages = {{.start = 0.0, .end = 5000.0},
-                     {.start = 5000.0, .end = 9000.0, .start_position = 5000.0, .slope = -1.0}};
-    EXPECT_NEAR(null_point(state, motion, level(0.0), 5000.0).value(), 2800.0, 1e-6);
-    EXPECT_FALSE(null_point(state, motion, level(-5000.0), 5000.0)); // all tops are above
-    EXPECT_FALSE(null_point(state, motion, level(5000.0), 5000.0));
+    motion.stages = {{.start = Travel(0.0), .end = Travel(5000.0)},
+                     {.start = Travel(5000.0),
+                      .end = Travel(9000.0),
+                      .start_position = Extension(5000.0),
+                      .slope = -1.0}};
+    EXPECT_NEAR(null_point(state, motion, level(0.0), Travel(5000.0)).value(), 2800.0, 1e-6);
+    EXPECT_FALSE(null_point(state, motion, level(-5000.0), Travel(5000.0))); // all tops are above
+    EXPECT_FALSE(null_point(state, motion, level(5000.0), Travel(5000.0)));
     // 0.2 to 1.5 km from the breakaway a line counts by its mean.
     EXPECT_NEAR(
-        null_point(state, motion, TargetLine({{0.0, -85.0}, {1700.0, 85.0}}), 5000.0).value(),
+        null_point(state, motion, TargetLine({{0.0, -85.0}, {1700.0, 85.0}}), Travel(5000.0))
+            .value(),
         2800.0, 1e-6);
     // Nothing is lost where pores are as open as they were.
     state.discs.add<double>("porosity", "1", 0.5);
-    EXPECT_NEAR(null_point(state, motion, level(0.0), 5000.0, Decompaction{0.5, 0.0}).value(),
+    EXPECT_NEAR(null_point(state, motion, level(0.0), Travel(5000.0), Decompaction{0.5, 0.0}).value(),
                 2800.0, 1e-6);
     // Strata that have lost thickness stood higher: older ones are back at the regional.
     for (double& porosity : state.discs.get<double>("porosity"))
         porosity = 0.4;
-    EXPECT_LT(null_point(state, motion, level(0.0), 5000.0, Decompaction{0.5, 0.0}).value(),
+    EXPECT_LT(null_point(state, motion, level(0.0), Travel(5000.0), Decompaction{0.5, 0.0}).value(),
               2800.0);
 }
 

@@ -198,7 +198,7 @@ TEST(RampFlatRamp, RotationsOfItsParts) {
          .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
     const RigidBase base = make_rigid_base(scene);
     State state = lattice(scene, base);
-    state.clock.travel = state.clock.extension = 1000.0;
+    state.clock.travel.m = state.clock.extension.m = 1000.0;
     const auto at_breakaway = [](Point p) { return std::hypot(p.x, p.y) < 1.6e3; };
     const auto below_flat = [](Point p) { return p.y < -7e3; };
     turn(state, 80.0, at_breakaway);
@@ -210,7 +210,7 @@ TEST(RampFlatRamp, RotationsOfItsParts) {
     EXPECT_NEAR(m.toe_rotation.value(), -15.0, 1e-9);
     // The upper ramp is 11.0 km long; from the lower one's head 12.3 km are left, from the toe 19.
     const auto known = [&](double extension) {
-        state.clock.travel = state.clock.extension = extension;
+        state.clock.travel.m = state.clock.extension.m = extension;
         const auto parts = find_ramp_flat_ramp(base.surfaces.front().chain).value();
         const auto r = measure_ramp_flat_ramp(state, base.surfaces.front().chain, parts);
         return std::vector{r.breakaway.has_value(), r.lower_block.has_value(), r.toe.has_value()};
@@ -227,7 +227,7 @@ TEST(RampFlatRamp, OtherDetachmentsHaveNoSuchParts) {
          .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
     const RigidBase base = make_rigid_base(scene);
     State state = lattice(scene, base);
-    state.clock.travel = state.clock.extension = 1000.0;
+    state.clock.travel.m = state.clock.extension.m = 1000.0;
     turn(state, 19.1, [](Point) { return true; });
     const Measures m = measure(make_setting(scene, make_parts(scene)), state, base, {});
     EXPECT_FALSE(m.breakaway_rotation || m.toe_rotation || m.lower_block_rotation);
@@ -242,7 +242,7 @@ TEST(Cutoff, OfTheConstantSlipOfLis2) {
          .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
     const RigidBase base = make_rigid_base(scene);
     State state = lattice(scene, base);
-    state.clock.travel = state.clock.extension = 10e3;
+    state.clock.travel.m = state.clock.extension.m = 10e3;
     const DiscColumns d = disc_columns(state);
     const Point centre{30e3 * std::sin(pi / 3.0), 15e3};
     const double cosine = std::cos(1.0 / 3.0), sine = std::sin(1.0 / 3.0);
@@ -265,7 +265,7 @@ TEST(Measures, OfTheRollAreNoneBeyondTheArc) {
     State state = lattice(scene, base);
     turn(state, 70.0, [](Point) { return true; });
     for (const auto& [extension, is_there] : {std::pair(23e3, true), std::pair(24e3, false)}) {
-        state.clock.travel = state.clock.extension = extension;
+        state.clock.travel.m = state.clock.extension.m = extension;
         const Measures m = measure(make_setting(scene, make_parts(scene)), state, base, {});
         EXPECT_EQ(m.rollover_tilt.has_value(), is_there);
         EXPECT_EQ(m.predicted_tilt.has_value(), is_there);
@@ -279,7 +279,7 @@ TEST(Measures, OfAreaAreNoneWhereRockWasEroded) {
          .without = {"bonds", "bond_healing", "fault_weakening", "sedimentation", "compaction"}});
     const RigidBase base = make_rigid_base(scene);
     State state = lattice(scene, base);
-    state.clock.travel = state.clock.extension = 2e3;
+    state.clock.travel.m = state.clock.extension.m = 2e3;
     const Setting setting = make_setting(scene, make_parts(scene));
     const auto known = [&] {
         const Measures m = measure(setting, state, base, {});
@@ -298,7 +298,7 @@ TEST(Measures, OfAreaAreNoneWhereRockWasEroded) {
             kept.push_back(static_cast<std::int32_t>(i));
     reorder_discs(state, kept);
     EXPECT_FALSE(known());
-    state.clock.travel = state.clock.extension = 20e3;
+    state.clock.travel.m = state.clock.extension.m = 20e3;
     EXPECT_TRUE(known());
 }
 
@@ -339,12 +339,12 @@ TEST(OldSediment, BondedShareOfDeepAndOldPairs) {
     // Touching discs in a row 1,600 m below the level: basement, three old ones, two young ones.
     State state = make_state(row(6, r));
     const DiscColumns d = disc_columns(state);
-    state.clock.travel = state.clock.extension = 5000.0;
+    state.clock.travel.m = state.clock.extension.m = 5000.0;
     for (std::size_t i = 0; i < 6; ++i) {
         d.y[i] = -1600.0;
         d.radius[i] = 1.001 * r;
         d.stratum[i] = i == 0 ? 0 : i < 4 ? 1 : 9;
-        d.start_extension[i] = i < 4 ? 500.0 : 4000.0;
+        d.start_travel[i] = i < 4 ? 500.0 : 4000.0;
     }
     const auto level = [](double y) { return TargetLine({{0.0, y}}); };
     find_contacts(state, {});

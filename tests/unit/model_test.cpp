@@ -39,9 +39,12 @@ std::string refusal(const Model& model) {
 TEST(Model, StagesChangeWhatTheySay) {
     Model model = small();
     EXPECT_EQ(make_simulation(model).find<StageChange>(), nullptr);
-    model.motion.stages = {
-        {.end = 5.0, .speed = 1.0},
-        {.start = 5.0, .end = 20.0, .start_position = 5.0, .speed = 1.0, .sediment_friction = 0.9}};
+    model.motion.stages = {{.end = Travel(5.0), .speed = 1.0},
+                           {.start = Travel(5.0),
+                            .end = Travel(20.0),
+                            .start_position = Extension(5.0),
+                            .speed = 1.0,
+                            .sediment_friction = 0.9}};
     Simulation simulation = make_simulation(model);
     simulation.begin(make_hanging_wall(model));
     simulation.extend_to(8.0);
@@ -85,7 +88,7 @@ TEST(Model, ExtendsNoFurtherThanItsBaseIsMadeFor) {
     simulation.begin(make_hanging_wall(model));
     EXPECT_THROW(simulation.extend_to(21.0), std::invalid_argument);
     EXPECT_TRUE(simulation.extend_to(20.0));
-    EXPECT_NEAR(simulation.extension(), 20.0, simulation.tolerance());
+    EXPECT_NEAR(simulation.extension().m, 20.0, simulation.tolerance().m);
 }
 
 TEST(Model, NeedsASpeedAndAThread) {

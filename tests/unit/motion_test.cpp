@@ -18,16 +18,20 @@ namespace {
 Motion there_and_back() {
     Motion motion{2.0, 0.0};
     motion.stages = {
-        {.start = 0.0, .end = 500.0, .start_position = 0.0, .slope = 1.0, .speed = 2.0},
-        {.start = 500.0,
-         .end = 600.0,
-         .start_position = 500.0,
+        {.start = Travel(0.0),
+         .end = Travel(500.0),
+         .start_position = Extension(0.0),
+         .slope = 1.0,
+         .speed = 2.0},
+        {.start = Travel(500.0),
+         .end = Travel(600.0),
+         .start_position = Extension(500.0),
          .slope = 0.0,
          .speed = 2.0,
          .surface = SurfaceWork::fill},
-        {.start = 600.0,
-         .end = 1000.0,
-         .start_position = 500.0,
+        {.start = Travel(600.0),
+         .end = Travel(1000.0),
+         .start_position = Extension(500.0),
          .slope = -0.5,
          .speed = 2.0,
          .base_moves = false,
@@ -40,40 +44,41 @@ Motion there_and_back() {
 TEST(Motion, WithoutStagesIsTheTravel) {
     const Motion motion{1.25, 24.0};
     for (const double travel : {0.0, 0.1, 1.0 / 3.0, 9999.9})
-        EXPECT_EQ(motion.position(travel), travel);
+        EXPECT_EQ(motion.position(Travel(travel)).m, travel);
     for (const double time : {0.0, 7.0, 24.0, 1e4}) {
-        const MotionInstant now = motion.at(time, 123.4);
+        const MotionInstant now = motion.at(time, Travel(123.4));
         EXPECT_EQ(now.travel_speed, motion.speed_at(time));
         EXPECT_EQ(now.speed, motion.speed_at(time));
         EXPECT_EQ(now.conveyor, 1.0);
         EXPECT_FALSE(now.friction);
     }
-    EXPECT_FALSE(motion.shortens(500.0));
-    EXPECT_EQ(motion.surface_work(0.0, 500.0), SurfaceWork::both);
+    EXPECT_FALSE(motion.shortens(Travel(500.0)));
+    EXPECT_EQ(motion.surface_work(Travel(0.0), Travel(500.0)), SurfaceWork::both);
 }
 
 TEST(Motion, StagesSayWhereTheWallIs) {
     const Motion motion = there_and_back();
-    EXPECT_EQ(motion.position(123.25), 123.25);
-    EXPECT_EQ(motion.position(500.0), 500.0);
-    EXPECT_EQ(motion.position(560.0), 500.0);
-    EXPECT_EQ(motion.position(800.0), 400.0);
-    EXPECT_EQ(motion.position(1000.0), 300.0);
-    EXPECT_EQ(motion.greatest_position(1000.0), 500.0);
-    EXPECT_EQ(motion.stage(499.9), 0u);
-    EXPECT_EQ(motion.stage(500.0), 1u);
-    EXPECT_EQ(motion.stage(2000.0), 2u);
-    EXPECT_FALSE(motion.shortens(550.0)); // a pause after extension
-    EXPECT_TRUE(motion.shortens(600.0));
-    EXPECT_EQ(motion.surface_work(450.0, 500.0), SurfaceWork::both);
-    EXPECT_EQ(motion.surface_work(500.0, 550.0), SurfaceWork::fill);
-    EXPECT_EQ(motion.surface_work(600.0, 650.0), SurfaceWork::none);
+    EXPECT_EQ(motion.position(Travel(123.25)).m, 123.25);
+    EXPECT_EQ(motion.position(Travel(500.0)).m, 500.0);
+    EXPECT_EQ(motion.position(Travel(560.0)).m, 500.0);
+    EXPECT_EQ(motion.position(Travel(800.0)).m, 400.0);
+    EXPECT_EQ(motion.position(Travel(1000.0)).m, 300.0);
+    EXPECT_EQ(motion.greatest_position(Travel(1000.0)).m, 500.0);
+    EXPECT_EQ(motion.stage(Travel(499.9)), 0u);
+    EXPECT_EQ(motion.stage(Travel(500.0)), 1u);
+    EXPECT_EQ(motion.stage(Travel(2000.0)), 2u);
+    EXPECT_FALSE(motion.shortens(Travel(550.0))); // a pause after extension
+    EXPECT_TRUE(motion.shortens(Travel(600.0)));
+    EXPECT_EQ(motion.surface_work(Travel(450.0), Travel(500.0)), SurfaceWork::both);
+    EXPECT_EQ(motion.surface_work(Travel(500.0), Travel(550.0)), SurfaceWork::fill);
+    EXPECT_EQ(motion.surface_work(Travel(600.0), Travel(650.0)), SurfaceWork::none);
 }
 
 TEST(Motion, StagesSayHowWallBaseAndFrictionAre) {
     const Motion motion = there_and_back();
-    const MotionInstant out = motion.at(100.0, 250.0), rest = motion.at(100.0, 550.0),
-                        back = motion.at(100.0, 800.0);
+    const MotionInstant out = motion.at(100.0, Travel(250.0)),
+                        rest = motion.at(100.0, Travel(550.0)),
+                        back = motion.at(100.0, Travel(800.0));
     EXPECT_EQ(out.speed, 2.0);
     EXPECT_EQ(rest.speed, 0.0);
     EXPECT_EQ(rest.travel_speed, 2.0); // the clock goes on
@@ -95,15 +100,19 @@ TEST(Motion, PassesZeroWithAConstantAcceleration) {
     // Within 20 m of a change v^2 = 2 a s: by steps as the cycle's, the change takes twice the time
     // that it would take at full speed, and no step changes the wall's speed by more than 2 %.
     Motion motion{1.0, 0.0};
-    motion.stages = {
-        {.end = 100.0, .speed = 1.0},
-        {.start = 100.0, .end = 200.0, .start_position = 100.0, .slope = -1.0, .speed = 1.0}};
+    motion.stages = {{.end = Travel(100.0), .speed = 1.0},
+                     {.start = Travel(100.0),
+                      .end = Travel(200.0),
+                      .start_position = Extension(100.0),
+                      .slope = -1.0,
+                      .speed = 1.0}};
     const double step = 0.01;
     double travel = 60.0, time = 0.0, before = 1.0, greatest_change = 0.0, least = 1.0;
     while (travel < 140.0) {
         // Also on the way down and up again; the standstill itself lasts some seconds less.
-        EXPECT_NEAR(motion.time_at(travel) - motion.time_at(60.0), time, 1.0) << travel;
-        const MotionInstant now = motion.at(time, travel);
+        EXPECT_NEAR(motion.time_at(Travel(travel)) - motion.time_at(Travel(60.0)), time, 1.0)
+            << travel;
+        const MotionInstant now = motion.at(time, Travel(travel));
         greatest_change = std::max(greatest_change, std::abs(now.speed - before));
         least = std::min(least, now.travel_speed);
         before = now.speed;
@@ -114,7 +123,7 @@ TEST(Motion, PassesZeroWithAConstantAcceleration) {
     EXPECT_GT(least, 0.009);
     EXPECT_EQ(before, -1.0);
     EXPECT_NEAR(time, 20.0 + 40.0 + 40.0 + 20.0, 0.01 * 120.0);
-    EXPECT_NEAR(motion.time_at(140.0) - motion.time_at(60.0), time, 0.01 * time);
+    EXPECT_NEAR(motion.time_at(Travel(140.0)) - motion.time_at(Travel(60.0)), time, 0.01 * time);
 }
 
 TEST(Motion, TheFootwallsTopRestsAndHoldsTheCorner) {

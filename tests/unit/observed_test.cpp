@@ -247,10 +247,10 @@ TEST_F(PicksFile, AgesChooseTheTop) {
     const DiscColumns d = disc_columns(state);
     for (std::size_t i = 0; i < discs.size(); ++i) {
         d.stratum[i] = d.y[i] > -500.0 ? 2 : d.y[i] > -1000.0 ? 1 : 0;
-        d.start_extension[i] = 5e3 * d.stratum[i];
+        d.start_travel[i] = 5e3 * d.stratum[i];
         d.start_y[i] = d.y[i] + 1000.0; // the pre-rift top was the surface
     }
-    state.clock.travel = state.clock.extension = 10e3;
+    state.clock.travel.m = state.clock.extension.m = 10e3;
     RigidBase base;
     base.surfaces = {{"detachment", {line({0.0, -1e4}, {1e5, -1e4})}, 0.0}};
     measures::Setting setting;
@@ -270,12 +270,12 @@ TEST_F(PicksFile, AgesChooseTheTop) {
     scene.observed->horizons[0].age = std::nextafter(1e6, 2e6);
     scene.observed->horizons[1].age = 0.0;
     state.clock.time_step = 0.01;
-    state.clock.travel = 10e3 - 0.009 * scene.extension.speed;
+    state.clock.travel.m = 10e3 - 0.009 * scene.extension.speed;
     const auto at_ends = archive::compare_horizons(scene, state, horizons);
     EXPECT_EQ(at_ends[0].stratum, 0) << at_ends[0].objection;
     EXPECT_EQ(at_ends[1].stratum, 2) << at_ends[1].objection;
     // Without ages the nearest top is taken.
-    state.clock.travel = 10e3;
+    state.clock.travel.m = 10e3;
     for (PickedLine& line : scene.observed->horizons)
         line.age.reset();
     EXPECT_EQ(archive::compare_horizons(scene, state, horizons)[1].stratum, 1);

@@ -176,7 +176,7 @@ TEST(RockLayers, HealOnlyWhereTheyMayBeBonded) {
         Pair pair(material);
         BondHealing healing({}, BondStrength{}, 0.01);
         healing.begin(pair.state);
-        pair.state.clock.travel = pair.state.clock.extension = 1e3;
+        pair.state.clock.travel.m = pair.state.clock.extension.m = 1e3;
         healing.apply(pair.state, {});
         return contact_columns(pair.state).bonded[0] != 0;
     };

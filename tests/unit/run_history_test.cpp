@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 DiscPlaces places_at(double extension) {
     dem::State state = dem::empty_state();
-    state.clock.travel = state.clock.extension = extension;
+    state.clock.travel.m = state.clock.extension.m = extension;
     return DiscPlaces(state);
 }
 
@@ -32,8 +32,8 @@ std::vector<double> before(const RunHistory& history, double extension) {
     measures::Setting setting;
     setting.output_interval = 100.0; // windows of at least 75 m
     std::vector<double> found;
-    for (const DiscPlaces& places : history.before(extension, setting))
-        found.push_back(places.extension);
+    for (const DiscPlaces& places : history.before(dem::Travel(extension), setting))
+        found.push_back(places.extension.m);
     return found;
 }
 

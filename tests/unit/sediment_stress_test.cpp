@@ -85,8 +85,8 @@ TEST(SedimentStress, SamplesCoverTheIntervalAndWhatFollowsACompaction) {
         SedimentStress event(500.0, interval, rate, physics);
         double last = -1.0;
         std::vector<int> phases(8, 0), after(8, 0);
-        for (; event.next_due() < 50.0 * 500.0; ++event.applied) {
-            const double due = event.next_due();
+        for (; event.next_due().m < 50.0 * 500.0; ++event.applied) {
+            const double due = event.next_due().m;
             EXPECT_GT(due, last);
             last = due;
             const double since = std::fmod(due, interval);
@@ -106,14 +106,14 @@ TEST(SedimentStress, SamplesCoverTheIntervalAndWhatFollowsACompaction) {
     }
     SedimentStress steady(500.0, std::nullopt, rate, physics);
     steady.applied = 16;
-    EXPECT_NEAR(steady.next_due(), 500.0 + 500.0 / 16.0 / 16.0, 1e-9);
+    EXPECT_NEAR(steady.next_due().m, 500.0 + 500.0 / 16.0 / 16.0, 1e-9);
 }
 
 TEST(SedimentStress, MeansAreOfTheLastWindow) {
     State state = lattice();
     SedimentStress event(500.0, 5.0, rate, physics);
     const auto sample = [&](double extension, double vy) {
-        state.clock.travel = state.clock.extension = extension;
+        state.clock.travel.m = state.clock.extension.m = extension;
         std::ranges::fill(disc_columns(state).vy, vy);
         EXPECT_FALSE(event.apply(state, {}));
         ++event.applied;

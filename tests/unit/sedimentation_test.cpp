@@ -37,7 +37,7 @@ struct Basin {
             x += r;
         for (double& y : disc_columns(state).y)
             y += r;
-        state.clock.travel = state.clock.extension = 3.0 * event.schedule().spacing();
+        state.clock.travel.m = state.clock.extension.m = 3.0 * event.schedule().spacing();
     }
 };
 
@@ -128,7 +128,7 @@ TEST(Sedimentation, RecordsTheNewDiscs) {
             continue;
         EXPECT_EQ(d.start_x[i], d.x[i]);
         EXPECT_EQ(d.start_y[i], d.y[i]);
-        EXPECT_EQ(d.start_extension[i], b.state.clock.extension);
+        EXPECT_EQ(d.start_travel[i], b.state.clock.extension.m);
         EXPECT_EQ(d.vx[i], 0.0);
         deposited += d.mass[i];
     }
@@ -150,7 +150,7 @@ TEST(Sedimentation, SecondHelpingIsSmall) {
     Basin b;
     b.event.apply(b.state, b.base);
     const std::size_t filled = b.state.discs.rows();
-    b.state.clock.travel = b.state.clock.extension += b.event.schedule().spacing();
+    b.state.clock.travel.m = b.state.clock.extension.m += b.event.schedule().spacing();
     b.event.apply(b.state, b.base);
     EXPECT_LT(b.state.discs.rows() - filled, filled / 50);
 }
@@ -204,7 +204,7 @@ TEST(Sedimentation, ErosionRemovesWhatLiesAboveAndAccountsForIt) {
     Ledger& ledger = b.state.ledger;
     const double deposited = ledger.deposited;
     Sedimentation lower({.level = level}, 1.66, rate);
-    b.state.clock.travel = b.state.clock.extension += lower.schedule().spacing();
+    b.state.clock.travel.m = b.state.clock.extension.m += lower.schedule().spacing();
     ASSERT_TRUE(lower.apply(b.state, b.base));
 
     const DiscColumns d = disc_columns(b.state);
@@ -244,7 +244,7 @@ TEST(Sedimentation, TheSurfaceFollowsAPolyline) {
                                     {0.7 * width, 0.5 * depth + 0.04 * width},
                                     {width, 0.5 * depth + 0.1 * width}};
     Sedimentation shaped({.target = {{0.0, points}}}, 1.66, rate);
-    b.state.clock.travel = b.state.clock.extension += shaped.schedule().spacing();
+    b.state.clock.travel.m = b.state.clock.extension.m += shaped.schedule().spacing();
     ASSERT_TRUE(shaped.apply(b.state, b.base));
     EXPECT_GT(b.state.ledger.removed, 0.0);
     EXPECT_NEAR(mass_of(b.state),
@@ -266,7 +266,7 @@ TEST(Sedimentation, ATargetThatFallsWithTime) {
     const double diameter = 2.0 * 2.0 * r / 2.66 * 1.66;
     for (double top : surface(b.state))
         EXPECT_NEAR(top, 0.7 * depth, diameter);
-    b.state.clock.travel = b.state.clock.extension = 6.0 * falling.schedule().spacing();
+    b.state.clock.travel.m = b.state.clock.extension.m = 6.0 * falling.schedule().spacing();
     falling.apply(b.state, b.base);
     for (double top : surface(b.state))
         EXPECT_NEAR(top, 0.4 * depth, diameter);

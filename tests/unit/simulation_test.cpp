@@ -23,7 +23,7 @@ public:
 
     bool apply(State& state, const RigidBase&) override {
         letters_ += name();
-        extensions_.push_back(state.clock.extension);
+        extensions_.push_back(state.clock.extension.m);
         return false;
     }
 
@@ -109,7 +109,7 @@ TEST_F(SimulationEvents, AreAppliedInTheNearestCycleInTheOrderOfAdding) {
     ASSERT_EQ(extensions.size(), due.size());
     for (std::size_t k = 0; k < due.size(); ++k)
         EXPECT_NEAR(extensions[k], due[k], 0.5 * cycle_extension + 1e-9);
-    EXPECT_DOUBLE_EQ(simulation.next_due(), 25.0);
+    EXPECT_DOUBLE_EQ(simulation.next_due().m, 25.0);
 }
 
 TEST_F(SimulationEvents, AreAppliedByStage) {
@@ -169,7 +169,7 @@ TEST_F(SimulationEvents, AStoppedAndResumedSimulationIsTheSame) {
     first.begin(discs_at_rest());
     // Events due at the moment of the stop have been applied.
     EXPECT_FALSE(
-        first.extend_to(20.0, {}, [](const Simulation& s) { return s.extension() < 9.0; }));
+        first.extend_to(20.0, {}, [](const Simulation& s) { return s.extension().m < 9.0; }));
     EXPECT_EQ(letters, "bab");
 
     Simulation second(moving_box(), {.gravity = 9.81});

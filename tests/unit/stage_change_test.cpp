@@ -15,11 +15,11 @@ namespace {
 /// 100 m out, a pause of 50 m of travel, 100 m further with other sediment.
 Motion with_a_pause() {
     return {.speed = 1.0,
-            .stages = {{.start = 0.0, .end = 100.0, .speed = 1.0},
-                       {.start = 100.0, .end = 150.0, .slope = 0.0, .speed = 1.0},
-                       {.start = 150.0,
-                        .end = 250.0,
-                        .start_position = 100.0,
+            .stages = {{.start = Travel(0.0), .end = Travel(100.0), .speed = 1.0},
+                       {.start = Travel(100.0), .end = Travel(150.0), .slope = 0.0, .speed = 1.0},
+                       {.start = Travel(150.0),
+                        .end = Travel(250.0),
+                        .start_position = Extension(100.0),
                         .speed = 1.0,
                         .sediment_friction = 0.3}}};
 }
@@ -39,7 +39,7 @@ TEST(StageChange, DiscsForgetTheirMeanMotionWhereTheWallComesToRest) {
     StageChange event(with_a_pause());
     State state = moving();
     event.begin(state);
-    EXPECT_EQ(event.next_due(), 100.0);
+    EXPECT_EQ(event.next_due().m, 100.0);
     EXPECT_FALSE(event.apply(state, {}));
     EXPECT_EQ(state.discs.get<float>("mean_vx")[0], 0.0f);
     EXPECT_EQ(state.discs.get<float>("mean_vy")[0], 0.0f);
@@ -49,12 +49,12 @@ TEST(StageChange, OnlySedimentChangesWhereTheWallGoesOn) {
     StageChange event(with_a_pause());
     State state = moving();
     event.applied = 1;
-    EXPECT_EQ(event.next_due(), 150.0);
+    EXPECT_EQ(event.next_due().m, 150.0);
     EXPECT_FALSE(event.apply(state, {}));
     EXPECT_EQ(state.materials[sediment].friction, 0.3);
     EXPECT_EQ(state.discs.get<float>("mean_vx")[0], 1.0f);
     event.applied = 2;
-    EXPECT_EQ(event.next_due(), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(event.next_due().m, std::numeric_limits<double>::infinity());
 }
 
 TEST(StageChange, AMotionThatOnlyReversesNeedsNone) {

@@ -159,7 +159,7 @@ TEST(State, HashSeesEveryNumber) {
     };
     EXPECT_TRUE(differs([](State& s) { s.clock.cycle += 1; }));
     EXPECT_TRUE(differs([](State& s) { s.clock.time_step += 1e-9; }));
-    EXPECT_TRUE(differs([](State& s) { s.clock.travel = s.clock.extension += 1e-9; }));
+    EXPECT_TRUE(differs([](State& s) { s.clock.travel.m = s.clock.extension.m += 1e-9; }));
     EXPECT_TRUE(differs([](State& s) { s.ledger.initial += 1.0; }));
     EXPECT_TRUE(differs([](State& s) { s.ledger.deposited += 1.0; }));
     EXPECT_TRUE(differs([](State& s) { s.ledger.removed += 1.0; }));

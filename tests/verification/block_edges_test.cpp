@@ -146,8 +146,8 @@ struct Halfgraben {
             b.x[i] = then.x;
             b.y[i] = then.y;
         }
-        before.clock.travel = before.clock.extension = extension - window;
-        now.clock.travel = now.clock.extension = extension;
+        before.clock.travel.m = before.clock.extension.m = extension - window;
+        now.clock.travel.m = now.clock.extension.m = extension;
         past.push_back({DiscPlaces(before), {}});
     }
 

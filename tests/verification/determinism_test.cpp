@@ -135,7 +135,7 @@ TEST(Determinism, ClockCountsCyclesAndExtension) {
     EXPECT_EQ(fall.state.clock.cycle, 1000);
     // Speed 2 m/s after a ramp of 500 cycles, sampled at their beginnings: sum of 2 n / 500 dt.
     const double ramp = 2.0 * 0.008 * (0.5 * 499.0);
-    EXPECT_NEAR(fall.state.clock.extension, ramp + 2.0 * 0.008 * 500.0, 1e-10);
+    EXPECT_NEAR(fall.state.clock.extension.m, ramp + 2.0 * 0.008 * 500.0, 1e-10);
 }
 
 } // namespace

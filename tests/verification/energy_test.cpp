@@ -82,7 +82,7 @@ public:
         for (std::size_t k = 0; k < w.disc.size(); ++k) {
             const auto i = static_cast<std::size_t>(w.disc[k]);
             const Surface& s = base_.surfaces[static_cast<std::size_t>(w.surface[k])];
-            const auto foot = nearest(s, a.clock.extension, {d.x[i], d.y[i]});
+            const auto foot = nearest(s, a.clock.extension.m, {d.x[i], d.y[i]});
             if (!foot)
                 continue;
             const double nx = foot->normal.x, ny = foot->normal.y;

@@ -62,7 +62,7 @@ TEST(GrowthFaults, ThrowByStratumIsExactToADiameter) {
                     SCOPED_TRACE(testing::Message()
                                  << thickness / d << " " << dip << " " << x / d << falls_right);
                     const GrowthFault made(dip, thickness, x, falls_right);
-                    const std::map<int, double> throws = fault_throws(made.state, made.trace, 0.0);
+                    const std::map<int, double> throws = fault_throws(made.state, made.trace, {});
                     EXPECT_GE(throws.size(), 3u);
                     for (const auto& [stratum, value] : throws)
                         EXPECT_NEAR(value, slip * std::max(0.0, 1.0 - stratum / 5.0), d) << stratum;
@@ -76,7 +76,7 @@ TEST(GrowthFaults, CutoffsTellThicknessOnBothSides) {
     for (const double thickness : {4.0 * d, 6.0 * d})
         for (const bool falls_right : {true, false}) {
             const GrowthFault made(60.0, thickness, 55.0 * d, falls_right);
-            const std::map<int, Cutoffs> cutoffs = fault_cutoffs(made.state, made.trace, 0.0);
+            const std::map<int, Cutoffs> cutoffs = fault_cutoffs(made.state, made.trace, {});
             int found = 0;
             for (const auto& [stratum, at] : cutoffs) {
                 EXPECT_EQ(at.is_resolved, throws_of(cutoffs).contains(stratum));

@@ -122,9 +122,9 @@ TEST(LowerCrust, StepsByAtMost25MetresAndKeepsTheLoadBetween) {
     dem::State state;
     event.begin(state);
     EXPECT_EQ(event.amounts(state), lower_crust_amounts(0.0));
-    state.clock.extension = 25.0;
+    state.clock.extension.m = 25.0;
     event.apply(state, {});
-    state.clock.extension = 40.0;
+    state.clock.extension.m = 40.0;
     EXPECT_EQ(event.extension(state), 25.0);
     EXPECT_EQ(event.amounts(state), lower_crust_amounts(0.25));
 }

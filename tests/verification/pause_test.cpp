@@ -123,8 +123,8 @@ TEST_F(Pause, BringsRockToRestAndFaultsBackToLife) {
     };
     const State moves = at(begins - interval), rests = at(begins), still = at(ends),
                 before = at(begins - window), after = at(ends + window);
-    EXPECT_NEAR(still.clock.extension, begins, 0.1);
-    EXPECT_NEAR(after.clock.extension, begins + window, 0.1);
+    EXPECT_NEAR(still.clock.extension.m, begins, 0.1);
+    EXPECT_NEAR(after.clock.extension.m, begins + window, 0.1);
 
     // With the wall's speed the mean speed falls to less than a hundredth of it within a tenth of
     // the pause, and stays there: found 0.0013 and less.

@@ -69,7 +69,7 @@ struct Slab {
             d.x[i] += random.between(-4.0, 4.0) + (right ? 60.0 : 0.0);
             d.y[i] += random.between(-4.0, 4.0) - (right ? 120.0 : 0.0);
         }
-        state.clock.travel = state.clock.extension = 2000.0;
+        state.clock.travel.m = state.clock.extension.m = 2000.0;
     }
 
     std::ptrdiff_t bonds() const {

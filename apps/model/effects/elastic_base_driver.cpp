@@ -89,9 +89,9 @@ std::optional<std::string> beyond_elasticity(const fem::Guard& guard, const std:
 }
 
 std::string moment_text(const Clock& clock, const Motion& motion) {
-    return motion.stages.empty() ? fmt::format("{:.0f} m of extension", clock.extension)
+    return motion.stages.empty() ? fmt::format("{:.0f} m of extension", clock.extension.m)
                                  : fmt::format("{:.0f} m of extension after a way of {:.0f} m",
-                                               clock.extension, clock.travel);
+                                               clock.extension.m, clock.travel.m);
 }
 
 class ElasticBaseDriver final : public BaseDriver {

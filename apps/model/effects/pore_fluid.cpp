@@ -147,7 +147,7 @@ double seconds_of_extension(const Scene& scene) {
     double travel = 0.0;
     for (const dem::MotionStage& one : make_motion(scene).stages)
         if (one.slope > 0.0)
-            travel += one.end - one.start;
+            travel += (one.end - one.start).m;
     if (!scene.find<Stages>())
         travel = scene.extension.distance;
     return dem::Schedule{travel / scene.extension.rate, scene.extension.rate}.seconds();

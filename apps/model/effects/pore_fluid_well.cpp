@@ -34,7 +34,7 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
         disc.x = d.x[i];
         disc.y = d.y[i];
         disc.depth = std::max(0.0, ground.depth({d.x[i], d.y[i]}));
-        disc.age = (state.clock.travel - d.start_extension[i]) / now.scene.extension.rate;
+        disc.age = (state.clock.travel.m - d.start_travel[i]) / now.scene.extension.rate;
         disc.volume = d.mass[i] / fluid->sediment().grain_density / (1.0 - porosity[i]);
         disc.excess_pressure = pressure[i];
         disc.weight_now = grains[i] * fluid->law().grain_weight;

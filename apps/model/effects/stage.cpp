@@ -24,16 +24,16 @@ dem::TargetLine regional_in(const Scene& scene, const ModelParts& parts) {
 /// a kilometre after it.
 class TurnRecord final : public dem::Observer {
 public:
-    static constexpr double start_of_balance = 1e3; ///< m after the turn
+    static constexpr dem::Travel start_of_balance{1e3}; ///< after the turn
 
-    TurnRecord(double turn, dem::TargetLine regional)
+    TurnRecord(dem::Travel turn, dem::TargetLine regional)
         : Observer("turn", dem::never, dem::Stage::load), turn_(turn),
           regional_(std::move(regional)) {}
 
-    double next_due() const override {
+    dem::Travel next_due() const override {
         return applied == 0   ? turn_
                : applied == 1 ? turn_ + start_of_balance
-                              : std::numeric_limits<double>::infinity();
+                              : dem::Travel(std::numeric_limits<double>::infinity());
     }
 
     void begin(dem::State& state) override {
@@ -49,7 +49,7 @@ public:
             std::ranges::copy(std::as_const(state).discs.get<double>("total_strain"),
                               state.discs.get<double>("turn_strain").begin());
         memory.resize(memory.rows() + 1);
-        memory.get<double>("extension_m").back() = state.clock.extension;
+        memory.get<double>("extension_m").back() = state.clock.extension.m;
         memory.get<double>("uplift_area_m2").back() = area_above_regional(state, regional_);
         memory.get<double>("relief_m").back() = graben_relief(state);
         memory.get<double>("removed_mass").back() = state.ledger.removed;
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    double turn_;
+    dem::Travel turn_;
     dem::TargetLine regional_;
 };
 
@@ -97,7 +97,7 @@ std::optional<double> uplift_balance(const Observation& now) {
     const auto uplift = uplift_since(now, 1);
     if (!uplift)
         return std::nullopt;
-    const double shortening = *recorded(now, "extension_m", 1) - now.state.clock.extension;
+    const double shortening = *recorded(now, "extension_m", 1) - now.state.clock.extension.m;
     return shortening > 0.0
                ? std::optional(*uplift / (shortening * now.scene.hanging_wall.thickness))
                : std::nullopt;
@@ -134,9 +134,9 @@ std::string explain(const Scene& scene, EffectList) {
     std::string text = "stages\n";
     const dem::Motion motion = make_motion(scene);
     for (const dem::MotionStage& one : motion.stages) {
-        const double years = (one.end - one.start) / scene.extension.rate;
-        const double way = one.slope * (one.end - one.start);
-        text += fmt::format("  to {:g} km of travel: {}, {:g} Myr\n", one.end / 1e3,
+        const double years = (one.end - one.start).m / scene.extension.rate;
+        const double way = one.slope * (one.end - one.start).m;
+        text += fmt::format("  to {:g} km of travel: {}, {:g} Myr\n", one.end.m / 1e3,
                             way == 0.0  ? std::string("pause")
                             : way > 0.0 ? fmt::format("{:g} km of extension", way / 1e3)
                                         : fmt::format("{:g} km of shortening", -way / 1e3),
@@ -155,10 +155,10 @@ std::vector<Measure<Observation>> measures_of_stages() {
         {travel_column, "m",
          "way of base and right wall, back and forth, at extension.rate_m_per_a, and in pauses: "
          "the run's clock, by which files are named",
-         [](const Observation& now) -> std::optional<double> { return now.state.clock.travel; }},
+         [](const Observation& now) -> std::optional<double> { return now.state.clock.travel.m; }},
         {"elapsed_a", "a", "travel over extension.rate_m_per_a",
          [](const Observation& now) -> std::optional<double> {
-             return now.state.clock.travel / now.scene.extension.rate;
+             return now.state.clock.travel.m / now.scene.extension.rate;
          }},
         {"stage", "1", "number of the [[stage]], counted from 0",
          [](const Observation& now) -> std::optional<double> {

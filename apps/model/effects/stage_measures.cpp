@@ -67,14 +67,14 @@ std::vector<double> means_of_tops(const ColumnTops& tops, double width) {
 
 } // namespace
 
-std::optional<double> turn_of(const Motion& motion) {
+std::optional<Travel> turn_of(const Motion& motion) {
     const auto first =
         std::ranges::find_if(motion.stages, [](const MotionStage& one) { return one.slope < 0.0; });
     return first == motion.stages.end() ? std::nullopt : std::optional(first->start);
 }
 
 TargetLine regional_of(const Motion& motion, const Target& target, double rate) {
-    return target.at(turn_of(motion).value_or(std::numeric_limits<double>::max()) / rate);
+    return target.at(turn_of(motion).value_or(Travel(std::numeric_limits<double>::max())).m / rate);
 }
 
 double area_above_regional(const State& state, const TargetLine& regional) {
@@ -108,14 +108,14 @@ double graben_relief(const State& state) {
 }
 
 std::optional<double> null_point(const State& state, const Motion& motion,
-                                 const TargetLine& regional, double turn,
+                                 const TargetLine& regional, Travel turn,
                                  const std::optional<Decompaction>& decompaction) {
     constexpr double from = 200.0, to = 1500.0; // m
     const ConstDiscColumns d = disc_columns(state);
-    std::map<std::int32_t, double> deposited; // travel, m, by stratum
+    std::map<std::int32_t, Travel> deposited; // by stratum
     for (std::size_t i = 0; i < d.x.size(); ++i)
-        if (d.stratum[i] > 0 && d.start_extension[i] <= turn)
-            deposited[d.stratum[i]] = d.start_extension[i];
+        if (d.stratum[i] > 0 && Travel(d.start_travel[i]) <= turn)
+            deposited[d.stratum[i]] = Travel(d.start_travel[i]);
     const auto porosity = decompaction && state.discs.has("porosity")
                               ? state.discs.get<double>("porosity")
                               : std::span<const double>();
@@ -151,7 +151,7 @@ std::optional<double> null_point(const State& state, const Motion& motion,
             constexpr double packing_porosity = 0.166; // of discs under gravity
             height += lost / (1.0 - packing_porosity) / (to - from);
         }
-        const double at = motion.position(travel);
+        const double at = motion.position(travel).m;
         if (before && *before < 0.0 && height >= 0.0)
             return before_at + (at - before_at) * *before / (*before - height);
         before = height;

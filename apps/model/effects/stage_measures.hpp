@@ -11,8 +11,8 @@
 
 namespace listric::effects::stage {
 
-/// Where shortening begins for the first time, m of travel.
-std::optional<double> turn_of(const dem::Motion& motion);
+/// When shortening begins for the first time.
+std::optional<dem::Travel> turn_of(const dem::Motion& motion);
 
 /// The regional of a basin that is filled to a target, at the end where nothing shortens.
 /// @param rate  of extension, m/a
@@ -36,11 +36,11 @@ struct Decompaction {
 /// the breakaway, is at the regional; older ones are below it and younger ones above (Williams,
 /// Powell & Cooper 1989, Geol. Soc. Spec. Publ. 44, 3). Linear between strata; none if all tops are
 /// on one side.
-/// @param turn  travel at which shortening began, m: later strata do not count
+/// @param turn  when shortening began: later strata do not count
 /// @param decompaction  adds the thickness that strata below a top have lost since it was laid
 ///     down, from their porosity now (column `porosity`) and what it was that far below the top
 std::optional<double> null_point(const dem::State& state, const dem::Motion& motion,
-                                 const dem::TargetLine& regional, double turn,
+                                 const dem::TargetLine& regional, dem::Travel turn,
                                  const std::optional<Decompaction>& decompaction = {});
 
 /// Share of the shear strain since the turn (columns `total_strain`, `turn_strain`) of the pre-rift

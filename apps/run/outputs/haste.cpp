@@ -15,9 +15,8 @@ std::optional<Output> outputs::haste(const RunView&) {
     // Says once what makes the results doubtful: when a whole window of strain is known, or at the
     // end.
     const auto warn = [has_warned = std::make_shared<bool>(false)](RunView& run) {
-        const double known =
-            std::min(dem::strain_window, run.target()) - run.simulation.tolerance();
-        if (*has_warned || run.travel() < known)
+        const dem::Travel known = std::min(dem::Travel(dem::strain_window), run.target());
+        if (*has_warned || !has_come_to(run.travel(), known, run.simulation.tolerance()))
             return;
         const Measures& measures = run.measured();
         if (measures.quasi_static.value_or(true))

@@ -19,7 +19,7 @@ void save_window(const RunView& run) {
     if (!run.is_drawn() || !run.is_window_end())
         return;
     if (const fem::Footwall* footwall = run.footwall())
-        write_footwall(run.options.output, *footwall, run.travel(), run.names(),
+        write_footwall(run.options.output, *footwall, run.travel().m, run.names(),
                        run.scene.extension.rate);
 }
 

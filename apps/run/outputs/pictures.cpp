@@ -95,7 +95,7 @@ private:
         run.log.say("warning: no figures: " + problem);
     }
 
-    double drawn_at_ = -1.0;                        ///< extension, m
+    std::optional<dem::Travel> drawn_at_;
     std::vector<std::future<std::string>> pending_; ///< each says what is wrong
 };
 

@@ -22,7 +22,7 @@ std::vector<std::string> results_of(RunView& run) {
     const std::vector<double> depth = smoothed_depth(profile);
     Results results{.measures = run.measured(),
                     .faults = run.faults(),
-                    .extension = run.extension(),
+                    .extension = run.extension().m,
                     .base_moves = run.parts.base_moves};
     if (!depth.empty())
         results.basin_depth = std::ranges::max(depth);

@@ -16,12 +16,12 @@ namespace {
 void remove_passed_stops(const RunView& run) {
     const fs::path& output = run.options.output;
     const MomentNames names = run.names();
-    const std::string present = names.metres(run.travel());
+    const std::string present = names.metres(run.travel().m);
     std::error_code error;
     for (const fs::path& path : list_snapshots(output)) {
         const std::string moment = *moment_of_snapshot(path.filename().string());
         const double stop = snapshot_extension(path);
-        if (moment == present || stop > run.travel() || names.window_end(moment))
+        if (moment == present || stop > run.travel().m || names.window_end(moment))
             continue;
         for (const fs::path& file : files_of_moment(output, moment, names.kilometres(stop)))
             fs::remove(file, error);

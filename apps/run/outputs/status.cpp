@@ -18,12 +18,12 @@ const char* name(Phase phase) {
 /// Writes how far the run is.
 void tell(const RunView& run) {
     const double left = run.phase == Phase::finished ? 0.0 : run.seconds_left();
-    JsonObject status{{"phase", name(run.phase)}, {"extension_m", run.extension()}};
+    JsonObject status{{"phase", name(run.phase)}, {"extension_m", run.extension().m}};
     if (run.has_stages()) {
-        status[travel_column] = run.travel(); // of_m is of the travel
+        status[travel_column] = run.travel().m; // of_m is of the travel
         status["stage"] = run.simulation.base().motion.stage(run.travel());
     }
-    status["of_m"] = run.target();
+    status["of_m"] = run.target().m;
     status["seconds_left"] = std::int64_t{std::llround(left)};
     write_object(run.options.output / "status.json", status);
 }
