@@ -43,10 +43,7 @@ double usual_interval(const std::vector<Horizon>& horizons) {
 /// Years by which an age may miss the ends of what the model has: a run ends within a time step of
 /// its goal, and distance / rate has the round-off of a division.
 double slack_of_ages(const Scene& scene, const State& state, double end) {
-    const Motion motion = make_motion(scene);
-    double speed = motion.speed;
-    for (const MotionStage& stage : motion.stages)
-        speed = std::max(speed, stage.speed);
+    const double speed = make_motion(scene).greatest_speed();
     return std::max(1e-6 * end, speed * state.clock.time_step / scene.extension.rate);
 }
 

@@ -145,7 +145,10 @@ bool check_output(const FolderUse& use, const fs::path& output, ExistingRun exis
         return false;
     }
     const auto reached = summary_travel(summary);
-    const bool finished = reached && *reached >= use.end && !was_killed_at_the_end(output);
+    const bool finished = reached &&
+                          dem::has_come_to(dem::Travel(*reached), dem::Travel(use.end),
+                                           dem::Travel(cycle_of(object_in(summary)))) &&
+                          !was_killed_at_the_end(output);
     require_own_run(use, output, finished);
     return finished;
 }

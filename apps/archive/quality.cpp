@@ -1,9 +1,11 @@
 #include "apps/archive/quality.hpp"
 
 #include "apps/archive/fault_fields.hpp"
+#include "apps/archive/summary.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/measures.hpp"
 #include "apps/model/measure_names.hpp"
+#include "apps/scene/stage.hpp"
 
 #include <fmt/format.h>
 
@@ -88,9 +90,11 @@ void add_balance(std::vector<QualityCheck>& all, const JsonObject& summary,
                        fmt::format("{:g} to {:g}", least_area_balance, most_area_balance)};
     if (context.base_moves) {
         check.words = "Not judged: the base moves, so that the basin has another area.";
-    } else if (number_at(summary, "extension_m").value_or(0.0) < area_balance_from) {
-        check.words =
-            fmt::format("Not judged before {:g} km of extension.", area_balance_from / 1e3);
+    } else if (!dem::has_come_to(dem::Extension(number_at(summary, "extension_m").value_or(0.0)),
+                                 area_balance_from, dem::Extension(cycle_of(summary)))) {
+        check.words = fmt::format("Not judged {} {:g} km of extension.",
+                                  number_at(summary, travel_column) ? "below" : "before",
+                                  area_balance_from.m / 1e3);
     } else {
         const bool good = least_area_balance <= *balance && *balance <= most_area_balance;
         check.verdict = verdict_of(good);

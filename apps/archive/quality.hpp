@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/archive/json_file.hpp"
+#include "dem/clocks.hpp"
 
 #include <optional>
 #include <string>
@@ -11,7 +12,7 @@ namespace listric::archive {
 // Bounds of a good run (docs/trust.md).
 inline constexpr double most_mass_error = 1e-12, most_volume_error = 1e-3;
 inline constexpr double least_area_balance = 0.95, most_area_balance = 1.03;
-inline constexpr double area_balance_from = 5e3; ///< m of extension
+inline constexpr dem::Extension area_balance_from{5e3};
 inline constexpr double fewest_discs_across = 5; ///< of what is interpreted
 
 enum class Verdict {

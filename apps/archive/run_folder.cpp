@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -47,6 +48,20 @@ std::vector<double> window_ends(const Table& history) {
     return {extensions.begin(), extensions.end()};
 }
 
+namespace {
+
+/// output.interval_m of a scene's text, m.
+double output_interval(const std::string& scene) {
+    double interval = OutputParameters().interval;
+    const auto values = scene_values(scene);
+    if (const auto found = values.find("output.interval_m"); found != values.end())
+        std::from_chars(found->second.data(), found->second.data() + found->second.size(),
+                        interval);
+    return interval;
+}
+
+} // namespace
+
 RunMoments run_moments(const fs::path& output) {
     RunMoments moments{list_snapshots(output), {}, {}, {}};
     std::vector<fs::path>& paths = moments.snapshots;
@@ -56,7 +71,7 @@ RunMoments run_moments(const fs::path& output) {
             moments.window_ends = window_ends(record.history);
             moments.scene = std::move(record.scene);
             moments.history = std::move(record.history);
-            const MomentNames names(1.0, moments.window_ends);
+            const MomentNames names(output_interval(moments.scene), moments.window_ends);
             std::size_t older = 0;
             std::erase_if(paths, [&](const fs::path& path) {
                 const auto moment = moment_of_snapshot(path.filename().string());

@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 
 // Raised when a file can no longer be read by a program of before, or no longer has all that a
 // state needs. 6: the scene is a text of its own; as an attribute of format 5 it had room for 64
-// kB. 7: materials of layers have more properties; a state without layers stays in format 6.
-constexpr int format = 7;
-constexpr int format_without_layers = 6;
+// kB. 7: materials of layers have more properties. 8: the column start_extension, which held the
+// travel, is start_travel.
+constexpr int format = 8;
 constexpr int oldest_format = 5; // that is read, too
 constexpr std::string_view kind = "listric snapshot ";
 
@@ -189,12 +189,26 @@ void write_state(hid_t file, const State& state) {
     }
 }
 
+/// The discs, whose columns have other names in a file of before.
+Table with_present_names(Table discs) {
+    if (!discs.has("start_extension"))
+        return discs;
+    Table renamed;
+    for (Column column : discs.columns()) {
+        if (column.name == "start_extension")
+            column.name = "start_travel";
+        renamed.set(std::move(column));
+    }
+    return renamed;
+}
+
 State read_state(hid_t file) {
     State state;
     for_each_number(state, reads_numbers(file));
     state.clock.travel = Travel(H5Aexists(file, "travel") > 0 ? read_number<double>(file, "travel")
                                                               : state.clock.extension.m);
     for_each_table(state, [&](const char* name, Table& table) { table = read_table(file, name); });
+    state.discs = with_present_names(std::move(state.discs));
     if (H5Lexists(file, "base_nodes", H5P_DEFAULT) > 0) {
         state.base_nodes = read_table(file, "base_nodes");
         const Handle base_memory = open_group(file, "base_memory");
@@ -271,8 +285,7 @@ std::vector<std::byte> file_image(const State& state,
     const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
     check(H5Pset_fapl_core(in_memory, 1 << 20, false), what);
     const Handle file(H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose, what);
-    const int written = state.materials.size() > weak + 1 ? format : format_without_layers;
-    write_text_attribute(file, "format", std::string(kind) + std::to_string(written));
+    write_text_attribute(file, "format", std::string(kind) + std::to_string(format));
     write_text_attribute(file, "version", std::string(version));
     write_state(file, state);
     write_memories(file, events);

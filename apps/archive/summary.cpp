@@ -213,6 +213,13 @@ std::string summary_json(const SummaryContent& content) {
     return to_text(json, 2) + "\n";
 }
 
+double cycle_of(const JsonObject& summary) {
+    const auto travel = number_at(summary, travel_column); // with stages
+    const double way = travel.value_or(number_at(summary, "extension_m").value_or(0.0));
+    const double cycles = number_at(summary, "cycle").value_or(0.0);
+    return cycles > 0.0 ? way / cycles : 0.0;
+}
+
 std::optional<double> summary_travel(const std::filesystem::path& summary) {
     const JsonObject json = object_in(summary);
     if (!is_true_at(json, "finished"))

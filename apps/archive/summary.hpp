@@ -61,6 +61,10 @@ std::span<const HeadField> head_fields();
 /// that are not finite are left out.
 std::string summary_json(const SummaryContent& content);
 
+/// Way of the run's clock in a cycle, m, by its summary.json: what a moment may miss a round number
+/// by. 0 where the file does not tell.
+double cycle_of(const JsonObject& summary);
+
 /// Travel of the wall that a finished run reached, m. None if the file is not a finished run's
 /// summary.
 std::optional<double> summary_travel(const std::filesystem::path& summary);

@@ -326,7 +326,9 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
         names.value_or(MomentNames(now.scene.output.interval, {&travel, 1})).kilometres(travel);
     // Picks are of the section as it is at the end of extension.
     const bool observed =
-        now.scene.observed && now.state.clock.travel.m >= 0.999 * now.scene.extension.distance;
+        now.scene.observed &&
+        has_come_to(now.state.clock.travel, Travel(now.scene.extension.distance),
+                    Travel(now.parts.base.motion.greatest_speed() * now.state.clock.time_step));
     std::vector<Horizon> horizons;
     if (observed || underlay)
         horizons = trace_horizons(archive::make_setting(now.scene, now.parts), now.parts.base,

@@ -72,7 +72,8 @@ std::string main_faults(const FaultReport& report) {
 /// Whether the balance of areas is as it should be; none: it has no bounds in this run.
 std::optional<bool> balances(const Results& r) {
     const std::optional<double> balance = r.measures.area_balance;
-    if (!balance || r.base_moves || r.extension < archive::area_balance_from)
+    if (!balance || r.base_moves ||
+        !has_come_to(r.extension, archive::area_balance_from, r.half_a_cycle))
         return std::nullopt;
     return archive::least_area_balance <= *balance && *balance <= archive::most_area_balance;
 }
@@ -94,8 +95,10 @@ std::string quality(const Results& r) {
         good = good && *balanced;
         parts.emplace_back(*balanced ? "areas balance" : "areas do not balance");
     } else if (r.measures.area_balance) {
-        parts.push_back(fmt::format("balance of areas not judged {}",
-                                    r.base_moves ? "on a moving base" : "before 5 km"));
+        parts.push_back(
+            fmt::format("balance of areas not judged {}", r.base_moves   ? "on a moving base"
+                                                          : r.has_stages ? "below 5 km of extension"
+                                                                         : "before 5 km"));
     }
     return fmt::format("{}: {}", good ? "good" : "doubtful", fmt::join(parts, ", "));
 }

@@ -29,7 +29,11 @@ RunView::RunView(const Scene& s, const RunOptions& o, Log& l, const dem::Simulat
 
 int RunView::ranks() const { return options.on_ranks ? options.on_ranks->ranks() : 1; }
 
-MomentNames RunView::names() const { return {scene.output.interval, window_ends(record.history)}; }
+MomentNames RunView::names() const {
+    MomentNames names(scene.output.interval, window_ends(record.history));
+    names.name_after(target().m, simulation.tolerance().m);
+    return names;
+}
 
 /// The first multiple of the interval that has not been reached; windows shorter than a cycle are
 /// passed over. Windows are counted, not summed up, so that a resumed run has the same ends.
@@ -96,6 +100,9 @@ void RunView::add_row() {
 
 std::string RunView::place_text(std::optional<double> interval) const {
     const auto text = [&](double length) {
+        const double metres = std::round(length); // what was asked for, to half a cycle
+        if (std::abs(length - metres) <= simulation.tolerance().m)
+            length = metres + 0.0;
         return interval ? length_text(length, *interval) : length_text(length);
     };
     return has_stages() ? fmt::format("{} of extension after a way of {}", text(extension().m),

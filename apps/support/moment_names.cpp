@@ -61,9 +61,17 @@ bool MomentNames::is_window_end(double extension) const {
     return std::ranges::binary_search(ends_, extension);
 }
 
-std::string MomentNames::metres(double extension) const {
-    const int decimals = decimals_for(interval_);
+/// The round number that a moment is, with a cycle's error.
+double MomentNames::asked_for(double extension) const {
     if (is_window_end(extension))
+        return interval_ * std::round(extension / interval_);
+    return std::abs(extension - asked_) <= tolerance_ ? asked_ : extension;
+}
+
+std::string MomentNames::metres(double moment) const {
+    const int decimals = decimals_for(interval_);
+    const double extension = asked_for(moment);
+    if (is_window_end(moment))
         return shortened(with_zeros(extension, decimals), 2);
     // The name of a window's end, those to come included, must be left to that.
     const double windows = extension / interval_;
@@ -113,12 +121,16 @@ std::optional<double> MomentNames::window_end(std::string_view metres) const {
     const double half_a_unit = 0.5 * std::pow(10.0, -decimals) * (1.0 + 1e-6);
     // The nearest one: without its last zeros a name is coarser than the windows.
     const auto next = std::ranges::lower_bound(ends_, *named);
-    std::optional<double> nearest;
+    std::optional<double> found;
+    double least = half_a_unit;
     for (const auto end : {next == ends_.begin() ? next : next - 1, next})
-        if (end != ends_.end() && std::abs(*end - *named) <= half_a_unit &&
-            (!nearest || std::abs(*end - *named) < std::abs(*nearest - *named)))
-            nearest = *end;
-    return nearest;
+        if (end != ends_.end())
+            for (const double name : {asked_for(*end), *end})
+                if (const double off = std::abs(name - *named); off <= least) {
+                    least = off;
+                    found = *end;
+                }
+    return found;
 }
 
 std::optional<double> extension_of(std::string_view metres) {

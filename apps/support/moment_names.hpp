@@ -20,7 +20,14 @@ public:
     MomentNames(double interval, std::span<const double> window_ends)
         : interval_(interval), ends_(window_ends.begin(), window_ends.end()) {}
 
-    /// In metres, such as 00500.02.
+    /// Names a moment after the one that was asked for, m, if a cycle has missed that by so much at
+    /// most. The ends of windows are named after the multiples of the interval anyway.
+    void name_after(double asked, double tolerance) {
+        asked_ = asked;
+        tolerance_ = tolerance;
+    }
+
+    /// In metres, such as 00500.00.
     std::string metres(double extension) const;
 
     /// In kilometres, such as 0.5.
@@ -28,11 +35,14 @@ public:
 
     bool is_window_end(double extension) const;
 
-    /// The end of a window, m, that a name in metres is of; none if it is of none.
+    /// The end of a window, m, that a name in metres is of; none if it is of none. Older versions
+    /// named ends after the cycle, such as 00499.98.
     std::optional<double> window_end(std::string_view metres) const;
 
 private:
-    double interval_ = 100.0;
+    double asked_for(double extension) const;
+
+    double interval_ = 100.0, asked_ = 0.0, tolerance_ = 0.0;
     std::vector<double> ends_;
 };
 

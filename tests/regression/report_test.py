@@ -401,12 +401,12 @@ class Report(Browsed):
         discs = self.discs(self.snapshots()[-1])
         width = 1000.0
         strata = self.script("const [run] = page.runs; const s = thicknessOf(run, page.t, a[0]);"
-                             "return Object.entries(s).map(([n, one]) => [Number(n), one.extension, [...one.thickness]]);", width)
-        for number, extension, thickness in strata:
+                             "return Object.entries(s).map(([n, one]) => [Number(n), one.travel, [...one.thickness]]);", width)
+        for number, travel, thickness in strata:
             mine = discs["stratum"] == number
             self.assertAlmostEqual(sum(thickness) * width * 0.83, (np.pi * discs["radius"][mine] ** 2).sum(),
                                    delta=0.01 * sum(thickness) * width)
-            self.assertAlmostEqual(extension, discs["start_extension"][mine][0], delta=1.0)
+            self.assertAlmostEqual(travel, discs["start_travel"][mine][0], delta=1.0)
         self.assertEqual(len(strata), len(set(discs["stratum"])) - 1)
         self.assertEqual(len(self.driver.find_elements("css selector", "#wheeler canvas")), 1)
 
@@ -505,7 +505,7 @@ class Report(Browsed):
         self.assertTrue(text("moment").startswith("B: 1.50 km, 0.150 Myr, "), text("moment"))
         self.assertEqual(names(), ["A: lis1, seed 1, here at 0.50 km", "B: lis1, seed 2"])
         with h5py.File(sorted((self.folder / "b/snapshots").glob("*.h5"))[-1]) as file:
-            youngest = file["discs/start_extension"][:].max() / 1e4     # Myr at 1 cm a year
+            youngest = file["discs/start_travel"][:].max() / 1e4     # Myr at 1 cm a year
         self.assertIn(f"strata 0 {youngest:.2g}", re.sub(r"\s+", " ", text("legend")))
         self.assertEqual(self.saved("save_discs").name, "lis1-500m-discs.csv")     # A's, where it is shown
         self.driver.find_element("tag name", "body").send_keys(Keys.HOME)

@@ -61,7 +61,8 @@ def moment_words(meta: dict, way: str, unit: str = "km") -> str:
     """How far the wall is, told in a unit, after a way in km, where `meta` has its extension_m and way_m, or no way_m."""
     if "way_m" not in meta:
         return f"{length_text(way, unit)} {unit} of extension"
-    extension = length_text(f"{meta['extension_m'] / 1000:.3g}", unit)
+    least = 1e-4 * abs(meta["way_m"])   # a cycle ends near a round number: what is below that is 0
+    extension = length_text(f"{round(meta['extension_m'] / least) * least / 1000 + 0.0:.3g}" if least else "0", unit)
     return f"{extension} {unit} of extension after a way of {length_text(way, unit)} {unit}"
 
 

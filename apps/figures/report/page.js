@@ -65,7 +65,7 @@ async function draw() {
   const turn = ++drawing;
   const inked = run => shownLayers(run, "discs", page.shown);
   await Promise.all(page.runs.map(run => run.load([...modes[page.mode].needs, ...(page.shown.has("bonds") ? bondStreams : []),
-    ...inked(run).map(([name]) => name), ...(page.mode === "strata" ? ["layer", "start_extension_m"] : [])])));
+    ...inked(run).map(([name]) => name), ...(page.mode === "strata" ? ["layer", "start_travel_m"] : [])])));
   if (turn !== drawing) return;
   const top = scaleEnd(page.runs, page.mode);
   const strata = Math.max(...page.runs.map(run => run.codes.at(-1).stratum.reduce((a, b) => Math.max(a, b), 0)));
@@ -86,7 +86,7 @@ async function draw() {
 
 /** When the youngest stratum of all runs was laid down, in the page's unit of time. */
 function youngestTime() {
-  return Math.max(...page.runs.map(run => timeOf(run, run.values(run.moments.length - 1, "start_extension_m").reduce((a, b) => Math.max(a, b), 0))));
+  return Math.max(...page.runs.map(run => timeOf(run, run.values(run.moments.length - 1, "start_travel_m").reduce((a, b) => Math.max(a, b), 0))));
 }
 
 /** Whether a disc that is shown has no strain of the window. */
@@ -186,7 +186,7 @@ async function drawFaults() {
   const index = Math.max(chosen, 0), fault = faults[index], cutoffs = lines.cutoffs?.[index];
   $("throws_title").textContent = fault ? `Throw by stratum, fault ${index}` : "Throw by stratum";
   $("expansion_title").textContent = fault ? `Growth of strata, fault ${index}` : "Growth of strata";
-  await run.load(["start_extension_m"]);
+  await run.load(["start_travel_m"]);
   drawThrows($("throws"), run, fault, cutoffs, page.scale.strata);
   drawExpansion($("expansion"), run, fault, cutoffs, page.scale.strata);
   drawWheeler($("wheeler"), run, momentOf(run));
@@ -224,7 +224,7 @@ async function describe() {
     $("picked").textContent = fault ? `${which}fault ${picked.index}: ${fault.attitude}, ${fault.sense}, dip ` +
       `${fault.dip_deg.toFixed(1)}°, ${digits(fault.rate_mm_per_a, 2)} mm/a, ${valueText(fault.length_m, "m", run.head.mean_radius_m)} long` +
       (fault.born_at_m === null ? "; its birth is known at the figures' moments and at the end"
-        : `; born at ${metresText(fault.born_at_m)} of ${clockWord(run)}`) +
+        : `; born at ${metresText(fault.born_at_m)} of extension`) +
       (fault.pre_rift_throw_m === null ? "" : `; pre-rift throw ${metresText(fault.pre_rift_throw_m)}`) +
       throwsOf(fault).map(([stratum, metres], n) => `${n ? ", " : "; throw by stratum: "}${stratum}: ${metresText(metres)}`).join("") +
       (throwsOf(fault).length ? ` (± ${metresText(fault.throw_error_m)})` : "")

@@ -152,11 +152,11 @@ function drawExpansion(host, run, fault, cutoffs, strata) {
 /** Thickness of every stratum in columns of the section, m, and when it was laid down, as of moment k. */
 function thicknessOf(run, k, width) {
   const solid = 0.83, {present, stratum} = run.codes[k], x = run.values(k, "x_m"), radius = run.values(k, "radius_m");
-  const start = run.values(k, "start_extension_m"), columns = Math.ceil((run.head.length_m + run.moments[k].extension_m) / width);
+  const start = run.values(k, "start_travel_m"), columns = Math.ceil((run.head.length_m + run.moments[k].extension_m) / width);
   const strata = [];
   for (let i = 0; i < present.length; ++i) {
     if (!present[i] || stratum[i] < 1) continue;
-    const one = strata[stratum[i]] ??= {thickness: new Float64Array(columns), extension: start[i]};
+    const one = strata[stratum[i]] ??= {thickness: new Float64Array(columns), travel: start[i]};
     const column = Math.min(Math.max(Math.floor(x[i] / width), 0), columns - 1);
     one.thickness[column] += Math.PI * radius[i] ** 2 / solid / width;
   }
@@ -169,7 +169,7 @@ function drawWheeler(host, run, k) {
   const tell = text => { $("wheeler_says").textContent = text; };
   tell("");
   if (numbers.length === 0) return void (host.textContent = "Nothing: no sediment has been laid down.");
-  const {name, metres} = lengthUnit(), ages = numbers.map(n => timeOf(run, strata[n].extension));
+  const {name, metres} = lengthUnit(), ages = numbers.map(n => timeOf(run, strata[n].travel));
   const step = numbers.length > 1 ? (ages.at(-1) - ages[0]) / (numbers.at(-1) - numbers[0]) : ages[0] || 1;
   const all = numbers.flatMap(n => [...strata[n].thickness]).filter(value => value > 0).sort((a, b) => a - b);
   const top = all[Math.floor(0.99 * (all.length - 1))], table = paletteOf("window", "figures");

@@ -27,7 +27,9 @@ function lengthUnit() {
 }
 
 /** "5.00 km" */
-function placeText(metres, decimals = 2) { return `${(metres / lengthUnit().metres).toFixed(decimals)} ${lengthUnit().name}`; }
+function placeText(metres, decimals = 2) {
+  return `${(metres / lengthUnit().metres).toFixed(decimals).replace(/^-(?=[0.]*$)/, "")} ${lengthUnit().name}`;
+}
 
 /** Unit in which the page tells time, by its longest run. */
 function timeUnit() {

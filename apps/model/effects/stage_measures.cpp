@@ -112,7 +112,7 @@ std::optional<double> null_point(const State& state, const Motion& motion,
                                  const std::optional<Decompaction>& decompaction) {
     constexpr double from = 200.0, to = 1500.0; // m
     const ConstDiscColumns d = disc_columns(state);
-    std::map<std::int32_t, Travel> deposited; // by stratum
+    std::map<std::int32_t, Travel> deposited{{0, Travel()}}; // by stratum; 0: the pre-rift top
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.stratum[i] > 0 && Travel(d.start_travel[i]) <= turn)
             deposited[d.stratum[i]] = Travel(d.start_travel[i]);
@@ -152,6 +152,8 @@ std::optional<double> null_point(const State& state, const Motion& motion,
             height += lost / (1.0 - packing_porosity) / (to - from);
         }
         const double at = motion.position(travel).m;
+        if (height >= 0.0 && stratum == 0)
+            return at; // all that was extended is taken back
         if (before && *before < 0.0 && height >= 0.0)
             return before_at + (at - before_at) * *before / (*before - height);
         before = height;

@@ -34,8 +34,8 @@ struct Decompaction {
 
 /// Null point: extension at which the stratum was deposited whose top, mean from 0.2 to 1.5 km from
 /// the breakaway, is at the regional; older ones are below it and younger ones above (Williams,
-/// Powell & Cooper 1989, Geol. Soc. Spec. Publ. 44, 3). Linear between strata; none if all tops are
-/// on one side.
+/// Powell & Cooper 1989, Geol. Soc. Spec. Publ. 44, 3). Linear between strata; 0 where the pre-rift
+/// top is at the regional or above, none if all tops are below.
 /// @param turn  when shortening began: later strata do not count
 /// @param decompaction  adds the thickness that strata below a top have lost since it was laid
 ///     down, from their porosity now (column `porosity`) and what it was that far below the top

@@ -139,18 +139,22 @@ def _moments(found: list[Snapshot]) -> tuple[Snapshot, ...]:
             history = newest.table("run/history")
             ends = np.asarray(history["travel_m" if "travel_m" in history else "extension_m"])
             scene = newest.scene
+            interval = float(scene.get("output.interval_m", 500.0))
         except (RunError, UnknownName):
             continue
         older = found[:found.index(newest)]
         for one in older:
             _require_scene(one, scene, newest)
-        return tuple(one for one in found if one not in older or _is_end(one, ends))
+        return tuple(one for one in found if one not in older or _is_end(one, ends, interval))
     return tuple(found)
 
 
-def _is_end(snapshot: Snapshot, ends: np.ndarray) -> bool:
+def _is_end(snapshot: Snapshot, ends: np.ndarray, interval: float) -> bool:
+    """Whether a name is that of a window's end: of its multiple of the interval or, as older versions had it,
+    of the cycle in which it came."""
     decimals = len(snapshot.path.name.removesuffix("m.h5").split(".")[1])
-    return bool(np.any(np.abs(ends - snapshot.named_extension_m) <= 0.5000005 * 10.0 ** -decimals))
+    named = np.append(ends, interval * np.round(ends / interval))
+    return bool(np.any(np.abs(named - snapshot.named_extension_m) <= 0.5000005 * 10.0 ** -decimals))
 
 
 def _require_scene(snapshot: Snapshot, scene: dict, newest: Snapshot) -> None:

@@ -19,8 +19,9 @@ except ImportError as error:
     raise ImportError("listric reads snapshots with h5py: install the package python3-h5py, or "
                       "`pip install h5py`") from error
 
-FORMAT = 7  # the newest of the snapshots that the program writes: with layers of rock, else 6
+FORMAT = 8  # of the snapshots that the program writes
 _OLDEST = 5  # that is read, too: its scene is an attribute, which is nothing that is asked for here
+_RENAMED = {("discs", "start_extension"): "start_travel"}  # up to format 7, which named the travel so
 _KIND = "listric snapshot "
 _END = b"listric checksum"  # in front of the last eight bytes of a whole file
 
@@ -117,11 +118,11 @@ class Snapshot:
                 if not isinstance(group, h5py.Group) or "rows" not in group.attrs:
                     raise UnknownName(name, _tables(file), str(self.path))
                 columns = sorted(group.items(), key=lambda item: item[1].attrs["position"])
-                units = {key: _text(values.attrs["unit"]) or unit_of(key)
-                         for key, values in columns}
+                stored = {_RENAMED.get((name, key), key): key for key, _ in columns}
+                units = {key: _text(group[stored[key]].attrs["unit"]) or unit_of(key) for key in stored}
                 rows = int(group.attrs["rows"])
             self._tables[name] = Table(f"{self.path} {name}", rows, units,
-                                       lambda key: self._column(f"{name}/{key}"))
+                                       lambda key: self._column(f"{name}/{stored[key]}"))
         return self._tables[name]
 
     def lines(self, kind: str) -> list[dict]:

@@ -22,7 +22,9 @@ std::vector<std::string> results_of(RunView& run) {
     const std::vector<double> depth = smoothed_depth(profile);
     Results results{.measures = run.measured(),
                     .faults = run.faults(),
-                    .extension = run.extension().m,
+                    .extension = run.extension(),
+                    .half_a_cycle = dem::Extension(run.simulation.tolerance().m),
+                    .has_stages = run.has_stages(),
                     .base_moves = run.parts.base_moves};
     if (!depth.empty())
         results.basin_depth = std::ranges::max(depth);

@@ -21,7 +21,9 @@ void remove_passed_stops(const RunView& run) {
     for (const fs::path& path : list_snapshots(output)) {
         const std::string moment = *moment_of_snapshot(path.filename().string());
         const double stop = snapshot_extension(path);
-        if (moment == present || stop > run.travel().m || names.window_end(moment))
+        const auto end = names.window_end(moment);
+        const bool is_old_name = end && *end == run.travel().m; // of an older version
+        if (moment == present || (!is_old_name && (stop > run.travel().m || end)))
             continue;
         for (const fs::path& file : files_of_moment(output, moment, names.kilometres(stop)))
             fs::remove(file, error);
