@@ -176,6 +176,17 @@ Point foot_of(const FaultTrace& trace, const Chain& detachment, double diameter)
     return to;
 }
 
+/// When the wall came to where it is at some travel: where that is in a pause, or at its end, at
+/// its beginning. What slipped before the pause was there by then.
+Travel arrival(const Motion& motion, Travel travel) {
+    constexpr Travel tolerance(1.0); // a window and a pause may end in the same cycle
+    for (std::size_t k = motion.stages.size(); k-- > 0;)
+        if (const MotionStage& one = motion.stages[k];
+            one.slope == 0.0 && travel > one.start && travel < one.end + tolerance)
+            travel = one.start;
+    return travel;
+}
+
 /// The run up to the present state, as faults are followed back through it.
 class Windows {
 public:
@@ -183,7 +194,7 @@ public:
     /// @param unit   of lengths, m
     Windows(std::span<const DiscPlaces> older, const Chain& detachment, double unit,
             const Setting& setting)
-        : older_(older), detachment_(detachment) {
+        : older_(older), detachment_(detachment), motion_(setting.motion) {
         for (std::size_t k = 0; k + 1 < older.size(); ++k) {
             fields_.push_back(
                 shear_field(older[k], older[k + 1], setting.youngest_sediment, setting.motion));
@@ -195,6 +206,9 @@ public:
 
     std::size_t size() const { return fields_.size(); }
     const DiscPlaces& end(std::size_t k) const { return older_[k + 1]; }
+
+    /// When the wall came to where it is at the end of window k.
+    Travel arrival(std::size_t k) const { return measures::arrival(motion_, older_[k + 1].travel); }
 
     /// Whether half of a former trace slid in the given sense.
     bool was_active(const FormerTrace& former, std::size_t k, double sense) const {
@@ -212,6 +226,7 @@ public:
 private:
     std::span<const DiscPlaces> older_;
     const Chain& detachment_;
+    const Motion& motion_;
     std::vector<ShearField> fields_;
     std::vector<Cells> cells_;
     std::vector<std::optional<std::vector<FaultTrace>>> traces_;
@@ -259,7 +274,7 @@ void trace_back(Fault& f, const std::vector<Companions>& footwall, Windows& wind
         lived.emplace_back(k, std::move(former));
         if (slid && 3.0 * active >= 2.0 * all) {
             f.born_at = windows.end(k).extension;
-            f.born_travel = windows.end(k).travel;
+            f.born_travel = windows.arrival(k);
             f.footwall_turn = lived.back().second.turn * 180.0 / pi;
             since_birth = lived.size();
         }

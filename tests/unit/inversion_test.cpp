@@ -113,6 +113,20 @@ TEST(Inversion, NullPointIsWhereStrataAreBackAtTheRegional) {
     EXPECT_NEAR(null_point(state, motion, level(0.0), Travel(5000.0)).value(), 2800.0, 1e-6);
     EXPECT_FALSE(null_point(state, motion, level(-5000.0), Travel(5000.0))); // all tops are above
     EXPECT_FALSE(null_point(state, motion, level(5000.0), Travel(5000.0)));
+    // The pre-rift top is the oldest: where it is at the regional again, or above, all that was
+    // extended is taken back. It lies between where it was, and the oldest stratum.
+    State all = state;
+    const std::size_t first = add_discs(all, 14);
+    for (std::size_t k = 0; k < 14; ++k) {
+        const DiscColumns c = disc_columns(all);
+        c.x[first + k] = 150.0 + width * static_cast<double>(k);
+        c.y[first + k] = sinks * (shortening - extension) - radius;
+        c.radius[first + k] = radius;
+    }
+    EXPECT_EQ(null_point(all, motion, level(-1401.0), Travel(5000.0)).value(), 0.0);
+    EXPECT_EQ(null_point(all, motion, level(-5000.0), Travel(5000.0)).value(), 0.0);
+    EXPECT_NEAR(null_point(all, motion, level(-1300.0), Travel(5000.0)).value(), 200.0, 1e-6);
+    EXPECT_NEAR(null_point(all, motion, level(0.0), Travel(5000.0)).value(), 2800.0, 1e-6);
     // 0.2 to 1.5 km from the breakaway a line counts by its mean.
     EXPECT_NEAR(
         null_point(state, motion, TargetLine({{0.0, -85.0}, {1700.0, 85.0}}), Travel(5000.0))
@@ -120,8 +134,9 @@ TEST(Inversion, NullPointIsWhereStrataAreBackAtTheRegional) {
         2800.0, 1e-6);
     // Nothing is lost where pores are as open as they were.
     state.discs.add<double>("porosity", "1", 0.5);
-    EXPECT_NEAR(null_point(state, motion, level(0.0), Travel(5000.0), Decompaction{0.5, 0.0}).value(),
-                2800.0, 1e-6);
+    EXPECT_NEAR(
+        null_point(state, motion, level(0.0), Travel(5000.0), Decompaction{0.5, 0.0}).value(),
+        2800.0, 1e-6);
     // Strata that have lost thickness stood higher: older ones are back at the regional.
     for (double& porosity : state.discs.get<double>("porosity"))
         porosity = 0.4;

@@ -13,16 +13,19 @@ namespace listric::moment_names_test {
 namespace {
 
 TEST(MomentNames, OfABasinHaveTwoDecimals) {
-    const std::vector<double> ends{0.0, 499.98, 1000.004, 12345.6789, 123456.789};
+    const std::vector<double> ends{0.0, 499.98, 1000.004, 12499.9889, 123500.011};
     const MomentNames names(500.0, ends);
     EXPECT_EQ(names.metres(0.0), "00000.00");
-    EXPECT_EQ(names.metres(499.98), "00499.98");
+    EXPECT_EQ(names.metres(499.98), "00500.00"); // which was asked for
     EXPECT_EQ(names.metres(1000.004), "01000.00");
-    EXPECT_EQ(names.metres(12345.6789), "12345.68");
-    EXPECT_EQ(names.metres(123456.789), "123456.79");
+    EXPECT_EQ(names.metres(12499.9889), "12500.00");
+    EXPECT_EQ(names.metres(123500.011), "123500.00");
+    for (const double end : ends)
+        EXPECT_EQ(names.window_end(names.metres(end)), end);
+    EXPECT_EQ(names.window_end("00499.98"), 499.98); // an older version's name
     EXPECT_EQ(names.kilometres(0.0), "0.0");
     EXPECT_EQ(names.kilometres(499.98), "0.5");
-    EXPECT_EQ(names.kilometres(12345.6789), "12.35");
+    EXPECT_EQ(names.kilometres(12499.9889), "12.5");
 }
 
 TEST(MomentNames, OfASmallModelTellItsMomentsApart) {
@@ -43,14 +46,18 @@ TEST(MomentNames, OfASmallModelTellItsMomentsApart) {
 
 TEST(MomentNames, OfAStopAreNotThoseOfAWindow) {
     const std::vector<double> ends{0.0, 99.9981, 199.9999};
-    const MomentNames names(100.0, ends);
+    MomentNames names(100.0, ends);
     EXPECT_EQ(names.metres(120.04), "00120.04");
-    for (const double stop : {99.996, 99.9981 + 1e-9, 100.0, 100.001, 200.0, 299.999, 1e-7}) {
+    // Stops are cycles away from ends.
+    for (const double stop : {99.98, 100.02, 200.04, 299.999, 0.02}) {
         const std::string name = names.metres(stop);
         EXPECT_FALSE(names.window_end(name)) << name;
         EXPECT_NE(name, "00300.00");
         EXPECT_NEAR(*extension_of(name), stop, 0.01);
     }
+    names.name_after(120.0, 0.01);
+    EXPECT_EQ(names.metres(119.993), "00120.00");
+    EXPECT_EQ(names.metres(119.98), "00119.98");
     EXPECT_EQ(names.kilometres(120.0), "0.12");
     EXPECT_NE(names.kilometres(203.0), names.kilometres(199.9999));
     EXPECT_NE(names.kilometres(297.0), "0.3"); // which comes

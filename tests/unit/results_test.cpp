@@ -76,9 +76,17 @@ TEST(Results, JudgeTheBalanceOfAreasWhereItHasBounds) {
     Measures m = good_measures();
     m.area_balance = 0.59;
     const auto last = [&](double extension, bool base_moves) {
-        return result_lines({m, {}, {}, {}, extension, base_moves}).back();
+        return result_lines({.measures = m,
+                             .faults = {},
+                             .extension = dem::Extension(extension),
+                             .half_a_cycle = dem::Extension(0.01),
+                             .base_moves = base_moves})
+            .back();
     };
     EXPECT_THAT(last(5e3, false), MatchesRegex("doubtful: .*, areas do not balance"));
+    // A run to 5 km ends within half a cycle of it.
+    EXPECT_THAT(last(4999.992, false), MatchesRegex("doubtful: .*, areas do not balance"));
+    EXPECT_THAT(last(4999.98, false), MatchesRegex("good: .*, balance of areas not judged .*"));
     EXPECT_THAT(last(1e3, false),
                 MatchesRegex("good: .*, balance of areas not judged before 5 km"));
     EXPECT_THAT(last(5e3, true),

@@ -51,6 +51,43 @@ TEST(RunHistory, ExtraMomentsOfAStoppedRunMakeNoWindowShort) {
     EXPECT_THAT(before(history, 200.0), ElementsAre(0.0, 100.0));
 }
 
+// Where the wall rests no window ends, and where it is slow a window takes more moments; the faults
+// of a pause are those of the last way before it.
+TEST(RunHistory, WindowsGoByTheWallsWay) {
+    measures::Setting setting;
+    setting.output_interval = 100.0;
+    setting.motion.stages = {{.end = dem::Travel(200.0)},
+                             {.start = dem::Travel(200.0),
+                              .end = dem::Travel(500.0),
+                              .start_position = dem::Extension(200.0),
+                              .slope = 0.0},
+                             {.start = dem::Travel(500.0),
+                              .end = dem::Travel(900.0),
+                              .start_position = dem::Extension(200.0),
+                              .slope = 0.5},
+                             {.start = dem::Travel(900.0),
+                              .end = dem::Travel(1100.0),
+                              .start_position = dem::Extension(400.0),
+                              .slope = -1.0}};
+    RunHistory history;
+    for (double travel = 0.0; travel <= 1100.0; travel += 100.0) {
+        dem::State state = dem::empty_state();
+        state.clock.travel = dem::Travel(travel);
+        state.clock.extension = setting.motion.position(state.clock.travel);
+        history.add(DiscPlaces(state));
+    }
+    const auto before = [&](double travel) {
+        std::vector<double> found;
+        for (const DiscPlaces& places : history.before(dem::Travel(travel), setting))
+            found.push_back(places.travel.m);
+        return found;
+    };
+    EXPECT_THAT(before(200.0), ElementsAre(0.0, 100.0));
+    EXPECT_THAT(before(400.0), ElementsAre(0.0, 100.0)); // in the pause
+    EXPECT_THAT(before(900.0), ElementsAre(0.0, 100.0, 500.0, 700.0));
+    EXPECT_THAT(before(1100.0), ElementsAre(0.0, 100.0, 500.0, 700.0, 900.0, 1000.0));
+}
+
 TEST(RunHistory, AResumedRunForgetsWhatLiesAhead) {
     RunHistory history = history_of({0.0, 100.0, 200.0, 300.0});
     history.add(places_at(200.0));
