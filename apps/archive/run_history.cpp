@@ -38,7 +38,7 @@ std::vector<std::size_t> whole_windows(std::span<const Travel> moments, Travel n
             next = moments[k];
             found.push_back(k);
         }
-    // What is left over at the start, in a stage that is slower than the others, goes to the first.
+    // A rest at the start, in a stage that is slower than the others, goes to the first window.
     if (found.size() < most && !moments.empty() && moments.front() < next) {
         if (!found.empty())
             found.back() = 0;

@@ -508,6 +508,9 @@ class Drawing(Folder):
         self.assertEqual([page.moment_text(frame) for frame in frames_], after)
         [headline] = [text.get_text() for text in sheet.draw_sheet(frames_).texts if text.get_text().startswith("a title")]
         self.assertEqual(headline, f"a title: {after[0]} and {after[1]}")
+        for least in (-0.0116, 0.0, 0.0093):    # 3 km out and back, to half a cycle
+            there = self.frame({"extension_m": least, "way_m": 6000.0, "extension_km": "6.0"})
+            self.assertEqual(page.moment_text(there), "0 km of extension after a way of 6.0 km")
         plain = [self.frame({"extension_m": 1000.0 * km}) for km in (5.0, 10.0)]
         self.assertIn("a title: 5.0 and 10.0 km of extension", [text.get_text() for text in sheet.draw_sheet(plain).texts])
         columns = {name: [1.0, 2.0] for name in ("depth_m", *(line[0] for _, lines in wells.PANELS for line in lines))}
