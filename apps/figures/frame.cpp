@@ -19,6 +19,7 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
 #include "dem/events/strain.hpp"
+#include "dem/just_before.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -317,7 +318,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     nlohmann::json frame = frame_json(now, m);
     frame["strain_end"] = scale_end(strain);
     frame["layers"] = declared_layers(now.scene);
-    if (now.parts.base.motion.shortens(now.state.clock.travel)) {
+    if (now.parts.base.motion.shortens(just_before(now.parts.base.motion, now.state.clock))) {
         write_tops(writer, now);
         frame["said"] = said_in_figures(now);
     }
@@ -325,10 +326,9 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
     frame["extension_km"] =
         names.value_or(MomentNames(now.scene.output.interval, {&travel, 1})).kilometres(travel);
     // Picks are of the section as it is at the end of extension.
-    const bool observed =
-        now.scene.observed &&
-        has_come_to(now.state.clock.travel, Travel(now.scene.extension.distance),
-                    Travel(now.parts.base.motion.greatest_speed() * now.state.clock.time_step));
+    const bool observed = now.scene.observed &&
+                          has_come_to(now.state.clock.travel, Travel(now.scene.extension.distance),
+                                      travel_of_cycle(now.parts.base.motion, now.state.clock));
     std::vector<Horizon> horizons;
     if (observed || underlay)
         horizons = trace_horizons(archive::make_setting(now.scene, now.parts), now.parts.base,

@@ -1,6 +1,7 @@
 #include "apps/measures/dilation.hpp"
 
 #include "dem/contacts/power_cell.hpp"
+#include "dem/just_before.hpp"
 
 namespace listric::measures {
 
@@ -54,7 +55,7 @@ NamedNumbers measure_dilation(const RunSoFar& run) {
     NamedNumbers numbers; // not finite without closed cells
     const double grown = growth * all / closed;
     add(numbers, dilation, grown);
-    if (!run.base.motion.shortens(run.now.clock.travel))
+    if (!run.base.motion.shortens(just_before(run.base.motion, run.now.clock)))
         add(numbers, dilation_fraction, grown / (run.extension.m * run.setting.thickness));
     return numbers;
 }

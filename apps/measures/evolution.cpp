@@ -10,6 +10,7 @@
 #include "apps/measures/relief.hpp"
 #include "apps/measures/rock.hpp"
 #include "apps/measures/syncline.hpp"
+#include "dem/just_before.hpp"
 
 namespace listric::measures {
 
@@ -29,7 +30,7 @@ NamedNumbers measure_evolution(const Setting& setting, const RigidBase& base, co
     const RunSoFar run(setting, base, now, past);
     NamedNumbers numbers = measure_main_faults(run, faults, measures.rollover_tilt);
     // The rest compares moments of a wall that is pulled on and on.
-    if (base.motion.shortens(now.clock.travel)) {
+    if (base.motion.shortens(just_before(base.motion, now.clock))) {
         append(numbers, measure_dilation(run));
         return numbers;
     }

@@ -5,6 +5,7 @@
 #include "dem/base/ground_level.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
+#include "dem/just_before.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -124,15 +125,16 @@ NamedNumbers measure_layering(const State& state, const TargetLine& surface) {
     return numbers;
 }
 
-NamedNumbers measure_porosity(const State& state, const Sediment& sediment) {
+/// @param settled  age from which on sediment counts, m of travel
+NamedNumbers measure_porosity(const State& state, const Sediment& sediment, double settled) {
     const ConstDiscColumns d = disc_columns(state);
-    const GroundLevel ground(state, settling);
+    const GroundLevel ground(state, settled);
     const bool weakens = state.discs.has("rock_radius");
     const auto rock_radius =
         weakens ? state.discs.get<double>("rock_radius") : std::span<const double>();
     double all = 0.0, error = 0.0, beyond = 0.0;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
-        if (d.stratum[i] == 0 || state.clock.travel.m - d.start_travel[i] < settling)
+        if (d.stratum[i] == 0 || state.clock.travel.m - d.start_travel[i] < settled)
             continue;
         const double radius = weakens && rock_radius[i] > 0.0 ? rock_radius[i] : d.radius[i];
         const double grains = (1.0 - sediment.surface_porosity) * d.mass[i] /
@@ -164,7 +166,9 @@ NamedNumbers measure_rock(const Setting& setting, const State& state) {
     const Sediment& sediment = *setting.sediment;
     const TargetLine surface = sediment.target.at(state.clock.travel.m / setting.extension_rate);
     if (sediment.porosity_decay)
-        append(numbers, measure_porosity(state, sediment));
+        append(numbers,
+               measure_porosity(state, sediment,
+                                settling - travel_of_cycle(setting.motion, state.clock).m));
     append(numbers, measure_layering(state, surface));
     return numbers;
 }

@@ -21,7 +21,8 @@ constexpr double flattest = 1e-3;
 
 DiscPlaces::DiscPlaces(const State& state)
     : travel(state.clock.travel), extension(state.clock.extension),
-      diameter(2.0 * state.mean_radius), row_of(static_cast<std::size_t>(state.next_id), -1) {
+      time_step(state.clock.time_step), diameter(2.0 * state.mean_radius),
+      row_of(static_cast<std::size_t>(state.next_id), -1) {
     const ConstDiscColumns d = disc_columns(state);
     x.assign(d.x.begin(), d.x.end());
     y.assign(d.y.begin(), d.y.end());
@@ -82,10 +83,12 @@ ShearField shear_field(const DiscPlaces& before, const DiscPlaces& now, Travel l
     ShearField field;
     field.diameter = now.diameter;
     field.window = motion.way(before.travel, now.travel);
+    const Travel cycle(motion.greatest_speed() * now.time_step);
     std::vector<double> old_x, old_y;
     for (std::size_t i = 0; i < now.id.size(); ++i) {
         const auto id = static_cast<std::size_t>(now.id[i]);
-        if (id >= before.row_of.size() || before.row_of[id] < 0 || now.age[i] < least_age.m)
+        if (id >= before.row_of.size() || before.row_of[id] < 0 ||
+            !has_come_to(Travel(now.age[i]), least_age, cycle))
             continue;
         const auto old = static_cast<std::size_t>(before.row_of[id]);
         field.x.push_back(now.x[i]);

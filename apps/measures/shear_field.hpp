@@ -17,6 +17,7 @@ struct DiscPlaces {
 
     dem::Travel travel;
     dem::Extension extension;
+    double time_step = 0.0;           ///< s
     double diameter = 0.0;            ///< mean of the basement, m
     std::vector<double> x, y;         ///< m
     std::vector<std::int64_t> id;     ///< of the disc in the row

@@ -3,6 +3,7 @@
 #include "apps/model/effect_list.hpp"
 #include "apps/model/effects/stage_measures.hpp"
 #include "dem/events/stage_change.hpp"
+#include "dem/just_before.hpp"
 
 #include <fmt/format.h>
 
@@ -79,7 +80,7 @@ std::optional<double> recorded(const Observation& now, const char* name, std::si
 
 bool has_turned(const Observation& now) {
     return recorded(now, "extension_m", 0) &&
-           now.parts.base.motion.shortens(now.state.clock.travel);
+           now.parts.base.motion.shortens(just_before(now.parts.base.motion, now.state.clock));
 }
 
 /// Growth of the area above the regional since a row, m^2, with what was eroded meanwhile: its mass
@@ -162,7 +163,8 @@ std::vector<Measure<Observation>> measures_of_stages() {
          }},
         {"stage", "1", "number of the [[stage]], counted from 0",
          [](const Observation& now) -> std::optional<double> {
-             return static_cast<double>(now.parts.base.motion.stage(now.state.clock.travel));
+             return static_cast<double>(
+                 now.parts.base.motion.stage(just_before(now.parts.base.motion, now.state.clock)));
          }},
         {"uplift_area_m2", "m2",
          "growth since the turn of the area above the regional, over the footwall, too, with what "

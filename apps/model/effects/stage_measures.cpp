@@ -1,5 +1,6 @@
 #include "apps/model/effects/stage_measures.hpp"
 
+#include "dem/just_before.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -113,8 +114,9 @@ std::optional<double> null_point(const State& state, const Motion& motion,
     constexpr double from = 200.0, to = 1500.0; // m
     const ConstDiscColumns d = disc_columns(state);
     std::map<std::int32_t, Travel> deposited{{0, Travel()}}; // by stratum; 0: the pre-rift top
+    const Travel last = turn + travel_of_cycle(motion, state.clock);
     for (std::size_t i = 0; i < d.x.size(); ++i)
-        if (d.stratum[i] > 0 && Travel(d.start_travel[i]) <= turn)
+        if (d.stratum[i] > 0 && Travel(d.start_travel[i]) <= last)
             deposited[d.stratum[i]] = Travel(d.start_travel[i]);
     const auto porosity = decompaction && state.discs.has("porosity")
                               ? state.discs.get<double>("porosity")
