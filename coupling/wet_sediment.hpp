@@ -34,9 +34,9 @@ public:
     /// Height of the grains above a place, m, from those of the discs above it.
     double grains(dem::Point p, double of_discs) const;
 
-    /// Depth of the ground that sedimentation leaves below its line, in mean radii: .18 to .29 in a
-    /// basin at draft and at standard, with strata of 90 and of 450 m.
-    static constexpr double left_free = 0.24;
+    /// Depth of the smooth ground below the line that sedimentation has filled it up to, in mean
+    /// radii: .17 to .29 in a basin at draft, with strata every 2,500 and every 10,000 a.
+    static constexpr double left_free = 0.22;
 
 private:
     dem::GroundLevel ground_;

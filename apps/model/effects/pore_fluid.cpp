@@ -141,15 +141,19 @@ void check(const Scene& scene, const Refuse& refuse) {
                "that water carries; make the base rigid, or leave out [pore_fluid]");
 }
 
-/// Thick strata are shocks.
+/// Pressure is that of its depth below thick strata only, whose own water is fresh: beside a column
+/// laid down continuously it is .005 off with strata of 100 m of travel, .02 with 200, at 0.5 km,
+/// and .06 at 1 km with 500.
 std::string warning(const Scene& scene) {
-    constexpr double most = 2e4; // a
+    constexpr double most = 100.0; // m of travel
     const double interval = make_parts(scene).sediment->deposition_interval;
-    if (scene.find<P>()->hydrostatic || interval <= most)
+    const double rate = scene.extension.rate;
+    if (scene.find<P>()->hydrostatic || interval * rate <= most * (1.0 + 1e-9))
         return "";
-    return fmt::format("pore_fluid: strata every {:g} a load the water by shocks; every {:g} a or "
-                       "less is smooth",
-                       interval, most);
+    return fmt::format("pore_fluid: strata every {:g} a are up to {:.0f} m thick; the pressure of "
+                       "the water is good to .01 with sedimentation.interval_a = {:g} or less at "
+                       "this rate",
+                       interval, interval * rate, most / rate);
 }
 
 /// Time that the wall takes to pull the base away, s: no floor sinks in pauses and on the way back.
