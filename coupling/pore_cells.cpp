@@ -1,6 +1,6 @@
 #include "coupling/pore_cells.hpp"
 
-#include "dem/base/ground_level.hpp"
+#include "dem/hypotenuse.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -67,7 +67,7 @@ double common_length(const PoreCells& cells, std::size_t first, const PowerFacet
 
 } // namespace
 
-PoreCells pore_cells(const State& state, const RigidBase& base) {
+PoreCells pore_cells(const State& state, const RigidBase& base, const WetSediment& sediment) {
     const ConstDiscColumns d = disc_columns(state);
     PoreCells cells;
     cells.cell_of.assign(d.x.size(), -1);
@@ -81,10 +81,11 @@ PoreCells pore_cells(const State& state, const RigidBase& base) {
         cells.faceted.begin = {0};
         return cells;
     }
-    const GroundLevel ground(state);
+    const WetGround ground(state, base.motion, sediment);
     for (const std::int32_t row : cells.rows) {
         const auto i = static_cast<std::size_t>(row);
-        cells.depths.push_back(ground.depth({d.x[i], d.y[i]}));
+        cells.pending.push_back(ground.pending(d.x[i]));
+        cells.depths.push_back(ground.of_discs().depth({d.x[i], d.y[i]}));
     }
     constexpr double none = std::numeric_limits<double>::infinity();
     const std::vector<double> radius = rock_radii(state);
@@ -93,7 +94,7 @@ PoreCells pore_cells(const State& state, const RigidBase& base) {
     end_at_ground(state, base, radius, cells);
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const double r = radius[static_cast<std::size_t>(cells.rows[k])];
-        cells.ground_distances.push_back(std::max(cells.depths[k], 0.5 * r));
+        cells.ground_distances.push_back(std::max(cells.depths[k] + cells.pending[k], 0.5 * r));
         for (const PowerFacet& facet : cells.faceted.of(k))
             if (facet.neighbour == facet_on_lid)
                 cells.surface_lengths[k] += facet.length;
@@ -101,9 +102,78 @@ PoreCells pore_cells(const State& state, const RigidBase& base) {
     return cells;
 }
 
+double Bedding::factor(std::size_t cell, Point direction) const {
+    if (normals.empty())
+        return 1.0;
+    const double across = normals[cell].x * direction.x + normals[cell].y * direction.y;
+    return ratio + (1.0 - ratio) * across * across;
+}
+
+Point Bedding::flow_of(std::size_t cell, Point gradient) const {
+    if (normals.empty())
+        return gradient;
+    const Point n = normals[cell];
+    const double across = (1.0 - ratio) * (n.x * gradient.x + n.y * gradient.y);
+    return {ratio * gradient.x + across * n.x, ratio * gradient.y + across * n.y};
+}
+
+namespace {
+
+/// Gradient of the plane by least squares through the ages of a cell and those that it touches.
+Point age_gradient(const State& state, const PoreCells& cells, std::size_t k) {
+    const ConstDiscColumns d = disc_columns(state);
+    const auto i = static_cast<std::size_t>(cells.rows[k]);
+    double xx = 0.0, xy = 0.0, yy = 0.0, xt = 0.0, yt = 0.0;
+    for (const PowerFacet& facet : cells.faceted.of(k)) {
+        if (facet.neighbour < 0)
+            continue;
+        const auto j = static_cast<std::size_t>(facet.neighbour);
+        if (cells.cell_of[j] < 0)
+            continue;
+        const double x = d.x[j] - d.x[i], y = d.y[j] - d.y[i];
+        const double later = d.start_extension[j] - d.start_extension[i];
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
+        xt += x * later;
+        yt += y * later;
+    }
+    const double determinant = xx * yy - xy * xy;
+    constexpr double least = 1e-3; // of that of neighbours all around: they are on a line
+    if (!(determinant > least * (xx + yy) * (xx + yy)))
+        return {};
+    return {(yy * xt - xy * yt) / determinant, (xx * yt - xy * xt) / determinant};
+}
+
+} // namespace
+
+Bedding bedding(const State& state, const PoreCells& cells, double ratio) {
+    Bedding beds{ratio};
+    if (ratio == 1.0)
+        return beds;
+    std::vector<Point> own;
+    for (std::size_t k = 0; k < cells.count(); ++k)
+        own.push_back(age_gradient(state, cells, k));
+    for (std::size_t k = 0; k < cells.count(); ++k) {
+        Point sum = own[k];
+        for (const PowerFacet& facet : cells.faceted.of(k)) {
+            const std::int32_t other =
+                facet.neighbour < 0 ? -1 : cells.cell_of[static_cast<std::size_t>(facet.neighbour)];
+            if (other < 0)
+                continue;
+            sum.x += own[static_cast<std::size_t>(other)].x;
+            sum.y += own[static_cast<std::size_t>(other)].y;
+        }
+        const double length = hypotenuse(sum.x, sum.y);
+        beds.normals.push_back(length > 0.0 ? Point{sum.x / length, sum.y / length}
+                                            : Point{0.0, 1.0});
+    }
+    return beds;
+}
+
 FlowNetwork flow_network(const State& state, const PoreCells& cells,
                          std::span<const double> permeability, double viscosity,
-                         const FaultFactors& faults) {
+                         const FaultFactors& faults, const Bedding& beds) {
     assert(permeability.size() == cells.count());
     const ConstDiscColumns d = disc_columns(state);
     const std::vector<double> radius = rock_radii(state);
@@ -111,8 +181,8 @@ FlowNetwork flow_network(const State& state, const PoreCells& cells,
     network.drains.assign(cells.count(), 0.0);
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const auto i = static_cast<std::size_t>(cells.rows[k]);
-        network.drains[k] =
-            permeability[k] * cells.surface_lengths[k] / (viscosity * cells.ground_distances[k]);
+        network.drains[k] = beds.factor(k, {0.0, 1.0}) * permeability[k] *
+                            cells.surface_lengths[k] / (viscosity * cells.ground_distances[k]);
         for (const PowerFacet& facet : cells.faceted.of(k)) {
             if (facet.neighbour < 0)
                 continue;
@@ -128,8 +198,11 @@ FlowNetwork flow_network(const State& state, const PoreCells& cells,
             const double factor = weakened == 2   ? faults.along
                                   : weakened == 1 ? faults.across
                                                   : 1.0;
-            const double both =
-                2.0 * permeability[k] * permeability[m] / (permeability[k] + permeability[m]);
+            const double reach = hypotenuse(d.x[j] - d.x[i], d.y[j] - d.y[i]);
+            const Point direction{(d.x[j] - d.x[i]) / reach, (d.y[j] - d.y[i]) / reach};
+            const double here = beds.factor(k, direction) * permeability[k];
+            const double there = beds.factor(m, direction) * permeability[m];
+            const double both = 2.0 * here * there / (here + there);
             if (length > 0.0)
                 network.links.push_back({static_cast<std::int32_t>(k), other,
                                          factor * both * length / (facet.distance * viscosity)});

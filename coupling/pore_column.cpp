@@ -92,6 +92,22 @@ void drain(const MudColumn& column, double step, Layers& layers, SunkColumn& sun
 
 } // namespace
 
+SteadyColumn sink_steadily(const MudColumn& column, double distance, double seconds) {
+    constexpr std::size_t steps = 100;
+    const auto in_steps = [&](std::size_t n) {
+        return sink(column, steady_floor(distance, n), seconds / static_cast<double>(n));
+    };
+    return {in_steps(steps), in_steps(2 * steps), column.fracture_ratio};
+}
+
+MudLayer SteadyColumn::at(double depth) const {
+    const MudLayer a = coarse.at(depth), b = fine.at(depth);
+    const auto limit = [](double from, double to) { return 2.0 * to - from; };
+    return {depth, limit(a.grains_above, b.grains_above),
+            limit(a.excess_pressure, b.excess_pressure), limit(a.porosity, b.porosity),
+            std::min(limit(a.overpressure_ratio, b.overpressure_ratio), fracture_ratio)};
+}
+
 MudLayer SunkColumn::at(double depth) const {
     // Layers go up, so depths descend.
     const auto after =

@@ -46,6 +46,21 @@ SunkColumn sink(const MudColumn& column, std::span<const double> floor, double s
 /// Depths of a floor that sinks by `distance` in as many steps.
 std::vector<double> steady_floor(double distance, std::size_t steps);
 
+/// A column that has sunk steadily, as layers and steps become ever thinner: extrapolated from two
+/// numbers of steps, since errors halve with the steps.
+struct SteadyColumn {
+    SunkColumn coarse, fine; ///< of some steps, and twice as many
+    double fracture_ratio = 0.9;
+
+    MudLayer at(double depth) const;
+};
+
+SteadyColumn sink_steadily(const MudColumn& column, double distance, double seconds);
+
+/// Bounds of Gibson's number: water is at rest below, and above hardly any leaves but through
+/// fractures.
+inline constexpr double gibson_at_rest = 0.1, gibson_undrained = 100.0;
+
 /// The time factor of Gibson (1958) for mud laid down at a rate, m/s, for a time, s: squared rate
 /// times time over the coefficient of consolidation at porosity 0.2. Far below 1 pressure is
 /// hydrostatic, far above 1 mud is undrained.

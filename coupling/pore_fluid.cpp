@@ -110,20 +110,21 @@ void PoreFluid::take_stock(State& state, const PoreCells& cells) {
 }
 
 bool PoreFluid::apply(State& state, const RigidBase& base) {
-    const PoreCells cells = pore_cells(state, base);
+    const PoreCells cells = pore_cells(state, base, sediment_);
     take_stock(state, cells);
     const ConstDiscColumns d = disc_columns(std::as_const(state));
-    const std::vector<double> above = grains_above(state, state.discs.get<double>("porosity"));
+    const WetGround ground(state, base.motion, sediment_);
+    const std::vector<double> of_discs = grains_above(state, state.discs.get<double>("porosity"));
     std::vector<double> grains, solid, conductivity; // by cell
     PressureBounds bounds;
     std::vector<double> burial = gathered(state, "burial", cells);
     std::vector<double> porosity = gathered(state, "wanted_porosity", cells);
     for (std::size_t k = 0; k < cells.count(); ++k) {
         const auto i = static_cast<std::size_t>(cells.rows[k]);
-        grains.push_back(above[i]);
+        grains.push_back(ground.grains({d.x[i], d.y[i]}, of_discs[i]));
         solid.push_back(d.mass[i] / sediment_.grain_density);
         conductivity.push_back(permeability(fluid_.permeability, porosity[k]));
-        bounds.highest.push_back(fluid_.fracture_ratio * law_.grain_weight * above[i]);
+        bounds.highest.push_back(fluid_.fracture_ratio * law_.grain_weight * grains[k]);
         bounds.lowest.push_back(-fluid_weight_ *
                                 std::max(0.0, fluid_.level.value_or(0.0) - d.y[i]));
     }
@@ -133,8 +134,9 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
         return Stored{solid[k] * e.value * swelling,
                       solid[k] * (e.slope * swelling + e.value * law_.compressibility)};
     };
+    const Bedding beds = bedding(state, cells, fluid_.permeability_ratio);
     const FlowNetwork network =
-        flow_network(state, cells, conductivity, fluid_.viscosity, fluid_.faults);
+        flow_network(state, cells, conductivity, fluid_.viscosity, fluid_.faults, beds);
     std::vector<double> u = gathered(state, "excess_pressure", cells);
     std::vector<double> water = gathered(state, "pore_water", cells);
     const FlowOutcome outcome = flow(network, storage, bounds, schedule().seconds(), water, u);
@@ -152,8 +154,9 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
     std::vector<double> darcy_x, darcy_y;
     const std::vector<Point> gradients = pressure_gradients(cells, u);
     for (std::size_t k = 0; k < cells.count(); ++k) {
-        darcy_x.push_back(-conductivity[k] / fluid_.viscosity * gradients[k].x);
-        darcy_y.push_back(-conductivity[k] / fluid_.viscosity * gradients[k].y);
+        const Point drives = beds.flow_of(k, gradients[k]);
+        darcy_x.push_back(-conductivity[k] / fluid_.viscosity * drives.x);
+        darcy_y.push_back(-conductivity[k] / fluid_.viscosity * drives.y);
     }
     scatter(darcy_x, cells, state, "darcy_x");
     scatter(darcy_y, cells, state, "darcy_y");
@@ -173,6 +176,19 @@ bool PoreFluid::apply(State& state, const RigidBase& base) {
             : static_cast<double>(enclosed_cells(network)) / static_cast<double>(cells.count());
     push(state, cells);
     return false;
+}
+
+/// Weight in water of what is pending on a cell at the ground, N: it presses on the disc, too, or
+/// the water that it has loaded would lift what it does not yet hold down. Where the stratum comes
+/// at this very moment, its discs press.
+double PoreFluid::pending_load(const PoreCells& cells, std::size_t cell) const {
+    const double due = static_cast<double>(applied + 1) * schedule().spacing();
+    constexpr double almost = 1e-6; // of the time between solutions: round-off
+    if (std::abs(std::remainder(due, sediment_.deposition.spacing())) <=
+        almost * schedule().spacing())
+        return 0.0;
+    return (1.0 - law_.surface_porosity) * law_.grain_weight * std::max(0.0, cells.pending[cell]) *
+           cells.surface_lengths[cell];
 }
 
 /// Hands the pressures to the discs as forces.
@@ -195,11 +211,15 @@ void PoreFluid::push(State& state, const PoreCells& cells) {
     const auto push_y = state.discs.get<double>("push_y");
     double capped = 0.0;
     for (std::size_t i = 0; i < force.size(); ++i) {
-        const double weight = d.mass[i] / sediment_.grain_density * law_.grain_weight;
-        const bool flies = cells.cell_of[i] >= 0 && force[i].y > greatest_lift * weight;
-        capped += flies;
         push_x[i] = force[i].x;
-        push_y[i] = flies ? greatest_lift * weight : force[i].y;
+        push_y[i] = force[i].y;
+        if (cells.cell_of[i] < 0)
+            continue;
+        const double load = pending_load(cells, static_cast<std::size_t>(cells.cell_of[i]));
+        const double most = greatest_lift * d.mass[i] / sediment_.grain_density * law_.grain_weight;
+        const bool flies = force[i].y - load > most;
+        capped += flies;
+        push_y[i] = flies ? most : force[i].y - load;
     }
     memory.get<double>(Sums::capped)[0] =
         cells.count() > 0 ? capped / static_cast<double>(cells.count()) : 0.0;

@@ -2,6 +2,7 @@
 
 #include "coupling/pore_cells.hpp"
 #include "coupling/pore_law.hpp"
+#include "coupling/wet_sediment.hpp"
 #include "dem/event.hpp"
 
 #include <optional>
@@ -16,6 +17,7 @@ namespace listric::coupling {
 struct PoreFluidParameters {
     double interval = 2.5e3; ///< time between solutions, a
     Permeability permeability = {};
+    double permeability_ratio = 1.0;  ///< along bedding over across
     double density = 1030.0;          ///< kg/m^3
     double viscosity = 5e-4;          ///< Pa s
     double compressibility = 4.4e-10; ///< 1/Pa
@@ -30,19 +32,13 @@ struct PoreFluidParameters {
 /// Share of weight that is left in water.
 double buoyant_share(double fluid_density, double grain_density);
 
-/// Facts of sediment that the fluid needs.
-struct WetSediment {
-    double surface_porosity = 0.5;
-    double porosity_decay = 4e-4;  ///< with depth, 1/m
-    double grain_density = 2600.0; ///< kg/m^3
-};
-
 /// Law of the pores in a field of gravity, m/s^2.
 PoreLaw pore_law(const PoreFluidParameters& fluid, const WetSediment& sediment, double gravity);
 
 /// Solves for the excess pressure and lets it act.
 ///
-/// Total stress is known, as the weight of what lies above, so pressure and porosity follow from
+/// Total stress is known, as the weight of what lies above and of the stratum that is to come (see
+/// WetGround), so pressure and porosity follow from
 /// each other without the discs (Terzaghi's consolidation with a moving ground): compaction and the
 /// cycles follow. A change of the discs' volumes is not handed back: packing noise would become
 /// pressure, and sediment is so soft against water that the iteration would not be stable.
@@ -78,6 +74,7 @@ public:
 
 private:
     void take_stock(dem::State& state, const PoreCells& cells);
+    double pending_load(const PoreCells& cells, std::size_t cell) const;
     void push(dem::State& state, const PoreCells& cells);
 
     PoreFluidParameters fluid_;

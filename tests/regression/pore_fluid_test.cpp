@@ -97,6 +97,57 @@ TEST_F(PoreFluidRun, HasTheSameBitsHoweverItIsRun) {
     EXPECT_THAT(contents(folder / "once/history.csv"), HasSubstr("overpressure_ratio_mean"));
 }
 
+/// Between two strata, in a pause, and where a stage erodes and another does nothing: what is
+/// pending follows from the state alone.
+TEST_F(PoreFluidRun, GoesOnBetweenTwoStrata) {
+    const std::vector<std::vector<std::string>> cases{
+        {"sedimentation.interval_a=5000"},
+        {"sedimentation.interval_a=5000", "detachment.footwall_top_m=2000",
+         "stage=[{distance_m=75.0}, {pause_a=5000}, {distance_m=75.0, sedimentation=\"erode\"}]"},
+        {"sedimentation.interval_a=5000",
+         "stage=[{distance_m=75.0}, {distance_m=75.0, sedimentation=\"none\"}, "
+         "{distance_m=50.0, rate_m_per_a=0.002}]"}};
+    for (std::vector<std::string> set : cases) {
+        set.push_back("pore_fluid.permeability_m2=1e-20");
+        set.push_back("pore_fluid.permeability_ratio=5");
+        const auto once = run_with("once", set);
+        EXPECT_LE(std::abs(once["water_error"].get<double>()), 1e-12);
+        for (const double until : {37.5, 87.5, 112.5}) {
+            RunOptions o = options("parts");
+            o.force = true;
+            o.until = until;
+            run_scene(with(set), o);
+            o.until = {};
+            o.force = false;
+            o.resume = true;
+            EXPECT_EQ(run(with(set), o)["state_hash"], once["state_hash"])
+                << set[1] << ", " << until;
+        }
+    }
+}
+
+TEST_F(PoreFluidRun, PressureDoesNotDependOnTheTimeOfStrata) {
+    // Strata of 25 and of 75 m, the last solution half-way between two of them. Discs of a packing
+    // are other ones: a tenth of the ratio.
+    const auto ratio = [&](const char* interval) {
+        return run_with("strata", {fmt::format("sedimentation.interval_a={}", interval),
+                                   "pore_fluid.permeability_m2=1e-18"})["overpressure_ratio_mean"]
+            .get<double>();
+    };
+    const double thin = ratio("2500");
+    EXPECT_GT(thin, 0.0);
+    EXPECT_NEAR(ratio("7500"), thin, 0.1 * thin);
+}
+
+TEST_F(PoreFluidRun, DrainsAlongTheBeds) {
+    const auto ratio = [&](const char* along) {
+        return run_with("beds", {fmt::format("pore_fluid.permeability_ratio={}", along),
+                                 "pore_fluid.permeability_m2=1e-20"})["overpressure_ratio_mean"]
+            .get<double>();
+    };
+    EXPECT_LT(ratio("100"), ratio("1"));
+}
+
 /// Killed where water has been solved for (every 50 m) and compaction (every 25 m) has not followed
 /// it yet; what is left is the snapshot, in which pressure pushes discs.
 TEST_F(PoreFluidRun, GoesOnAfterAKillBetweenFluidAndCompaction) {
@@ -256,17 +307,20 @@ TEST_F(PoreFluidRun, TakesPoresFromTheRockOfSediment) {
                 AllOf(HasSubstr("pores"), HasSubstr("permeability_m2")));
 }
 
-TEST_F(PoreFluidRun, WarnsOfStrataThatAreShocks) {
+TEST_F(PoreFluidRun, WarnsOfThickStrata) {
     const auto warnings = [](const std::vector<std::string>& set) {
         return load_scene({.scene = test_scene("every-effect.toml"), .set = set}).warnings;
     };
     EXPECT_THAT(warnings({"pore_fluid={}", "sedimentation.interval_a=50000"}),
-                Contains(AllOf(HasSubstr("50000 a"), HasSubstr("shocks"))));
-    const auto shocks = Contains(HasSubstr("shocks"));
-    EXPECT_THAT(warnings({"pore_fluid={}"}), Not(shocks));
+                Contains(AllOf(HasSubstr("50000 a"), HasSubstr("interval_a = 10000 or less"))));
+    EXPECT_THAT(warnings({"pore_fluid={}", "sedimentation.interval_a=50000",
+                          "extension.rate_m_per_a=0.002"}),
+                Not(Contains(HasSubstr("thick"))));
+    const auto thick = Contains(HasSubstr("thick"));
+    EXPECT_THAT(warnings({"pore_fluid={}"}), Not(thick));
     EXPECT_THAT(warnings({"pore_fluid.hydrostatic=true", "sedimentation.interval_a=50000"}),
-                Not(shocks));
-    EXPECT_THAT(warnings({"sedimentation.interval_a=50000"}), Not(shocks));
+                Not(thick));
+    EXPECT_THAT(warnings({"sedimentation.interval_a=50000"}), Not(thick));
 }
 
 TEST_F(PoreFluidRun, ExplainLetsTheFloorSinkInExtensionAlone) {

@@ -257,6 +257,58 @@ TEST(PoreFlow, TwoLayersInSeries) {
     EXPECT_NEAR(outcome.surface / seconds, held / resistance, 1e-12 * held / resistance);
 }
 
+/// A square lattice whose discs are as old as `age` says, 6 by 6, radius 50 m.
+template <class Age> State lattice_of_age(Age&& age) {
+    std::vector<Disc> discs;
+    for (int k = 0; k < 36; ++k)
+        discs.push_back({100.0 * (0.5 + k % 6), 100.0 * (0.5 + k / 6), 50.0});
+    State state = make_state(discs);
+    state.clock.travel = 1000.0; // none of them is yet to come
+    const DiscColumns d = disc_columns(state);
+    std::ranges::fill(d.stratum, 1);
+    for (std::size_t i = 0; i < discs.size(); ++i)
+        d.start_extension[i] = age(d.x[i], d.y[i]);
+    return state;
+}
+
+TEST(PoreFlow, FollowsTheBeds) {
+    // Beds of any dip: permeability along is 5 times that across; a link has that of its own
+    // direction, k (cos^2 + 5 sin^2) at an angle to the beds' normal.
+    constexpr double ratio = 5.0;
+    const RigidBase walls = box(600.0, 2000.0);
+    for (const double dip : {0.0, 30.0, 90.0, 150.0}) {
+        const double s = std::sin(dip * pi / 180.0), c = std::cos(dip * pi / 180.0);
+        const State state = lattice_of_age([&](double x, double y) { return y * c - x * s; });
+        const PoreCells cells = pore_cells(state, walls);
+        const std::vector<double> k(cells.count(), 1.0);
+        const Bedding beds = bedding(state, cells, ratio);
+        const ConstDiscColumns d = disc_columns(state);
+        const FlowNetwork network = flow_network(state, cells, k, 1.0, {}, beds);
+        for (const auto& [first, second, conductance] : network.links) {
+            const bool level =
+                d.y[static_cast<std::size_t>(first)] == d.y[static_cast<std::size_t>(second)];
+            const double across = level ? s * s : c * c;
+            EXPECT_NEAR(conductance, across + ratio * (1.0 - across), 1e-9) << dip; // round-off
+        }
+        // Flow by a gradient along the beds and across.
+        const Point along = beds.flow_of(14, {c, s}), across = beds.flow_of(14, {-s, c});
+        EXPECT_NEAR(along.x, ratio * c, 1e-9);
+        EXPECT_NEAR(along.y, ratio * s, 1e-9);
+        EXPECT_NEAR(across.x, -s, 1e-9);
+        EXPECT_NEAR(across.y, c, 1e-9);
+    }
+}
+
+TEST(PoreFlow, BedsAreLevelWhereAllIsEquallyOld) {
+    const State state = lattice_of_age([](double, double) { return 0.0; });
+    const PoreCells cells = pore_cells(state, box(600.0, 2000.0));
+    for (const Point n : bedding(state, cells, 3.0).normals) {
+        EXPECT_EQ(n.x, 0.0);
+        EXPECT_EQ(n.y, 1.0);
+    }
+    EXPECT_TRUE(bedding(state, cells, 1.0).normals.empty());
+}
+
 TEST(PoreFlow, ExtremesNeverGrow) {
     const Mud mud(8);
     Random random(5);

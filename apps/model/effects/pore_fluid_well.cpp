@@ -1,7 +1,6 @@
 #include "apps/model/effects/pore_fluid_well.hpp"
 
 #include "apps/model/model.hpp"
-#include "dem/base/ground_level.hpp"
 #include "dem/contacts/grain_columns.hpp"
 
 #include <algorithm>
@@ -25,7 +24,7 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
     const auto ratio = state.discs.get<double>("overpressure_ratio");
     const auto water = state.discs.get<double>("pore_water");
     const std::vector<double> grains = dem::grains_above(state, porosity);
-    const dem::GroundLevel ground(state);
+    const coupling::WetGround ground(state, now.parts.base.motion, fluid->sediment());
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         if (water[i] < 0.0) // rock, and sediment that came after the last solution
             continue;
@@ -37,8 +36,9 @@ std::vector<WetDisc> wet_discs(const Observation& now) {
         disc.age = (state.clock.travel.m - d.start_travel[i]) / now.scene.extension.rate;
         disc.volume = d.mass[i] / fluid->sediment().grain_density / (1.0 - porosity[i]);
         disc.excess_pressure = pressure[i];
-        disc.weight_now = grains[i] * fluid->law().grain_weight;
-        disc.weight = ratio[i] != 0.0 ? pressure[i] / ratio[i] : disc.weight_now;
+        disc.weight = ratio[i] != 0.0
+                          ? pressure[i] / ratio[i]
+                          : ground.grains({d.x[i], d.y[i]}, grains[i]) * fluid->law().grain_weight;
         disc.porosity = porosity[i];
         disc.normal_porosity = coupling::porosity_at(fluid->law(), disc.depth);
     }
@@ -101,13 +101,13 @@ std::vector<WellPoint> well_at(const Observation& now, double x) {
         p.depth = mean_of<&WetDisc::depth>(bin);
         p.age = mean_of<&WetDisc::age>(bin);
         p.excess = mean_of<&WetDisc::excess_pressure>(bin);
-        const double weight = mean_of<&WetDisc::weight_now>(bin);
+        const double weight = mean_of<&WetDisc::weight>(bin);
         p.at_rest = fluid->fluid_weight() * p.depth;
         p.pressure = p.at_rest + p.excess;
         p.fracture = p.at_rest + fluid->parameters().fracture_ratio * weight;
         p.total = p.at_rest + weight;
         p.effective = weight - p.excess;
-        p.ratio = p.excess / mean_of<&WetDisc::weight>(bin);
+        p.ratio = p.excess / weight;
         p.porosity = mean_of<&WetDisc::porosity>(bin);
         p.normal_porosity = mean_of<&WetDisc::normal_porosity>(bin);
         p.permeability = coupling::permeability(fluid->parameters().permeability, p.porosity);

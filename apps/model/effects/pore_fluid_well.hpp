@@ -13,12 +13,12 @@ const coupling::PoreFluid* fluid_in(const Observation& now);
 /// State of the fluid in a disc of sediment.
 struct WetDisc {
     std::size_t row = 0;
-    double x = 0.0, y = 0.0, depth = 0.0; ///< depth below the ground, m
-    double age = 0.0;                     ///< since it was laid down, a
-    double volume = 0.0;                  ///< of its mud, m^2
-    double excess_pressure = 0.0;         ///< Pa
-    double weight = 0.0;                  ///< of grains in water above, at the last solution, Pa
-    double weight_now = 0.0;              ///< with strata that came since
+    double x = 0.0, y = 0.0;
+    double depth = 0.0;           ///< below the ground with what is pending on it, m
+    double age = 0.0;             ///< since it was laid down, a
+    double volume = 0.0;          ///< of its mud, m^2
+    double excess_pressure = 0.0; ///< Pa
+    double weight = 0.0;          ///< of grains in water above, at the last solution, Pa
     double porosity = 0.0, normal_porosity = 0.0;
 
     double ratio() const { return weight > 0.0 ? excess_pressure / weight : 0.0; }

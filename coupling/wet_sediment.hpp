@@ -1,0 +1,49 @@
+#pragma once
+
+#include "dem/base/ground_level.hpp"
+#include "dem/base/target_line.hpp"
+#include "dem/event.hpp"
+
+namespace listric::coupling {
+
+/// Facts of sediment that the fluid needs.
+struct WetSediment {
+    double surface_porosity = 0.5;
+    double porosity_decay = 4e-4;          ///< with depth, 1/m
+    double grain_density = 2600.0;         ///< kg/m^3
+    dem::Target surface{0.0};              ///< line that the ground is filled up and eroded down to
+    dem::Schedule deposition = dem::never; ///< from stratum to stratum
+};
+
+/// The ground as the water feels it. Strata come in steps; sediment settles all the time. So what
+/// the ground has sunk below the target line since the last stratum, and the next will fill, weighs
+/// on the water at once, and what erosion will take does not: pressure then follows burial and does
+/// not depend on the time from stratum to stratum.
+class WetGround {
+public:
+    WetGround(const dem::State& state, const dem::Motion& motion, const WetSediment& sediment);
+
+    /// Height that is to be laid down at a place, m; below 0: to be taken away.
+    double pending(double x) const;
+
+    const dem::GroundLevel& of_discs() const { return ground_; }
+
+    /// Depth below the smooth ground of the discs and what is pending, m; negative above.
+    double depth(dem::Point p) const { return ground_.depth(p) + pending(p.x); }
+
+    /// Height of the grains above a place, m, from those of the discs above it.
+    double grains(dem::Point p, double of_discs) const;
+
+    /// Depth of the smooth ground below the line that sedimentation has filled it up to, in mean
+    /// radii: .17 to .29 in a basin at draft, with strata every 2,500 and every 10,000 a.
+    static constexpr double left_free = 0.22;
+
+private:
+    dem::GroundLevel ground_;
+    dem::TargetLine line_;
+    dem::SurfaceWork work_; ///< of the deposition that ends the present interval
+    double left_free_;      ///< m
+    double fresh_solid_;    ///< share of grains in what is laid down
+};
+
+} // namespace listric::coupling
