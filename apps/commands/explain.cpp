@@ -68,7 +68,7 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
 std::string explain_parts(const Scene& scene, EffectList effects) {
     std::string text;
     for (const EffectPart& part : scene.effects)
-        if (part.effect->explain && part.effect->absence.empty())
+        if (part.effect->explain && !part.effect->load_footwall)
             text += part.effect->explain(scene, effects) + "\n";
     return text;
 }

@@ -205,6 +205,12 @@ struct ItemAddress {
     void (*append)(std::any& parameters); ///< one with defaults
 };
 
+/// Something that a model with a base that bends lacks.
+struct Lack {
+    std::string_view what = {};
+    std::string_view size = {}; ///< what it does to the uplift of the flank, as measured
+};
+
 struct Effect;
 using EffectList = std::span<const Effect* const>;
 
@@ -249,7 +255,8 @@ struct Effect {
 
     /// Lines for `explain`. @param list  all effects that there are
     std::string (*explain)(const Scene& scene, EffectList list) = nullptr;
-    std::string_view absence = {}; ///< lack of a model without it, for a base that bends
+    Lack absence = {};           ///< of a model without it, where the base bends; none: no text
+    std::vector<Lack> lacks = {}; ///< of a model with it, likewise
 
     /// Time that it takes, disc-steps of the bare cycle.
     double (*price)(const Scene& scene, const Workload& work) = nullptr;

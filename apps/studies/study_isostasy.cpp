@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace listric {
 
@@ -84,10 +85,13 @@ IsostasyPlan read_plan() {
     return plan;
 }
 
-StudyRun run_of(const IsostasyPlan& plan, const Fill& fill, double thickness) {
+/// Tables that the scene has not need not be taken out.
+StudyRun run_of(const IsostasyPlan& plan, const Scene& scene, const Fill& fill, double thickness) {
+    std::vector<std::string> without = words(fill.without);
+    std::erase_if(without, [&](const std::string& table) { return !has_effect(scene, table); });
     return {fmt::format("{}-elastic_thickness_m={:g}", fill.name, thickness),
             words(fmt::format("{}={} {}", plan.vary, thickness, fill.set)), "draft",
-            words(fill.without)};
+            std::move(without)};
 }
 
 fem::Plate plate_of(const Scene& scene, double thickness) {
@@ -145,7 +149,7 @@ struct IsostasyRun {
 std::optional<IsostasyRun> make_run(const StudyRequest& request, const Scene& scene,
                                     const IsostasyPlan& plan, const Fill& fill, double thickness,
                                     std::int64_t seed) {
-    const StudyRun run = run_of(plan, fill, thickness);
+    const StudyRun run = run_of(plan, scene, fill, thickness);
     auto summary = summary_of_run(request, run, seed);
     if (!summary)
         return std::nullopt;

@@ -66,6 +66,7 @@ const std::vector<Parameter>& expectation_parameters() {
     static const std::vector<Parameter> parameters{
         {"kind", one_of<&E::kind>(kinds), "", {}, "", "kind of the row"},
         {"measure", at<&E::measure>, "", {}, "", "name"},
+        {"over", at<&E::over>, "", {}, "", "measure by which it is divided"},
         {"what", at<&E::what>, "", {}, "", "for people"},
         {"run", at<&E::run>, "", {}, "", "default: the first"},
         {"minus", at<&E::minus>, "", {}, "", "run whose value is taken off"},
@@ -217,8 +218,11 @@ read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& bef
     }
     for (const Entry& item : tables(entry, "expect")) {
         x.expectations.push_back(read_expectation(item));
-        check_measure({*item.node.as_table()->get("measure"), item.path + ".measure"},
-                      x.expectations.back().measure);
+        for (const auto& [key, name] : {std::pair{"measure", x.expectations.back().measure},
+                                        std::pair{"over", x.expectations.back().over}})
+            if (!name.empty())
+                check_measure({*item.node.as_table()->get(key), fmt::format("{}.{}", item.path, key)},
+                              name);
         if (x.expectations.back().run.empty())
             x.expectations.back().run = x.runs.front();
     }
@@ -372,8 +376,9 @@ std::string validation_schema() {
     Json& parts = experiments["items"]["properties"];
     parts["expect"] =
         array_of("rows of the table", expectation_parameters(), &expectation, {"measure", "what"});
-    parts["expect"]["items"]["properties"]["measure"].update(
-        measure_schema(MeasuredAt::any_snapshot));
+    for (const char* key : {"measure", "over"})
+        parts["expect"]["items"]["properties"][key].update(
+            measure_schema(MeasuredAt::any_snapshot));
     parts["dropped"] =
         array_of("rows that are no more", dropped_parameters(), &dropped, {"what", "reason"});
     parts["picture"] = array_of("pictures of states", picture_parameters(), &picture, {"name"});

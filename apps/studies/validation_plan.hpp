@@ -25,6 +25,7 @@ struct ValidationRun {
 struct Expectation {
     enum class Kind { faults, kinematics, conservation } kind = Kind::faults;
     std::string measure;               ///< name in docs/measures.md
+    std::string over;                  ///< the measure by which it is divided
     std::string what;                  ///< for people
     std::string run;                   ///< empty: the experiment's first
     std::string minus;                 ///< the run whose value is taken off, seed by seed

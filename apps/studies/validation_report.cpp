@@ -150,6 +150,14 @@ std::string origins(const ValidationFindings& f) {
     return text + "\n\n";
 }
 
+/// Criteria of faulting that an experiment shows, and the run beside it, too.
+int shown_beside_too(const ValidationFindings& f, const ValidationExperiment& x) {
+    return static_cast<int>(std::ranges::count_if(x.expectations, [&](const Expectation& e) {
+        return f.verdict(e).name == VerdictName::shown &&
+               verdict_beside(f, x, e).name == VerdictName::shown;
+    }));
+}
+
 /// "LIS1: 13 of 18 criteria shown, 4 open, 1 not shown: two grabens (20 of 20 seeds)."
 std::string sentence(const ValidationFindings& f, const ValidationExperiment& x) {
     const std::array<int, 8> count = tally(f, x, Kind::faults);
@@ -171,11 +179,7 @@ std::string sentence(const ValidationFindings& f, const ValidationExperiment& x)
         text += fmt::format("; {} without a case", none);
     if (const int none = rows_with(count, VerdictName::no_run); none > 0)
         text += fmt::format("; {} not measured", none);
-    const auto both = std::ranges::count_if(x.expectations, [&](const Expectation& e) {
-        return f.verdict(e).name == VerdictName::shown &&
-               verdict_beside(f, x, e).name == VerdictName::shown;
-    });
-    if (both > 0)
+    if (const int both = shown_beside_too(f, x); both > 0)
         text += fmt::format("; {} of those shown `{}` shows, too", both, x.compare);
     return text + fmt::format(" ({} seeds).", seeds_so_far(f, x));
 }
@@ -183,7 +187,7 @@ std::string sentence(const ValidationFindings& f, const ValidationExperiment& x)
 /// The findings in as many sentences as there are experiments, and two.
 std::string sentences(const ValidationFindings& f) {
     std::vector<std::string> all;
-    int shown = 0, open = 0, not_shown = 0;
+    int shown = 0, open = 0, not_shown = 0, beside_too = 0;
     int met = 0, missed = 0;
     for (const ValidationExperiment& x : f.experiments) {
         if (!is_main(f, x))
@@ -193,6 +197,7 @@ std::string sentences(const ValidationFindings& f) {
         shown += rows_with(count, VerdictName::shown);
         open += rows_with(count, VerdictName::open);
         not_shown += rows_with(count, VerdictName::not_shown);
+        beside_too += shown_beside_too(f, x);
         for (const Kind kind : {Kind::kinematics, Kind::conservation}) {
             met += rows_with(tally(f, x, kind), VerdictName::met);
             missed += rows_with(tally(f, x, kind), VerdictName::missed);
@@ -201,8 +206,9 @@ std::string sentences(const ValidationFindings& f) {
     if (all.empty())
         return "";
     all.insert(all.begin(),
-               fmt::format("Criteria of faulting: {} of {} shown, {} open, {} not shown.", shown,
-                           shown + open + not_shown, open, not_shown));
+               fmt::format("Criteria of faulting: {} of {} shown, {} open, {} not shown. The "
+                           "runs beside them show {} of those shown, too.",
+                           shown, shown + open + not_shown, open, not_shown, beside_too));
     all.push_back(fmt::format("Kinematics and conservation hold in every seed in {} of {} rows; a "
                               "hanging wall that slides on these detachments has the geometry with "
                               "any material, so these rows test the machinery and no faults.",
@@ -282,7 +288,8 @@ std::string subject(const ValidationFindings& f, const Expectation& e) {
     std::string what = e.what;
     if (f.plan.run(e.run).at.size() > 1 || e.at)
         what += ", " + extension_text(e.at.value_or(f.plan.run(e.run).at.back()));
-    return fmt::format("{} (`{}`)", what, e.measure);
+    return e.over.empty() ? fmt::format("{} (`{}`)", what, e.measure)
+                          : fmt::format("{} (`{}` over `{}`)", what, e.measure, e.over);
 }
 
 /// "“planar synthetic fault” (Fig. 7a)"
@@ -296,7 +303,8 @@ std::string origin_of(const Expectation& e) {
 /// An experiment's row for what another expects; none: it has no such row.
 const Expectation* same_row(const ValidationExperiment& x, const Expectation& row) {
     const auto found = std::ranges::find_if(x.expectations, [&](const Expectation& e) {
-        return e.measure == row.measure && e.what == row.what && e.at == row.at;
+        return e.measure == row.measure && e.over == row.over && e.what == row.what &&
+               e.at == row.at;
     });
     return found == x.expectations.end() ? nullptr : &*found;
 }
@@ -418,8 +426,13 @@ std::optional<std::optional<double>> value_of(const ValidationFindings& f, const
     if (!f.store.contains({of, seed, at}) || (e.since && !f.store.contains({of, seed, *e.since})) ||
         (!e.minus.empty() && !f.store.contains({e.minus, seed, at})))
         return std::nullopt;
-    const auto number = [&](const std::string& name, double where) {
-        return number_at(f.store, {name, seed, where}, e.measure);
+    const auto number = [&](const std::string& name, double where) -> std::optional<double> {
+        const MeasuredPlace place{name, seed, where};
+        const auto measure = number_at(f.store, place, e.measure);
+        if (e.over.empty())
+            return measure;
+        const auto over = number_at(f.store, place, e.over);
+        return measure && over && *over != 0.0 ? std::optional(*measure / *over) : std::nullopt;
     };
     std::optional<double> value = number(of, at);
     const auto take_off = [&](std::optional<double> other) {
@@ -468,8 +481,11 @@ bool ValidationFindings::is_recorded(const ValidationRun& run, int seed) const {
 }
 
 bool ValidationFindings::is_measured(const Expectation& e) const {
-    return std::ranges::any_of(
-        store, [&](const auto& entry) { return entry.second.numbers.contains(e.measure); });
+    const auto is_there = [&](const std::string& measure) {
+        return std::ranges::any_of(
+            store, [&](const auto& entry) { return entry.second.numbers.contains(measure); });
+    };
+    return is_there(e.measure) && (e.over.empty() || is_there(e.over));
 }
 
 Verdict ValidationFindings::verdict(const Expectation& e) const {

@@ -72,7 +72,11 @@ picture = [{name = "all", caption = "All.", rows = [{run = "tiny", at_m = 200}]}
 name = "second"
 title = "Second"
 runs = "plain"
-expect = [{measure = "extension_m", what = "reached", least = 1, source = "scene"}]
+expect = [
+    {measure = "extension_m", what = "reached", least = 1, source = "scene"},
+    {kind = "kinematics", measure = "extension_m", over = "extension_m", what = "of itself", expected = 1, source = "division"},
+    {kind = "kinematics", measure = "extension_m", over = "eroded_fraction", what = "of nothing", expected = 1, source = "none is eroded"},
+]
 [[experiment]]
 name = "alike"
 title = "Alike"
@@ -141,6 +145,11 @@ TEST_F(ValidationTest, RunsMeasuresJudgesAndKeeps) {
                                   HasSubstr("| 150 ± 1 | missed (0 of 2) | |"),
                                   HasSubstr("| at least 0.50 | no case | |")));
     EXPECT_THAT(document(), HasSubstr("| reached once | dropped | nobody asks |"));
+    EXPECT_THAT(document(),
+                AllOf(HasSubstr("| of itself (`extension_m` over `extension_m`) | 1.00 ± 0.00 | "
+                                "division | 1.00 | met (1 of 1) |"),
+                      HasSubstr("| of nothing (`extension_m` over `eroded_fraction`) | 1.00 ± 0.00 "
+                                "| none is eroded | no value | no case |")));
     EXPECT_THAT(document(), HasSubstr("![criteria of faulting by experiment and seed]"));
     EXPECT_TRUE(fs::exists(folder / "doc/report/verdicts.png"));
     const std::string maker(listric::version);

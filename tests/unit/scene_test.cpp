@@ -881,6 +881,33 @@ TEST_F(SceneTest, AwkwardNumbersReadBackTheSame) {
     }
 }
 
+TEST_F(SceneTest, BasinsOnABaseThatBendsAreSaturated) {
+    int filled = 0;
+    for (const auto& [name, description] : list_scenes()) {
+        const Scene scene = load_scene({.scene = name});
+        if (bending_base(scene) && has_effect(scene, "sedimentation")) {
+            ++filled;
+            EXPECT_TRUE(has_effect(scene, "basin_water")) << name;
+        }
+    }
+    EXPECT_GE(filled, 3);
+}
+
+TEST_F(SceneTest, WhatAnElasticBaseLacksHasASize) {
+    int lacks = 0;
+    for (const Effect* effect : program_effects()) {
+        // A load on the base is missed where it is off.
+        EXPECT_TRUE(!effect->load_footwall || !effect->absence.what.empty()) << effect->name;
+        std::vector<Lack> all = effect->lacks;
+        all.push_back(effect->absence);
+        for (const Lack& lack : all) {
+            lacks += !lack.what.empty();
+            EXPECT_EQ(lack.what.empty(), lack.size.empty()) << effect->name << ": " << lack.what;
+        }
+    }
+    EXPECT_GE(lacks, 8);
+}
+
 TEST_F(SceneTest, ElasticBasesReadBackTheSame) {
     std::mt19937_64 random(3);
     for (int trial = 0; trial < 50; ++trial) {

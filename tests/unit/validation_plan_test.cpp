@@ -208,6 +208,8 @@ TEST_F(Plan, TheOneThatIsShippedCanBeRead) {
 TEST_F(Plan, ErrorsNameLineKeyAndCure) {
     EXPECT_THAT(complaint("tolerance", "tolerence"),
                 AllOf(HasSubstr(":16:"), HasSubstr("did you mean tolerance?")));
+    EXPECT_THAT(complaint("at_m = 5}", "at_m = 5, over = \"weak_fractoin\"}"),
+                AllOf(HasSubstr("over: weak_fractoin"), HasSubstr("did you mean weak_fraction?")));
     EXPECT_THAT(complaint("run = \"b\"", "run = \"c\""), HasSubstr("no run c"));
     EXPECT_THAT(complaint("\"kinematics\"", "\"faith\""), HasSubstr("allowed: faults, kinematics"));
     EXPECT_THAT(complaint("words = ", "reason = "), HasSubstr("bounds and a reason"));

@@ -15,7 +15,7 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))  # an isolated P
 sys.dont_write_bytecode = True  # the sources may be read-only, and stay clean
 from plot import new_figure, read_rows, run, save, without_frame
 
-COLOURS = {"sediment": "#b8860b", "water": "#1f6fb4", "empty": "#525252"}
+COLOURS = {"saturated": "#7a5c00", "dry": "#d8a93a", "water": "#1f6fb4", "empty": "#525252"}
 LABEL_HEIGHT = 90.0  # m of uplift, so that labels do not meet
 
 

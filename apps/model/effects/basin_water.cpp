@@ -72,7 +72,9 @@ const Effect& effect() {
                 return fmt::format("    basin: water of {} kg/m3 up to {:g} m\n", water.density,
                                    water.level);
             },
-        .absence = "water",
+        .absence = {"water in the basin and in the pores of its sediment", "-30 to -39 %"},
+        .lacks = {{"sideways thrust of the water on scarp and head block",
+                   "not measured; 0.4e12 N/m on a bare scarp of 9 km"}},
         .measures =
             {{coupling::basin_water_name, "N/m",
               "weight of the water on the detachment per metre of strike beyond that at the "

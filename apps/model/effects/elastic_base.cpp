@@ -220,6 +220,28 @@ void contribute(const Scene& scene, ModelParts& parts) {
     parts.base_moves = true;
 }
 
+/// List of what is not in the model, with its size.
+std::string explain_lacks(const Scene& scene, EffectList list) {
+    std::vector<Lack> lacks;
+    for (const Effect* effect : list)
+        if (has_effect(scene, effect->name))
+            std::ranges::copy(effect->lacks, std::back_inserter(lacks));
+        else if (!effect->absence.what.empty())
+            lacks.push_back(effect->absence);
+    lacks.push_back(scene.detachment && scene.detachment->footwall_top
+                        ? Lack{"the weight of what lies on the level ground behind the breakaway, "
+                               "which stays where it is",
+                               "no uplift is measured; 5.8e10 N/m in inversion-lis1 after 4 km back"}
+                        : Lack{"what leans on the backstop above the breakaway",
+                               "none where the ground does not stand above the breakaway"});
+    std::string text =
+        "  not in the model, with what each by itself does to the uplift of the breakaway\n"
+        "  (lis1-elastic, 5 km of extension, Te 5 to 20 km; docs/elastic-base.md#what-it-depends-on)\n";
+    for (const Lack& lack : lacks)
+        text += fmt::format("    {}: {}\n", lack.what, lack.size);
+    return text;
+}
+
 /// Loads that the footwall feels, and those that it does not.
 std::string explain(const Scene& scene, EffectList list) {
     const P& base = *listric::elastic_base(scene);
@@ -245,23 +267,10 @@ std::string explain(const Scene& scene, EffectList list) {
                           base.bending.infill_density,
                           base.bending.crust_density - base.bending.infill_density)
             : std::string("no infill on the footwall's surface"));
-    std::vector<std::string_view> absent;
-    for (const Effect* effect : list) {
-        if (effect->absence.empty())
-            continue;
-        if (!has_effect(scene, effect->name))
-            absent.push_back(effect->absence);
-        else if (effect->explain)
-            text += effect->explain(scene, list);
-    }
-    std::ranges::sort(absent);
-    absent.push_back("friction of the right wall");
-    return text +
-           fmt::format("  not in the model: {};\n  {}\n", fmt::join(absent, ", "),
-                       scene.detachment && scene.detachment->footwall_top
-                           ? "the weight of what lies on the level ground behind the breakaway, "
-                             "which stays where it is"
-                           : "what leans on the backstop above the breakaway");
+    for (const EffectPart& part : scene.effects)
+        if (part.effect->load_footwall && part.effect->explain)
+            text += part.effect->explain(scene, list);
+    return text + explain_lacks(scene, list);
 }
 
 /// Set-up, settling of the discs, and an answer every few cycles.
@@ -392,6 +401,8 @@ const Effect& effect() {
         },
         .drive_base = make_elastic_base_driver,
         .explain = explain,
+        .lacks = {{"rock that goes on right of the wall, and friction there", "@@WALL@@"},
+                  {"time that the mantle takes", "none at the end of a rest: isostasy answers at once"}},
         .price = price,
         .memory = memory,
         .measures = measures(),

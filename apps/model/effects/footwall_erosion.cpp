@@ -81,7 +81,7 @@ const Effect& effect() {
         .check = check,
         .load_footwall = load_footwall,
         .explain = explain,
-        .absence = "erosion of the footwall",
+        .absence = {"erosion of the footwall", "+68 to +85 %"},
         .measures = {{coupling::footwall_eroded_name, "m2",
                       "area of rock eroded from the footwall left of the breakaway"},
                      {coupling::footwall_deposited_name, "m2",

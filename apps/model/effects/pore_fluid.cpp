@@ -239,6 +239,7 @@ const Effect& effect() {
         .contribute = contribute,
         .add_events = add_events,
         .explain = explain,
+        .absence = {"pressure and buoyancy of pore water on the discs", "@@PORE@@"},
         .price =
             [](const Scene& scene, const Workload& work) {
                 const P& p = *scene.find<P>();

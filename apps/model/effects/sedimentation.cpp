@@ -261,6 +261,8 @@ const Effect& effect() {
                                   p.interval};
             },
         .add_events = add_events,
+        .absence = {"sediment in the basin", "@@FILL@@"},
+        .lacks = {{"limits to the supply of sediment, and ways of what is eroded", "@@SUPPLY@@"}},
         .price = price,
         .new_area = new_area,
         .measures = measures(),
