@@ -73,8 +73,7 @@ bool is_series_file(std::string_view name) {
            });
 }
 
-/// What stands between the moment of KIND-extension-MOMENTm and the ending; none: that is no such
-/// name.
+/// Text between the moment of KIND-extension-MOMENTm and the ending; none: that is no such name.
 std::optional<std::string_view> options_of(std::string_view name, std::string_view kind,
                                            std::string_view ending) {
     const auto rest = between(name, fmt::format("{}-extension-", kind), ending);

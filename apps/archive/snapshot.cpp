@@ -274,6 +274,8 @@ std::vector<std::byte> file_image(const State& state,
     const int written = state.materials.size() > weak + 1 ? format : format_without_layers;
     write_text_attribute(file, "format", std::string(kind) + std::to_string(written));
     write_text_attribute(file, "version", std::string(version));
+    write_text_attribute(file, "coordinates",
+                         "x: m from the breakaway; y: m above the original surface (y = 0)");
     write_state(file, state);
     write_memories(file, events);
     write_record(file, record);

@@ -56,7 +56,7 @@ std::vector<std::string> words_of(const archive::ExportedMoment& at,
     };
 }
 
-/// What of the options the names of files tell: those that are not the usual ones.
+/// Options in the names of files: those that are not the usual ones.
 std::string seismic_suffix(const SeismicOptions& options) {
     const SeismicOptions usual;
     std::string suffix = options.in_depth ? "-depth" : "";

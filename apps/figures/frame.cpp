@@ -152,8 +152,7 @@ void write_depocentres(const FrameWriter& writer, const std::vector<Depocentre>&
     writer.array("depocentres", rows, 3);
 }
 
-/// What the picture adds to the names of figures: others have other names, and so has it at another
-/// place.
+/// Part of the names of figures over a picture: another picture, or place, has another one.
 std::string name_of(const Underlay& underlay) {
     const std::string corners =
         fmt::format("{} {} {} {}", underlay.left, underlay.top, underlay.right, underlay.bottom);

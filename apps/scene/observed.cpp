@@ -17,7 +17,7 @@ namespace listric {
 
 namespace {
 
-/// What tells a row's piece from others of its name: what the file says of that, else the number of
+/// Piece of every row, among those of its name: the labels that the file has, else the number of
 /// its block, by empty lines. Empty lines between all rows are a way to write, and part nothing.
 std::vector<std::string> pieces_of(const CsvRows& rows) {
     if (std::ranges::any_of(rows.label, [](const std::string& label) { return !label.empty(); }))

@@ -6,7 +6,7 @@
 
 namespace listric {
 
-// Names of files tell the options of the call that wrote them: calls with other options write other
+// Names of files hold the options of the call that wrote them: calls with other options write other
 // files.
 
 /// Words of a list as a part of a name: "1000_3000". A long list is told by its ends, its size and
@@ -14,14 +14,14 @@ namespace listric {
 std::string listed(const std::vector<std::string>& words);
 std::string listed(const std::vector<double>& numbers);
 
-/// What the name of a user's file adds to one of ours: its letters, digits, dots and dashes, others
-/// as "_", and a hash of what it stands for.
+/// Part of a name after a user's file: its letters, digits, dots and dashes, others as "_", and a
+/// hash of its content.
 std::string named_after(const std::string& stem, std::string_view content);
 
 /// Takes BEGIN, a number and END from the front of a name's rest; false if it does not begin so.
 bool take_number(std::string_view& rest, std::string_view begin, std::string_view end);
 
-/// The same of what listed() writes.
+/// As take_number(), a list as listed() writes it.
 bool take_listed(std::string_view& rest, std::string_view begin, std::string_view end);
 
 /// Whether named_after() may write that.

@@ -175,6 +175,6 @@ def save_print(frame: Frame, order: Order) -> tuple[str, Figure, list[str]]:
 
 
 def look_text(order: Order, usual_dpi: float) -> str:
-    """What of a figure's look its name tells: "-plain-600dpi"; nothing of what is usual."""
+    """The look in a figure's name: "-plain-600dpi"; the usual one adds nothing."""
     dpi = order.dpi or usual_dpi
     return ("-plain" if order.plain else "") + (f"-{dpi:.12g}dpi" if dpi != usual_dpi else "")

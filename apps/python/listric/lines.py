@@ -42,7 +42,7 @@ def is_newer(exported: Path, snapshot: Path) -> bool:
 
 
 def is_of_today(exported: Path) -> bool:
-    """Whether a file tells its depth reference: before it did, calls with other options wrote under its name, too."""
+    """Whether a file has the column depth_reference: before, calls with other options wrote under its name, too."""
     with open(exported, encoding="utf-8", errors="replace") as file:
         return "depth_reference" in file.readline().strip().split(",")
 
