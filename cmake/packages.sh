@@ -2,7 +2,7 @@
 packages=(g++ cmake ninja-build pkg-config libhdf5-dev libtomlplusplus-dev libcli11-dev libfmt-dev
     nlohmann-json3-dev libeigen3-dev libpugixml-dev zlib1g-dev libcsv-dev)
 figure_packages=(libjs-dygraphs python3-matplotlib) # without them the program runs and draws less
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-gsd python3-segyio python3-jsonschema
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-gsd python3-segyio python3-gdal python3-jsonschema
     groff-base chromium chromium-driver python3-selenium python3-h5py python3-pandas
     python3-nbclient python3-nbformat python3-ipykernel mkdocs katex
     python3-paraview xvfb xauth)

@@ -1,5 +1,6 @@
 #include "apps/archive/burial_history.hpp"
 
+#include "apps/archive/exports.hpp"
 #include "apps/archive/setting.hpp"
 #include "apps/measures/burial.hpp"
 #include "apps/measures/profile.hpp"
@@ -83,7 +84,7 @@ void add_moment(WellLines& well, const Observation& now, dem::Travel drilled_at,
 std::vector<WellPlace> well_places(const Observation& now, const std::vector<double>& wells) {
     std::vector<WellPlace> places;
     for (const double x : wells)
-        places.push_back({fmt::format("x {:g} m", x), x});
+        places.push_back(well_place(x));
     if (!places.empty())
         return places;
     const MeasuredWell* const well = measured_well(now.scene);

@@ -7,6 +7,7 @@
 #include "apps/measures/rock.hpp"
 #include "apps/measures/rock_layers.hpp"
 #include "apps/support/fineness.hpp"
+#include "apps/support/spelling.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/monitor.hpp"
 
@@ -178,6 +179,8 @@ LineTable base_table(const ExportedMoment& at) {
     return table;
 }
 
+WellPlace well_place(double x) { return {fmt::format("x {} m", text(x)), x}; }
+
 LineTable wells_table(const ExportedMoment& at) {
     LineTable table{"wells", "", {"name"}};
     const MeasuredWell* const well = measured_well(at.now.scene);
@@ -187,7 +190,7 @@ LineTable wells_table(const ExportedMoment& at) {
         table.point_columns.emplace_back(part.name == "depth_m" ? "ground_depth_m" : part.name);
     std::vector<WellPlace> places;
     for (const double x : at.wells)
-        places.push_back({fmt::format("x {:g} m", x), x});
+        places.push_back(well_place(x));
     for (const WellPlace& place : places.empty() ? well->places(at.now) : places) {
         Line line{{place.name}, rounded(at, well->points(at.now, place.x))};
         for (const NamedNumbers& numbers : well->numbers(at.now, place.x))

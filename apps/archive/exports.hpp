@@ -42,6 +42,9 @@ LineTable base_table(const ExportedMoment& at);
 /// Discs, a "line" for each rock, by id.
 LineTable discs_table(const ExportedMoment& at);
 
+/// The place of a well that was asked for, m.
+WellPlace well_place(double x);
+
 /// Wells, a "line" each, from the ground down; none where no effect measures wells.
 LineTable wells_table(const ExportedMoment& at);
 

@@ -55,6 +55,7 @@ std::string properties(const LineTable& table, const Line& line) {
         items.push_back(fmt::format("{}: {}", quoted(table.columns[k]),
                                     text ? quoted(*text) : word(line.values[k], "null")));
     }
+    items.push_back(fmt::format("\"depth_reference\": \"{}\"", depth_reference));
     for (std::size_t k = 0; k < table.point_columns.size(); ++k) {
         std::vector<std::string> numbers;
         for_each_point(table, line, [&](dem::Point, std::span<const double> own) {
@@ -69,7 +70,8 @@ std::string properties(const LineTable& table, const Line& line) {
 } // namespace
 
 std::string to_csv(const LineTable& table) {
-    std::string text = fmt::format("line,{},x_m,depth_m", fmt::join(table.columns, ","));
+    std::string text =
+        fmt::format("line,{},depth_reference,x_m,depth_m", fmt::join(table.columns, ","));
     for (const std::string& column : table.point_columns)
         text += "," + column;
     text += '\n';
@@ -78,6 +80,7 @@ std::string to_csv(const LineTable& table) {
         std::string head = fmt::format("{}", n);
         for (const LineValue& value : line.values)
             head += fmt::format(",{}", csv_cell(word(value, "")));
+        head += fmt::format(",{}", depth_reference);
         for_each_point(table, line, [&](dem::Point p, std::span<const double> own) {
             text += fmt::format("{},{},{}", head, number(p.x, ""), number(-p.y, ""));
             for (const double value : own)
@@ -103,16 +106,23 @@ std::string to_geojson(const LineTable& table) {
                         properties(table, line), is_point ? "Point" : "LineString",
                         is_point ? list : fmt::format("[{}]", list)));
     }
-    return fmt::format("{{\"type\": \"FeatureCollection\", \"name\": {}, "
+    const std::string place =
+        fmt::format("x: m from the breakaway into the hanging wall; y: m above the {} (y = 0), "
+                    "below it negative; columns of depth are positive down from there",
+                    depth_reference);
+    return fmt::format("{{\"type\": \"FeatureCollection\", \"name\": {}, \"description\": {}, "
                        "\"features\": [\n{}\n]}}\n",
-                       quoted(table.name), fmt::join(features, ",\n"));
+                       quoted(table.name), quoted(place), fmt::join(features, ",\n"));
 }
 
 std::string to_gmt(const LineTable& table) {
     std::string text = "# x_m depth_m";
     for (const std::string& column : table.point_columns)
         text += fmt::format(" {}", column);
-    text += '\n';
+    text +=
+        fmt::format("\n# x_m: m from the breakaway; depth_m: m below the {} (depth 0), above it "
+                    "negative\n",
+                    depth_reference);
     for (const Line& line : table.lines) {
         std::string level, words;
         for (std::size_t k = 1; k < table.columns.size(); ++k) {

@@ -3,6 +3,7 @@
 #include "dem/point.hpp"
 
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -27,13 +28,19 @@ struct LineTable {
     std::vector<Line> lines = {};
 };
 
+/// The level at which y and every depth are 0, as files say it in a column, member or comment of
+/// this name: they travel without their documents.
+inline constexpr std::string_view depth_reference = "original surface";
+
 // Numbers are the shortest that read back the same, and equal in all formats. A number that there
 // is not is an empty field of CSV, null of GeoJSON and NaN of GMT.
 
-/// A row per point: the line's number, its values, x_m, depth_m and the point's own.
+/// A row per point: the line's number, its values, depth_reference, x_m, depth_m and the point's
+/// own.
 std::string to_csv(const LineTable& table);
 
-/// A collection of line strings with coordinates [x, -depth], so that maps show them upright.
+/// A collection of line strings with coordinates [x, -depth], so that maps show them upright, and a
+/// description of these, which GDAL reads.
 std::string to_geojson(const LineTable& table);
 
 /// A segment per line: a header with -Z, -L and its values as NAME=VALUE, then rows of x, depth and

@@ -1,5 +1,6 @@
 #include "apps/archive/observed_misfit.hpp"
 
+#include "apps/scene/picked_pieces.hpp"
 #include "apps/scene/stage.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +66,7 @@ std::vector<ObservedHorizon> compare_horizons(const Scene& scene, const State& s
     const double slack = slack_of_ages(scene, state, end);
     const double diameter = 2.0 * state.mean_radius;
     std::vector<ObservedHorizon> rows;
-    for (const PickedLine& line : scene.observed->horizons) {
+    for (const PickedLine& line : by_name(scene.observed->horizons)) {
         ObservedHorizon row{line.name, std::nullopt, std::nullopt, line.x.size(), ""};
         std::vector<Point> points;
         for (std::size_t k = 0; k < line.x.size(); ++k)

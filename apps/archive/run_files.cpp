@@ -1,12 +1,14 @@
 #include "apps/archive/run_files.hpp"
 
 #include "apps/support/moment_names.hpp"
+#include "apps/support/option_names.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <span>
 
 namespace listric::archive {
 
@@ -47,8 +49,8 @@ constexpr std::string_view layer_picture = "layer-"; ///< and the name of an eff
 constexpr std::string_view base_pictures[] = {"base", "footwall", "flexure"};
 constexpr std::string_view picture_endings[] = {".png", ".pdf", ".svg"};
 constexpr std::string_view film_endings[] = {".mp4", ".gif", ".webp"};
-constexpr std::string_view line_exports[] = {"horizons", "faults", "surfaces", "base",
-                                             "well",     "burial", "layers"};
+constexpr std::string_view line_exports[] = {"horizons", "faults", "surfaces", "base", "layers"};
+constexpr std::string_view well_exports[] = {"well", "burial"};
 constexpr std::string_view line_endings[] = {".csv", ".geojson", ".gmt"};
 constexpr std::string_view seismic_endings[] = {".segy", "-image.npy", "-faults.npy", "-strain.npy",
                                                 ".json"};
@@ -71,58 +73,118 @@ bool is_series_file(std::string_view name) {
            });
 }
 
+/// Text between the moment of KIND-extension-MOMENTm and the ending; none: that is no such name.
+std::optional<std::string_view> options_of(std::string_view name, std::string_view kind,
+                                           std::string_view ending) {
+    const auto rest = between(name, fmt::format("{}-extension-", kind), ending);
+    const std::size_t m = rest ? rest->find('m') : std::string_view::npos;
+    if (m == std::string_view::npos || !is_moment(rest->substr(0, m)))
+        return std::nullopt;
+    return rest->substr(m + 1);
+}
+
+/// Whether that is of a seismic image: -depth-40Hz-lateral-500m, each of which may be missing.
+bool is_of_seismic(std::string_view options) {
+    constexpr std::string_view depth = "-depth";
+    if (options.starts_with(depth))
+        options.remove_prefix(depth.size());
+    take_number(options, "-", "Hz");
+    take_number(options, "-lateral-", "m");
+    return options.empty();
+}
+
 bool is_export(std::string_view name) {
-    const auto is_of = [&](std::string_view kind, std::string_view ending) {
-        return is_moment(
-            between(name, fmt::format("{}-extension-", kind), fmt::format("m{}", ending)));
+    const auto has = [&](std::string_view kind, std::span<const std::string_view> endings,
+                         bool (*are_known)(std::string_view options)) {
+        return std::ranges::any_of(endings, [&](std::string_view ending) {
+            const auto options = options_of(name, kind, ending);
+            return options && are_known(*options);
+        });
     };
-    return name == "discs.gsd" || is_of("discs", ".csv") ||
-           std::ranges::any_of(seismic_endings,
-                               [&](std::string_view ending) { return is_of("seismic", ending); }) ||
-           std::ranges::any_of(line_exports, [&](std::string_view kind) {
-               return std::ranges::any_of(
-                   line_endings, [&](std::string_view ending) { return is_of(kind, ending); });
-           });
+    const auto none = [](std::string_view options) { return options.empty(); };
+    const auto of_well = [](std::string_view options) {
+        take_listed(options, "-x-", "m");
+        return options.empty();
+    };
+    constexpr std::string_view csv[] = {".csv"};
+    std::string_view moments = name;
+    return name == "discs.gsd" ||
+           (take_listed(moments, "discs-extension-", "m.gsd") && moments.empty()) ||
+           has("discs", csv, none) || has("seismic", seismic_endings, is_of_seismic) ||
+           std::ranges::any_of(line_exports,
+                               [&](auto kind) { return has(kind, line_endings, none); }) ||
+           std::ranges::any_of(well_exports,
+                               [&](auto kind) { return has(kind, line_endings, of_well); });
 }
 
 /// Whether a text is names of panels with a dash after each: "strata-strain-".
 bool is_panels(std::string_view text) {
     if (text.empty())
         return true;
+    if (text.starts_with(layer_picture)) {
+        const std::size_t dash = text.find('-', layer_picture.size());
+        return dash != text.npos && is_panels(text.substr(dash + 1));
+    }
     return std::ranges::any_of(section_pictures, [&](std::string_view kind) {
         return text.starts_with(fmt::format("{}-", kind)) &&
                is_panels(text.substr(kind.size() + 1));
     });
 }
 
-/// Whether a file is a figure for print: strata-strain-5.0km-85mm.png.
-bool is_print(std::string_view name) {
-    return std::ranges::any_of(picture_endings, [&](std::string_view ending) {
-        const auto stem = between(name, "", fmt::format("mm{}", ending));
-        const std::size_t dash = stem ? stem->rfind("km-") : std::string_view::npos;
-        if (dash == std::string_view::npos || dash + 3 == stem->size() ||
-            stem->substr(dash + 3).find_first_not_of("0123456789.") != stem->npos)
-            return false;
-        const std::size_t last = stem->substr(0, dash).rfind('-');
-        return last != std::string_view::npos && is_panels(stem->substr(0, last + 1)) &&
-               is_kilometres(stem->substr(last + 1, dash - last - 1));
-    });
+/// KIND-KILOMETRESkm and what stands behind it.
+struct SectionName {
+    std::string_view kind, options;
+};
+
+std::optional<SectionName> section_name(std::string_view stem) {
+    for (std::size_t km = stem.find("km"); km != stem.npos; km = stem.find("km", km + 1)) {
+        const std::size_t dash = stem.rfind('-', km);
+        if (dash != stem.npos && is_kilometres(stem.substr(dash + 1, km - dash - 1)))
+            return SectionName{stem.substr(0, dash), stem.substr(km + 2)};
+    }
+    return std::nullopt;
 }
 
-/// Whether a file is the picture of a section at a moment.
+/// Whether that is -plain-200dpi, each of which may be missing.
+bool is_of_look(std::string_view options) {
+    constexpr std::string_view plain = "-plain";
+    if (options.starts_with(plain))
+        options.remove_prefix(plain.size());
+    take_number(options, "-", "dpi");
+    return options.empty();
+}
+
+/// Whether that begins with the picture that a section is drawn over: -section-1a2b3c4d.
+bool is_of_underlay(std::string_view options) {
+    for (std::size_t end = options.size(); end > 1; --end)
+        if (is_named_after(options.substr(1, end - 1)) && is_of_look(options.substr(end)))
+            return options.front() == '-';
+    return false;
+}
+
+/// Whether a file is the picture of a section at a moment: strata-5.0km.png, with options, for
+/// print strata-strain-5.0km-85mm.png, or a film.
 bool is_section_picture(std::string_view name) {
-    const auto is_of = [&](std::string_view kind, std::string_view ending) {
-        const auto km = between(name, fmt::format("{}-", kind), fmt::format("km{}", ending));
+    const bool is_film = std::ranges::any_of(film_endings, [&](std::string_view ending) {
+        const auto km = between(name, "animation-", fmt::format("km{}", ending));
         return km && is_kilometres(*km);
-    };
-    const auto has_kind = [&](std::string_view kind) {
-        return std::ranges::any_of(picture_endings,
-                                   [&](std::string_view ending) { return is_of(kind, ending); });
-    };
-    return std::ranges::any_of(section_pictures, has_kind) || is_print(name) ||
-           (name.starts_with(layer_picture) && has_kind(name.substr(0, name.rfind('-')))) ||
-           std::ranges::any_of(film_endings,
-                               [&](std::string_view ending) { return is_of("animation", ending); });
+    });
+    return is_film || std::ranges::any_of(picture_endings, [&](std::string_view ending) {
+               const auto stem = between(name, "", ending);
+               const auto section = stem ? section_name(*stem) : std::nullopt;
+               if (!section)
+                   return false;
+               auto [kind, options] = *section;
+               if (take_number(options, "-", "mm"))
+                   return is_panels(fmt::format("{}-", kind)) && is_of_look(options);
+               if (kind == "well")
+                   take_listed(options, "-x-", "m");
+               const bool is_known =
+                   kind.starts_with(layer_picture) ||
+                   std::ranges::find(section_pictures, kind) != std::end(section_pictures);
+               return is_known &&
+                      (is_of_look(options) || (kind == "underlay" && is_of_underlay(options)));
+           });
 }
 
 bool is_base_picture(std::string_view name) {

@@ -287,6 +287,8 @@ std::vector<std::byte> file_image(const State& state,
     const Handle file(H5Fcreate("snapshot", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose, what);
     write_text_attribute(file, "format", std::string(kind) + std::to_string(format));
     write_text_attribute(file, "version", std::string(version));
+    write_text_attribute(file, "coordinates",
+                         "x: m from the breakaway; y: m above the original surface (y = 0)");
     write_state(file, state);
     write_memories(file, events);
     write_record(file, record);

@@ -3,6 +3,7 @@
 #include "apps/archive/burial_history.hpp"
 #include "apps/archive/examine.hpp"
 #include "apps/archive/exports.hpp"
+#include "apps/archive/run_files.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/run_history.hpp"
 #include "apps/archive/setting.hpp"
@@ -13,6 +14,7 @@
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/npy.hpp"
+#include "apps/support/option_names.hpp"
 #include "apps/support/python.hpp"
 #include "apps/support/spelling.hpp"
 
@@ -106,6 +108,16 @@ void Trajectory::write(const fs::path& file) const {
     run_script_with("gsd", "python3-gsd", "trajectory.py", words);
 }
 
+/// Name of the file of discs: discs.gsd of all moments, else with those that were asked for.
+std::string trajectory_name(const ExportRequest& request, const std::vector<fs::path>& moments) {
+    if (request.extensions.empty())
+        return "discs.gsd";
+    std::vector<std::string> metres;
+    for (const fs::path& path : moments)
+        metres.push_back(*moment_of_snapshot(path.filename().string()));
+    return fmt::format("discs-extension-{}m.gsd", listed(metres));
+}
+
 /// Why there is no well.
 std::string no_well(const ExportRequest& request, const Observation& now) {
     const std::vector<WellPlace> places = well_places(now, {});
@@ -122,10 +134,10 @@ std::string no_well(const ExportRequest& request, const Observation& now) {
 void warn_of_dry_wells(const ExportRequest& request, const LineTable& burial,
                        const fs::path& snapshot) {
     for (const double x : request.wells) {
-        const LineValue name = fmt::format("x {:g} m", x);
+        const LineValue name = well_place(x).name;
         if (std::ranges::none_of(burial.lines,
                                  [&](const Line& line) { return line.values.front() == name; }))
-            warn(fmt::format("--x {:g}: no sediment there at {}", x, snapshot.stem().string()));
+            warn(fmt::format("--x {}: no sediment there at {}", text(x), snapshot.stem().string()));
     }
 }
 
@@ -135,10 +147,13 @@ std::string written(const LineTable& table, const std::string& format) {
                                  : to_gmt(table);
 }
 
-/// Writes KIND-SNAPSHOT.FORMAT in every format of lines, and adds the files to those there are.
+/// Writes KIND-SNAPSHOT.FORMAT in every format of lines, with the places of wells that were asked
+/// for behind the snapshot, and adds the files to those there are.
 void write_lines(LineTable table, std::string_view kind, const fs::path& snapshot,
                  const ExportRequest& request, std::vector<fs::path>& files) {
     table.name = fmt::format("{}-{}", kind, snapshot.stem().string());
+    if (!request.wells.empty())
+        table.name += fmt::format("-x-{}m", listed(request.wells));
     for (const std::string& format : request.formats)
         if (format != "gsd") {
             files.push_back(request.output / "export" / (table.name + "." + format));
@@ -217,7 +232,7 @@ std::vector<fs::path> export_run(const ExportRequest& wanted) {
             write_lines(std::move(table), kind.name, path, request, files);
     }
     if (trajectory) {
-        files.push_back(folder / (request.kind + ".gsd"));
+        files.push_back(folder / trajectory_name(request, moments));
         trajectory->write(files.back());
     }
     return files;

@@ -21,8 +21,9 @@ struct ExportRequest {
 
 std::vector<std::string_view> export_kinds();
 
-/// Writes output/export/KIND-SNAPSHOT.FORMAT, and one KIND.gsd of all moments. Returns the files.
-/// Throws UsageError, SceneError, StorageError.
+/// Writes output/export/KIND-SNAPSHOT[-OPTIONS].FORMAT, and one discs.gsd of all moments: calls
+/// that ask for other things write other files. Returns the files. Throws UsageError, SceneError,
+/// StorageError.
 std::vector<std::filesystem::path> export_run(const ExportRequest& request);
 
 } // namespace listric

@@ -4,6 +4,7 @@
 #include "apps/figures/segy.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/npy.hpp"
+#include "apps/support/spelling.hpp"
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +37,13 @@ std::vector<std::string> words_of(const archive::ExportedMoment& at,
             ? fmt::format("SAMPLES BY DEPTH, {:g} M; HEADERS HAVE MILLIMETRES", o.sample_interval)
             : fmt::format("SAMPLES BY TWO-WAY TIME, {:g} MS", 1e3 * o.sample_interval),
         fmt::format("POINT-SPREAD FUNCTION ALONG X: {:g} M", o.lateral),
-        fmt::format("DATUM {:.0f} M ABOVE THE ORIGINAL SURFACE", section.datum),
+        "DATUM, ELEVATION 0: THE ORIGINAL SURFACE, Y = 0; ELEVATIONS POSITIVE UP",
+        o.in_depth
+            ? fmt::format("FIRST SAMPLE AT A DEPTH OF {:.0f} M (BYTES 109-110); POSITIVE DOWN",
+                          section.first_sample)
+            : fmt::format("FIRST SAMPLE AT {:.0f} MS (BYTES 109-110) FROM THE DATUM",
+                          1e3 * section.first_sample),
+        "X FROM THE BREAKAWAY, CM (BYTES 181-184); GROUND, CM (BYTES 41-48)",
         "POSITIVE AMPLITUDE: THE ROCK BELOW IS HARDER",
         "VELOCITY: WYLLIE'S TIME AVERAGE (GEOPHYSICS 21, 41, 1956)",
         fmt::format("MATRIX {:g} M/S, {:g} KG/M3; FLUID {:g} M/S, {:g} KG/M3", law.matrix_velocity,
@@ -47,6 +54,17 @@ std::vector<std::string> words_of(const archive::ExportedMoment& at,
         "CONVOLUTION OF REFLECTIVITY: NO MIGRATION, NO DIFFRACTION, NO MULTIPLES,",
         "NO NOISE, NO ATTENUATION",
     };
+}
+
+/// Options in the names of files: those that are not the usual ones.
+std::string seismic_suffix(const SeismicOptions& options) {
+    const SeismicOptions usual;
+    std::string suffix = options.in_depth ? "-depth" : "";
+    if (options.frequency != usual.frequency)
+        suffix += fmt::format("-{}Hz", text(options.frequency));
+    if (options.lateral != usual.lateral)
+        suffix += fmt::format("-lateral-{}m", text(options.lateral));
+    return suffix;
 }
 
 /// SEG-Y counts samples and intervals in 16 bits. Throws UsageError.
@@ -82,7 +100,7 @@ std::vector<fs::path> export_seismic(const archive::ExportedMoment& at, const st
     options.has_labels = wants("npy");
     const SeismicSection section =
         seismic_section(at.now, at.faults.faults, seismic_horizons(at.now), options);
-    const std::string stem = "seismic-" + name;
+    const std::string stem = fmt::format("seismic-{}{}", name, seismic_suffix(section.options));
     std::vector<fs::path> files;
     if (wants("segy")) {
         require_room(section);
@@ -99,16 +117,18 @@ std::vector<fs::path> export_seismic(const archive::ExportedMoment& at, const st
     write_rows(file("-faults.npy"), section.fault, section);
     write_rows(file("-strain.npy"), section.strain, section);
     const SeismicOptions& o = section.options;
-    write_object(file(".json"),
-                 {{"rows", "traces"},
-                  {"columns", "samples"},
-                  {"first_x_m", section.first_x},
-                  {"trace_spacing_m", o.trace_spacing},
-                  {o.in_depth ? "sample_interval_m" : "sample_interval_s", o.sample_interval},
-                  {"datum_m", section.datum},
-                  {"frequency_hz", o.frequency},
-                  {"lateral_m", o.lateral},
-                  {"words", words_of(at, section)}});
+    const std::string unit = o.in_depth ? "m" : "s";
+    write_object(file(".json"), {{"rows", "traces"},
+                                 {"columns", "samples"},
+                                 {"first_x_m", section.first_x},
+                                 {"trace_spacing_m", o.trace_spacing},
+                                 {"sample_interval_" + unit, o.sample_interval},
+                                 {"first_sample_" + unit, section.first_sample},
+                                 {"depth_reference", archive::depth_reference},
+                                 {"highest_rock_m", section.top},
+                                 {"frequency_hz", o.frequency},
+                                 {"lateral_m", o.lateral},
+                                 {"words", words_of(at, section)}});
     return files;
 }
 

@@ -34,7 +34,7 @@ void write_seismic(const Observation& now, const fs::path& folder, const std::st
     std::ranges::replace(name, '-', '_');
     write_npy<float>(folder / (name + ".npy"), std::span<const float>(section.amplitude),
                      section.samples);
-    const std::vector<double> axes{section.first_x, o.trace_spacing,   section.datum,
+    const std::vector<double> axes{section.first_x, o.trace_spacing,   section.first_sample,
                                    o.frequency,     o.sample_interval, o.lateral};
     write_npy<double>(folder / (name + "_axes.npy"), std::span<const double>(axes));
 }

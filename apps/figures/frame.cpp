@@ -15,6 +15,8 @@
 #include "apps/support/file.hpp"
 #include "apps/support/json_text.hpp"
 #include "apps/support/npy.hpp"
+#include "apps/support/option_names.hpp"
+#include "apps/support/picture.hpp"
 #include "dem/base/place.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/power_cell.hpp"
@@ -149,6 +151,14 @@ void write_depocentres(const FrameWriter& writer, const std::vector<Depocentre>&
     for (const Depocentre& c : depocentres)
         rows.insert(rows.end(), {c.x, c.thickness, c.prominence});
     writer.array("depocentres", rows, 3);
+}
+
+/// Part of the names of figures over a picture: another picture, or place, has another one.
+std::string name_of(const Underlay& underlay) {
+    const std::string corners =
+        fmt::format("{} {} {} {}", underlay.left, underlay.top, underlay.right, underlay.bottom);
+    return named_after(fs::path(underlay.image).stem().string(),
+                       read_picture(underlay.image).bytes + corners);
 }
 
 /// Points of the traces: number of the fault, x, y and the fault's slip rate.
@@ -339,6 +349,7 @@ void write_frame(const Observation& now, const FaultReport& faults, const fs::pa
         write_horizons(writer, "horizons", horizons, [](int) { return true; });
         frame["underlay"] = {
             {"image", fs::absolute(underlay->image).string()},
+            {"name", name_of(*underlay)},
             {"corners_m", {underlay->left, underlay->top, underlay->right, underlay->bottom}}};
     }
     writer.json(frame);

@@ -187,7 +187,7 @@ json seismic_of(const Observation& now, std::span<const Horizon> horizons) {
     return {{"traces", section.traces},
             {"samples", section.samples},
             {"left_m", section.first_x - 0.5 * section.options.trace_spacing},
-            {"top_m", 0.0 - section.datum - 0.5 * section.options.sample_interval},
+            {"top_m", section.first_sample - 0.5 * section.options.sample_interval},
             {"across_m", section.options.trace_spacing},
             {"down_m", section.options.sample_interval},
             {"frequency_hz", section.options.frequency},

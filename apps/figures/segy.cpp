@@ -73,6 +73,8 @@ void write_segy(const std::filesystem::path& file, const SeismicSection& section
     const double interval = section.options.in_depth ? 1e3 * section.options.sample_interval
                                                      : 1e6 * section.options.sample_interval;
     const auto samples = static_cast<double>(section.samples);
+    // segyio and others add it to the samples; of bytes 215 and 216, its scalar, few know.
+    const double delay = (section.options.in_depth ? 1.0 : 1e3) * section.first_sample;
     std::string all = text_header(words);
     Block binary(400);     // places less 3200
     binary.put32(5, 1.0);  // line
@@ -91,12 +93,18 @@ void write_segy(const std::filesystem::path& file, const SeismicSection& section
         Block head(240);
         head.put32(1, number);
         head.put32(5, number);
-        head.put32(21, number); // CDP
-        head.put16(29, 1.0);    // seismic data
-        head.put16(71, -100.0); // coordinates are in hundredths
+        head.put32(21, number);                        // CDP
+        head.put16(29, 1.0);                           // seismic data
+        head.put32(41, 100.0 * section.ground[trace]); // elevation of the receivers,
+        head.put32(45, 100.0 * section.ground[trace]); // and of the ground at the source
+        head.put32(53, 0.0);                           // of the datum at the receivers,
+        head.put32(57, 0.0);                           // and at the source
+        head.put16(69, -100.0);                        // elevations are in hundredths,
+        head.put16(71, -100.0);                        // and coordinates
         head.put32(73, 100.0 * section.x(trace));
         head.put32(81, 100.0 * section.x(trace));
         head.put16(89, 1.0); // lengths
+        head.put16(109, delay);
         head.put16(115, samples);
         head.put16(117, interval);
         head.put32(181, 100.0 * section.x(trace)); // of the CDP

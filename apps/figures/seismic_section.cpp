@@ -80,7 +80,7 @@ std::optional<double> height_of(std::span<const Polyline> lines, double x) {
     return highest;
 }
 
-/// Columns of the section from the datum down, as layers of rock.
+/// Columns of the section from the top down, as layers of rock.
 class Rays {
 public:
     Rays(const Observation& now, std::span<const Horizon> horizons, const SeismicLaw& law,
@@ -93,10 +93,11 @@ public:
         for (const Horizon& horizon : horizons_)
             for (const Polyline& line : horizon.top)
                 for (const Point p : line)
-                    datum_ = std::max(datum_, p.y);
+                    top_ = std::max(top_, p.y);
+        top_ = std::ceil(top_); // of which a file's header has whole metres
     }
 
-    double datum() const { return datum_; }
+    double top() const { return top_; }
     const OwnerMap& map() const { return map_; }
     const Room& room() const { return room_; }
 
@@ -104,14 +105,10 @@ public:
     std::vector<SeismicLayer> at(double x) const {
         const double floor = height_at(room_.floor, x);
         std::vector<SeismicLayer> layers;
-        // Tops of horizons, each at least as high as the one below.
-        std::vector<double> tops;
-        for (const Horizon& horizon : horizons_)
-            tops.push_back(std::max(height_of(horizon.top, x).value_or(floor),
-                                    tops.empty() ? floor : tops.back()));
+        const std::vector<double> tops = tops_at(x);
         const double surface = tops.empty() ? floor : tops.back();
         const std::size_t column = column_of(x);
-        double top = datum_; // where the topmost rock begins
+        double top = top_; // where the topmost rock begins
         bool is_weak = false;
         for (std::size_t n = horizons_.size(); n-- > 0;) {
             const double bottom = n > 0 ? tops[n - 1] : floor;
@@ -131,6 +128,12 @@ public:
         return layers;
     }
 
+    /// y of the topmost rock.
+    double ground(double x) const {
+        const std::vector<double> tops = tops_at(x);
+        return tops.empty() ? height_at(room_.floor, x) : tops.back();
+    }
+
     std::size_t column_of(double x) const {
         return static_cast<std::size_t>(std::clamp(std::round((x - map_.corner.x) / map_.spacing),
                                                    0.0, static_cast<double>(map_.columns - 1)));
@@ -141,6 +144,16 @@ public:
     }
 
 private:
+    /// Tops of horizons, each at least as high as the one below.
+    std::vector<double> tops_at(double x) const {
+        const double floor = height_at(room_.floor, x);
+        std::vector<double> tops;
+        for (const Horizon& horizon : horizons_)
+            tops.push_back(std::max(height_of(horizon.top, x).value_or(floor),
+                                    tops.empty() ? floor : tops.back()));
+        return tops;
+    }
+
     SeismicRock rock_at(int stratum, double porosity, bool is_weak) const {
         const double depth = (0.5 - stratum) * layer_; // of pre-rift rock, at the start
         SeismicRock rock = saturated_rock(
@@ -169,7 +182,7 @@ private:
     std::vector<double> porosity_;
     std::vector<std::uint32_t> rock_;
     double layer_; ///< thickness of the layers of pre-rift rock, m
-    double datum_ = 0.0;
+    double top_ = 0.0;
 };
 
 /// Weighs traces with a normal distribution along x.
@@ -228,7 +241,7 @@ std::vector<bool> near_faults(const OwnerMap& map, std::span<const Fault> faults
     return near;
 }
 
-/// Depth below the datum of a two-way time, m.
+/// Depth below the top of a two-way time from there, m.
 double depth_at(std::span<const Reflection> boundaries, double time, double last) {
     const auto next =
         std::ranges::find_if(boundaries, [&](const Reflection& r) { return r.time >= time; });
@@ -236,6 +249,22 @@ double depth_at(std::span<const Reflection> boundaries, double time, double last
     const double from = next == boundaries.begin() ? 0.0 : (next - 1)->depth;
     const double since = next == boundaries.begin() ? 0.0 : (next - 1)->time;
     return from + 0.5 * velocity * (time - since);
+}
+
+/// Two-way time from the top to the original surface in every trace, s.
+std::vector<double> zero_times(const SeismicSection& section,
+                               const std::vector<std::vector<Reflection>>& boundaries,
+                               double last) {
+    std::vector<double> times;
+    for (const std::vector<Reflection>& ray : boundaries)
+        times.push_back(time_at(ray, section.top, last));
+    return times;
+}
+
+/// An interval with a whole number of a unit, such as micro for 1e6, in which a file's header has
+/// it.
+double whole(double interval, double per_unit) {
+    return std::max(std::round(per_unit * interval), 1.0) / per_unit;
 }
 
 } // namespace
@@ -248,34 +277,46 @@ SeismicSection seismic_section(const Observation& now, std::span<const Fault> fa
     const Rays rays(now, horizons, options.law,
                     std::max(0.25 * now.state.mean_radius, thickness / 1500.0));
     const OwnerMap& map = rays.map();
-    section.datum = rays.datum();
+    section.top = rays.top();
     if (options.trace_spacing <= 0.0)
         options.trace_spacing = map.spacing;
     if (options.sample_interval <= 0.0)
-        options.sample_interval =
-            0.1 / options.frequency * (options.in_depth ? 0.5 * options.law.fluid_velocity : 1.0);
+        options.sample_interval = whole(
+            0.1 / options.frequency * (options.in_depth ? 0.5 * options.law.fluid_velocity : 1.0),
+            options.in_depth ? 1e3 : 1e6);
     section.first_x = std::max(rays.room().left, 0.0) + 0.5 * options.trace_spacing;
     section.traces = static_cast<std::size_t>(
         std::max((rays.room().right - section.first_x) / options.trace_spacing + 1.0, 1.0));
     std::vector<std::vector<Reflection>> boundaries(section.traces);
     for_each_shared(section.traces,
                     [&](std::size_t k) { boundaries[k] = reflections(rays.at(section.x(k))); });
+    for (std::size_t k = 0; k < section.traces; ++k)
+        section.ground.push_back(rays.ground(section.x(k)));
+    const double last = saturated_rock(options.law, 0.0).velocity;
+    const std::vector<double> zero = zero_times(section, boundaries, last);
+    section.first_sample = options.in_depth
+                               ? 0.0 - section.top
+                               : 0.0 - 1e-3 * std::ceil(1e3 * *std::ranges::max_element(zero));
     double end = 0.0;
-    for (const auto& ray : boundaries)
-        if (!ray.empty())
-            end = std::max(end, options.in_depth ? ray.back().depth : ray.back().time);
-    end += options.in_depth ? 500.0 : 3.0 / options.frequency;
+    for (std::size_t k = 0; k < section.traces; ++k)
+        if (const auto& ray = boundaries[k]; !ray.empty())
+            end = std::max(end, options.in_depth ? ray.back().depth - section.top
+                                                 : ray.back().time - zero[k]);
+    end += (options.in_depth ? 500.0 : 3.0 / options.frequency) - section.first_sample;
     section.samples = static_cast<std::size_t>(std::ceil(end / options.sample_interval)) + 1;
     section.amplitude.assign(section.traces * section.samples, 0.0f);
-    const double last = saturated_rock(options.law, 0.0).velocity;
     for_each_shared(section.traces, [&](std::size_t k) {
         const std::span<float> trace(section.amplitude.data() + k * section.samples,
                                      section.samples);
-        if (options.in_depth)
+        if (options.in_depth) {
             add_reflections_in_depth(trace, options.sample_interval, boundaries[k], last,
                                      options.frequency);
-        else
-            add_reflections(trace, options.sample_interval, boundaries[k], options.frequency);
+            return;
+        }
+        std::vector<Reflection> since_first = boundaries[k];
+        for (Reflection& r : since_first)
+            r.time -= zero[k] + section.first_sample;
+        add_reflections(trace, options.sample_interval, since_first, options.frequency);
     });
     if (options.lateral > 0.0)
         blur(section);
@@ -288,10 +329,12 @@ SeismicSection seismic_section(const Observation& now, std::span<const Fault> fa
     for (std::size_t trace = 0; trace < section.traces; ++trace) {
         const std::size_t column = rays.column_of(section.x(trace));
         for (std::size_t k = 0; k < section.samples; ++k) {
-            const double depth = options.in_depth
-                                     ? section.sample(k)
-                                     : depth_at(boundaries[trace], section.sample(k), last);
-            const double row = std::round((section.datum - depth - map.corner.y) / map.spacing);
+            const double depth =
+                options.in_depth
+                    ? section.sample(k)
+                    : depth_at(boundaries[trace], section.sample(k) + zero[trace], last) -
+                          section.top;
+            const double row = std::round((0.0 - depth - map.corner.y) / map.spacing);
             if (row < 0.0 || row >= static_cast<double>(map.rows))
                 continue;
             const std::size_t at = static_cast<std::size_t>(row) * map.columns + column;

@@ -18,7 +18,7 @@ struct SeismicOptions {
     double lateral = 0.0;    ///< full width at half maximum of the point-spread function along x, m
     bool in_depth = false;   ///< samples by depth, else by two-way time
     double trace_spacing = 0.0;   ///< m; 0: that of the owner map, a quarter of a mean radius
-    double sample_interval = 0.0; ///< s, or m in depth; 0: a tenth of the wavelet
+    double sample_interval = 0.0; ///< whole us, in s, or whole mm, in m; 0: a tenth of the wavelet
     bool has_labels = false;      ///< strain and faults at every sample, too
     measures::SeismicLaw law = {};
 };
@@ -27,14 +27,17 @@ struct SeismicOptions {
 /// of sediment does.
 inline constexpr double pre_rift_porosity = 0.1, porosity_decay_per_m = 4e-4;
 
-/// Traces side by side, from the breakaway to the right wall. Samples begin at the datum: the
-/// original surface, or the highest rock above it. The topmost rock begins there: neither
-/// its surface nor water above it reflects.
+/// Traces side by side, from the breakaway to the right wall. Time and depth are 0 at the original
+/// surface, y = 0, in every trace; where rock is above it the first sample has a negative time or
+/// depth. The topmost rock reaches up to the first sample: neither its surface nor water above it
+/// reflects.
 struct SeismicSection {
     SeismicOptions options = {}; ///< with spacing and interval as they are
     std::size_t traces = 0, samples = 0;
     double first_x = 0.0;                 ///< m
-    double datum = 0.0;                   ///< m, y up
+    double first_sample = 0.0;            ///< whole ms, in s, or whole m of depth; 0 or less
+    double top = 0.0;                     ///< y of the highest rock, whole m up; 0 at least
+    std::vector<double> ground = {};      ///< y of the topmost rock, m, trace by trace
     std::vector<float> amplitude = {};    ///< trace by trace
     std::vector<float> strain = {};       ///< of window_strain(); NaN outside rock, too
     std::vector<std::uint8_t> fault = {}; ///< 1 within a mean diameter of an active fault
@@ -42,8 +45,10 @@ struct SeismicSection {
     double x(std::size_t trace) const {
         return first_x + options.trace_spacing * static_cast<double>(trace);
     }
-    /// s, or m below the datum.
-    double sample(std::size_t k) const { return options.sample_interval * static_cast<double>(k); }
+    /// Two-way time from the original surface, s, or depth below it, m.
+    double sample(std::size_t k) const {
+        return first_sample + options.sample_interval * static_cast<double>(k);
+    }
 };
 
 /// Reflectivity of the section by velocity and density of its rock, convolved with Ricker's

@@ -5,7 +5,9 @@
 #include "apps/support/json_text.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/moment_names.hpp"
+#include "apps/support/option_names.hpp"
 #include "apps/support/python.hpp"
+#include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
 
@@ -58,6 +60,7 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
             continue;
         frames.push_back({{"scene", run.scene.name},
                           {"extension_km", run.names.kilometres(snapshot_extension(path))},
+                          {"options", wells.empty() ? "" : fmt::format("-x-{}m", listed(wells))},
                           {"extension_m", moment.state.clock.extension.m},
                           {"wells", list}});
         if (!run.parts.base.motion.stages.empty())
@@ -66,7 +69,7 @@ bool draw_wells(const RunFolder& run, std::span<const fs::path> snapshots,
     if (frames.empty())
         return false;
     for (const double x : dry)
-        warn(fmt::format("--well {:g}: no pore water under pressure there", x));
+        warn(fmt::format("--well {}: no pore water under pressure there", text(x)));
     const fs::path figures = fs::absolute(run.output) / "figures";
     const TemporaryFolder data(figures);
     write_text(data.path / "wells.json", to_text(nlohmann::ordered_json{{"frames", frames}}));

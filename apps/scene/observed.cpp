@@ -8,16 +8,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace listric {
 
+namespace {
+
+/// Piece of every row, among those of its name: the labels that the file has, else the number of
+/// its block, by empty lines. Empty lines between all rows are a way to write, and part nothing.
+std::vector<std::string> pieces_of(const CsvRows& rows) {
+    if (std::ranges::any_of(rows.label, [](const std::string& label) { return !label.empty(); }))
+        return rows.label;
+    const bool is_spaced = std::count(rows.after_gap.begin(), rows.after_gap.end(), true) + 1 >=
+                           std::ssize(rows.after_gap);
+    std::vector<std::string> pieces;
+    int block = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        block += k > 0 && rows.after_gap[k] && !is_spaced;
+        pieces.push_back(std::to_string(block));
+    }
+    return pieces;
+}
+
+} // namespace
+
 PickedFile read_picked_lines(const std::filesystem::path& path, double shift) {
-    const CsvRows rows =
-        read_csv(path, {.words = "name", .numbers = {"x_m", "depth_m"}, .optional = {"age_a"}});
+    const CsvRows rows = read_csv(path, {.words = "name",
+                                         .numbers = {"x_m", "depth_m"},
+                                         .optional = {"age_a"},
+                                         .labels = {"line", "segment"}});
     PickedFile picked{path.string(), {}, {}};
-    std::map<std::string, std::size_t> places;
+    const std::vector<std::string> pieces = pieces_of(rows);
+    std::map<std::pair<std::string, std::string>, std::size_t> places;
+    std::map<std::string, double> ages;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const std::string& name = rows.words[k];
         const double x = rows.columns[0][k], depth = rows.columns[1][k], age = rows.columns[2][k];
@@ -30,7 +56,7 @@ PickedFile read_picked_lines(const std::filesystem::path& path, double shift) {
             refuse(fmt::format("x_m = {}, depth_m = {} is out of range, allowed: x_m -1e7 to 1e7, "
                                "depth_m -1e5 to 1e5; is it in metres?",
                                text(x), text(depth)));
-        const auto [place, is_new] = places.try_emplace(name, picked.lines.size());
+        const auto [place, is_new] = places.try_emplace({name, pieces[k]}, picked.lines.size());
         if (is_new) {
             picked.lines.push_back({name, std::nullopt, {}, {}});
             picked.rows.emplace_back();
@@ -39,15 +65,17 @@ PickedFile read_picked_lines(const std::filesystem::path& path, double shift) {
         if (age < 0.0)
             refuse(fmt::format("age_a: {} is after the end of extension, allowed: at least 0",
                                text(age)));
-        if (!std::isnan(age) && line.age && *line.age != age)
-            refuse(fmt::format("age_a: {} has {} above and {} here; a horizon has one age",
-                               shown_start(name), text(*line.age), text(age)));
         if (!std::isnan(age))
-            line.age = age;
+            if (const double known = ages.try_emplace(name, age).first->second; known != age)
+                refuse(fmt::format("age_a: {} has {} above and {} here; a horizon has one age",
+                                   shown_start(name), text(known), text(age)));
         line.x.push_back(x + shift);
         line.depth.push_back(depth);
         picked.rows[place->second].push_back(rows.line[k]);
     }
+    for (PickedLine& line : picked.lines)
+        if (const auto age = ages.find(line.name); age != ages.end())
+            line.age = age->second;
     return picked;
 }
 

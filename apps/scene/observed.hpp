@@ -8,7 +8,7 @@
 
 namespace listric {
 
-/// A horizon or a fault as it was picked on a section.
+/// A horizon or a fault as it was picked on a section, or a piece of one: these have one name.
 struct PickedLine {
     std::string name;
     std::optional<double> age;    ///< before the end of extension, a
@@ -33,9 +33,9 @@ struct PickedFile {
     std::vector<std::vector<std::size_t>> rows;
 };
 
-/// Reads picked lines from a CSV file with the columns name, x_m, depth_m and, if it is there,
-/// age_a, which may be empty: rows of one name are one line, in their order. Adds `shift` to every
-/// x. Throws SceneError.
+/// Reads picked lines from a CSV file with the columns name, x_m, depth_m and, if they are there,
+/// age_a, line and segment: rows of one name, line and segment, or else of one name and block by
+/// empty lines, are a line, in their order. Adds `shift` to every x. Throws SceneError.
 PickedFile read_picked_lines(const std::filesystem::path& file, double shift);
 
 } // namespace listric

@@ -25,8 +25,10 @@ constexpr double sharp_turn = 20.0; ///< degrees
 constexpr double wide_gap = 4.0;    ///< median distances of neighbours
 
 FaultPoints read_csv_points(const FaultSource& source, const std::filesystem::path& file) {
-    const CsvRows rows =
-        read_csv(file, {.numbers = {"x_m", "depth_m"}, .delimiter = source.csv_delimiter});
+    const CsvRows rows = read_csv(file, {.numbers = {"x_m", "depth_m"},
+                                         .labels = {"name", "line", "segment"},
+                                         .delimiter = source.csv_delimiter});
+    require_one_line(rows, file, "a detachment");
     FaultPoints fault;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         fault.points.push_back({rows.columns[0][k], -rows.columns[1][k]});

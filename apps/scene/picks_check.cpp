@@ -1,4 +1,5 @@
 #include "apps/scene/picks_check.hpp"
+#include "apps/scene/picked_pieces.hpp"
 #include "apps/scene/stage.hpp"
 
 #include "apps/support/csv_records.hpp"
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 namespace listric {
 
@@ -67,6 +70,8 @@ public:
         check_room();
         if (kind_ == PickKind::horizons)
             check_ages();
+        else
+            std::ranges::copy(turns_back(picked_), std::back_inserter(scene_.warnings));
     }
 
 private:
@@ -150,9 +155,11 @@ private:
         const double end = scene_.extension.distance / scene_.extension.rate;
         if (const std::string why = objection_to_ages(picked_, end); !why.empty())
             scene_.warnings.push_back(why);
+        std::set<std::string> told;
         for (std::size_t l = 0; l < picked_.lines.size() && end > 0.0; ++l) {
             const auto& age = picked_.lines[l].age;
-            if (age && *age > end * (1.0 + 1e-6))
+            const bool is_new = told.insert(picked_.lines[l].name).second; // a horizon of pieces
+            if (is_new && age && *age > end * (1.0 + 1e-6))
                 scene_.warnings.push_back(fmt::format(
                     "{}: age_a: {} is before the start of extension, which takes {} a; the horizon "
                     "is compared with nothing",

@@ -119,10 +119,10 @@ std::vector<Parameter> observed_source_parameters() {
     using S = ObservedSource;
     return {
         {"horizons", at<&S::horizons>, "", ranges::any, "",
-         "file with picked horizons: columns name, x_m, depth_m and, if known, age_a",
+         "file with picked horizons: columns name, x_m, depth_m and, if known, age_a and line",
          "Adds the distance between picks and model to summary.json; the model does not change."},
         {"faults", at<&S::faults>, "", ranges::any, "",
-         "file with picked faults, which are drawn: columns name, x_m, depth_m",
+         "file with picked faults, which are drawn: columns name, x_m, depth_m, perhaps line",
          "Draws them over the sections; the model does not change."},
         {"shift_x_m", at<&S::shift_x>, "m", between(-1e7, 1e7), "",
          "shift that is added to every x of the picks; default: detachment.shift_x_m",

@@ -6,6 +6,7 @@
 #include "apps/model/model.hpp"
 #include "apps/run/batch.hpp"
 #include "apps/run/exit_code.hpp"
+#include "apps/scene/picked_pieces.hpp"
 #include "apps/scene/picks_check.hpp"
 #include "apps/scene/stage.hpp"
 #include "apps/scene/toml.hpp"
@@ -239,11 +240,12 @@ private:
         task.extension = scene.extension.distance;
         const double duration = task.extension / scene.extension.rate;
         std::set<double> ages;
-        for (std::size_t l = 0; l < picked.lines.size(); ++l) {
-            const PickedLine& line = picked.lines[l];
+        for (const PickedLine& line : by_name(picked.lines)) {
             const auto refuse = [&](const std::string& what) {
-                throw SceneError(fmt::format("{}: {} {}",
-                                             csv_place(picked.file, picked.rows[l].front()),
+                const auto piece = std::ranges::find(picked.lines, line.name, &PickedLine::name);
+                const auto& rows =
+                    picked.rows[static_cast<std::size_t>(piece - picked.lines.begin())];
+                throw SceneError(fmt::format("{}: {} {}", csv_place(picked.file, rows.front()),
                                              shown_start(line.name), what));
             };
             if (!line.age)

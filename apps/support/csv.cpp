@@ -11,10 +11,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -190,6 +192,27 @@ void check_optional(const CsvRecord& header, std::string_view name, const std::s
                                   header_text(header.cells), hint));
 }
 
+/// Places of the labels that the header has.
+std::vector<std::size_t> label_places(const CsvRecord& header, const CsvColumns& wanted) {
+    std::vector<std::size_t> places;
+    for (const std::string_view label : wanted.labels)
+        for (std::size_t k = 0; k < header.cells.size(); ++k)
+            if (std::ranges::equal(header.cells[k], label, {}, [](char letter) {
+                    return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+                }))
+                places.push_back(k);
+    return places;
+}
+
+/// The cells of some columns, with commas.
+std::string label_of(const CsvRecord& record, const std::vector<std::size_t>& places) {
+    std::string label;
+    for (const std::size_t place : places)
+        if (!record.cells[place].empty())
+            label += fmt::format("{}{}", label.empty() ? "" : ", ", record.cells[place]);
+    return label;
+}
+
 std::vector<std::string_view> needed_columns(const CsvColumns& wanted) {
     std::vector<std::string_view> names;
     if (!wanted.words.empty())
@@ -242,8 +265,9 @@ CsvRows read_csv(const fs::path& path, const CsvColumns& wanted) {
         place.push_back(place_of(header, name, csv_place(file, header.line)));
     const std::size_t words =
         wanted.words.empty() ? 0 : place_of(header, wanted.words, csv_place(file, header.line));
+    const std::vector<std::size_t> labels = label_places(header, wanted);
 
-    CsvRows rows{{}, std::vector<std::vector<double>>(names.size()), {}};
+    CsvRows rows{{}, std::vector<std::vector<double>>(names.size()), {}, {}, {}};
     bool below = false;
     read_records(text, file, reading.delimiter.sign, [&](CsvRecord& record) {
         if (!std::exchange(below, true))
@@ -265,6 +289,8 @@ CsvRows read_csv(const fs::path& path, const CsvColumns& wanted) {
             rows.columns[k].push_back(*value);
         }
         rows.line.push_back(record.line);
+        rows.label.push_back(label_of(record, labels));
+        rows.after_gap.push_back(record.after_gap);
         if (rows.line.size() > most_rows)
             refuse(where(), fmt::format("has more than {} rows; keep every n-th", most_rows));
         return true;
@@ -273,6 +299,24 @@ CsvRows read_csv(const fs::path& path, const CsvColumns& wanted) {
         refuse(shown(file),
                fmt::format("has no rows, needs {}", fmt::join(needed_columns(wanted), ", ")));
     return rows;
+}
+
+void require_one_line(const CsvRows& rows, const fs::path& file, std::string_view what) {
+    std::map<std::string, std::size_t> sizes;
+    for (const std::string& label : rows.label)
+        ++sizes[label];
+    const std::string* first = nullptr;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (sizes[rows.label[k]] < 2)
+            continue;
+        if (first && *first != rows.label[k])
+            refuse(
+                csv_place(file.string(), rows.line[k]),
+                fmt::format("begins the line \"{}\" after the line \"{}\"; {} is one line: leave "
+                            "the rows of the others out",
+                            shown_start(rows.label[k]), shown_start(*first), what));
+        first = &rows.label[k];
+    }
 }
 
 bool csv_has_column(const fs::path& path, std::string_view name) {

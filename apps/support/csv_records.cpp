@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace listric {
 
@@ -26,9 +27,10 @@ std::size_t line_length(std::string_view text, std::size_t at) {
     return end + 1 - at;
 }
 
-bool says_nothing(std::string_view line) {
+/// Its first character that is no blank; NUL: there is none.
+char first_sign(std::string_view line) {
     const auto first = line.find_first_not_of(" \t\r\n\v\f");
-    return first == line.npos || line[first] == '#';
+    return first == line.npos ? '\0' : line[first];
 }
 
 /// A line whose columns blanks part, with one tab in place of each gap. @param quoted  it begins
@@ -120,6 +122,7 @@ void read_records(std::string_view text, const std::string& file, char delimiter
                   const std::function<bool(CsvRecord&)>& take) {
     Parser parser(delimiter == ' ' ? '\t' : delimiter);
     std::size_t line = 0, quote_line = 0, bytes = 0;
+    bool gap = false;
     const auto refuse = [&](std::size_t at, const std::string& what) {
         throw SceneError(fmt::format("{}: {}", csv_place(file, at), what));
     };
@@ -128,10 +131,12 @@ void read_records(std::string_view text, const std::string& file, char delimiter
         std::string_view part = text.substr(at, length);
         ++line;
         const bool continues = quote_line > 0;
-        if (!continues && says_nothing(part))
+        if (const char first = first_sign(part); !continues && (first == '\0' || first == '#')) {
+            gap |= first == '\0';
             continue;
+        }
         if (!continues) {
-            parser.record = {{}, line};
+            parser.record = {.cells = {}, .line = line};
             bytes = 0;
         }
         bytes += length;
@@ -163,7 +168,9 @@ void read_records(std::string_view text, const std::string& file, char delimiter
             continue;
         }
         quote_line = 0;
-        if (!parser.record.is_empty() && !take(parser.record))
+        const bool is_empty = parser.record.is_empty();
+        parser.record.after_gap = std::exchange(gap, is_empty);
+        if (!is_empty && !take(parser.record))
             return;
     }
     if (quote_line > 0)

@@ -11,7 +11,8 @@ namespace listric {
 /// A row of a CSV file, whose cells are without their quotes and the blanks around.
 struct CsvRecord {
     std::vector<std::string> cells;
-    std::size_t line = 0; ///< of the file, from 1, on which it begins
+    std::size_t line = 0;   ///< of the file, from 1, on which it begins
+    bool after_gap = false; ///< an empty line, or a row of empty cells, stands before it
 
     bool is_empty() const; ///< a spreadsheet's row without a word
 };

@@ -86,7 +86,7 @@ class Figures(unittest.TestCase):
         self.assertEqual((ended.returncode, ended.stdout),   # what it wrote, and no warning
                          (0, "".join(f"../out/figures/{name}\n" for name in sorted(os.listdir(figures)))))
         self.assertIn(DESCRIPTION, (figures / "strata-0.1km.svg").read_text())
-        self.assertTrue((figures / "underlay-0.1km.svg").is_file())
+        self.assertEqual(len(list(figures.glob("underlay-0.1km-grey-*.svg"))), 1)
 
     def test_a_moment_of_ones_own(self):
         folder = self.copy("moment")
@@ -111,8 +111,8 @@ class Figures(unittest.TestCase):
         folder = self.copy("print")
         ended = self.listric("figures", folder, "--at", "100m", "--width", "85mm", "--only", "strata,seismic-depth", "--dpi", "254")
         self.assertEqual(ended.returncode, 0, ended.stdout)
-        self.assertEqual([Path(line).name for line in ended.stdout.splitlines()], ["caption.txt", "strata-seismic-depth-0.1km-85mm.png"])
-        with Image.open(folder / "figures/strata-seismic-depth-0.1km-85mm.png") as picture:
+        self.assertEqual([Path(line).name for line in ended.stdout.splitlines()], ["caption.txt", "strata-seismic-depth-0.1km-85mm-254dpi.png"])
+        with Image.open(folder / "figures/strata-seismic-depth-0.1km-85mm-254dpi.png") as picture:
             self.assertEqual(picture.width, 850)
         self.assertIn("(b) synthetic seismic image in depth", (folder / "figures/caption.txt").read_text())
         for words, said in ((("--width", "8mm"), "--width 8mm: a width from 40mm to 500mm"),
@@ -162,7 +162,9 @@ class Figures(unittest.TestCase):
         run = self.copy("photograph")
         photo = self.picture("photo.jpg")
         corners = ("--underlay", photo, "--corners", "0,0,6000,2000")
-        self.assertIn("underlay-0.1km.png", self.listric("figures", run, *corners).stdout)
+        self.assertIn("underlay-0.1km-photo-", self.listric("figures", run, *corners).stdout)
+        self.assertIn("underlay-0.1km-photo-", self.listric("figures", run, *corners[:-1], "0,0,5000,2000").stdout)
+        self.assertEqual(len(list((run / "figures").glob("underlay-0.1km-photo-*.png"))), 2)   # at two places
         self.assertEqual(self.listric("report", run, *corners).returncode, 0)
         self.assertIn("data:image/jpeg;base64," + base64.b64encode(photo.read_bytes()).decode(),
                       (run / "report.html").read_text())

@@ -237,9 +237,9 @@ class Reader(unittest.TestCase):
         # What is in the folder is taken as long as it is not older than the snapshot.
         file = exported.with_suffix(".csv")
         header = file.read_text().splitlines()[0]
-        file.write_text(f"{header}\n0,alone,1,,,5,6\n")
+        file.write_text(f"{header}\n0,alone,1,,,original surface,5,6\n")
         self.assertEqual([line["name"] for line in listric.Run(folder).horizons], ["alone"])
-        os.utime(file, (0, 0))
+        os.utime(folder / "snapshots/extension-00000.00m.h5")   # of which the past of faults is made
         self.assertEqual(len(listric.Run(folder).horizons), len(features))
         self.assertIn("alone", file.read_text())  # the program has written elsewhere
 
@@ -302,6 +302,28 @@ class Reader(unittest.TestCase):
         strata = run.snapshots[-1].lines("burial")
         self.assertEqual([line["stratum"] for line in strata if line["name"] == "depocentre"], [1, 2])
         self.assertEqual(strata[0]["thickness_m"].shape, strata[0]["x_m"].shape)
+
+    def test_lines_are_those_of_no_other_call(self):
+        folder = self.copy()
+
+        def names():
+            return [str(line["name"]) for line in listric.Run(folder).snapshots[-1].lines("burial")]
+
+        before = names()
+        self.assertEqual(before[0], "depocentre")
+        for words in (("--x", "1km"), ("--x", "1km,1500"), ("--at", "200")):
+            listric.call("export", "well", folder, *words)
+            self.assertEqual(names(), before)
+        listric.call("export", "well", folder)
+        self.assertEqual(names(), before)
+        # An earlier version wrote other places under this name, and told no depth reference.
+        [old] = (folder / "export").glob("burial-extension-*m.csv")
+        text = (folder / "export" / f"{old.stem}-x-1000m.csv").read_text()
+        old.write_text(text.replace("depth_reference,", "").replace("original surface,", ""))
+        self.assertEqual(names(), before)
+        snapshot = listric.Run(folder).snapshots[-1]
+        snapshot.lines("surfaces")[0]["depth_m"][:] = -1.0   # of the caller alone
+        self.assertGreater(snapshot.lines("surfaces")[0]["depth_m"].max(), 1400.0)
 
     def test_a_moment_without_a_kind_of_lines_says_what_there_is(self):
         last = self.run_.snapshots[-1]      # its sediment has no water

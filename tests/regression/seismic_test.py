@@ -47,7 +47,8 @@ class Seismic(unittest.TestCase):
             self.assertEqual(file.bin[segyio.BinField.Format], 5)
             self.assertEqual(file.bin[segyio.BinField.SEGYRevision], 256)
             self.assertEqual(segyio.tools.dt(file) / 1e6, words["sample_interval_s"])
-            np.testing.assert_allclose(file.samples, 1e3 * words["sample_interval_s"] * np.arange(image.shape[1]))
+            np.testing.assert_allclose(file.samples, 1e3 * (
+                words["first_sample_s"] + words["sample_interval_s"] * np.arange(image.shape[1])), atol=1e-6)
             x = file.attributes(segyio.TraceField.CDP_X)[:] / 100.0
             self.assertEqual(set(file.attributes(segyio.TraceField.SourceGroupScalar)[:]), {-100})
             np.testing.assert_allclose(x, words["first_x_m"] + words["trace_spacing_m"] * np.arange(len(x)), atol=0.006)
@@ -68,7 +69,7 @@ class Seismic(unittest.TestCase):
         [image, *_, axes] = self.export("--format", "npy", "--depth")
         words, image = json.loads(axes.read_text()), np.load(image)
         x = words["first_x_m"] + words["trace_spacing_m"] * np.arange(len(image))
-        depth = words["sample_interval_m"] * np.arange(image.shape[1]) - words["datum_m"]
+        depth = words["first_sample_m"] + words["sample_interval_m"] * np.arange(image.shape[1])
         stack = image[(x > 30000) & (x < 38000)].mean(axis=0)
         # Tops of the pre-rift layers are a kilometre apart; even ones are faster. Discs of 370 m are rough.
         for layer in range(1, 10):

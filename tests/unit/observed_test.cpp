@@ -4,6 +4,7 @@
 #include "apps/archive/setting.hpp"
 #include "apps/measures/line_misfit.hpp"
 #include "apps/model/effects.hpp"
+#include "apps/scene/picked_pieces.hpp"
 #include "apps/scene/scene_file.hpp"
 #include "apps/support/error.hpp"
 #include "tests/support.hpp"
@@ -92,6 +93,24 @@ TEST_F(PicksFile, RowsOfOneNameAreALine) {
     SceneRequest request;
     request.scene = (folder / "written.toml").string();
     EXPECT_EQ(to_toml(load_scene(request, program_effects())), to_toml(scene));
+}
+
+TEST_F(PicksFile, PiecesOfOneNameAreOneHorizonOfOneAge) {
+    std::ofstream(folder / "picks.csv") << "name,line,x_m,depth_m,age_a\nred,a,0,100,1e5\n"
+                                           "red,a,500,120,\nred,b,900,300,\nblue,b,0,400,2e5\n"
+                                           "red,b,1400,320,1e5\n";
+    const Scene scene = load("horizons = \"picks.csv\"\n");
+    const auto& pieces = scene.observed->horizons;
+    ASSERT_EQ(pieces.size(), 3u);
+    EXPECT_EQ(pieces[1].name, "red");
+    EXPECT_EQ(pieces[1].age, 1e5); // that stands in rows of another piece
+    EXPECT_EQ(pieces[1].x, (std::vector<double>{900.0, 1400.0}));
+    const std::vector<PickedLine> whole = by_name(pieces);
+    ASSERT_EQ(whole.size(), 2u);
+    EXPECT_EQ(whole[0].x, (std::vector<double>{0.0, 500.0, 900.0, 1400.0}));
+    EXPECT_EQ(whole[0].depth, (std::vector<double>{100.0, 120.0, 300.0, 320.0}));
+    EXPECT_THAT(complaint_of("name,line,x_m,depth_m,age_a\na,0,0,0,1e5\na,1,1,0,2e5\n"),
+                HasSubstr(":3: age_a: a has 100000 above and 200000 here"));
 }
 
 TEST_F(PicksFile, DamagedOnesAreRefusedWithLineAndCure) {

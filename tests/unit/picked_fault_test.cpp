@@ -253,6 +253,26 @@ TEST_F(PickedFaultFile, DamagedOnesAreRefusedWithLineAndCure) {
                 HasSubstr("more sharply than discs"));
 }
 
+TEST_F(PickedFaultFile, OfSeveralLinesIsRefused) {
+    const std::string rows[] = {"0,0\n", "5000,5000\n", "10000,9000\n", "20000,9000\n"};
+    for (const std::string column : {"line", "name", "segment"})
+        EXPECT_THAT(complaint_of(column + ",x_m,depth_m\na," + rows[0] + "a," + rows[1] + "b," +
+                                 rows[2] + "b," + rows[3]),
+                    HasSubstr(":4: begins the line \"b\" after the line \"a\"; a detachment is one "
+                              "line: leave the rows of the others out"));
+    // Names of points, and what an export writes of one line.
+    std::string named = "name,x_m,depth_m\n", line = "line,name,depth_reference,x_m,depth_m\n";
+    int number = 0;
+    for (const Point p : sampled(shipped("lis1"), 500.0, 0.0)) {
+        named += fmt::format("p{},{:.3f},{:.3f}\n", number++, p.x, -p.y);
+        line += fmt::format("0,detachment,original surface,{:.3f},{:.3f}\n", p.x, -p.y);
+    }
+    for (const std::string& text : {named, line}) {
+        write("fault.csv", text);
+        EXPECT_NEAR(load("csv = \"fault.csv\"").hanging_wall.thickness, 15e3, 1.0);
+    }
+}
+
 TEST_F(PickedFaultFile, KeysThatDoNotGoTogether) {
     write("fault.csv", table());
     EXPECT_THAT(complaint("csv = \"falt.csv\""), HasSubstr("own.toml:5"));

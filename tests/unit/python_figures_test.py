@@ -9,11 +9,13 @@ import json
 import math
 import os
 import re
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
+import zlib
 from pathlib import Path
 from unittest import mock
 
@@ -86,6 +88,20 @@ class Folder(unittest.TestCase):
         return frames.load_frame(folder)
 
 
+def png_of(kind, bits, levels):
+    """A PNG of three equal rows: each of its samples has the level of its column, opacity is whole. A palette is grey."""
+    samples, top = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[kind], 2**bits - 1
+    row = "".join(f"{top if kind in (4, 6) and s == samples - 1 else level:0{bits}b}" for level in levels for s in range(samples))
+    rows = (b"\0" + int(row, 2).to_bytes(len(row) // 8, "big")) * 3
+
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    palette = chunk(b"PLTE", bytes(255 * k // top for k in range(top + 1) for _ in range(3))) if kind == 3 else b""
+    head = chunk(b"IHDR", struct.pack(">IIBBBBB", len(levels), 3, bits, kind, 0, 0, 0))
+    return b"\x89PNG\r\n\x1a\n" + head + palette + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
 class Underlay(Folder):
     def test_its_corners_fall_on_their_pixels(self):
         picture = np.ones((20, 40, 3))
@@ -152,6 +168,20 @@ class Underlay(Folder):
             pixel = pixels[pixels.shape[0] - 1 - int(up), int(across), :3]
             np.testing.assert_allclose(pixel / 255.0, [wanted[5]] * 3, atol=0.03, err_msg=name)
 
+    def test_every_bit_depth_of_png_reaches_from_black_to_white(self):
+        """PNG, second edition, table 11.1: greys of 1 to 16 bits, colours and opacity of 8 and 16, palettes of 1 to 8."""
+        width = 64
+        for kind, depths in ((0, (1, 2, 4, 8, 16)), (2, (8, 16)), (3, (1, 2, 4, 8)), (4, (8, 16)), (6, (8, 16))):
+            for bits in depths:
+                top = 2**bits - 1
+                levels = [top * x // (width - 1) for x in range(width)]
+                Path(self.path("ramp.png")).write_bytes(png_of(kind, bits, levels))
+                found = panels.read_picture(self.path("ramp.png"))
+                self.assertEqual(found.shape, (3, width, 4 if kind in (4, 6) else 3), (kind, bits))
+                for channel in range(3):   # to a step of 8 bits, to which Pillow reduces colours of 16
+                    np.testing.assert_allclose(found[1, :, channel], np.array(levels) / top, atol=1 / 255, err_msg=f"{kind}, {bits}")
+                if kind in (4, 6):
+                    np.testing.assert_array_equal(found[:, :, 3], 1.0)
 
     def test_a_photograph_is_turned_as_its_camera_says(self):
         lying = np.zeros((16, 32, 3), np.uint8)
@@ -854,7 +884,7 @@ class Print(Folder):
         for only in ((), ("inversion", "sediment", "overview")):
             with mock.patch.object(sections, "save"):
                 sections.save_sections([self.wide()], self.folder, self.order(0.0, only=only, caption=True))
-            told = dict(re.findall(r"(\S+)-2\.0km\n(.*)\n", Path(self.path("caption.txt")).read_text(encoding="utf-8")))
+            told = dict(re.findall(r"(\S+)-2\.0km-200dpi\n(.*)\n", Path(self.path("caption.txt")).read_text(encoding="utf-8")))
             self.assertRegex(told["inversion"], r"syn-rift strata .* \(no vertical exaggeration\); below it height above the regional .* \(heights × ")
             self.assertIn("Black lines: faults", told["inversion"])
             self.assertRegex(told["sediment"], r"mean over 1 km.*\(heights × ")
@@ -872,7 +902,7 @@ class Print(Folder):
     def test_fonts_of_a_pdf_are_embedded(self):
         sections.save_sections([self.wide()], self.folder, self.order(85.0, formats=("pdf",), only=("strata", "strain")))
         [name] = [name for name in os.listdir(self.folder) if name.endswith(".pdf")]
-        self.assertEqual(name, "strata-strain-2.0km-85mm.pdf")
+        self.assertEqual(name, "strata-strain-2.0km-85mm-200dpi.pdf")
         text = Path(self.path(name)).read_bytes()
         self.assertEqual(text.count(b"/Type /FontDescriptor"), text.count(b"/FontFile2"))
         self.assertGreater(text.count(b"/FontFile2"), 0)
@@ -882,13 +912,38 @@ class Print(Folder):
         order = self.order(0.0, only=("strata", "seismic"), caption=True)
         sections.save_sections([self.wide()], self.folder, order)
         text = Path(self.path("caption.txt")).read_text(encoding="utf-8")
-        for words in ("strata-2.0km\n", "seismic-2.0km\n", "LIS1: 90-degree listric detachment", "0.20 Myr", "1 cm/yr", "4 discs", "93.1 m",
+        for words in ("strata-2.0km-200dpi\n", "seismic-2.0km-200dpi\n", "LIS1: 90-degree listric detachment", "0.20 Myr", "1 cm/yr", "4 discs", "93.1 m",
                       "seed 1", "commit abc", "scene hash 123", "Listric 9", "25 Hz", "neither migration nor noise", "Wyllie"):
             self.assertIn(words, text)
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith(".png")),
-                         ["seismic-2.0km.png", "strata-2.0km.png"])
+                         ["seismic-2.0km-200dpi.png", "strata-2.0km-200dpi.png"])
         with self.assertRaisesRegex(plot.InputError, "none of kinematics; it has strata"):
             sections.save_sections([self.frame()], self.folder, self.order(0.0, only=("kinematics",)))
+
+    def test_names_hold_options_and_captions_of_other_calls_stay(self):
+        frame = self.wide(underlay={"image": "/a/line 7.png", "name": "line_7-0123abcd", "corners_m": [0.0, -500.0, 40000.0, 15000.0]})
+        frame.horizons = np.array([[0.0, 0.0, -0.9], [0.0, 0.5, -0.9]])
+        for width, words in ((0.0, {}), (0.0, {"plain": True}), (85.0, {}), (85.0, {"plain": True}), (85.5, {})):
+            sections.save_sections([frame], self.folder, plot.Order(width_mm=width, only=("strata",), caption=True, **words))
+        with mock.patch.object(panels, "read_picture", return_value=np.ones((2, 2, 3))):
+            sections.save_sections([frame], self.folder, plot.Order(only=("underlay",), caption=True))
+        names = {"strata-2.0km", "strata-2.0km-plain", "strata-2.0km-85mm", "strata-2.0km-85mm-plain", "strata-2.0km-85.5mm",
+                 "underlay-2.0km-line_7-0123abcd"}
+        self.assertEqual({name for name in os.listdir(self.folder) if name.endswith(".png")}, {f"{name}.png" for name in names})
+        told = caption.read_captions(self.path("caption.txt"))
+        self.assertEqual(set(told), names)
+        self.assertIn("(line 7.png, x from 0 to 40000 m, depth from -500 to 15000 m)", told["underlay-2.0km-line_7-0123abcd"])
+        os.remove(self.path("strata-2.0km-plain.png"))
+        sections.save_sections([frame], self.folder, plot.Order(only=("strata",), caption=True))
+        self.assertEqual(set(caption.read_captions(self.path("caption.txt"))), names - {"strata-2.0km-plain"})
+
+    def test_a_seismic_image_begins_above_the_original_surface_where_rock_does(self):
+        for name, first, interval in (("seismic", -0.4, 0.02), ("seismic-depth", -400.0, 20.0)):
+            arrays = {name.replace("-", "_"): np.zeros((40, 50), np.float32),
+                      name.replace("-", "_") + "_axes": [50.0, 100.0, first, 25.0, interval, 0.0]}
+            [drawn] = sections.draw_figure(self.frame(**arrays), [name], dpi=50).axes[0].images
+            ends = np.array([first + 49.5 * interval, first - 0.5 * interval])
+            np.testing.assert_allclose(drawn.get_extent()[2:], ends if name == "seismic" else -ends / 1000.0, atol=1e-9)
 
     def test_harder_rock_below_is_dark_in_the_seismic_image(self):
         image = np.zeros((40, 50))

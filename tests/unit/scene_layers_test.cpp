@@ -204,6 +204,55 @@ TEST_F(SceneOldFaults, AreWeakFromTheStart) {
     EXPECT_EQ(to_toml(load("# written\n" + to_toml(read))), to_toml(read));
 }
 
+TEST_F(SceneOldFaults, InPiecesHaveNothingBetweenThem) {
+    const std::string scene = "[bonds]\n[fault_weakening]\n[[old_fault]]\ncsv = \"faults.csv\"\n";
+    const auto read = [&](const std::string& table) {
+        write_text(folder / "faults.csv", table);
+        return load(scene);
+    };
+    const auto lengths = [](const Scene& loaded) {
+        std::vector<std::size_t> points;
+        for (const PickedLine& line : loaded.find<OldFaultList>()->front().lines) {
+            EXPECT_EQ(line.name, "F1");
+            points.push_back(line.x.size());
+        }
+        return points;
+    };
+    using testing::ElementsAre;
+    const std::string rows[] = {"F1,9000,500\n", "F1,11000,4000\n", "F1,15000,500\n",
+                                "F1,17000,4000\n"};
+    const std::string head = "name,x_m,depth_m\n";
+    // As `listric export` numbers lines, as segments, by an empty line, by a row of empty cells.
+    for (const std::string column : {"line", "Line", "segment"})
+        EXPECT_THAT(lengths(read(column + "," + head + "0," + rows[0] + "0," + rows[1] + "1," +
+                                 rows[2] + "1," + rows[3])),
+                    ElementsAre(2, 2))
+            << column;
+    for (const std::string gap : {"\n", "\r\n", "  \n", ",,\n", "# two\n\n"})
+        EXPECT_THAT(lengths(read(head + rows[0] + rows[1] + gap + rows[2] + rows[3])),
+                    ElementsAre(2, 2))
+            << gap;
+    // A comment is no gap; lines that are all apart are one; a column says more than a gap.
+    const Scene joined = read(head + rows[0] + rows[1] + "# two\n" + rows[2] + rows[3]);
+    EXPECT_THAT(lengths(joined), ElementsAre(4));
+    ASSERT_EQ(joined.warnings.size(), 1u);
+    EXPECT_THAT(joined.warnings[0], HasSubstr("faults.csv:5: F1 turns back here; if it is in "
+                                              "pieces, part them by an empty line"));
+    EXPECT_THAT(
+        lengths(read(head + rows[0] + "\n" + rows[1] + "\n" + rows[2] + "\n" + rows[3] + "\n")),
+        ElementsAre(4));
+    EXPECT_THAT(lengths(read("line," + head + "0," + rows[0] + "\n0," + rows[1] + "1," + rows[2] +
+                             "1," + rows[3])),
+                ElementsAre(2, 2));
+    // Events, messages and the scene that a run writes have both pieces.
+    const Scene pieces = read(head + rows[0] + rows[1] + "\n" + rows[2] + rows[3]);
+    EXPECT_TRUE(pieces.warnings.empty());
+    EXPECT_EQ(to_toml(load("# written\n" + to_toml(pieces))), to_toml(pieces));
+    EXPECT_THAT(error(scene), "no error");
+    write_text(folder / "faults.csv", head + rows[0] + rows[1] + "\n" + rows[2]);
+    EXPECT_THAT(error(scene), HasSubstr("F1 has one point, needs at least two"));
+}
+
 TEST_F(SceneOldFaults, ThatCannotBeAreRefused) {
     const auto refused = [&](const std::string& lines) {
         return error("[bonds]\n[fault_weakening]\n[[old_fault]]\n" + lines);

@@ -87,7 +87,7 @@ TEST_F(Burial, DecompactsToTheThicknessThatWasDeposited) {
     const auto files =
         export_run({.kind = "well", .output = folder / "basin", .wells = {4500.0, 5000.0, 5500.0}});
     ASSERT_EQ(files.size(), 1u); // water is in no pores here
-    EXPECT_EQ(files[0].filename(), "burial-extension-00410.00m.csv");
+    EXPECT_EQ(files[0].filename(), "burial-extension-00410.00m-x-4500_5000_5500m.csv");
     std::map<std::string, int> strata;
     for (const Row& row : rows_of(files[0])) {
         SCOPED_TRACE(row.at("name") + ", stratum " + row.at("stratum") + ", " + row.at("time_a"));

@@ -46,31 +46,44 @@ function missingFiles() {
   return names;
 }
 
-/** Rows of a CSV file with a header: commas, semicolons or tabs. */
+/** Rows of a CSV file with a header: commas, semicolons or tabs. Each has its cells by name, and whether an empty line stands before it. */
 function readCsv(text) {
-  const rows = text.replace(/^\ufeff/, "").split(/\r\n|\n|\r/).filter(row => row.trim() && !row.startsWith("#"));
-  const delimiter = [";", "\t", ","].find(sign => rows[0]?.includes(sign)) || ",";
+  const rows = text.replace(/^\ufeff/, "").split(/\r\n|\n|\r/).filter(row => !row.startsWith("#"));
+  const delimiter = [";", "\t", ","].find(sign => rows.find(row => row.trim())?.includes(sign)) || ",";
   const cells = row => row.match(new RegExp(`("([^"]|"")*"|[^${delimiter}]*)(${delimiter}|$)`, "g")).map(cell =>
     cell.replace(new RegExp(`${delimiter}$`), "").trim().replace(/^"([\s\S]*)"$/, (_, inner) => inner.replace(/""/g, '"')));
-  const head = cells(rows[0] || "");
-  return {head, rows: rows.slice(1).map(row => Object.fromEntries(cells(row).slice(0, head.length).map((cell, k) => [head[k], cell])))};
+  const records = rows.map(cells), isEmpty = record => record.every(cell => !cell);
+  const head = records.find(record => !isEmpty(record)) || [], below = records.slice(records.indexOf(head) + 1);
+  return {head, rows: below.flatMap((record, k) => isEmpty(record) ? [] :
+    [{cells: Object.fromEntries(record.slice(0, head.length).map((cell, n) => [head[n], cell])), afterGap: k > 0 && isEmpty(below[k - 1])}])};
+}
+
+/** What tells a row's piece from others of its name, as the program has it: columns `line` and `segment`, else the block, by empty lines. */
+function piecesOf(head, rows) {
+  const labels = head.filter(name => /^(line|segment)$/i.test(name)), labelled = rows.map(row => labels.map(name => row.cells[name]).filter(Boolean).join(", "));
+  if (labelled.some(Boolean)) return labelled;
+  const isSpaced = rows.filter(row => row.afterGap).length + 1 >= rows.length;
+  let block = 0;
+  return rows.map(row => block += Number(row.afterGap && !isSpaced));
 }
 
 /** Picked lines of a CSV file. Throws Error. */
 function picksIn(text, name) {
-  const {head, rows} = readCsv(text), lines = new Map();
+  const {head, rows} = readCsv(text), pieces = piecesOf(head, rows), lines = new Map(), ages = {};
   for (const needed of ["x_m", "depth_m"])
     if (!head.includes(needed)) throw new Error(`${name}: has no column ${needed}, ${adviceOn(needed, head)}`);
-  rows.forEach((row, k) => {
+  rows.forEach(({cells: row}, k) => {
     const title = head.includes("name") ? row.name : "picked fault", x = Number(row.x_m), depth = Number(row.depth_m), age = row.age_a ? Number(row.age_a) : undefined;
     if (!title || !row.x_m || !row.depth_m || !Number.isFinite(x) || !Number.isFinite(depth) || age !== undefined && !(age >= 0))
       throw new Error(`${name}: row ${k + 2} needs a name and numbers x_m and depth_m`);
-    if (!lines.has(title)) lines.set(title, {name: title, x_m: [], depth_m: []});
-    const line = lines.get(title);
-    if (age !== undefined) line.age_a = age;
+    const key = JSON.stringify(head.includes("name") ? [title, pieces[k]] : title);
+    if (!lines.has(key)) lines.set(key, {name: title, x_m: [], depth_m: []});
+    const line = lines.get(key);
+    if (age !== undefined) ages[title] = age;
     line.x_m.push(x);
     line.depth_m.push(depth);
   });
+  for (const line of lines.values()) if (line.name in ages) line.age_a = ages[line.name];
   return {lines: [...lines.values()], hasNames: head.includes("name")};
 }
 
@@ -158,12 +171,13 @@ function picksFile(kind) { return `${baseName()}-${kind}.csv`; }
 
 function baseName() { return (page.state.scene.name || page.state.file.replace(/\.toml$/i, "") || "drawn").replace(/[^\w.-]+/g, "-"); }
 
-/** Picks as the program reads them, which adds the shift. */
+/** Picks as the program reads them, which adds the shift; lines of one name are its pieces. */
 function picksText(kind) {
   const lines = page.state.picks[kind], withAges = kind === "horizons", shift = shiftOfPicks();
+  const inPieces = new Set(lines.map(line => line.name)).size < lines.length;
   const quoted = text => /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
-  const rows = lines.flatMap(line => line.x_m.map((x, k) => [quoted(line.name), roundLength(x - shift, 6), line.depth_m[k], ...(withAges ? [line.age_a ?? ""] : [])].join(",")));
-  return [["name", "x_m", "depth_m", ...(withAges ? ["age_a"] : [])].join(","), ...rows].join("\n") + "\n";
+  const rows = lines.flatMap((line, number) => line.x_m.map((x, k) => [...(inPieces ? [number] : []), quoted(line.name), roundLength(x - shift, 6), line.depth_m[k], ...(withAges ? [line.age_a ?? ""] : [])].join(",")));
+  return [[...(inPieces ? ["line"] : []), "name", "x_m", "depth_m", ...(withAges ? ["age_a"] : [])].join(","), ...rows].join("\n") + "\n";
 }
 
 function download(name, text, type) {

@@ -216,20 +216,27 @@ function rowOfLine(kind, index) {
     element("td", {}, kind === "faults" ? "" : age), ...cells(1), element("td", {}, drop));
 }
 
+/** Lines of one name are pieces of one horizon or fault, and of one age. */
 function nameLine(state, kind, index, name) {
-  const taken = state.picks[kind].some((line, k) => k !== index && line.name === name.trim());
-  if (!name.trim() || taken) {
-    tell(taken ? `There is a line ${name.trim()} already; rows of one name are one line.` : "A line needs a name.");
+  if (!name.trim()) {
+    tell("A line needs a name.");
     return false;
   }
-  state.picks[kind][index].name = name.trim();
+  const line = state.picks[kind][index], other = state.picks[kind].find((one, k) => k !== index && one.name === name.trim());
+  line.name = name.trim();
+  if (other) {
+    delete line.age_a;
+    if (other.age_a !== undefined) line.age_a = other.age_a;
+    tell(`${line.name} is in pieces: nothing is between them.`);
+  }
   return true;
 }
 
 function ageLine(state, kind, index, input) {
   const {value, missing} = valueOf(input.value, {type: "number"}), age = Number(value) * 1e6;
-  if (missing) delete state.picks[kind][index].age_a;
-  else if (age >= 0 && age <= 1e10) state.picks[kind][index].age_a = age;
+  const all = state.picks[kind].filter(line => line.name === state.picks[kind][index].name);
+  if (missing) for (const line of all) delete line.age_a;
+  else if (age >= 0 && age <= 1e10) for (const line of all) line.age_a = age;
   else {
     input.setAttribute("aria-invalid", true);
     tell("An age is in million years before the end of extension, 0 to 10000.");

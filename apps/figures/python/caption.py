@@ -42,6 +42,10 @@ def caption(names: Sequence[str], said: Sequence[str | None] | None, frame: Fram
     if order.width_mm and len(texts) > 1:
         texts = [f"({letter(n)}) {text}" for n, text in enumerate(texts)]
     panels = ("; " if order.width_mm else "; below it ").join(texts)
+    if "underlay" in names:
+        left, top, right, bottom = meta["underlay"]["corners_m"]
+        panels += (f" ({os.path.basename(meta['underlay']['image'])}, x from {left:g} to {right:g} m, depth from "
+                   f"{top:g} to {bottom:g} m)")
     rate = meta.get("way_m", meta["extension_m"]) / meta["time_a"] if meta["time_a"] else 0.0
     at = f" at {100 * rate:.3g} cm/yr" if rate else ""
     parts = [f"{order.software} model: {meta.get('title') or meta['scene']}.",
@@ -68,9 +72,22 @@ def provenance_text(order: Order) -> str:
 
 
 def write_captions(captions: dict[str, str], folder: str) -> None:
-    """caption.txt: a paragraph per figure, by the names of their files."""
+    """caption.txt: a paragraph per figure, by the names of their files. Those of other calls stay as long as
+    their figures do."""
     path = os.path.join(folder, "caption.txt")
+    there = {os.path.splitext(name)[0] for name in os.listdir(folder)}
+    others = {name: text for name, text in read_captions(path).items() if name in there and name not in captions}
     temporary = f"{path}.{os.getpid()}.tmp"
     with open(temporary, "w", encoding="utf-8") as file:
-        file.write("\n".join(f"{name}\n{text}\n" for name, text in captions.items()))
+        file.write("\n".join(f"{name}\n{text}\n" for name, text in {**captions, **others}.items()))
     os.replace(temporary, path)
+
+
+def read_captions(path: str) -> dict[str, str]:
+    """Paragraphs of a caption.txt by the names of their figures; of what is none, nothing."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            parts = (part.strip("\n").split("\n", 1) for part in file.read().split("\n\n"))
+    except (OSError, ValueError):
+        return {}
+    return {part[0]: part[1] for part in parts if len(part) == 2}

@@ -24,9 +24,9 @@ origin), n discs:
                                      the regional
     predicted_shear, predicted_normals  x, y of the pre-rift top by kinematic constructions
     seismic, seismic_depth           amplitudes, a row per trace; only where they are asked for
-    seismic_axes, seismic_depth_axes x of the first trace, distance of traces, height of the first
-                                     sample (m), frequency (Hz), distance of samples (s or m),
-                                     width of the point-spread function (m)
+    seismic_axes, seismic_depth_axes x of the first trace, distance of traces (m), first sample (s or m
+                                     below the original surface, above it negative), frequency (Hz),
+                                     distance of samples, width of the point-spread function (m)
 
     layer_NAME                       of an effect, which frame.json declares: of a band x, bottom, top,
                                      of a line x, y, of discs the share of ink from 0 to 1

@@ -170,4 +170,11 @@ def save_print(frame: Frame, order: Order) -> tuple[str, Figure, list[str]]:
     """Name of the figure without ending, the figure, what its panels show."""
     names = order.only or DEFAULT
     figure, said = draw_print(frame, names, order)
-    return f"{'-'.join(names)}-{extension_text(frame)}km-{order.width_mm:g}mm", figure, said
+    name = f"{'-'.join(names)}-{extension_text(frame)}km-{order.width_mm:.12g}mm{look_text(order, PRINT_DPI)}"
+    return name, figure, said
+
+
+def look_text(order: Order, usual_dpi: float) -> str:
+    """The look in a figure's name: "-plain-600dpi"; the usual one adds nothing."""
+    dpi = order.dpi or usual_dpi
+    return ("-plain" if order.plain else "") + (f"-{dpi:.12g}dpi" if dpi != usual_dpi else "")

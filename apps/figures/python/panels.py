@@ -17,7 +17,6 @@ from vocabulary import (BED_COLOURS, INKS, LAYER, LAYER_COLOURS, ROCK_CLASSES, V
                         palette, stratum_colours)
 
 import numpy as np
-from matplotlib import image as plt_image
 from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap, Normalize, to_rgb
 from matplotlib.lines import Line2D
@@ -133,11 +132,21 @@ def read_picture(path: str) -> np.ndarray:
         if is_jpeg:
             with Image.open(path) as photo:
                 return np.asarray(ImageOps.exif_transpose(photo).convert("RGB")) / 255.0
-        picture = plt_image.imread(path, format="png")
+        with Image.open(path, formats=("PNG",)) as picture:
+            return png_colours(picture)
     except (OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, struct.error,
             zlib.error) as failure:
         raise InputError(f"{path}: cannot be read as PNG or JPEG ({failure})") from failure
-    return picture if picture.ndim == 3 else np.repeat(picture[:, :, np.newaxis], 3, axis=2)
+
+
+def png_colours(picture: Image.Image) -> np.ndarray:
+    """As read_picture has them, of any bit depth: Pillow stretches greys of 1, 2 and 4 bits to 8, and
+    keeps those of 16, while Matplotlib's own reader divides the stretched ones by their old range."""
+    if picture.mode.startswith("I"):
+        greys = np.asarray(picture) / np.float32(65535.0)
+        return np.repeat(greys[:, :, np.newaxis], 3, axis=2)
+    has_opacity = picture.mode in ("LA", "RGBA") or "transparency" in picture.info
+    return np.asarray(picture.convert("RGBA" if has_opacity else "RGB")) / np.float32(255.0)
 
 
 def draw_observed(ax, frame: Frame) -> list:
@@ -464,12 +473,12 @@ def mean_velocities(frame: Frame, velocity: np.ndarray | None) -> np.ndarray:
 def seismic_panel(ax, cax, frame: Frame) -> None:
     """Synthetic seismic image in two-way time; dark where the rock below is harder."""
     cax.set_axis_off()
-    x, spacing, _, frequency, interval, _ = frame.seismic_axes
+    x, spacing, first, frequency, interval, _ = frame.seismic_axes
     traces, samples = frame.seismic.shape
     draw_wiggles(ax, frame.seismic, (x - spacing / 2) / 1000, (x + (traces - 0.5) * spacing) / 1000,
-                 -interval / 2, (samples - 0.5) * interval)
+                 first - interval / 2, first + (samples - 0.5) * interval)
     ax.set_xlim(*frame.view[:2])
-    ax.set_ylim((samples - 1) * interval, 0.0)
+    ax.set_ylim(first + (samples - 1) * interval, first)
     ax.set_ylabel("Two-way time (s)")
     distance_axis(ax, frame)
     describe(ax, frame, f"Synthetic seismic image, {frequency:g} Hz", polarity())
@@ -479,11 +488,11 @@ def seismic_depth_panel(ax, cax, frame: Frame) -> None:
     """Synthetic seismic image in depth, at equal scales, with the active faults."""
     section_axes(ax, frame)
     cax.set_axis_off()
-    x, spacing, datum, frequency, interval, _ = frame.seismic_depth_axes
+    x, spacing, first, frequency, interval, _ = frame.seismic_depth_axes
     traces, samples = frame.seismic_depth.shape
     limits = ax.axis()
     draw_wiggles(ax, frame.seismic_depth, (x - spacing / 2) / 1000, (x + (traces - 0.5) * spacing) / 1000,
-                 (datum + interval / 2) / 1000, (datum - (samples - 0.5) * interval) / 1000)
+                 (interval / 2 - first) / 1000, -(first + (samples - 0.5) * interval) / 1000)
     ax.axis(limits)
     describe(ax, frame, f"Synthetic seismic image in depth, {frequency:g} Hz", [*polarity(), *draw_faults(ax, frame.faults)])
 

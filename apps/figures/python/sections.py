@@ -7,7 +7,7 @@ from frame import Frame
 from page import (DPI, GAP, LEFT, PROFILE_HEIGHT, ROW_ABOVE, TITLE, TOPS_HEIGHT, WIDTH, add_axes, below,
                   extension_text, footer, headline, name_distance, panel_size, set_ticks, write_around)
 from caption import caption, write_captions
-from journal import DEFAULT, save_print
+from journal import DEFAULT, look_text, save_print
 from panels import PANELS, panel_of
 from plot import Figure, InputError, Order, new_figure, save
 
@@ -55,8 +55,8 @@ def figures_of(frame: Frame) -> dict[str, list[str]]:
 
 
 def save_sections(frames: Sequence[Frame], folder: str, order: Order) -> None:
-    """Every panel of every frame, and the overview of all: NAME-<extension>km; for print the panels in
-    one figure. Captions of all in caption.txt, where the order wants them."""
+    """Every panel of every frame, and the overview of all: NAME-<extension>km and options; for print the
+    panels in one figure. Captions of all in caption.txt, where the order wants them."""
     captions = {}
     for frame in frames:
         if order.width_mm:
@@ -68,7 +68,7 @@ def save_sections(frames: Sequence[Frame], folder: str, order: Order) -> None:
         figures = figures_of(frame)
         chosen = {name: figures[name] for name in require_panels(frame, order.only)} or figures
         for kind, panels in chosen.items():
-            name = f"{kind}-{extension_text(frame)}km"
+            name = f"{kind}-{extension_text(frame)}km{options_text(kind, frame, order)}"
             figure = draw_figure(frame, panels, order.dpi or DPI, order.plain)
             scales = [None if panel == "seismic" else f"({exaggeration_text(exaggeration(ax))})"
                       for panel, ax in zip(panels, figure.axes[::2])]   # beside each its colour bar
@@ -76,6 +76,12 @@ def save_sections(frames: Sequence[Frame], folder: str, order: Order) -> None:
             captions[name] = caption(panels, scales, frame, order)
     if order.caption:
         write_captions(captions, folder)
+
+
+def options_text(kind: str, frame: Frame, order: Order) -> str:
+    """Options in a page's name, so that no call replaces the figure of another: the picture below, then the look."""
+    below = f"-{frame.meta['underlay']['name']}" if kind == "underlay" else ""
+    return below + look_text(order, DPI)
 
 
 def require_panels(frame: Frame, names: Sequence[str]) -> tuple[str, ...]:

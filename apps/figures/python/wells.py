@@ -3,9 +3,9 @@
 
 Usage: wells.py DATA_DIR FIGURES_DIR ORDER
 
-Reads DATA_DIR/wells.json: frames, each with scene, extension_km, in a scene with stages also
-extension_m and way_m, and wells; a well has a name, x_m and columns of numbers from the ground down.
-Writes well-<extension>km under a temporary name and renames it.  On bad input: one line on stderr,
+Reads DATA_DIR/wells.json: frames, each with scene, extension_km, options in the name of its figure, in a
+scene with stages also extension_m and way_m, and wells; a well has a name, x_m and columns of numbers from the ground down.
+Writes well-<extension>km and options under a temporary name and renames it.  On bad input: one line on stderr,
 exit status 2.
 """
 import os
@@ -74,7 +74,7 @@ def draw_well(axes, well: dict, top: float) -> None:
     axes[0].set_xlim(left=0.0)
     axes[1].set_xlim(left=0.0)
     axes[0].set_ylabel("Depth below the ground (km)")
-    axes[0].set_title(f"{well['name'].capitalize()}, x {well['x_m'] * KILOMETRE:.1f} km", loc="left",
+    axes[0].set_title(f"{well['name'].capitalize()}, x {well['x_m'] * KILOMETRE:.6g} km", loc="left",
                       fontsize=10.5, weight="semibold")
     without_frame(*axes)
 
@@ -100,7 +100,7 @@ def main(data: str, figures: str, order: str) -> None:
         raise InputError(f"{path}: holds no frames")
     with matplotlib.rc_context(STYLE):
         for frame in frames:
-            save(draw(frame), figures, f"well-{frame['extension_km']}km", read_order(order))
+            save(draw(frame), figures, f"well-{frame['extension_km']}km{frame['options']}", read_order(order))
 
 
 if __name__ == "__main__":

@@ -8,6 +8,8 @@ function save(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+const depthReference = "original surface";   // as `listric export` has it: of every depth
+
 function csvOf(names, rows) {
   const field = value => value === null || value === undefined || Number.isNaN(value) ? "" :
     /[",\n]/.test(value) ? `"${String(value).replaceAll('"', '""')}"` : String(value);
@@ -19,16 +21,16 @@ function discsCsv(run, k) {
     "window_strain", "total_strain", "behaviour", "bonds", "mean_stress_pa", "shear_stress_pa"].filter(name => run.has(name));
   const columns = names.map(name => run.values(k, name)), rows = [];
   run.codes[k].present.forEach((there, id) => {
-    if (there) rows.push([id, ...columns.map(column => column[id])]);
+    if (there) rows.push([id, depthReference, ...columns.map(column => column[id])]);
   });
-  return csvOf(["id", ...names], rows);
+  return csvOf(["id", "depth_reference", ...names], rows);
 }
 
 /** A row per point of lines. */
 function linesCsv(lines) {
   const names = [...new Set(lines.flatMap(Object.keys))].filter(name => !Array.isArray(lines[0][name]));
-  return csvOf(["line", ...names, "x_m", "depth_m"], lines.flatMap((line, index) =>
-    line.points.map(([x, depth]) => [index, ...names.map(name => line[name]), x, depth])));
+  return csvOf(["line", ...names, "depth_reference", "x_m", "depth_m"], lines.flatMap((line, index) =>
+    line.points.map(([x, depth]) => [index, ...names.map(name => line[name]), depthReference, x, depth])));
 }
 
 // Pictures: a title and the moment above the section, axes around it, legend and provenance below.

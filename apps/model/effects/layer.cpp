@@ -176,7 +176,9 @@ std::string objection_to_point(const Scene& scene, dem::Point p) {
 }
 
 std::vector<dem::Point> read_line(const Scene& scene, const std::string& file) {
-    const CsvRows rows = read_csv(file, {.numbers = {"x_m", "depth_m"}});
+    const CsvRows rows =
+        read_csv(file, {.numbers = {"x_m", "depth_m"}, .labels = {"name", "line", "segment"}});
+    require_one_line(rows, file, "a layer's top or bottom");
     std::vector<dem::Point> points;
     for (std::size_t k = 0; k < rows.size(); ++k)
         points.push_back({rows.columns[0][k], rows.columns[1][k]});

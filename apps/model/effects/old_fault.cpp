@@ -2,6 +2,7 @@
 
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/old_fault.hpp"
+#include "apps/scene/picked_pieces.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/support/error.hpp"
 #include "apps/support/spelling.hpp"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace listric::effects::old_fault {
@@ -43,7 +45,9 @@ void take_csv(Scene& scene, std::size_t item, const std::string& file, const Ref
     F& fault = (*scene.find<OldFaultList>())[item];
     if (!fault.points.empty())
         refuse(path_of(item, "csv"), "beside points; give one of them");
-    fault.lines = read_picked_lines(file, 0.0).lines;
+    const PickedFile picked = read_picked_lines(file, 0.0);
+    fault.lines = picked.lines;
+    std::ranges::copy(turns_back(picked), std::back_inserter(scene.warnings));
 }
 
 double width_of(const Scene& scene, const F& fault) {
@@ -150,7 +154,7 @@ const Effect& effect() {
         .items = items_of<F>,
         .files = {{"csv",
                    "file with faults, as `listric export` writes it, in place of points: columns "
-                   "name, x_m, depth_m",
+                   "name, x_m, depth_m and, of a fault in pieces, line",
                    "Stands in place of points.", nullptr, take_csv}},
         .needs = {"fault_weakening"},
         .check = check,

@@ -16,8 +16,8 @@ def exported_lines(snapshot, kind: str) -> list[dict]:
     Throws UnknownName, where the moment has no such lines, too, ProgramError, RunError.
     """
     path = snapshot.path.absolute()
-    exported = path.parents[1] / "export" / f"{kind}-{path.stem}.csv"
-    if exported.is_file() and exported.stat().st_mtime >= path.stat().st_mtime:
+    exported = path.parents[1] / "export" / f"{kind}-{path.stem}.csv"   # of a call with options: another name
+    if is_newer(exported, path) and is_of_today(exported):
         return read_lines(exported)
     with stand_in(snapshot, without="export") as folder:
         call("export", "well" if kind == "burial" else kind, folder, "--format", "csv", "--at", snapshot.travel_m)
@@ -25,6 +25,26 @@ def exported_lines(snapshot, kind: str) -> list[dict]:
         if kind not in written:
             raise UnknownName(kind, written, f"lines of {path} at {snapshot.travel_m:g} m")
         return read_lines(written[kind])
+
+
+def is_newer(exported: Path, snapshot: Path) -> bool:
+    """Whether a file is there and younger than all that it was made of: the run's scene, the snapshot and
+    those before it, as lines know the past."""
+    def order(path):
+        return len(path.name.partition(".")[0]), path.name
+
+    past = [one for one in snapshot.parent.glob("extension-*m.h5") if order(one) <= order(snapshot)]
+    try:
+        made = exported.stat().st_mtime_ns
+        return all(source.stat().st_mtime_ns < made for source in (*past, snapshot.parents[1] / "scene.toml"))
+    except OSError:
+        return False
+
+
+def is_of_today(exported: Path) -> bool:
+    """Whether a file has the column depth_reference: before, calls with other options wrote under its name, too."""
+    with open(exported, encoding="utf-8", errors="replace") as file:
+        return "depth_reference" in file.readline().strip().split(",")
 
 
 def read_lines(path: Path) -> list[dict]:

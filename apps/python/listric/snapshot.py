@@ -2,6 +2,7 @@
 
 import tomllib
 from contextlib import contextmanager
+from copy import deepcopy
 from pathlib import Path
 
 import numpy as np
@@ -130,14 +131,15 @@ class Snapshot:
         "layers", "well" where pore water is under pressure, and "burial" of the strata in a well.
 
         A dict per line with the columns of docs/export.md: one value for those of a line, an array of
-        shape (points,) for those of a point, among them x_m and depth_m (positive down). Read from the
-        run's folder `export` if they are there and not older than the snapshot; else the program is
-        called, which takes seconds and leaves nothing behind. Throws UnknownName, where the moment has
+        shape (points,) for those of a point, among them x_m and depth_m (positive down from the level of
+        `depth_reference`). Wells are those of a call without `--x`. Read from the run's folder `export` if
+        they are there and younger than the snapshots up to this one; else the program is called, which takes seconds and
+        leaves nothing behind. Throws UnknownName, where the moment has
         no such lines, too, ProgramError, RunError.
         """
         if kind not in self._lines:
             self._lines[kind] = exported_lines(self, kind)
-        return self._lines[kind]
+        return deepcopy(self._lines[kind])  # what a caller does to it is nobody else's
 
     def raster(self, column: str, spacing: float = 100.0, extent=None) -> Raster:
         """A column of discs on a grid: `x, depth, values = snapshot.raster("window_strain")`.
