@@ -231,8 +231,9 @@ private:
             fast_.fastest_node_[parity] =
                 fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.around);
         const Stretching thins = stretching(*fast_.base_, clock_.extension.m, motion.speed);
-        const auto sweep =
-            clock_.cycle % averaging_interval == 0 ? &Kernels::sampling_sweep : &Kernels::sweep;
+        const auto sweep = motion.rests                             ? &Kernels::resting_sweep
+                           : clock_.cycle % averaging_interval == 0 ? &Kernels::sampling_sweep
+                                                                    : &Kernels::sweep;
         double& mine = piece_.fastest[static_cast<std::size_t>(thread_)].in[parity];
         mine = 0.0;
         const auto sweep_strips = [&](bool that_send) {

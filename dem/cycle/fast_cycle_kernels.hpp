@@ -29,6 +29,8 @@ struct Kernels {
     double (*sweep)(const Shared& shared, Strip& strip, Stretching thins);
     /// At every averaging_interval.
     double (*sampling_sweep)(const Shared& shared, Strip& strip, Stretching thins);
+    /// Where base and wall rest.
+    double (*resting_sweep)(const Shared& shared, Strip& strip, Stretching thins);
 };
 
 /// The cycle is compiled for contacts with and without bonds and friction, and chosen when contacts

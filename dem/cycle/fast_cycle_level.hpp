@@ -333,10 +333,11 @@ template <bool bonded, bool frictional, bool has_ghosts> Kernels kernels_of(Damp
     const auto boundary = &compute_boundary<bonded, frictional>;
     if (motion == mean_motion)
         return {boundary, &sweep<bonded, frictional, mean_motion, has_ghosts>,
-                &sweep<bonded, frictional, mean_motion_sampled, has_ghosts>};
+                &sweep<bonded, frictional, mean_motion_sampled, has_ghosts>,
+                &sweep<bonded, frictional, rest, has_ghosts>};
     const auto any = motion == stretching ? &sweep<bonded, frictional, stretching, has_ghosts>
                                           : &sweep<bonded, frictional, rest, has_ghosts>;
-    return {boundary, any, any};
+    return {boundary, any, any, any};
 }
 
 template <bool bonded, bool frictional> Kernels kernels_of(DampedAgainst motion, bool has_ghosts) {

@@ -100,8 +100,9 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
 class UndampedMotion {
 public:
     /// @param thins  rate in 1/s
-    UndampedMotion(State& state, const CyclePhysics& physics, Stretching thins)
-        : averages_(physics.averaging_time > 0.0), thins_(thins) {
+    /// @param rests  as base and wall do: then no motion is left alone, nor remembered
+    UndampedMotion(State& state, const CyclePhysics& physics, Stretching thins, bool rests)
+        : averages_(physics.averaging_time > 0.0 && !rests), thins_(thins) {
         if (!averages_)
             return;
         mean_vx_ = state.discs.get<float>("mean_vx");
@@ -177,7 +178,8 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
     base_forces(state, base, force, account);
     contact_forces(state, pairs, force, account);
     const Stretching thins = stretching(base, clock.extension.m, motion.speed);
-    const double disc_speed = move_discs(state, physics, {state, physics, thins}, force, account);
+    const double disc_speed =
+        move_discs(state, physics, {state, physics, thins, motion.rests}, force, account);
     account.enter_half_step();
     around.respond(state, clock, response);
     account.enter_half_step();
