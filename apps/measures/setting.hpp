@@ -32,7 +32,7 @@ struct Setting {
     double extension_rate = 0.01; ///< geological, m/a
     double extension_speed = 1.0; ///< in the model, m/s
     double output_interval = 0.0; ///< extension between states that are kept, m
-    /// Sediment younger than this, m of extension, is too loose for a fault: it creeps all over.
+    /// Sediment younger than this, m of travel, is too loose for a fault: it creeps all over.
     double youngest_sediment = 0.0;
     /// Diameter of the circle that fault detection (AFD) measures with, mean disc diameters; none:
     /// faults are not looked for and do not weaken.

@@ -5,6 +5,7 @@
 #include "apps/model/model.hpp"
 #include "apps/support/spelling.hpp"
 #include "coupling/pore_column.hpp"
+#include "dem/round_off.hpp"
 
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/pieces.hpp"
@@ -23,11 +24,12 @@ using coupling::FaultFactors;
 
 std::vector<Parameter> parameters() {
     std::vector<Parameter> all{
-        {"interval_a", at<&P::interval>, "a", ranges::years, "",
-         "time between solutions for the pressure; a multiple of the time between updates of "
-         "porosity",
-         "Raising it above the default makes pressures less accurate: 0.3 % at 2,500 a.",
-         between(500, 2500)},
+        by_travel(
+            {"interval_a", at<&P::interval>, "a", ranges::interval, "",
+             "time between solutions for the pressure; a multiple of the time between updates of "
+             "porosity",
+             "Raising it above the default makes pressures less accurate: 0.3 % at 2,500 a.",
+             between(500, 2500)}),
         {"fluid_density_kg_per_m3", at<&P::density>, "kg/m3", ranges::density, "",
          "density of the water", "Raising it lets grains weigh less."},
         {"viscosity_pa_s", at<&P::viscosity>, "Pa s", between(1e-5, 1.0), "",
@@ -133,8 +135,9 @@ void check(const Scene& scene, const Refuse& refuse) {
 
 /// Thick strata are shocks.
 std::string warning(const Scene& scene) {
-    constexpr double most = 2e4; // a
+    constexpr double smooth = 200.0; // m of travel
     const double interval = make_parts(scene).sediment->deposition_interval;
+    const double most = dem::without_round_off(smooth / scene.extension.rate);
     if (scene.find<P>()->hydrostatic || interval <= most)
         return "";
     return fmt::format("pore_fluid: strata every {:g} a load the water by shocks; every {:g} a or "
