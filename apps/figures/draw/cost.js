@@ -20,14 +20,15 @@ function defaultAt(facts, schema, document, path) {
   const source = table === "material" ? facts.basement : facts.effects[table]?.rock;
   const rock = source && facts.rocks[document.materials?.[source] ?? schema.properties.materials.properties[source].default];
   const own = schemaAt(schema, path);
-  return rock?.[key] ?? (own && atRate(own, valueAt(facts, schema, document, "extension.rate_m_per_a")));
+  const follows = own?.["x-listric"]?.usual_rate_m_per_a !== undefined;
+  return rock?.[key] ?? (follows ? atRate(own, valueAt(facts, schema, document, "extension.rate_m_per_a")) : own?.default);
 }
 
 /** A parameter's default at a geological rate, m/a: one that stands for metres of travel follows it, as at_rate() in
  * apps/scene/parameter.cpp has it. */
 function atRate(own, rate) {
-  const usual = own["x-listric"]?.usual_rate_m_per_a;
-  if (!usual || !(rate > 0) || rate === usual) return own.default;
+  const usual = own["x-listric"].usual_rate_m_per_a;
+  if (!(rate > 0) || rate === usual) return own.default;
   const rounded = x => Number(x.toPrecision(12));
   if (own["x-listric"].unit !== "a") return rounded(own.default * (rate / usual));
   const metres = own.default * usual, years = metres / rate;
