@@ -468,7 +468,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
         read_files(scene, table, document, path.parent_path());
     drop_effects(scene, request.without, all);
     check_changes(request);
-    follow_rate(scene, document);
+    if (!request.former_intervals)
+        follow_rate(scene, document);
     complete_effects(scene, document);
     check_scene(scene, document, effects);
     std::vector<std::string> warnings = warnings_of_never(scene);

@@ -1,6 +1,7 @@
 // Runs whose intervals are ways of the wall have equal bits at every geological rate.
 
 #include "dem/event.hpp"
+#include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -78,6 +79,24 @@ TEST_F(RateRun, ARunThatAnOlderVersionBeganAtALowRateIsSampledOn) {
     for (const auto& event : events)
         if (event->name() == "equilibrium")
             EXPECT_EQ(event->next_due(), 325.0);
+}
+
+// Its record states the intervals that it had.
+TEST_F(RateRun, ARunThatAnOlderVersionBeganGoesOnWithItsIntervals) {
+    const std::vector<std::string> former{rate_is(0.001), "fault_weakening.interval_a=50000",
+                                          "fault_weakening.update_interval_a=2500",
+                                          "fault_weakening.youngest_sediment_a=200000",
+                                          "fault_weakening.resting_rate_per_s=1e-15"};
+    const auto whole = run(load(small, former), "whole");
+    run(load(small, former), "begun", 300.0);
+    const auto file = folder / "small.toml";
+    const Ended ended = Program(folder, {"run", file, "--set", former.front(), "--output",
+                                         folder / "begun", "--resume", "--no-report"})
+                            .wait();
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("states no intervals: the run goes on with those"));
+    EXPECT_EQ(nlohmann::json::parse(contents(folder / "begun/summary.json"))["state_hash"],
+              whole["state_hash"]);
 }
 
 } // namespace
