@@ -12,8 +12,7 @@ using namespace dem;
 namespace {
 
 // Steps so short that each moves the base by metres at most.
-constexpr double longest_interval = 2500.0; // a
-constexpr double longest_step = 25.0;       // m of extension
+constexpr double step_of_travel = 25.0; // m
 
 constexpr const char* applied_extension = "applied_extension_m";
 
@@ -60,8 +59,7 @@ std::vector<double> lower_crust_amounts(double share) {
 
 LowerCrustThinning::LowerCrustThinning(std::vector<double> forces, double greatest, double least,
                                        double extension_rate)
-    : Event("lower_crust_thinning",
-            {std::min(longest_interval, longest_step / extension_rate), extension_rate},
+    : Event("lower_crust_thinning", dem::Schedule::every(step_of_travel, extension_rate),
             dem::Stage::load),
       forces_(std::move(forces)), greatest_(greatest), least_(least) {
     assert(forces_.size() % (steps + 1) == 0 && greatest >= least);

@@ -41,8 +41,8 @@ std::vector<fem::Load> lower_crust_loads(const LowerCrustThinningParameters& par
 /// the least to the greatest: two neighbours interpolated.
 std::vector<double> lower_crust_amounts(double share);
 
-/// Puts the load of the present extension on the footwall, every 2,500 a, but at least every 25 m
-/// of extension. Memory: the extension whose load acts.
+/// Puts the load of the present extension on the footwall, every 25 m of travel. Memory: the
+/// extension whose load acts.
 class LowerCrustThinning : public dem::Event {
 public:
     /// @param forces    equivalent to lower_crust_loads(), by rows, N

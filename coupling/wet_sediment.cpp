@@ -10,12 +10,12 @@ using namespace dem;
 namespace {
 
 /// Work at the surface of the interval between two strata that holds a travel, or ends at it.
-SurfaceWork work_at(const Motion& motion, const Schedule& deposition, double travel) {
+SurfaceWork work_at(const Motion& motion, const Schedule& deposition, Travel travel) {
     constexpr double almost = 1e-2; // of an interval: a moment is a cycle early or late
-    const double spacing = deposition.spacing();
-    if (!std::isfinite(spacing))
+    const Travel spacing(deposition.spacing());
+    if (!std::isfinite(spacing.m))
         return SurfaceWork::none;
-    const double end = std::ceil(travel / spacing - almost) * spacing;
+    const Travel end = std::ceil(travel / spacing - almost) * spacing;
     return motion.surface_work(end - spacing, end);
 }
 
@@ -23,7 +23,7 @@ SurfaceWork work_at(const Motion& motion, const Schedule& deposition, double tra
 
 WetGround::WetGround(const State& state, const Motion& motion, const WetSediment& sediment)
     : ground_(state),
-      line_(sediment.surface.at(state.clock.travel / sediment.deposition.extension_rate)),
+      line_(sediment.surface.at(state.clock.travel.m / sediment.deposition.extension_rate)),
       work_(work_at(motion, sediment.deposition, state.clock.travel)),
       left_free_(left_free * state.mean_radius), fresh_solid_(1.0 - sediment.surface_porosity) {}
 

@@ -1,5 +1,6 @@
 #include "dem/event.hpp"
 
+#include "dem/round_off.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -13,7 +14,13 @@ Event& add(Events& events, std::unique_ptr<Event> event) {
     return **events.insert(place, std::move(event));
 }
 
+Schedule::Schedule(double years, double metres_per_year)
+    : interval(years), extension_rate(metres_per_year),
+      spacing_(without_round_off(years * metres_per_year)) {}
+
 double Schedule::seconds() const { return interval * seconds_per_year; }
+
+double Schedule::strain(double rate) const { return without_round_off(rate * seconds()); }
 
 std::uint64_t hash(const State& state, const std::map<std::string_view, std::uint64_t>& memories) {
     std::uint64_t h = hash(state);

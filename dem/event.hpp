@@ -16,16 +16,31 @@
 
 namespace listric::dem {
 
-/// Geological time between applications, and the travel that it stands for.
-struct Schedule {
-    double interval = 0.0;       ///< a
-    double extension_rate = 0.0; ///< m/a
+/// Geological time between applications, and the travel that it stands for: metres without
+/// round-off, so that intervals of as many metres at different rates have equal bits.
+class Schedule {
+public:
+    double interval;       ///< a
+    double extension_rate; ///< m/a
 
-    double spacing() const { return interval * extension_rate; } ///< m of travel
-    double seconds() const;                                      ///< s of geological time
+    Schedule(double years, double metres_per_year);
+
+    /// Once in so many metres of travel, at any rate.
+    static Schedule every(double metres, double metres_per_year) {
+        return {metres / metres_per_year, metres_per_year};
+    }
+
+    double spacing() const { return spacing_; } ///< m of travel
+    double seconds() const;                     ///< s of geological time
+
+    /// Strain that a rate, 1/s, makes between applications, without round-off.
+    double strain(double rate) const;
+
+private:
+    double spacing_;
 };
 
-inline constexpr Schedule never{std::numeric_limits<double>::infinity(), 1.0};
+inline const Schedule never{std::numeric_limits<double>::infinity(), 1.0};
 
 /// Told now and then how far something has come that may take long. It may throw to end it; what it
 /// worked on is then left as it is.

@@ -40,7 +40,7 @@ Simulation make_simulation(const Model& m) {
     const double gravity = m.physics.gravity;
     Simulation simulation(make_base(m), m.physics);
     simulation.end_at(Extension(m.distance));
-    simulation.add<Equilibrium>(equilibrium_interval, m.rate, gravity);
+    simulation.add<Equilibrium>(m.rate, gravity);
     if (m.fault_weakening) {
         simulation.add<PropertyUpdate>(*m.fault_weakening, m.rate, gravity);
         simulation.add<FaultWeakening>(*m.fault_weakening, m.rate, gravity);
@@ -52,7 +52,7 @@ Simulation make_simulation(const Model& m) {
     if (m.sedimentation && gravity > 0.0) {
         std::optional<double> between_changes; // of porosity, m of travel
         if (m.compaction)
-            between_changes = m.compaction->interval * m.rate;
+            between_changes = Schedule(m.compaction->interval, m.rate).spacing();
         simulation.add<SedimentStress>(strain_window, between_changes, m.rate, m.physics);
     }
     if (m.compaction)

@@ -22,7 +22,9 @@ struct Model {
     HangingWallParameters hanging_wall = {};
     DetachmentParameters detachment = {};
     double distance = 10e3; ///< greatest extension, m: extend_to() goes no further
-    double rate = 0.01;     ///< geological extension rate, m/a: the clock of all events
+    /// Geological extension rate, m/a: the clock of all events. Their intervals and critical strain
+    /// rates are for 0.01 by default; at another rate state those that stand for as many metres.
+    double rate = 0.01;
     Motion motion = {.speed = 1.0, .ramp = 24.0};
     CyclePhysics physics = {.gravity = standard_gravity, .averaging_time = 150.0};
     Material basement = {};

@@ -142,7 +142,8 @@ def facts(name, one):
     value = one["default"]
     unit = one.get("unit") or ("1" if one["type"] in ("number", "integer") else "")
     key = name.rpartition(".")[2]
-    yield f"`{key}`, {value[1:-1]}" if value in ("(none)", "(required)") else f"**Default** `{key} = {value}`"
+    follows = f" at {one['usual_rate_m_per_a']:g} m/a, follows [the rate](choosing.md#geological-rate)" if "usual_rate_m_per_a" in one else ""
+    yield f"`{key}`, {value[1:-1]}" if value in ("(none)", "(required)") else f"**Default** `{key} = {value}`{follows}"
     if unit:
         yield f"**Unit** {unit}"
     yield f"**Type** {one['type']}"

@@ -50,7 +50,7 @@ measures::Setting make_setting(const Scene& scene, const ModelParts& parts) {
     setting.extension_speed = scene.extension.speed;
     setting.motion = parts.base.motion;
     setting.output_interval = scene.output.interval;
-    setting.youngest_sediment = dem::Travel(parts.youngest_sediment * scene.extension.rate);
+    setting.youngest_sediment = dem::Travel(parts.youngest_sediment);
     setting.detection_circle = parts.detection_circle;
     if (const auto& s = parts.sediment)
         setting.sediment = {s->surface, s->surface_porosity, s->disc_density, s->porosity_decay};

@@ -156,6 +156,8 @@ std::span<const HeadField> head_fields() {
          "program that finished the run, `scene_hash` of every parameter in scene.toml, and "
          "`seed`; equal for equal programs and scenes. Figures have it in their metadata, too"},
         {"effects", "", "names of the effects that were on"},
+        {"warnings", "",
+         "what the program warned of in the scene, as the log has it; mostly empty"},
         {"time_by_part_s", "s",
          "`wall_s` split: `genesis` `rebuild` `cycle`, each event, `output` `figures` `report` "
          "`measures` `other`"},
@@ -196,6 +198,7 @@ std::string summary_json(const SummaryContent& content) {
     add_numbers(json, content);
     json["provenance"] = content.provenance;
     json["effects"] = content.effects;
+    json["warnings"] = content.warnings;
     json["time_by_part_s"] = seconds_by_part(content.record.seconds_by_part, content.wall_seconds);
     if (content.measures.depocentres)
         json[std::string(depocentres.name)] =

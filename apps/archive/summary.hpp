@@ -38,8 +38,9 @@ struct SummaryContent {
     const RunRecord& record;
     const measures::Measures& measures;
     const measures::FaultReport& faults;
-    std::vector<std::string> effects = {}; ///< names of those that were on
-    NamedNumbers numbers = {};             ///< besides the measures
+    std::vector<std::string> effects = {};  ///< names of those that were on
+    std::vector<std::string> warnings = {}; ///< of the scene
+    NamedNumbers numbers = {};              ///< besides the measures
     /// Numbers that belong together, and lists of such objects, by name.
     std::vector<std::pair<std::string, NamedNumbers>> objects = {};
     std::vector<std::pair<std::string, std::vector<NamedNumbers>>> lists = {};

@@ -55,10 +55,10 @@ std::string about(double number) {
     return "about " + digits;
 }
 
-/// Oddities of a scene's files, a line each.
-std::string warnings_of(const Scene& scene) {
+/// Warnings, a line each.
+std::string lines_of(const std::vector<std::string>& warnings) {
     std::string lines;
-    for (const std::string& warning : scene.warnings)
+    for (const std::string& warning : warnings)
         lines += "\nwarning: " + warning;
     return lines;
 }
@@ -82,43 +82,44 @@ std::string check_scene_file(const std::string& file, const toml::table& documen
                        duration(p.seconds), output_text(p), rock_line(scene),
                        scene.picked_fault ? "; " + describe(*scene.picked_fault, *scene.detachment)
                                           : "",
-                       warnings_of(scene));
+                       lines_of(scene.warnings));
 }
 
 std::string check_sweep(const fs::path& file, Times& times) {
     const SweepPlan plan = load_sweep_plan(file);
     constexpr std::size_t most_tried = 5000; // half a minute
     const std::vector<SweepPoint> points = sweep_points(plan);
-    const bool is_tried = plan.design == SweepDesign::list; // when it was read
-    const std::size_t tried = is_tried ? points.size() : std::min(points.size(), most_tried);
-    if (!is_tried)
+    const std::size_t tried = std::min(points.size(), most_tried);
+    const std::vector<std::string> warnings =
         check_points(plan, std::span(points).first(tried), file);
     const Scene scene = scene_at(plan, {}, plan.first_seed);
     const auto runs = points.size() * static_cast<std::size_t>(plan.seeds);
     std::string text = fmt::format("a sweep of {} runs", runs);
-    if (tried < points.size())
+    if (tried < points.size() && plan.design != SweepDesign::list) // whose points it read
         text += fmt::format(", of whose {} points the first {} were tried", points.size(), tried);
     const Prediction p = times.of(scene);
     const auto all = static_cast<double>(runs);
     text += fmt::format(", {} and {} of disk if each takes as much as {}",
                         duration(all * p.seconds), size_text(all * p.disk), scene.name);
-    return text + warnings_of(scene);
+    return text + lines_of(warnings);
 }
 
 std::string check_validation(const fs::path& file) {
     const ValidationPlan plan = load_validation_plan(file);
+    std::vector<std::string> warnings;
     for (const ValidationRun& run : plan.runs) {
         SceneRequest request{.scene = run.scene, .set = run.set, .without = run.without};
         if (!run.accuracy.empty())
             request.accuracy = run.accuracy;
         try {
-            load_scene(request);
+            for (const std::string& warning : load_scene(request).warnings)
+                warnings.push_back(fmt::format("run {}: {}", run.name, warning));
         } catch (const SceneError& error) {
             fail(fmt::format("run {}: {}", run.name, error.what()));
         }
     }
-    return fmt::format("a validation of {} experiments, {} runs a seed", plan.experiments.size(),
-                       plan.runs.size());
+    return fmt::format("a validation of {} experiments, {} runs a seed{}", plan.experiments.size(),
+                       plan.runs.size(), lines_of(warnings));
 }
 
 /// Good news of a file, whose keys show its purpose. Throws SceneError.

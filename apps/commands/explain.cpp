@@ -64,6 +64,27 @@ std::string explain_size(const Scene& scene, const Prediction& p) {
                        output_text(p), scene.output.interval);
 }
 
+/// Intervals that are other ways of the wall than their defaults.
+std::string explain_intervals(const Scene& scene) {
+    std::string text;
+    for (const EffectPart& part : scene.effects) {
+        std::any defaults = defaults_of(*part.effect);
+        for (const Parameter& parameter : part.effect->parameters) {
+            if (!parameter.follows_rate || parameter.unit != "a")
+                continue;
+            const auto& place = std::get<Place<double>>(parameter.value);
+            const double years = place.get(part.effect->address.get(part.parameters));
+            const double metres = Schedule(years, scene.extension.rate).spacing();
+            const double usual =
+                Schedule(place.get(object_of(*part.effect, defaults)), usual_rate).spacing();
+            if (metres != usual)
+                text += fmt::format("  {}.{}: {:g} a are {:g} m of travel, by default {:g} m\n",
+                                    part.effect->name, parameter.key, years, metres, usual);
+        }
+    }
+    return text.empty() ? "" : fmt::format("intervals that are stated\n{}\n", text);
+}
+
 /// Lines of the effects on themselves; an effect speaks for those that need it.
 std::string explain_parts(const Scene& scene, EffectList effects) {
     std::string text;
@@ -108,7 +129,7 @@ std::string explain(const Scene& scene, int threads, EffectList effects) {
 std::string explain(const Scene& scene, const CycleSpeed& speed, int threads, EffectList effects) {
     const Prediction p = predict(scene, speed);
     return fmt::format("{}: {}\n\n{}\n\n", scene.name, scene.description, rock_line(scene)) +
-           explain_effects(scene, effects) + explain_size(scene, p) +
+           explain_effects(scene, effects) + explain_size(scene, p) + explain_intervals(scene) +
            explain_parts(scene, effects) + explain_cost(scene, p, speed, threads) +
            "accuracy, from runs of lis1: rotation, cutoff and basin area are right at draft (1 "
            "%);\n"

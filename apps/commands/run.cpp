@@ -14,6 +14,7 @@
 #include "apps/support/file.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/number.hpp"
+#include "apps/support/spelling.hpp"
 #include "apps/support/text.hpp"
 
 #include <fmt/format.h>
@@ -25,6 +26,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace listric {
 
@@ -100,8 +102,9 @@ ExitCode exit_code_of(RunOutcome outcome) {
     return outcome == RunOutcome::finished ? ExitCode::done : ExitCode::interrupted;
 }
 
-/// The scene of a call. Older versions took another rock where a scene names none: a run that one
-/// of them began goes on with it.
+/// The scene of a call. Older versions took another rock where a scene names none, and at any rate
+/// the intervals of 1 cm a year where it states none: a run that one of them began goes on with
+/// them.
 Scene scene_of(const RunCall& call) {
     const Scene scene = load_scene(call.scene);
     const fs::path begun = output_of(call, scene.name) / "scene.toml";
@@ -111,15 +114,25 @@ Scene scene_of(const RunCall& call) {
     };
     if (!call.options.resume || is_before(scene))
         return scene;
-    SceneRequest request = call.scene;
-    request.former_rocks = true;
-    Scene former = load_scene(request);
-    if (!is_before(former))
-        return scene;
-    former.warnings.push_back(fmt::format("{} names no rock: the run goes on with the one that it "
-                                          "began with; a new one would have {}",
-                                          call.scene.scene, rock_line(scene)));
-    return former;
+    for (const auto [rocks, intervals] : {std::pair(false, true), {true, false}, {true, true}}) {
+        SceneRequest request = call.scene;
+        request.former_rocks = rocks;
+        request.former_intervals = intervals;
+        Scene former = load_scene(request);
+        if (!is_before(former))
+            continue;
+        if (rocks)
+            former.warnings.push_back(fmt::format("{} names no rock: the run goes on with the one "
+                                                  "that it began with; a new one would have {}",
+                                                  call.scene.scene, rock_line(scene)));
+        if (intervals)
+            former.warnings.push_back(fmt::format(
+                "{} states no intervals: the run goes on with those that it began with, which are "
+                "of {} m/a; in a new one they would be as many metres at {} m/a",
+                call.scene.scene, text(usual_rate), text(scene.extension.rate)));
+        return former;
+    }
+    return scene;
 }
 
 /// This process's part of a run that several make.

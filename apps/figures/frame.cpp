@@ -226,6 +226,14 @@ void write_observed(const FrameWriter& writer, const Observation& now,
                    [&](int stratum) { return strata.contains(stratum); });
 }
 
+/// Geological rate of the wall, m/a; in a pause that of the run's clock.
+double rate_of_motion(const Observation& now) {
+    const dem::Motion& motion = now.parts.base.motion;
+    const double slope =
+        motion.stages.empty() ? 1.0 : motion.stages[motion.stage(now.state.clock.travel)].slope;
+    return now.scene.extension.rate * (slope == 0.0 ? 1.0 : std::abs(slope));
+}
+
 nlohmann::json frame_json(const Observation& now, const Measures& m) {
     const Scene& scene = now.scene;
     const State& state = now.state;
@@ -237,6 +245,7 @@ nlohmann::json frame_json(const Observation& now, const Measures& m) {
         {"time_a", state.clock.travel.m / scene.extension.rate},
         {"end_a", scene.extension.distance / scene.extension.rate},
         {"interval_a", scene.output.interval / scene.extension.rate},
+        {"rate_m_per_a", rate_of_motion(now)},
         {"mean_radius_m", state.mean_radius},
         {"right_wall_x_m", now.right_end()},
         {"strata", d.stratum.empty() ? 0 : *std::ranges::max_element(d.stratum)},

@@ -9,8 +9,8 @@
 
 namespace listric::measures {
 
-/// From this depth, m, and this age, a, on sediment is old: it should be rock.
-inline constexpr double old_sediment_depth = 1500.0, old_sediment_age = 2e5;
+/// From this depth, m, and this age, m of travel, on sediment is old: it should be rock.
+inline constexpr double old_sediment_depth = 1500.0, old_sediment_age = 2e3;
 
 /// Share of the touching pairs of pre-rift discs without bond. None if there are no such pairs.
 std::optional<double> unbonded_share_of_basement(const dem::State& state);

@@ -112,7 +112,7 @@ constexpr Measure<M> of_material[] = {
      taken<&M::broken, &BrokenRock::areal_share>},
     {"old_sediment_bonded_fraction", "1",
      "bonded share of the touching pairs of sediment discs deeper than 1.5 km and older than "
-     "200,000 a",
+     "2 km of travel (200,000 a at 1 cm/a)",
      taken<&M::old_sediment_bonded_fraction>},
 };
 
@@ -121,11 +121,13 @@ constexpr Measure<M> of_quality[] = {
      "(mass − (initial + deposited − removed)) / initial, without sign; zero up to round-off",
      taken<&M::mass_error_fraction>, OverTime::last, "below 1e-12"},
     {"unbalanced_ratio_mean", "1",
-     "unbalanced force on a disc over the mean contact force, sampled every 2,500 a: mean over "
+     "unbalanced force on a disc over the mean contact force, sampled every 25 m of travel: mean "
+     "over "
      "discs and samples",
      taken<&M::unbalanced_ratio_mean>, OverTime::last, "below 0.004 at standard"},
     {"unbalanced_ratio_max", "1",
-     "unbalanced force on a disc over the mean contact force, sampled every 2,500 a: largest",
+     "unbalanced force on a disc over the mean contact force, sampled every 25 m of travel: "
+     "largest",
      taken<&M::unbalanced_ratio_max>},
     {"inertial_number", "1",
      "strain rate × diameter × sqrt(density / pressure), mean over the tenth of the pre-rift area "
@@ -177,7 +179,8 @@ std::span<const Measure<Depocentre>> depocentre_measures() {
 
 constinit const Quantity old_sediment_bonded_profile{
     "old_sediment_bonded_profile", "",
-    "bonded share of the touching pairs of sediment discs older than 200,000 a, by depth"};
+    "bonded share of the touching pairs of sediment discs older than 2 km of travel "
+    "(200,000 a at 1 cm/a), by depth"};
 
 std::span<const Measure<BondedLayer>> bonded_layer_measures() {
     using B = BondedLayer;

@@ -88,11 +88,11 @@ void add_sediment(Measures& m, const Setting& setting, const State& state, const
     if (setting.has_bonds) {
         const TargetLine surface =
             setting.sediment->target.at(state.clock.travel.m / setting.extension_rate);
-        const double age = old_sediment_age * setting.extension_rate +
-                           travel_of_cycle(setting.motion, state.clock).m;
+        const double age = old_sediment_age + travel_of_cycle(setting.motion, state.clock).m;
         m.old_sediment_bonded_fraction =
             bonded_share_of_old_sediment(state, surface, old_sediment_depth, age);
-        m.old_sediment_bonded_profile = bonded_profile_of_old_sediment(state, surface, age);
+        m.old_sediment_bonded_profile =
+            bonded_profile_of_old_sediment(state, surface, age);
     }
     m.depocentres = find_depocentres(profile.x, profile.sediment_thickness, depocentre_prominence);
 }

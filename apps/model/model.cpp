@@ -30,8 +30,7 @@ ModelParts make_parts(const Scene& scene) {
 Events make_events(const Scene& scene, const ModelParts& parts) {
     const double rate = scene.extension.rate;
     Events events;
-    dem::add(events,
-             std::make_unique<Equilibrium>(equilibrium_interval, rate, parts.physics.gravity));
+    dem::add(events, std::make_unique<Equilibrium>(rate, parts.physics.gravity));
     for (const EffectPart& part : scene.effects)
         if (part.effect->add_events)
             part.effect->add_events(scene, parts, events);

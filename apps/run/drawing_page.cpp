@@ -224,7 +224,7 @@ Json prices_json() {
             {"genesis_crossing", p.genesis_crossing},
             {"window", p.window},
             {"window_disc", p.window_disc},
-            {"sample_interval", p.sample_interval},
+            {"sample_spacing", p.sample_spacing},
             {"sample_disc", p.sample_disc},
             {"early_figure_disc", p.early_figure_disc},
             {"figures", p.figures},

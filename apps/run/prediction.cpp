@@ -136,8 +136,8 @@ double memory_of_report(const Scene& s, double snapshots, double discs) {
 }
 
 /// Samples of how quasi-static the run is, and contacts found anew after events.
-double price_of_samples(const Workload& work) {
-    return work.years / run_prices.sample_interval * run_prices.sample_disc * work.discs;
+double price_of_samples(const Scene& s, const Workload& work) {
+    return s.extension.distance / run_prices.sample_spacing * run_prices.sample_disc * work.discs;
 }
 
 double price_of_effects(const Scene& s, const Workload& work) {
@@ -199,8 +199,8 @@ Prediction predict(const Scene& scene, const CycleSpeed& speed) {
                         .area_ratio = h.radius_ratio * h.radius_ratio};
     // Threads share genesis and loops over discs about as well as the cycle. Measures, figures and
     // effects are counted as work of one: drop and roll is a chain.
-    double shared =
-        run_prices.cycle * p.disc_steps + price_of_genesis(h, start) + price_of_samples(work);
+    double shared = run_prices.cycle * p.disc_steps + price_of_genesis(h, start) +
+                    price_of_samples(scene, work);
     const double figures = price_of_figures(scene, work.discs, parts.base_moves);
     const double windows = price_of_windows(scene, work);
     double serial = windows + price_of_effects(scene, work) + figures;

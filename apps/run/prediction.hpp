@@ -46,7 +46,7 @@ struct RunPrices {
     /// cross it: so many more per radius of its thickness.
     double genesis = 6000.0, genesis_crossing = 245.0;
     double window = 1e6, window_disc = 1300.0; ///< history and a snapshot
-    double sample_interval = 2500.0;           ///< of how quasi-static the run is, a
+    double sample_spacing = 25.0;              ///< of how quasi-static the run is, m of travel
     double sample_disc = 30.0;
     /// The last pictures and the sheet with all moments; earlier ones are drawn beside the cycle,
     /// and only their arrays take time.

@@ -114,8 +114,8 @@ struct ModelParts {
     std::optional<dem::BondStrength> bonds;
     std::vector<LayerFacts> layers; ///< by the column `layer`, from 1
     std::optional<SedimentFacts> sediment;
-    /// Sediment younger than this is too loose for a fault: it creeps all over, a.
-    double youngest_sediment = 2.0e5;
+    /// Sediment younger than this is too loose for a fault: it creeps all over, m of travel.
+    double youngest_sediment = 2.0e3;
     /// Diameter of the circle that faults are looked for with, mean disc diameters; none: they are
     /// not looked for.
     std::optional<double> detection_circle;

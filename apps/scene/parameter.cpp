@@ -1,11 +1,13 @@
 #include "apps/scene/parameter.hpp"
 
 #include "apps/support/spelling.hpp"
+#include "dem/round_off.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 
 namespace listric {
@@ -21,6 +23,25 @@ std::string text(const Range& range) {
     add("at most", range.to);
     add("below", range.below);
     return fmt::format("{}", fmt::join(bounds, ", "));
+}
+
+Parameter by_travel(Parameter parameter) {
+    assert(parameter.unit == "a" || parameter.unit == "1/s");
+    parameter.follows_rate = true;
+    return parameter;
+}
+
+double at_rate(const Parameter& parameter, double usual, double rate) {
+    assert(parameter.follows_rate);
+    if (rate == usual_rate)
+        return usual;
+    if (parameter.unit != "a")
+        return dem::without_round_off(usual * (rate / usual_rate));
+    // A short number where it stands for the same metres to the last bit.
+    const double metres = usual * usual_rate, years = metres / rate;
+    const double rounded = dem::without_round_off(years);
+    const bool is_same = dem::without_round_off(rounded * rate) == dem::without_round_off(metres);
+    return is_same ? rounded : years;
 }
 
 std::string usual_text(const Parameter& parameter) {

@@ -73,7 +73,20 @@ struct Parameter {
     std::string_view changes = {}; ///< effect of another value on a run: "Raising it ..."
     Range usual = {};    ///< where scenes of ours and published values lie; not given: not known
     double per_si = 1.0; ///< units of the key in one SI unit
+    /// Whether its default stands for metres of travel: it is for usual_rate, and follows
+    /// extension.rate_m_per_a at any other.
+    bool follows_rate = false;
 };
+
+/// The geological rate that defaults are for, m/a: the paper's.
+inline constexpr double usual_rate = 0.01;
+
+/// A time, or a rate of strain, whose default stands for metres of travel.
+Parameter by_travel(Parameter parameter);
+
+/// Value that does at a geological rate, m/a, as a default does at the usual rate: a time is
+/// longer, and a rate of strain lower, by as much as the motion is slower.
+double at_rate(const Parameter& parameter, double usual, double rate);
 
 namespace detail {
 
@@ -155,6 +168,7 @@ std::vector<std::string_view> keys(const std::vector<Parameter>& parameters);
 namespace ranges {
 inline constexpr Range any;
 inline constexpr Range years{.from = 1, .to = 1e7};
+inline constexpr Range interval{.from = 1, .to = 1e13}; ///< a: follows the rate down to 1e-9 m/a
 inline constexpr Range length{.from = 1e-3, .to = 1e6};
 inline constexpr Range height{.from = -1e5, .to = 1e5};
 inline constexpr Range dip{

@@ -368,6 +368,19 @@ void begin_scene(Scene& scene, const toml::table& document, const std::vector<Sc
     }
 }
 
+/// Lets defaults that stand for metres of travel follow the rate; what the document states stays.
+void follow_rate(Scene& scene, const toml::table& document) {
+    for (EffectPart& part : scene.effects)
+        for (const Parameter& parameter : part.effect->parameters) {
+            const std::string path = fmt::format("{}.{}", part.effect->name, parameter.key);
+            if (!parameter.follows_rate || document.at_path(path))
+                continue;
+            double& value = std::get<Place<double>>(parameter.value)
+                                .reach(part.effect->address.reach(part.parameters));
+            value = at_rate(parameter, value, scene.extension.rate);
+        }
+}
+
 void complete_effects(Scene& scene, const toml::table& document) {
     const IsGiven is_given = [&](const std::string& path) {
         return document.at_path(path).node() != nullptr;
@@ -391,13 +404,14 @@ std::vector<std::string> warnings_of_never(const Scene& scene) {
             if (part.effect->items || !place || !parameter.key.ends_with("interval_a"))
                 continue;
             const double interval = place->get(part.effect->address.get(part.parameters));
-            if (interval * extension.rate <= extension.distance)
+            const double spacing = Schedule(interval, extension.rate).spacing();
+            if (spacing <= extension.distance)
                 continue;
             warnings.push_back(fmt::format(
                 "{}.{} = {:g} is longer than the scene: the first time would be at {:g} m, it "
                 "ends at {:g} m; below {:g} it happens",
-                part.effect->name, parameter.key, interval, interval * extension.rate,
-                extension.distance, extension.distance / extension.rate));
+                part.effect->name, parameter.key, interval, spacing, extension.distance,
+                extension.distance / extension.rate));
         }
     return warnings;
 }
@@ -454,6 +468,8 @@ Scene load_scene(const SceneRequest& request, EffectList effects) {
         read_files(scene, table, document, path.parent_path());
     drop_effects(scene, request.without, all);
     check_changes(request);
+    if (!request.former_intervals)
+        follow_rate(scene, document);
     complete_effects(scene, document);
     check_scene(scene, document, effects);
     std::vector<std::string> warnings = warnings_of_never(scene);

@@ -26,8 +26,9 @@ struct SceneRequest {
     std::vector<std::string> without = {};    ///< tables to drop
     std::optional<std::string> accuracy = {}; ///< draft, standard, fine, sandbox
     std::optional<std::int64_t> seed = {};
-    bool is_record = false;    ///< the record in a run's folder, which may have any name
-    bool former_rocks = false; ///< where it names none: those that older versions took
+    bool is_record = false;        ///< the record in a run's folder, which may have any name
+    bool former_rocks = false;     ///< where it names none: those that older versions took
+    bool former_intervals = false; ///< where it states none: those of usual_rate, at any rate
 };
 
 /// The document in a file, with a call's changes. Throws SceneError.

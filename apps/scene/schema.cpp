@@ -154,6 +154,8 @@ Json declaration(const Parameter& parameter, const void* object) {
         all["allowed"] = allowed;
     if (parameter.usual.is_given())
         all["usual"] = {parameter.usual.from, parameter.usual.to};
+    if (parameter.follows_rate)
+        all["usual_rate_m_per_a"] = usual_rate;
     return all;
 }
 

@@ -103,7 +103,8 @@ const std::vector<Parameter>& stage_parameters() {
          "Lets sediment fill, compact and heal while nothing moves."},
         {"rate_m_per_a", at<&P::rate>, "m/a", between(1e-9, 1), "",
          "geological rate, without sign; default: extension.rate_m_per_a",
-         "Lowering it gives deposition, closing pores and healing bonds more time per metre."},
+         "Lowering it gives water, deposition, closing pores and healing more time per metre: "
+         "intervals keep their years in all stages."},
         {"speed_m_per_s", at<&P::speed>, "m/s", between(1e-6, 1e3), "",
          "speed in the model; default: extension.speed_m_per_s",
          "Raising it shortens the stage in proportion, and forces balance worse.", between(0.5, 2)},

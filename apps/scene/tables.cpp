@@ -155,8 +155,8 @@ std::vector<Parameter> extension_parameters() {
          "Raising it makes the basin larger and the run longer, both in proportion.",
          between(2000, 12e3)},
         {"rate_m_per_a", at<&P::rate>, "m/a", between(1e-9, 1), "", "geological extension rate",
-         "Raising it leaves less time per metre for sediment to collect and bonds to heal; "
-         "friction does not depend on it."},
+         "Lowering it lets pore water drain for longer. Intervals that the scene does not state "
+         "follow it, so that without pore water only the years change; stated ones are less way."},
         {"speed_m_per_s", at<&P::speed>, "m/s", between(1e-6, 1e3), "",
          "speed in the model, metres per model second; its default depends on the accuracy",
          "Raising it shortens a run in proportion; above 2 m/s strain is less localised and forces "

@@ -574,6 +574,9 @@ std::string facts(const Parameter& parameter) {
         all.push_back(fmt::format("symbol {}", parameter.symbol));
     if (const std::string usual = usual_text(parameter); !usual.empty())
         all.push_back(fmt::format("usual {}", usual));
+    if (parameter.follows_rate)
+        all.push_back(fmt::format("the default is for {:g} m/a and follows extension.rate_m_per_a",
+                                  usual_rate));
     return fmt::format("{}", fmt::join(all, "; "));
 }
 

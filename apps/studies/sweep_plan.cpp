@@ -122,12 +122,12 @@ void check_parameter(const Entry& entry, const SweepPlan& plan, const std::strin
                                 plan.accuracy));
 }
 
-/// The scene of a point, as text. Throws SceneError if there is none, or too large a one.
-std::string try_point(const SweepPlan& plan, const SweepPoint& point) {
-    const Scene scene = scene_at(plan, point, plan.first_seed);
+/// The scene of a point. Throws SceneError if there is none, or too large a one.
+Scene try_point(const SweepPlan& plan, const SweepPoint& point) {
+    Scene scene = scene_at(plan, point, plan.first_seed);
     if (const auto oversize = oversize_of(scene, program_effects(), room_for(".")))
         throw SceneError(fmt::format("{}: {}", oversize->parameter, oversize->message));
-    return to_toml(scene);
+    return scene;
 }
 
 /// Refuses a value that the scene refuses. Returns the scene as it is with that value.
@@ -136,7 +136,7 @@ std::string try_value(const SweepPlan& plan, const Entry& entry, const SweepPara
     SweepPlan alone = plan;
     alone.parameters = {parameter};
     try {
-        return try_point(alone, {value});
+        return to_toml(try_point(alone, {value}));
     } catch (const SceneError& error) {
         fail(entry, fmt::format("{}{}", error.what(), cure));
     }
@@ -250,7 +250,7 @@ void check_design(const Entry& top, const SweepPlan& plan) {
         const std::string name = name_of_point(plan, k, points[k]);
         std::string made;
         try {
-            made = try_point(plan, points[k]);
+            made = to_toml(try_point(plan, points[k]));
         } catch (const SceneError& error) {
             fail(place, fmt::format("{}: {}", name, error.what()));
         }
@@ -392,15 +392,21 @@ std::string name_of_point(const SweepPlan& plan, std::size_t k, const SweepPoint
     return text;
 }
 
-void check_points(const SweepPlan& plan, std::span<const SweepPoint> points,
-                  const std::filesystem::path& file) {
+std::vector<std::string> check_points(const SweepPlan& plan, std::span<const SweepPoint> points,
+                                      const std::filesystem::path& file) {
+    std::vector<std::string> warnings;
+    std::set<std::string> known; // a point tells what no point before it did
     for (std::size_t k = 0; k < points.size(); ++k)
         try {
-            try_point(plan, points[k]);
+            for (const std::string& warning : try_point(plan, points[k]).warnings)
+                if (known.insert(warning).second)
+                    warnings.push_back(
+                        fmt::format("{}: {}", name_of_point(plan, k, points[k]), warning));
         } catch (const SceneError& error) {
             fail(fmt::format("{}: {}: {}", file.string(), name_of_point(plan, k, points[k]),
                              error.what()));
         }
+    return warnings;
 }
 
 Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed) {

@@ -63,9 +63,9 @@ std::vector<SweepPoint> sweep_points(const SweepPlan& plan);
 std::string name_of_point(const SweepPlan& plan, std::size_t k, const SweepPoint& point);
 
 /// Tries points: values may each make a scene alone, but none together. Throws SceneError with the
-/// point and the plan's file.
-void check_points(const SweepPlan& plan, std::span<const SweepPoint> points,
-                  const std::filesystem::path& file);
+/// point and the plan's file. Returns the scenes' warnings, each with the first point that has it.
+std::vector<std::string> check_points(const SweepPlan& plan, std::span<const SweepPoint> points,
+                                      const std::filesystem::path& file);
 
 /// The scene of a point. Throws SceneError.
 Scene scene_at(const SweepPlan& plan, const SweepPoint& point, std::int64_t seed);

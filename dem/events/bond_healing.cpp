@@ -47,7 +47,7 @@ bool BondHealing::apply(State& state, const RigidBase&) {
     const DiscColumns d = disc_columns(state);
     const ContactColumns c = contact_columns(state);
     const HealedColumns h = healed_columns(state);
-    const double strain = parameters_.strain_rate * schedule().seconds();
+    const double strain = schedule().strain(parameters_.strain_rate);
     // Discs laid down at the last healing, to half a cycle, have a whole interval behind them.
     const double latest = state.clock.travel.m - 0.75 * schedule().spacing();
     const std::vector<bool> touches = touching(state);

@@ -6,8 +6,9 @@
 
 namespace listric::dem {
 
-Equilibrium::Equilibrium(double interval, double extension_rate, double gravity)
-    : Observer("equilibrium", {interval, extension_rate}), gravity_(gravity) {
+Equilibrium::Equilibrium(double extension_rate, double gravity)
+    : Observer("equilibrium", Schedule::every(equilibrium_spacing, extension_rate)),
+      gravity_(gravity) {
     for (const char* name : {"samples", "mean_ratio_sum", "max_ratio", "last_ratio", "touching"})
         memory.add<double>(name, "1", 0.0);
     memory.resize(1);

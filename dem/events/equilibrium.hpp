@@ -4,15 +4,15 @@
 
 namespace listric::dem {
 
-/// Time between samples of a run, a: the paper's interval of bond healing.
-inline constexpr double equilibrium_interval = 2500.0;
+/// Travel between samples of a run, m: the paper's interval of bond healing at its 1 cm a year.
+inline constexpr double equilibrium_spacing = 25.0;
 
 /// Samples how quasi-static the run is [paper: mean unbalanced against mean contact force].
 ///
 /// Its memory has one row: samples, mean_ratio_sum, max_ratio, last_ratio, touching.
 class Equilibrium : public Observer {
 public:
-    Equilibrium(double interval, double extension_rate, double gravity);
+    Equilibrium(double extension_rate, double gravity);
 
     bool apply(State& state, const RigidBase& base) override;
 

@@ -7,6 +7,7 @@
 #include "dem/events/measure_circle.hpp"
 #include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
+#include "dem/round_off.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
 
@@ -181,7 +182,7 @@ std::vector<std::int32_t> sound_discs(const Displacements& s, const State& state
 /// Strain is that of the discs within half a measure circle since the last scan.
 std::vector<std::int32_t> rested_discs(State& state, const Displacements& s, const Cells& cells,
                                        double reach, const FaultWeakeningParameters& p,
-                                       double seconds) {
+                                       double resting_strain) {
     const auto material = disc_columns(state).material;
     const auto rested = state.discs.get<double>("rested_a");
     in_pieces(s.row.size(), 64, [&](std::size_t k, std::size_t end) {
@@ -198,7 +199,7 @@ std::vector<std::int32_t> rested_discs(State& state, const Displacements& s, con
                     fit.add(dx - dux, dy - duy, dux, duy);
             });
             const auto gradient = fit.gradient(1e-6);
-            const bool rests = gradient && gradient->shear() < p.resting_rate * seconds;
+            const bool rests = gradient && gradient->shear() < resting_strain;
             rested[i] = rests ? rested[i] + p.interval : 0.0;
         }
     });
@@ -278,9 +279,9 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
                     p.sound_share * p.circle_diameters * diameter, p.band_diameters * diameter};
     // A disc laid down since the last scan (but for half a cycle) has moved for less time than
     // others.
-    const double youngest = std::max(p.whole_domain ? 0.0 : p.youngest_sediment, 0.99 * p.interval);
-    const Displacements sample =
-        displacements(state, youngest * schedule().extension_rate, p.whole_domain);
+    const double loose = without_round_off(p.youngest_sediment * schedule().extension_rate);
+    const double youngest = std::max(p.whole_domain ? 0.0 : loose, 0.99 * schedule().spacing());
+    const Displacements sample = displacements(state, youngest, p.whole_domain);
     const Cells cells(sample.x, sample.y, 0.5 * l.circle);
     const std::vector<FaultSegment> found =
         scan(sample, cells, l.circle, 0.5 * diameter, critical_slip(p, diameter), p.angles);
@@ -290,7 +291,9 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
         bands.push_back(band_of(f, l.circle));
 
     if (p.heal_after > 0.0)
-        heal(state, rested_discs(state, sample, cells, 0.5 * l.circle, p, schedule().seconds()),
+        heal(state,
+             rested_discs(state, sample, cells, 0.5 * l.circle, p,
+                          schedule().strain(p.resting_rate)),
              mean_stress_ratio(p, state, base), gravity_);
     std::vector<std::int32_t> converted =
         joined(by_piece(bands.size(), 4, [&](std::size_t k, std::size_t end) {

@@ -4,13 +4,20 @@
 
 namespace listric::dem {
 
+namespace {
+
+constexpr double spacing_of_soft_layers = 25.0; // m of travel
+
+} // namespace
+
 PropertyUpdate::PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,
                                double gravity)
     : Event("property_update", {parameters.update_interval, extension_rate}),
       parameters_(parameters), gravity_(gravity) {}
 
 PropertyUpdate::PropertyUpdate(double extension_rate, double gravity)
-    : PropertyUpdate(FaultWeakeningParameters(), extension_rate, gravity) {}
+    : Event("property_update", Schedule::every(spacing_of_soft_layers, extension_rate)),
+      gravity_(gravity) {}
 
 bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     const VolumeKeeping how{parameters_.band_diameters * state.mean_radius,

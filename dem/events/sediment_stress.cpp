@@ -124,9 +124,9 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
 
 SedimentStress::SedimentStress(double window, std::optional<double> compaction,
                                double extension_rate, const CyclePhysics& physics)
-    : Observer("sediment_stress", {static_cast<double>(stride(window, compaction)) *
-                                       compaction.value_or(window / samples) / extension_rate,
-                                   extension_rate}),
+    : Observer("sediment_stress", Schedule::every(static_cast<double>(stride(window, compaction)) *
+                                                      compaction.value_or(window / samples),
+                                                  extension_rate)),
       window_(window), compaction_(compaction), physics_(physics) {
     memory.add<double>("window", "1", -1.0);
     for (const char* name : {"weight", "contacts", "damping", "weight_after", "contacts_after"})

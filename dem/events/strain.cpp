@@ -24,7 +24,7 @@ void remember(State& state) {
 } // namespace
 
 Strain::Strain(double window, double extension_rate)
-    : Observer("strain", {window / extension_rate, extension_rate}, Stage::strain) {}
+    : Observer("strain", Schedule::every(window, extension_rate), Stage::strain) {}
 
 void Strain::begin(State& state) {
     state.discs.add<double>("window_x", "m", 0.0);

@@ -611,6 +611,16 @@ class Drawing(Folder):
         boxes = [text.get_window_extent() for text in figure.texts] + [legend.get_window_extent() for legend in figure.legends]
         self.assertEqual([(n, m) for n, one in enumerate(boxes) for m in range(n) if one.overlaps(boxes[m])], [])
 
+    def test_classes_of_slip_rates_are_shares_of_the_walls(self):
+        faults = [[k, 1000.0 * k, -100.0 * n, rate] for k, rate in enumerate((0.02, 0.07, 0.3)) for n in (1, 2)]
+        for rate, words in ((0.01, ["slip < 0.5 mm/a", "slip 0.5–1 mm/a", "slip > 1 mm/a"]),
+                            (0.001, ["slip < 0.05 mm/a", "slip 0.05–0.1 mm/a", "slip > 0.1 mm/a"]),
+                            (0.0002, ["slip < 0.01 mm/a", "slip 0.01–0.02 mm/a", "slip > 0.02 mm/a"])):
+            frame = self.frame({"rate_m_per_a": rate}, faults=[[*row[:3], 1000.0 * rate * row[3]] for row in faults])
+            [ax, *_] = sections.draw_figure(frame, ["strain"], 20).axes
+            legend = [text.get_text() for text in ax.get_legend().get_texts()]
+            self.assertEqual([text for text in legend if text.startswith("slip")], words)
+
     def test_the_window_of_strain_has_its_own_ends(self):
         for meta, words in (({}, "last 500 m of extension"), ({"extension_m": 2000.02}, "last 500 m of extension"),
                             ({"extension_m": 1999.98}, "last 500 m of extension"),

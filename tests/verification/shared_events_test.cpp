@@ -41,7 +41,7 @@ struct Slab {
         const ContactColumns c = contact_columns(state);
         for (std::size_t k = 0; k < c.first.size(); k += 3)
             c.bonded[k] = 0;
-        events.push_back(std::make_unique<Equilibrium>(2500.0, rate, gravity));
+        events.push_back(std::make_unique<Equilibrium>(rate, gravity));
         const BondHealingParameters healing{.strain_rate = 2e-13}; // 3 m of slip
         events.push_back(std::make_unique<BondHealing>(healing, BondStrength{}, rate));
         const FaultWeakeningParameters faults{.spacing_diameters = 2.0};

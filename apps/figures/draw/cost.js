@@ -19,7 +19,20 @@ function defaultAt(facts, schema, document, path) {
   if (scaled !== undefined) return scaled;
   const source = table === "material" ? facts.basement : facts.effects[table]?.rock;
   const rock = source && facts.rocks[document.materials?.[source] ?? schema.properties.materials.properties[source].default];
-  return rock?.[key] ?? schemaAt(schema, path)?.default;
+  const own = schemaAt(schema, path);
+  const follows = own?.["x-listric"]?.usual_rate_m_per_a !== undefined;
+  return rock?.[key] ?? (follows ? atRate(own, valueAt(facts, schema, document, "extension.rate_m_per_a")) : own?.default);
+}
+
+/** A parameter's default at a geological rate, m/a: one that stands for metres of travel follows it, as at_rate() in
+ * apps/scene/parameter.cpp has it. */
+function atRate(own, rate) {
+  const usual = own["x-listric"].usual_rate_m_per_a;
+  if (!(rate > 0) || rate === usual) return own.default;
+  const rounded = x => Number(x.toPrecision(12));
+  if (own["x-listric"].unit !== "a") return rounded(own.default * (rate / usual));
+  const metres = own.default * usual, years = metres / rate;
+  return rounded(rounded(years) * rate) === rounded(metres) ? rounded(years) : years;
 }
 
 /** The stages of a scene, as apps/scene/scene.cpp makes them: way of the wall, m, below 0 shortening; travel, m, the clock, which runs
@@ -117,7 +130,7 @@ function predictCost(facts, schema, document) {
       (terms.per_year + terms.per_disc_year * discs + terms.per_area_ratio_year * areaRatio);
   }, 0);
   let shared = p.cycle * steps + start * (p.genesis + p.genesis_crossing * thickness / radius) +
-    years / p.sample_interval * p.sample_disc * discs;
+    distance / p.sample_spacing * p.sample_disc * discs;
   let serial = distance / interval * (p.window + p.window_disc * discs) + ofEffects + figures;
   if (start < p.lists_shared_from) serial += p.list_alone * steps;
   else shared += (start < p.lists_far_from ? p.list_shared : p.list_far) * steps;

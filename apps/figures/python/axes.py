@@ -14,9 +14,9 @@ from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import FuncFormatter, MultipleLocator
 
 FOOTWALL = "#efeeeb"
-# Slip-rate classes of active faults: upper bound (mm/a), line width (pt), label.
-FAULT_CLASSES = ((0.5, 0.8, "slip < 0.5 mm/a"), (1.0, 1.5, "slip 0.5–1 mm/a"),
-                 (math.inf, 2.4, "slip > 1 mm/a"))
+# Slip-rate classes of active faults: upper bound over the rate of the wall, line width (pt), label.
+FAULT_CLASSES = ((0.05, 0.8, "slip < {1:g} mm/a"), (0.1, 1.5, "slip {0:g}–{1:g} mm/a"),
+                 (math.inf, 2.4, "slip > {0:g} mm/a"))
 LEGEND = {"loc": "lower right", "frameon": False, "borderpad": 0.2, "borderaxespad": 0.1,
           "handlelength": 1.6, "handletextpad": 0.5, "columnspacing": 1.4,
           "handler_map": {tuple: HandlerTuple(ndivide=None, pad=0)}}
@@ -126,13 +126,16 @@ def bar(cax, cmap, norm, label: str, **options):
     return colour_bar
 
 
-def draw_faults(ax, faults: np.ndarray | None) -> list:
+def draw_faults(ax, frame: Frame) -> list:
     """Active faults, line width by slip rate (mm/a); returns legend entries."""
+    faults = frame.faults
     if faults is None:
         return []
     handles, lower = [], -math.inf
     lines = [faults[faults[:, 0] == number] for number in np.unique(faults[:, 0])]
-    for upper, width, label in FAULT_CLASSES:
+    for share, width, label in FAULT_CLASSES:
+        upper = share * frame.wall_rate
+        label = label.format(*(float(f"{bound:.3g}") for bound in (lower, upper)))
         chosen = [line[:, 1:3] for line in lines if lower <= line[0, 3] < upper]
         lower = upper
         if len(chosen):

@@ -118,6 +118,11 @@ class Frame:
         return self.meta["right_wall_x_m"] / 1000.0
 
     @property
+    def wall_rate(self) -> float:
+        """Geological rate of the wall, mm/a; the paper's where a frame says none."""
+        return 1000.0 * self.meta.get("rate_m_per_a", 0.01)
+
+    @property
     def unit(self) -> float:
         """Length of margins (km): 1 km in a model of USUAL_THICKNESS, as large a share of others. Two digits
         of it, so that a base that bends changes no margin."""

@@ -72,7 +72,7 @@ def strata_panel(ax, cax, frame: Frame) -> None:
         handles.append((Line2D([], [], linestyle="none", marker="o", markersize=3,
                                markerfacecolor="none", markeredgecolor=INK), "picked"))
     handles += draw_observed(ax, frame)
-    handles += draw_faults(ax, frame.faults)
+    handles += draw_faults(ax, frame)
     describe(ax, frame, "Syn-rift strata" if sediment.any() else "Pre-rift layers", handles)
 
 
@@ -117,7 +117,7 @@ def underlay_panel(ax, cax, frame: Frame) -> None:
         ax.plot(x, y, zorder=7, **style)
     handles = [(Line2D([], [], **style), "horizons of the model")]
     handles += draw_observed(ax, frame)
-    handles += draw_faults(ax, frame.faults)
+    handles += draw_faults(ax, frame)
     describe(ax, frame, "Model over the section", handles)
 
 
@@ -224,7 +224,7 @@ def behaviour_panel(ax, cax, frame: Frame) -> None:
     draw_discs(ax, frame, np.array([to_rgb(rock["colour"]) for rock in ROCK_CLASSES])[kind])
     handles = [(swatch(rock["colour"]), rock["label"]) for k, rock in enumerate(ROCK_CLASSES)
                if (kind == k).any() or k < 2]
-    handles += draw_faults(ax, frame.faults)
+    handles += draw_faults(ax, frame)
     describe(ax, frame, "Rock behaviour", handles)
 
 
@@ -245,7 +245,7 @@ def strain_panel(ax, cax, frame: Frame) -> None:
         ax.plot(frame.profile[:, 0], frame.profile[:, 1], color=TOP_GREEN, linewidth=1.0,
                 zorder=6)
         handles.append((stroke(TOP_GREEN, 1.0), "pre-rift top"))
-    handles += draw_faults(ax, frame.faults)
+    handles += draw_faults(ax, frame)
     describe(ax, frame, f"Shear strain, {window_text(frame)}", handles)
 
 
@@ -437,7 +437,7 @@ def layer_panel(name: str):
         bar(cax, colours, Normalize(0.0, layer.full), layer.label.capitalize())
         arrows = draw_arrows(ax, frame, layer)
         describe(ax, frame, layer.label.capitalize(),
-                 [(swatch(NO_SEDIMENT), "pre-rift"), *arrows, *draw_faults(ax, frame.faults)])
+                 [(swatch(NO_SEDIMENT), "pre-rift"), *arrows, *draw_faults(ax, frame)])
     return panel
 
 
@@ -494,7 +494,7 @@ def seismic_depth_panel(ax, cax, frame: Frame) -> None:
     draw_wiggles(ax, frame.seismic_depth, (x - spacing / 2) / 1000, (x + (traces - 0.5) * spacing) / 1000,
                  (interval / 2 - first) / 1000, -(first + (samples - 0.5) * interval) / 1000)
     ax.axis(limits)
-    describe(ax, frame, f"Synthetic seismic image in depth, {frequency:g} Hz", [*polarity(), *draw_faults(ax, frame.faults)])
+    describe(ax, frame, f"Synthetic seismic image in depth, {frequency:g} Hz", [*polarity(), *draw_faults(ax, frame)])
 
 
 def polarity() -> list:

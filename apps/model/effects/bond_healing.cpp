@@ -15,13 +15,15 @@ const Effect& effect() {
         .address = address_of<P>,
         .parameters =
             {
-                {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_h",
-                 "time between healings",
-                 "Raising it lets cracks stay open for longer, and allows more slip to those that "
-                 "heal."},
-                {"strain_rate_per_s", at<&P::strain_rate>, "1/s", ranges::strain_rate, "eps_ch",
-                 "largest shear strain rate that heals",
-                 "Raising it heals cracks that still slip: less of the rock stays broken."},
+                by_travel({"interval_a", at<&P::interval>, "a", ranges::interval, "Delta t_h",
+                           "time between healings",
+                           "Raising it lets cracks stay open for longer, and allows more slip to "
+                           "those that "
+                           "heal."}),
+                by_travel(
+                    {"strain_rate_per_s", at<&P::strain_rate>, "1/s", ranges::strain_rate, "eps_ch",
+                     "largest shear strain rate that heals",
+                     "Raising it heals cracks that still slip: less of the rock stays broken."}),
                 {"measure", one_of<&P::measure>({"slip", "slip_and_opening"}), "", ranges::any,
                  "d_h", "relative displacement of two discs that forbids healing",
                  "With \"slip_and_opening\" sediment hardly cements, since burial moves its "

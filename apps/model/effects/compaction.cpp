@@ -17,9 +17,10 @@ const Effect& effect() {
         .address = address_of<P>,
         .parameters =
             {
-                {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_d",
-                 "time between updates of the depth of burial; discs shrink in every cycle",
-                 "Raising it lets porosity lag behind burial."},
+                by_travel(
+                    {"interval_a", at<&P::interval>, "a", ranges::interval, "Delta t_d",
+                     "time between updates of the depth of burial; discs shrink in every cycle",
+                     "Raising it lets porosity lag behind burial."}),
                 porosity_decay_parameter<&P::coefficient>(),
             },
         .rock = rock_of_sediment([](Scene& scene, const RockMaterial& rock) {

@@ -2,8 +2,10 @@
 
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/stage.hpp"
+#include "apps/support/spelling.hpp"
 #include "dem/contacts/soft_discs.hpp"
 #include "dem/events/property_update.hpp"
+#include "dem/round_off.hpp"
 
 #include "apps/model/effect_list.hpp"
 
@@ -21,9 +23,9 @@ using P = dem::FaultWeakeningParameters;
 
 std::vector<Parameter> detection_parameters() {
     return {
-        {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_w",
-         "time between scans for faults",
-         "Raising it finds faults later, and slower ones, which have longer to slip."},
+        by_travel({"interval_a", at<&P::interval>, "a", ranges::interval, "Delta t_w",
+                   "time between scans for faults",
+                   "Raising it finds faults later, and slower ones, which have longer to slip."}),
         {"least_slip_m", at<&P::least_slip>, "m", ranges::length, "d_cw",
          "least slip of a fault between scans",
          "Raising it leaves slow zones unweakened: less rock is weakened, sediment away from "
@@ -50,20 +52,22 @@ std::vector<Parameter> detection_parameters() {
         {"angles", at<&P::angles>, "", between(2, 360), "",
          "number of fault angles tried at each sampling point",
          "Raising it resolves dips better than 15 degrees and makes scans longer."},
-        {"youngest_sediment_a", at<&P::youngest_sediment>, "a", between(0, 1e9), "",
-         "age below which sediment is not scanned, since it is loose",
-         "Lowering it weakens loose sediment all over, where it deforms without faults."},
+        by_travel(
+            {"youngest_sediment_a", at<&P::youngest_sediment>, "a", between(0, ranges::interval.to),
+             "", "age below which sediment is not scanned, since it is loose",
+             "Lowering it weakens loose sediment all over, where it deforms without faults."}),
         {"whole_domain", at<&P::whole_domain>, "", ranges::any, "",
          "whether young and loose sediment is scanned, too",
          "true is the paper's way; it finds the base of loose sediment as a fault."},
         {"heal_after_a", at<&P::heal_after>, "a", between(0, 1e9), "",
          "time at rest after which weakened rock is sound again; 0: never",
          "Makes faults at rest strong again, so that new ones can replace them.", between(0, 5e5)},
-        {"resting_rate_per_s", at<&P::resting_rate>, "1/s", ranges::strain_rate, "",
-         "shear strain rate below which weakened rock rests",
-         "Raising it heals weakened rock that still creeps: the bulk of it strains faster than "
-         "1e-14/s.",
-         between(1e-15, 1e-14)},
+        by_travel(
+            {"resting_rate_per_s", at<&P::resting_rate>, "1/s", ranges::strain_rate, "",
+             "shear strain rate below which weakened rock rests",
+             "Raising it heals weakened rock that still creeps: the bulk of it strains faster than "
+             "1e-14/s.",
+             between(1e-15, 1e-14)}),
     };
 }
 
@@ -83,9 +87,9 @@ std::vector<Parameter> weakened_parameters() {
          "Raising it from 0 to 0.2 lets deformation leave an old graben for a new one; 0.06 less "
          "of the strain stays in the most strained tenth.",
          between(0, 0.5)},
-        {"update_interval_a", at<&P::update_interval>, "a", ranges::years, "",
-         "time between property updates",
-         "Lowering it keeps the volume of weak zones better (volume_error_fraction)."},
+        by_travel({"update_interval_a", at<&P::update_interval>, "a", ranges::interval, "",
+                   "time between property updates",
+                   "Lowering it keeps the volume of weak zones better (volume_error_fraction)."}),
         {"mean_stress_ratio", at<&P::mean_stress_ratio>, "", between(0.01, 2), "",
          "mean stress in a fault over the weight above it",
          "Raising it makes weakened discs larger at once; the property update corrects the rest."},
@@ -114,15 +118,59 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
     dem::add(events, std::make_unique<dem::FaultWeakening>(p, rate, gravity));
 }
 
+/// The slowest motion of a scene's wall.
+struct SlowestMotion {
+    double rate; ///< m/a
+    std::string words;
+};
+
+SlowestMotion slowest_motion(const Scene& scene) {
+    SlowestMotion slowest{scene.extension.rate, text(scene.extension.rate) + " m/a"};
+    const std::vector<dem::MotionStage> stages = make_motion(scene).stages;
+    for (std::size_t k = 0; k < stages.size(); ++k) {
+        const double rate =
+            dem::without_round_off(scene.extension.rate * std::abs(stages[k].slope));
+        if (rate > 0.0 && rate < slowest.rate)
+            slowest = {rate, fmt::format("{} m/a of stage[{}]", text(rate), k)};
+    }
+    return slowest;
+}
+
+/// A fault takes a share of the wall's way between two scans: where that must be more than a
+/// quarter, few are found (docs/choosing.md).
+std::string warning(const Scene& scene) {
+    constexpr double least_ways = 4.0;
+    const P& p = *scene.find<P>();
+    const double slip = dem::critical_slip(p, 2.0 * scene.hanging_wall.mean_radius);
+    const SlowestMotion slowest = slowest_motion(scene);
+    const double way = dem::Schedule(p.interval, slowest.rate).spacing();
+    if (way >= least_ways * slip)
+        return "";
+    const std::string default_helps =
+        slowest.rate < scene.extension.rate || p.strain_rate > 0.0
+            ? ""
+            : fmt::format("; left out, it is {}",
+                          text(at_rate(detection_parameters().front(), P{}.interval,
+                                       scene.extension.rate)));
+    return fmt::format(
+        "fault_weakening.interval_a = {}: at {} the wall moves by {:.3g} m between scans, in which "
+        "a fault must slip by {:.3g} m: few faults are found, or none; from {:.3g} a on the wall "
+        "moves by {:g} times that slip{}",
+        text(p.interval), slowest.words, way, slip, std::ceil(least_ways * slip / slowest.rate),
+        least_ways, default_helps);
+}
+
 /// Definition of a fault, in metres and as a rate.
 std::string explain(const Scene& scene, EffectList) {
     const P& p = *scene.find<P>();
     const double diameter = 2.0 * scene.hanging_wall.mean_radius;
-    return fmt::format("fault detection\n"
-                       "  a fault slips by at least {:.3g} m in {:g} a: a shear strain rate of "
-                       "{:.2g}/s in its circle of {:.0f} m\n",
-                       dem::critical_slip(p, diameter), p.interval, dem::critical_rate(p, diameter),
-                       p.circle_diameters * diameter);
+    return fmt::format(
+        "fault detection\n"
+        "  a fault slips by at least {:.3g} m in {:g} a, {:.4g} m of travel: a shear "
+        "strain rate of {:.2g}/s in its circle of {:.0f} m\n",
+        dem::critical_slip(p, diameter), p.interval,
+        dem::Schedule(p.interval, scene.extension.rate).spacing(), dem::critical_rate(p, diameter),
+        p.circle_diameters * diameter);
 }
 
 /// Over the hanging wall's area at the start, of which nothing is told once there is more sediment.
@@ -187,11 +235,13 @@ const Effect& effect() {
                         return fmt::format("friction {:g}", scene.find<P>()->material.friction);
                     },
             },
+        .warning = warning,
         .contribute =
             [](const Scene& scene, ModelParts& parts) {
                 const P& p = *scene.find<P>();
                 parts.materials[dem::weak] = p.material;
-                parts.youngest_sediment = p.youngest_sediment;
+                parts.youngest_sediment =
+                    dem::Schedule(p.youngest_sediment, scene.extension.rate).spacing();
                 parts.detection_circle = p.circle_diameters;
             },
         .add_events = add_events,

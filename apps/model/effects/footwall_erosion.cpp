@@ -14,9 +14,9 @@ using P = coupling::FootwallErosionParameters;
 
 std::vector<Parameter> parameters() {
     return {
-        {"interval_a", at<&P::interval>, "a", ranges::years, "",
-         "time between adaptations of the surface",
-         "Raising it lets the load lag behind uplift and erosion."},
+        by_travel({"interval_a", at<&P::interval>, "a", ranges::interval, "",
+                   "time between adaptations of the surface",
+                   "Raising it lets the load lag behind uplift and erosion."}),
         {"level_m", at<&P::level>, "m", ranges::height, "",
          "height of the target above the original surface, where no target line is given",
          "Lowering it erodes more of the flank, which then rises further."},

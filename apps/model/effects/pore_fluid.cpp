@@ -5,6 +5,7 @@
 #include "apps/model/model.hpp"
 #include "apps/support/spelling.hpp"
 #include "coupling/pore_column.hpp"
+#include "dem/round_off.hpp"
 
 #include "apps/model/effect_list.hpp"
 #include "apps/scene/pieces.hpp"
@@ -23,11 +24,12 @@ using coupling::FaultFactors;
 
 std::vector<Parameter> parameters() {
     std::vector<Parameter> all{
-        {"interval_a", at<&P::interval>, "a", ranges::years, "",
-         "time between solutions for the pressure; a multiple of the time between updates of "
-         "porosity",
-         "Raising it above the default makes pressures less accurate: 0.3 % at 2,500 a.",
-         between(500, 2500)},
+        by_travel(
+            {"interval_a", at<&P::interval>, "a", ranges::interval, "",
+             "time between solutions for the pressure; a multiple of the time between updates of "
+             "porosity",
+             "Raising it above the default makes pressures less accurate: 0.3 % at 2,500 a.",
+             between(500, 2500)}),
         {"fluid_density_kg_per_m3", at<&P::density>, "kg/m3", ranges::density, "",
          "density of the water", "Raising it lets grains weigh less."},
         {"viscosity_pa_s", at<&P::viscosity>, "Pa s", between(1e-5, 1.0), "",
@@ -153,7 +155,7 @@ std::string warning(const Scene& scene) {
     return fmt::format("pore_fluid: strata every {:g} a are up to {:.0f} m thick; the pressure of "
                        "the water is good to .01 with sedimentation.interval_a = {:g} or less at "
                        "this rate",
-                       interval, interval * rate, most / rate);
+                       interval, interval * rate, dem::without_round_off(most / rate));
 }
 
 /// Time that the wall takes to pull the base away, s: no floor sinks in pauses and on the way back.

@@ -22,9 +22,9 @@ using P = dem::SedimentationParameters;
 std::vector<Parameter> parameters() {
     using dem::Material;
     return {
-        {"interval_a", at<&P::interval>, "a", ranges::years, "Delta t_s",
-         "time between sedimentations", "Lowering it lays more and thinner strata.",
-         between(25e3, 50e3)},
+        by_travel({"interval_a", at<&P::interval>, "a", ranges::interval, "Delta t_s",
+                   "time between sedimentations", "Lowering it lays more and thinner strata.",
+                   between(25e3, 50e3)}),
         {"level_m", at<&P::level>, "m", ranges::height, "",
          "height of the target above the original surface, where no target line is given",
          "Lowering it starves the basin; below 0 the hanging wall is eroded down to it."},
@@ -54,9 +54,9 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
                                                           scene.hanging_wall.radius_ratio, rate));
     if (parts.physics.gravity <= 0.0)
         return;
-    std::optional<double> between_changes; // of porosity, m of extension
+    std::optional<double> between_changes; // of porosity, m of travel
     if (parts.sediment->porosity_decay)
-        between_changes = parts.sediment->porosity_interval * rate;
+        between_changes = dem::Schedule(parts.sediment->porosity_interval, rate).spacing();
     dem::add(events, std::make_unique<dem::SedimentStress>(scene.output.interval, between_changes,
                                                            rate, parts.physics));
 }

@@ -40,6 +40,7 @@ void write_summary(RunView& run) {
          .measures = measures,
          .faults = faults,
          .effects = effect_names(run.scene),
+         .warnings = run.scene.warnings,
          .numbers = numbers_of(run, of_effects.numbers),
          .objects = of_effects.groups,
          .lists = of_effects.lists,

@@ -1,0 +1,20 @@
+#include "dem/round_off.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace listric::dem {
+
+double without_round_off(double x) {
+    if (!std::isfinite(x))
+        return x;
+    std::array<char, 32> digits{};
+    const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), x,
+                                       std::chars_format::scientific, 11);
+    double rounded = x;
+    std::from_chars(digits.data(), written.ptr, rounded);
+    return rounded;
+}
+
+} // namespace listric::dem
