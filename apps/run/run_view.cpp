@@ -8,6 +8,7 @@
 #include "apps/archive/summary.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/progress_line.hpp"
+#include "apps/support/version.hpp"
 #include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
@@ -125,8 +126,11 @@ void RunView::show_progress(const std::string& what) {
     });
 }
 
-void RunView::go_on_with(RunRecord earlier) {
+void RunView::go_on_with(RunRecord earlier, const std::string& writer) {
     record = std::move(earlier);
+    std::vector<std::string>& versions = record.earlier_versions;
+    if (writer != version && std::ranges::find(versions, writer) == versions.end())
+        versions.push_back(writer);
     seconds_before_ += total(record.seconds_by_part);
 }
 

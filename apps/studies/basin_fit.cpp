@@ -170,7 +170,7 @@ public:
         json_["kinematics"]["shear_angle_deg"] = kinematics.angle;
         std::cout << fmt::format("kinematics: misfit {:.0f} m, shear {:.0f} degrees from the "
                                  "vertical\n",
-                                 kinematics.misfit, kinematics.angle)
+                                 kinematics.misfit, std::round(kinematics.angle) + 0.0) // no -0
                   << text_of(predicted) << std::flush;
         ListricShape best = kinematics.shape;
         bool found = true;
@@ -218,7 +218,6 @@ private:
         plan.scene = request.scene;
         plan.set = request.set;
         plan.set.push_back("observed.horizons=" + quoted(fs::absolute(request.picks).string()));
-        plan.set.push_back("observed.shift_x_m=0.0");
         return plan;
     }
 
@@ -240,7 +239,7 @@ private:
         const double duration = task.extension / scene.extension.rate;
         std::set<double> ages;
         for (std::size_t l = 0; l < picked.lines.size(); ++l) {
-            const PickedLine& line = picked.lines[l];
+            const PickedLine& line = scene.observed->horizons[l]; // shifted as its section is
             const auto refuse = [&](const std::string& what) {
                 throw SceneError(fmt::format("{}: {} {}",
                                              csv_place(picked.file, picked.rows[l].front()),

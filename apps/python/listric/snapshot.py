@@ -2,6 +2,7 @@
 
 import tomllib
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -121,7 +122,7 @@ class Snapshot:
                          for key, values in columns}
                 rows = int(group.attrs["rows"])
             self._tables[name] = Table(f"{self.path} {name}", rows, units,
-                                       lambda key: self._column(f"{name}/{key}"))
+                                       partial(self._column, name))
         return self._tables[name]
 
     def lines(self, kind: str) -> list[dict]:
@@ -155,9 +156,9 @@ class Snapshot:
         `picture.save("strata.png")` writes it. Takes seconds. Throws UnknownName, ProgramError."""
         return draw_section(self, kind)
 
-    def _column(self, path: str) -> np.ndarray:
+    def _column(self, table: str, name: str) -> np.ndarray:
         with self._open() as file:
-            return file[path][()]
+            return file[table][name][()]
 
     @contextmanager
     def _open(self):
