@@ -12,6 +12,7 @@
 #include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -131,6 +132,10 @@ void RunView::go_on_with(RunRecord earlier, const std::string& writer) {
     std::vector<std::string>& versions = record.earlier_versions;
     if (writer != version && std::ranges::find(versions, writer) == versions.end())
         versions.push_back(writer);
+    if (!versions.empty())
+        log.say(fmt::format("warning: listric {} has made this run so far, and {} goes on with it: "
+                            "its numbers may be those of neither; --force begins anew",
+                            fmt::join(versions, ", "), version));
     seconds_before_ += total(record.seconds_by_part);
 }
 

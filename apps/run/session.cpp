@@ -5,10 +5,8 @@
 #include "apps/run/hints.hpp"
 #include "apps/run/prediction.hpp"
 #include "apps/scene/scene_file.hpp"
-#include "apps/support/version.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <utility>
 
@@ -75,18 +73,12 @@ bool Session::resume() {
                 run_.driver->require_own(snapshot.state);
             simulation_.resume(std::move(snapshot.state));
             run_.go_on_with(std::move(snapshot.record), snapshot.version);
-        } catch (const UnreadableFile& error) { // to begin anew would replace what may be good
-            throw UnreadableFile(std::string(error.what()) +
-                                 "; make it readable, or move it away to resume without it");
+        } catch (const UnreadableFile&) { // it may be good: to begin anew would replace it
+            throw;
         } catch (const StorageError& error) {
             run_.log.say(std::string("warning: skipped: ") + error.what());
             continue;
         }
-        if (const auto& earlier = run_.record.earlier_versions; !earlier.empty())
-            run_.log.say(fmt::format("warning: listric {} has made this run so far, and {} goes on "
-                                     "with it: its numbers may be those of neither; --force "
-                                     "begins anew",
-                                     fmt::join(earlier, ", "), version));
         run_.kept = *path;
         run_.past = RunHistory(run_.ended_windows());
         tell(&Output::resume);
