@@ -21,7 +21,7 @@ std::uint64_t scene_hash(const Scene& scene);
 nlohmann::ordered_json provenance(const std::string& parameters, std::uint64_t seed);
 nlohmann::ordered_json provenance(const Scene& scene);
 
-/// Of a run, with the versions that began it, where others did.
+/// Origin of a run, with the versions that made a part of it.
 nlohmann::ordered_json provenance(const Scene& scene, const RunRecord& record);
 
 /// Origin of a run, from its summary; where that lacks it, from its scene alone.

@@ -187,7 +187,7 @@ void tell_of_versions(std::span<const BatchRun> runs, std::span<const BatchEndin
     }
     if (!names.empty())
         log.say(fmt::format("warning: not all runs are of this version, {}: {}; numbers may "
-                            "differ; without their folders they are made anew",
+                            "differ; without their folders they are made again",
                             version, shown_start(names, 400)));
 }
 

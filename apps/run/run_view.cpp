@@ -127,16 +127,18 @@ void RunView::show_progress(const std::string& what) {
     });
 }
 
-void RunView::go_on_with(RunRecord earlier, const std::string& writer) {
+void RunView::go_on_with(const fs::path& snapshot, RunRecord earlier, const std::string& writer) {
+    kept = snapshot;
     record = std::move(earlier);
     std::vector<std::string>& versions = record.earlier_versions;
     if (writer != version && std::ranges::find(versions, writer) == versions.end())
         versions.push_back(writer);
     if (!versions.empty())
         log.say(fmt::format("warning: listric {} has made this run so far, and {} goes on with it: "
-                            "its numbers may be those of neither; --force begins anew",
+                            "its numbers may be those of neither; --force begins again",
                             fmt::join(versions, ", "), version));
     seconds_before_ += total(record.seconds_by_part);
+    past = RunHistory(ended_windows());
 }
 
 } // namespace listric

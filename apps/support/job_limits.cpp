@@ -85,7 +85,7 @@ double least_granted(const fs::path& root, const char* controller, Unified&& uni
     return least;
 }
 
-/// The same for a controller that has one file for its limit.
+/// Least limit of a controller that has one file for it.
 double least_granted(const fs::path& root, const char* controller, const char* unified_file,
                      const char* legacy_file) {
     return least_granted(

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-// What control groups grant to a process (docker --cpus and --memory, SLURM), of version 2 and 1:
+// Limits of control groups for a process (docker --cpus and --memory, SLURM), of version 2 and 1:
 // the least of its group and those above it; infinity where nothing is limited.
 
 namespace listric {
