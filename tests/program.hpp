@@ -2,6 +2,7 @@
 
 // The program as a child process, for tests of signals, limits and exit codes.
 
+#include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"
 
 #include <csignal>
@@ -28,7 +29,7 @@ public:
     Program(const std::filesystem::path& folder, std::vector<std::string> words,
             const std::function<void()>& prepare = {})
         : folder_(folder) {
-        words.insert(words.begin(), LISTRIC_PROGRAM);
+        words.insert(words.begin(), program_path);
         std::vector<char*> arguments;
         for (std::string& word : words)
             arguments.push_back(word.data());

@@ -7,6 +7,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/run.hpp"
+#include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ using namespace dem;
 
 /// A scene that the tests ship, in tests/scenes.
 inline std::string test_scene(const std::string& name) {
-    return (std::filesystem::path(LISTRIC_SOURCE_DIR) / "tests/scenes" / name).string();
+    return (std::filesystem::path(source_folder) / "tests/scenes" / name).string();
 }
 
 inline bool all_finite(const Table& table) {

@@ -33,12 +33,12 @@ std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
     std::error_code error;
     const auto size = std::filesystem::file_size(path, error); // of plain files alone
     if (error)
-        throw StorageError("cannot be read: " + error.message());
+        throw UnreadableFile("cannot be read: " + error.message());
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     std::vector<std::byte> bytes(size);
     if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-        throw StorageError(std::string("cannot be read: ") + std::strerror(errno ? errno : EIO));
+        throw UnreadableFile(std::string("cannot be read: ") + std::strerror(errno ? errno : EIO));
     return bytes;
 }
 

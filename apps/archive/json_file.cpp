@@ -66,6 +66,20 @@ std::optional<double> number_at(const JsonObject& object, const char* key) {
     return found->get<double>();
 }
 
+std::optional<std::string> whole_number_at(const JsonObject& object, const char* key) {
+    const JsonObject* const found = member(object, key);
+    return found && found->is_number_integer() ? std::optional(found->dump()) : std::nullopt;
+}
+
+std::vector<std::string> texts_at(const JsonObject& object, const char* key) {
+    std::vector<std::string> texts;
+    if (const JsonObject* const found = member(object, key); found && found->is_array())
+        for (const JsonObject& one : *found)
+            if (one.is_string())
+                texts.push_back(one.get<std::string>());
+    return texts;
+}
+
 double need_number(const JsonObject& object, const char* key) {
     if (const auto number = number_at(object, key))
         return *number;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 // JSON that a call has left for later ones. Anybody may have changed it since, so nothing here
 // trusts its shape: what is damaged or of another kind is as if it were not there.
@@ -28,6 +29,9 @@ JsonObject read_object(const std::filesystem::path& file);
 std::string text_at(const JsonObject& object, const char* key);
 std::optional<double> number_at(const JsonObject& object, const char* key);
 double need_number(const JsonObject& object, const char* key); ///< throws StorageError
+/// Its digits: a double holds no whole number beyond 2^53.
+std::optional<std::string> whole_number_at(const JsonObject& object, const char* key);
+std::vector<std::string> texts_at(const JsonObject& object, const char* key); ///< of a list
 bool is_true_at(const JsonObject& object, const char* key);
 JsonObject object_at(const JsonObject& object, const char* key);
 

@@ -7,8 +7,10 @@
 #include "dem/hash.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string>
+#include <vector>
 
 namespace listric::archive {
 
@@ -47,12 +49,27 @@ Json provenance(const std::string& parameters, std::uint64_t seed) {
 
 Json provenance(const Scene& scene) { return provenance(to_toml(scene), scene.seed); }
 
+Json provenance(const Scene& scene, const RunRecord& record) {
+    Json json = provenance(scene);
+    if (!record.earlier_versions.empty())
+        json["earlier_versions"] = record.earlier_versions;
+    return json;
+}
+
 Json provenance_of_run(const std::filesystem::path& output, const Scene& scene) {
     Json json = object_at(object_in(output / "summary.json"), "provenance");
     if (!json.empty())
         return json;
     add_scene(json, to_toml(scene), scene.seed);
     return json;
+}
+
+std::string makers_of(const std::filesystem::path& output) {
+    const Json made = object_at(object_in(output / "summary.json"), "provenance");
+    std::vector<std::string> makers = texts_at(made, "earlier_versions");
+    const std::string commit = text_at(made, "commit");
+    makers.push_back(text_at(made, "version") + (commit.empty() ? "" : "+" + commit));
+    return fmt::format("{}", fmt::join(makers, ", "));
 }
 
 } // namespace listric::archive

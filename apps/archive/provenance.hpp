@@ -1,11 +1,13 @@
 #pragma once
 
+#include "apps/archive/snapshot.hpp"
 #include "apps/scene/scene.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace listric::archive {
 
@@ -19,7 +21,13 @@ std::uint64_t scene_hash(const Scene& scene);
 nlohmann::ordered_json provenance(const std::string& parameters, std::uint64_t seed);
 nlohmann::ordered_json provenance(const Scene& scene);
 
+/// Origin of a run, with the versions that made a part of it.
+nlohmann::ordered_json provenance(const Scene& scene, const RunRecord& record);
+
 /// Origin of a run, from its summary; where that lacks it, from its scene alone.
 nlohmann::ordered_json provenance_of_run(const std::filesystem::path& output, const Scene& scene);
+
+/// Versions of the program that made a finished run, that which finished it last: "A, B".
+std::string makers_of(const std::filesystem::path& output);
 
 } // namespace listric::archive

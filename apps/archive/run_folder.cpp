@@ -26,9 +26,18 @@ namespace fs = std::filesystem;
 std::vector<fs::path> list_snapshots(const fs::path& output) {
     std::vector<fs::path> snapshots;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(output / "snapshots", error))
-        if (moment_of_snapshot(entry.path().filename().string()) && entry.is_regular_file(error))
-            snapshots.push_back(entry.path());
+    const auto require_known = [&](const fs::path& path) { // else a run would begin anew
+        if (error && error != std::errc::no_such_file_or_directory)
+            throw UnreadableFile(path.string() + ": cannot be read: " + error.message());
+    };
+    const fs::directory_iterator entries(output / "snapshots", error);
+    require_known(output / "snapshots");
+    for (const auto& entry : entries)
+        if (moment_of_snapshot(entry.path().filename().string())) {
+            if (entry.is_regular_file(error))
+                snapshots.push_back(entry.path());
+            require_known(entry.path());
+        }
     std::ranges::sort(snapshots, {}, [](const fs::path& path) {
         return std::pair(snapshot_extension(path), path.native().size());
     });

@@ -8,9 +8,11 @@
 #include "dem/hash.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <bit>
 #include <charconv>
+#include <sstream>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -157,6 +159,8 @@ std::uint64_t content_hash(const Content& content) {
         add_text(part);
         add(std::bit_cast<std::uint64_t>(seconds));
     }
+    for (const std::string& earlier : record.earlier_versions)
+        add_text(earlier);
     return h;
 }
 
@@ -256,6 +260,9 @@ void read_memories(hid_t file, Snapshot& snapshot) {
 void write_record(hid_t file, const RunRecord& record) {
     const Handle run = create_group(file, "run");
     write_text(run, "scene", record.scene);
+    if (!record.earlier_versions.empty())
+        write_text(run, "earlier_versions",
+                   fmt::format("{}", fmt::join(record.earlier_versions, "\n")));
     for_each_run_number(record, writes_numbers(run));
     write_table(create_group(run, "history"), record.history);
     const Handle parts = create_group(run, "seconds_by_part");
@@ -268,6 +275,11 @@ RunRecord read_record(hid_t file) {
     const Handle run = open_group(file, "run");
     record.scene = H5Aexists(run, "scene") > 0 ? read_text_attribute(run, "scene") // format 5
                                                : read_text(run, "scene");
+    if (H5Lexists(run, "earlier_versions", H5P_DEFAULT) > 0) {
+        std::istringstream lines(read_text(run, "earlier_versions"));
+        for (std::string line; std::getline(lines, line);)
+            record.earlier_versions.push_back(line);
+    }
     for_each_run_number(record, reads_numbers(run));
     record.history = read_table(run, "history");
     const Handle parts = open_group(run, "seconds_by_part");
@@ -322,8 +334,11 @@ void check_format(const std::string& found, const std::string& writer) {
 /// checksum comes first.
 template <class Read> auto read_verified(const fs::path& path, Read&& read) {
     const bool verified = verify_checksum(path);
-    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
-                      "cannot be opened as HDF5");
+    const char* const what = "cannot be opened as HDF5";
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+    // A snapshot is whole from the moment that it has its name, and some shared disks refuse locks.
+    check(H5Pset_file_locking(access, false, true), what);
+    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, what);
     check_format(read_text_attribute(file, "format"), read_text_attribute(file, "version"));
     if (!verified)
         throw StorageError("is damaged (it lacks its checksum)");
@@ -339,6 +354,8 @@ template <class Read> auto read_file(const fs::path& path, Read&& read) {
         throw UsageError(path.string() + ": " + error.what());
     } catch (const std::bad_alloc&) { // the file is good
         throw;
+    } catch (const UnreadableFile& error) {
+        throw UnreadableFile(path.string() + ": " + error.what());
     } catch (const std::exception& error) {
         throw StorageError(path.string() + ": " + error.what());
     }
@@ -349,6 +366,7 @@ Snapshot read_all(hid_t file) {
     snapshot.state = read_state(file);
     read_memories(file, snapshot);
     snapshot.record = read_record(file);
+    snapshot.version = read_text_attribute(file, "version");
     const auto recorded =
         static_cast<std::uint64_t>(read_number<std::int64_t>(file, "content_hash"));
     if (content_hash(content_of(snapshot)) != recorded)

@@ -154,7 +154,9 @@ std::span<const HeadField> head_fields() {
         {"provenance", "",
          "`version`, `commit`, `compiler` and `instruction_set` (see also `cycle_level`) of the "
          "program that finished the run, `scene_hash` of every parameter in scene.toml, and "
-         "`seed`; equal for equal programs and scenes. Figures have it in their metadata, too"},
+         "`seed`; equal for equal programs and scenes. `earlier_versions`: others that have "
+         "made a part of the run, where it was resumed by another version. Figures have it in "
+         "their metadata, too"},
         {"effects", "", "names of the effects that were on"},
         {"warnings", "",
          "what the program warned of in the scene, as the log has it; mostly empty"},

@@ -7,6 +7,7 @@
 #include "apps/support/version.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -23,6 +24,7 @@ namespace {
 struct Origin {
     std::string version, commit; ///< commit: may be empty
     std::vector<std::string> effects = {};
+    std::vector<std::string> earlier_versions = {}; ///< that made a part of the run
 };
 
 Origin program_origin() {
@@ -43,7 +45,8 @@ Origin origin_of(const fs::path& output) {
                                      "version, is missing; run --resume continues it",
                                      shown(output.string())));
     return {text_at(made, "version"), text_at(made, "commit"),
-            effect_names(load_scene({.scene = scene.string(), .is_record = true}))};
+            effect_names(load_scene({.scene = scene.string(), .is_record = true})),
+            texts_at(made, "earlier_versions")};
 }
 
 struct Citation {
@@ -69,8 +72,11 @@ std::string record_of(const Origin& origin) {
     const auto all = citations(origin.effects);
     const std::string commit =
         origin.commit.empty() ? "" : fmt::format(" (commit {})", origin.commit);
-    std::string text = fmt::format("Listric: a numerical sandbox for halfgrabens, version {}{}\n",
-                                   origin.version, commit);
+    std::string text = fmt::format(
+        "Listric: a numerical sandbox for halfgrabens, version {}{}{}\n", origin.version, commit,
+        origin.earlier_versions.empty()
+            ? ""
+            : fmt::format("; begun by {}", fmt::join(origin.earlier_versions, ", ")));
     for (const Citation& citation : all)
         text += fmt::format("{}: {}\n", citation.work->name, citation.behind);
     text += fmt::format(

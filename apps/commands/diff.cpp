@@ -1,4 +1,6 @@
 #include "apps/archive/headline.hpp"
+#include "apps/archive/run_folder.hpp"
+#include "apps/archive/snapshot.hpp"
 #include "apps/commands/command.hpp"
 #include "apps/model/effects.hpp"
 #include "apps/scene/differences.hpp"
@@ -12,6 +14,8 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace listric {
 
@@ -23,18 +27,22 @@ namespace {
 struct Side {
     std::string name;
     Scene scene;
+    fs::path run;       ///< its folder; empty: a scene
     JsonObject summary; ///< empty: no finished run
 };
 
+/// A folder without a run gives way to a scene of its name, as in every call that takes scenes.
 Side read_side(const std::string& name) {
-    if (!fs::is_directory(name))
-        return {name, load_scene({.scene = name}), {}};
     const fs::path scene = fs::path(name) / "scene.toml";
-    if (!fs::exists(scene))
+    if (fs::exists(scene))
+        return {name, load_scene({.scene = scene.string(), .is_record = true}), name,
+                object_in(fs::path(name) / "summary.json")};
+    const auto shipped = list_scenes();
+    const auto is_name = [&](const auto& one) { return one.first == name; };
+    if (fs::is_directory(name) && std::ranges::none_of(shipped, is_name))
         throw UsageError(
             fmt::format("{}: is no folder of a run, which has scene.toml", shown(name)));
-    return {name, load_scene({.scene = scene.string(), .is_record = true}),
-            object_in(fs::path(name) / "summary.json")};
+    return {name, load_scene({.scene = name}), {}, {}};
 }
 
 struct Row {
@@ -108,17 +116,55 @@ std::vector<Row> result_rows(const JsonObject& a, const JsonObject& b) {
     return rows;
 }
 
+/// Name and hash of the newest state of a run; nothing where it has none that can be read, which is
+/// said.
+std::optional<std::pair<std::string, std::string>> newest_state(const Side& side) {
+    try {
+        const auto snapshots = archive::list_snapshots(side.run);
+        if (!snapshots.empty())
+            return std::pair(snapshots.back().stem().string(),
+                             fmt::format("{:016x}", archive::run_hash(
+                                                        archive::read_snapshot(snapshots.back()))));
+        warn(fmt::format("{} has neither summary.json nor a snapshot: nothing of its results is "
+                         "compared",
+                         shown(side.name)));
+    } catch (const StorageError& error) {
+        warn(fmt::format("nothing of the results is compared: {}", error.what()));
+    }
+    return std::nullopt;
+}
+
+/// Rows of runs of which one or both have no readable summary: their newest states.
+/// @param looked  whether there were two to compare
+std::vector<Row> state_rows(const Side& a, const Side& b, bool& looked) {
+    for (const Side* side : {&a, &b})
+        if (side->summary.empty())
+            warn(fmt::format("{} has no summary.json: the newest snapshots are compared",
+                             shown(side->name)));
+    const auto first = newest_state(a), second = newest_state(b);
+    looked = first && second;
+    std::vector<Row> rows;
+    if (looked && first->first != second->first)
+        rows.push_back({"newest snapshot", first->first, second->first, ""});
+    if (looked && first->second != second->second)
+        rows.push_back({"state_hash", first->second, second->second, ""});
+    return rows;
+}
+
 ExitCode compare(const std::string& first, const std::string& second) {
     const Side a = read_side(first), b = read_side(second);
+    bool looked = true;
     std::string text = table_text("parameter", parameter_rows(a, b));
     if (!a.summary.empty() && !b.summary.empty())
         text += table_text("program", program_rows(a.summary, b.summary)) +
                 table_text("result", result_rows(a.summary, b.summary));
-    else if (a.summary.empty() != b.summary.empty())
-        warn(fmt::format("{} has no summary.json: only parameters are compared",
-                         shown((a.summary.empty() ? a : b).name)));
+    else if (!a.run.empty() && !b.run.empty())
+        text += table_text("result", state_rows(a, b, looked));
+    else if (a.run.empty() != b.run.empty())
+        warn(fmt::format("{} is a scene: only parameters are compared",
+                         shown((a.run.empty() ? a : b).name)));
     if (text.empty())
-        return ExitCode::done;
+        return looked ? ExitCode::done : ExitCode::differs;
     std::cout << shown_lines(fmt::format("A: {}\nB: {}\n{}", a.name, b.name, text));
     return ExitCode::differs;
 }
@@ -141,7 +187,9 @@ Command add_diff(CLI::App& program) {
     command->add_option("A", call->first, "a scene, by name or file, or the folder of a run")
         ->type_name("SCENE")
         ->required();
-    command->add_option("B", call->second, "another one; the exit code is 1 if they differ, else 0")
+    command
+        ->add_option("B", call->second,
+                     "another one; the exit code is 0 if nothing differs, else 1")
         ->type_name("SCENE")
         ->required();
     return {command, [call] { return compare(call->first, call->second); }};

@@ -82,12 +82,17 @@ std::string link_to(const fs::path& file, const fs::path& page) {
 /// The run's last picture of strata; empty: there is none.
 std::string picture_of(const fs::path& run, const fs::path& page) {
     fs::path newest;
+    fs::file_time_type newest_time;
     std::error_code error;
-    for (const auto& file : fs::directory_iterator(run / "figures", error))
-        if (file.path().filename().string().starts_with("strata-") &&
-            file.path().extension() == ".png" &&
-            (newest.empty() || file.last_write_time() > fs::last_write_time(newest)))
+    for (const auto& file : fs::directory_iterator(run / "figures", error)) {
+        std::error_code vanished; // or a link that leads nowhere
+        const fs::file_time_type time = file.last_write_time(vanished);
+        if (!vanished && file.path().filename().string().starts_with("strata-") &&
+            file.path().extension() == ".png" && (newest.empty() || time > newest_time)) {
             newest = file.path();
+            newest_time = time;
+        }
+    }
     return newest.empty() ? ""
                           : fmt::format("<img alt=\"strata\" loading=\"lazy\" src=\"{}\">",
                                         link_to(newest, page));
@@ -102,13 +107,14 @@ std::string card_html(const Card& card, const fs::path& page) {
                                 html(archive::value_text(one)));
     const std::string name = html(card.run.lexically_normal().string());
     return fmt::format(
-        "<article>{}<h2>{}</h2><p>{}, {}, seed {:.0f}; {:%Y-%m-%d %H:%M}</p><table>{}</table>"
+        "<article>{}<h2>{}</h2><p>{}, {}, seed {}; {:%Y-%m-%d %H:%M}</p><table>{}</table>"
         "</article>\n",
         picture_of(card.run, page),
         fs::exists(report) ? fmt::format("<a href=\"{}\">{}</a>", link_to(report, page), name)
                            : name,
         html(text_at(card.summary, "scene")), html(text_at(card.summary, "accuracy")),
-        number_at(card.summary, "seed").value_or(0.0), fmt::localtime(card.when), rows);
+        html(whole_number_at(card.summary, "seed").value_or("unknown")), fmt::localtime(card.when),
+        rows);
 }
 
 /// Writes a page of cards, whose pictures and links are files of the runs. Returns the file.

@@ -5,6 +5,7 @@
 #include "apps/support/error.hpp"
 #include "apps/support/file.hpp"
 #include "apps/support/statistics.hpp"
+#include "apps/support/version.hpp"
 #include "fem/byerlee.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +32,8 @@ nlohmann::json key(const Laboratory& lab, const RockMaterial& rock, bool strengt
                         {"friction", rock.material.friction},
                         {"discs", lab.sample.discs},
                         {"seed", lab.seed},
-                        {"seeds", lab.seeds}};
+                        {"seeds", lab.seeds},
+                        {"version", version}};
     if (strengths && rock.bonds) {
         k["tensile_strength_pa"] = rock.bonds->tensile_mean;
         k["shear_strength_pa"] = rock.bonds->shear_mean;

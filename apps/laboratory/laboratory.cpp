@@ -10,6 +10,7 @@
 #include "apps/support/log.hpp"
 #include "apps/support/python.hpp"
 #include "apps/support/spelling.hpp"
+#include "apps/support/text.hpp"
 
 #include <fmt/format.h>
 
@@ -160,6 +161,35 @@ void require_own_folder(const fs::path& output, Test test, const std::string& ma
     archive::require_own(written, std::array{read});
 }
 
+/// All of a call that its results depend on.
+JsonObject request_json(const LaboratoryRequest& request, const std::vector<std::string>& changes) {
+    return {{"test", request.test},
+            {"material", request.material},
+            {"set", changes},
+            {"discs", request.discs},
+            {"seed", request.seed},
+            {"seeds", request.seeds},
+            {"floaters", request.floaters},
+            {"speed", request.speed},
+            {"stresses", request.stresses},
+            {"vice", request.vice.value_or("")},
+            {"weakened", request.weakened.value_or("")},
+            {"accuracy", request.accuracy},
+            {"weakening_rates", request.weakening_rates},
+            {"healing_rates", request.healing_rates}};
+}
+
+/// Refuses to replace the results of another call.
+void require_same_request(const fs::path& output, const JsonObject& asked) {
+    const JsonObject before = object_at(object_in(output / "summary.json"), "request");
+    for (const auto& [key, value] : before.items())
+        if (asked.contains(key) && asked[key] != value)
+            throw UsageError(fmt::format("{}: holds the results of another call: {} = {} there, {} "
+                                         "here; --output writes elsewhere",
+                                         output.string(), shown(key), shown_start(value.dump()),
+                                         shown_start(asked[key].dump())));
+}
+
 } // namespace
 
 std::span<const std::string_view> laboratory_tests() { return test_names; }
@@ -183,6 +213,8 @@ void run_laboratory(const LaboratoryRequest& request) {
     make_folder(output);
     const std::string text = to_toml(rock);
     require_own_folder(output, test, text, materials.find(request.material));
+    const JsonObject asked = request_json(request, changes);
+    require_same_request(output, asked);
     write_text(output / "material.toml", text);
     Laboratory lab = make_laboratory(request, test);
     Log log(request.quiet);
@@ -190,10 +222,10 @@ void run_laboratory(const LaboratoryRequest& request) {
         log.progress(fmt::format("{}: {} of {}", stage, done, all));
     };
     LaboratoryReport report{lab, rock, output, {}};
-    report.summary = {{"test", request.test},         {"material", rock.name},
-                      {"discs", request.discs},       {"seed", request.seed},
-                      {"seeds", request.seeds},       {"threads", request.threads},
-                      {"floaters", request.floaters}, {"set", changes}};
+    report.summary = {
+        {"test", request.test},         {"material", rock.name},  {"discs", request.discs},
+        {"seed", request.seed},         {"seeds", request.seeds}, {"threads", request.threads},
+        {"floaters", request.floaters}, {"set", changes},         {"request", asked}};
     carry_out(report, request, test);
     report.summary["wall_s"] = seconds_since(started);
     write_object(output / "summary.json", report.summary);

@@ -6,17 +6,21 @@
 #include "apps/run/exit_code.hpp"
 #include "apps/run/run.hpp"
 #include "apps/support/file.hpp"
+#include "apps/support/text.hpp"
+#include "apps/support/version.hpp"
 #include "dem/cycle/cycle.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <map>
 #include <optional>
 #include <sys/wait.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -121,7 +125,7 @@ public:
         std::fflush(nullptr); // or else both would write what waits
         const pid_t process = fork();
         if (process < 0)
-            throw MemoryError("no process can be started for a run");
+            throw std::system_error(errno, std::generic_category());
         if (process > 0) {
             runs_[process] = number;
             return;
@@ -172,6 +176,21 @@ BatchEnding ending_of_process(const BatchRun& run, int exit_code) {
     return ending;
 }
 
+/// Says which of the finished runs other versions have made, or begun.
+void tell_of_versions(std::span<const BatchRun> runs, std::span<const BatchEnding> endings,
+                      Log& log) {
+    std::string names;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const std::string makers = archive::makers_of(runs[k].options.output);
+        if (endings[k].reason.empty() && makers != version)
+            names += fmt::format("{}{} by {}", names.empty() ? "" : ", ", runs[k].name, makers);
+    }
+    if (!names.empty())
+        log.say(fmt::format("warning: not all runs are of this version, {}: {}; numbers may "
+                            "differ; without their folders they are made again",
+                            version, shown_start(names, 400)));
+}
+
 } // namespace
 
 std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, int jobs, Log& log,
@@ -203,6 +222,7 @@ std::vector<BatchEnding> make_runs(std::span<const BatchRun> runs, int jobs, Log
             [&](std::size_t k, int exit_code) { end(k, ending_of_process(runs[k], exit_code)); });
     }
     stop.check();
+    tell_of_versions(runs, endings, log);
     return endings;
 }
 

@@ -1,6 +1,7 @@
 #include "apps/run/exit_code.hpp"
 
 #include "apps/support/error.hpp"
+#include "apps/support/job_limits.hpp"
 #include "apps/support/memory.hpp"
 #include "apps/support/text.hpp"
 #include "dem/cycle/cycle.hpp"
@@ -8,12 +9,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <new>
 #include <string_view>
+#include <sys/resource.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -27,6 +30,23 @@ Ending out_of_memory() {
             need > 0.0
                 ? fmt::format("memory is short: about {:.0f} MB are needed", std::ceil(need / 1e6))
                 : "memory is short"};
+}
+
+/// A thread or process that could not be started: it needs room for a stack, which only a limit of
+/// addresses refuses, and a place among those that are allowed.
+Ending nothing_started() {
+    rlimit addresses{}, processes{};
+    if (getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
+        return out_of_memory();
+    double allowed = granted_tasks("/");
+    if (getrlimit(RLIMIT_NPROC, &processes) == 0 && processes.rlim_cur != RLIM_INFINITY)
+        allowed = std::min(allowed, static_cast<double>(processes.rlim_cur));
+    const std::string count =
+        std::isfinite(allowed)
+            ? fmt::format(" ({:.0f} processes and threads are allowed here)", allowed)
+            : "";
+    return {ExitCode::storage_failed,
+            "no further thread or process can be started" + count + "; --threads 1 needs fewest"};
 }
 
 Ending internal_error(const std::string& what) {
@@ -61,9 +81,9 @@ Ending ending_of(const std::exception_ptr& exception) {
     } catch (const std::filesystem::filesystem_error& error) {
         return {ExitCode::storage_failed, error.what()};
     } catch (const std::system_error& error) {
-        // A thread that could not be started: it needs a stack.
-        if (error.code() == std::errc::resource_unavailable_try_again ||
-            error.code() == std::errc::not_enough_memory)
+        if (error.code() == std::errc::resource_unavailable_try_again)
+            return nothing_started();
+        if (error.code() == std::errc::not_enough_memory)
             return out_of_memory();
         return internal_error(error.what());
     } catch (const Interrupted&) {

@@ -2,6 +2,7 @@
 
 #include "apps/run/prediction.hpp"
 #include "apps/scene/tables.hpp"
+#include "apps/support/job_limits.hpp"
 #include "apps/support/spelling.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <exception>
 #include <limits>
+#include <sys/resource.h>
 #include <type_traits>
 #include <unistd.h>
 #include <variant>
@@ -51,9 +53,9 @@ std::string size_of(const Prediction& p, const Room& room) {
         return fmt::format("takes the time of {:.2g} cycles, more than {:.0g}",
                            excess.cycles * most_cycles, most_cycles);
     if (greatest == excess.memory)
-        return fmt::format("takes {:.2g} GB of memory, more than the {:.2g} GB that this machine "
-                           "has",
-                           p.memory / 1e9, room.memory / 1e9);
+        return fmt::format("takes {:.2g} GB of memory, more than the {:.2g} GB that this {}",
+                           p.memory / 1e9, room.memory / 1e9,
+                           room.is_job ? "job may use" : "machine has");
     return fmt::format("writes {:.0f} snapshots, with all else {:.2g} GB, more than the {:.2g} GB "
                        "that are free on the disk",
                        p.snapshots, p.disk / 1e9, room.disk / 1e9);
@@ -136,6 +138,12 @@ Room room_for(const std::filesystem::path& output) {
     Room room{unknown, unknown};
     if (pages > 0 && size > 0)
         room.memory = static_cast<double>(pages) * static_cast<double>(size);
+    rlimit addresses{};
+    double granted = granted_memory("/");
+    if (getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
+        granted = std::min(granted, static_cast<double>(addresses.rlim_cur));
+    room.is_job = granted < room.memory;
+    room.memory = std::min(room.memory, granted);
     std::error_code error;
     std::filesystem::path place = std::filesystem::absolute(output, error);
     while (!error && !std::filesystem::exists(place, error) && place != place.parent_path())

@@ -15,12 +15,13 @@ struct Oversize {
     bool is_of_disk = false; ///< the disk is too small, not the scene too large
 };
 
-/// Room of a machine for a run, bytes; infinite where it is unknown.
+/// Room for a run, bytes; infinite where it is unknown.
 struct Room {
     double memory, disk;
+    bool is_job = false; ///< whether the memory is what this job may use of the machine's
 };
 
-/// Memory of this machine, and the disk that is free where a folder is or will be.
+/// Memory of this machine or job, and the disk that is free where a folder is or will be.
 Room room_for(const std::filesystem::path& output);
 
 /// Whether a scene with discs would take more cycles, or as much time beside the cycle, than

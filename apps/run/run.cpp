@@ -66,6 +66,9 @@ RunOutcome run_scene(const Scene& scene, const RunOptions& options, OutputList o
     } catch (const NumericalFailure& failure) {
         throw NumericalFailure(fmt::format("{}\n{}; {}", failure.what(), last_good_state(output),
                                            retry_hint(scene, output)));
+    } catch (const UnreadableFile& failure) { // of the run that was to be resumed
+        throw UnreadableFile(std::string(failure.what()) +
+                             "; make it readable, or move it away to resume without it");
     } catch (const StorageError& failure) {
         throw StorageError(with_hint(failure, output, "once files can be written"));
     } catch (const std::bad_alloc&) {

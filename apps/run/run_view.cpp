@@ -8,9 +8,11 @@
 #include "apps/archive/summary.hpp"
 #include "apps/model/model.hpp"
 #include "apps/run/progress_line.hpp"
+#include "apps/support/version.hpp"
 #include "dem/ranks/ranked_cycles.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -132,9 +134,18 @@ void RunView::show_progress(const std::string& what) {
     });
 }
 
-void RunView::go_on_with(RunRecord earlier) {
+void RunView::go_on_with(const fs::path& snapshot, RunRecord earlier, const std::string& writer) {
+    kept = snapshot;
     record = std::move(earlier);
+    std::vector<std::string>& versions = record.earlier_versions;
+    if (writer != version && std::ranges::find(versions, writer) == versions.end())
+        versions.push_back(writer);
+    if (!versions.empty())
+        log.say(fmt::format("warning: listric {} has made this run so far, and {} goes on with it: "
+                            "its numbers may be those of neither; --force begins again",
+                            fmt::join(versions, ", "), version));
     seconds_before_ += total(record.seconds_by_part);
+    past = RunHistory(ended_windows());
 }
 
 } // namespace listric

@@ -104,7 +104,9 @@ public:
     void show_progress(const std::string& what = {});
 
     /// Takes over the record of the sessions that this one resumes; their wall time counts, too.
-    void go_on_with(archive::RunRecord earlier);
+    /// @param writer  version of the program that kept it
+    void go_on_with(const std::filesystem::path& snapshot, archive::RunRecord earlier,
+                    const std::string& writer);
 
     PartWatch watch(Part part) { return {record.seconds_by_part, part}; }
 

@@ -72,13 +72,13 @@ bool Session::resume() {
             if (run_.driver)
                 run_.driver->require_own(snapshot.state);
             simulation_.resume(std::move(snapshot.state));
-            run_.go_on_with(std::move(snapshot.record));
+            run_.go_on_with(*path, std::move(snapshot.record), snapshot.version);
+        } catch (const UnreadableFile&) { // it may be good: to begin anew would replace it
+            throw;
         } catch (const StorageError& error) {
             run_.log.say(std::string("warning: skipped: ") + error.what());
             continue;
         }
-        run_.kept = *path;
-        run_.past = RunHistory(run_.ended_windows());
         tell(&Output::resume);
         run_.log.say(fmt::format("resuming at {} from {}",
                                  run_.place_text(run_.scene.output.interval), path->string()));

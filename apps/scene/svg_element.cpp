@@ -28,12 +28,37 @@ bool is_line(xml_node element) {
 
 std::string_view id_of(xml_node element) { return element.attribute("id").value(); }
 
-/// Inkscape's label: an attribute of its own, whatever prefix its names have.
+/// The name that people gave in a drawing program: Inkscape's label, whatever prefix its names
+/// have, data-name of Illustrator, serif:id of Affinity, a title within the element.
 std::string_view label_of(xml_node element) {
-    for (const pugi::xml_attribute attribute : element.attributes())
-        if (std::string_view(attribute.name()).ends_with(":label"))
+    for (const pugi::xml_attribute attribute : element.attributes()) {
+        const std::string_view name = attribute.name();
+        if (name.ends_with(":label") || name == "data-name" || name == "serif:id")
             return attribute.value();
+    }
+    for (const xml_node child : element.children())
+        if (svg_name(child) == "title")
+            return child.text().get();
     return {};
+}
+
+/// Whether an id stands for a name with blanks or other letters, which an id cannot have:
+/// "Main_fault", "Main_x20_fault" (Illustrator), "Main_x0020_fault" (CorelDRAW) for "Main fault".
+bool stands_for(std::string_view id, std::string_view name) {
+    for (const char letter : name) {
+        const auto byte = static_cast<unsigned char>(letter);
+        const std::array<std::string, 4> written{std::string(1, letter),
+                                                 fmt::format("_x{:02X}_", byte),
+                                                 fmt::format("_x{:04X}_", byte), "_"};
+        const std::size_t known = letter == ' ' ? 4 : 3;
+        const auto* const found =
+            std::find_if(written.begin(), written.begin() + known,
+                         [&](const std::string& one) { return id.starts_with(one); });
+        if (found == written.begin() + known)
+            return false;
+        id.remove_prefix(found->size());
+    }
+    return id.empty();
 }
 
 /// "path1234 (label fault)"; of many only some.
@@ -72,6 +97,8 @@ public:
         if (named.empty())
             named = those_with(label_of);
         if (named.empty())
+            named = those_that([&](xml_node one) { return stands_for(id_of(one), name_); });
+        if (named.empty())
             refuse_unknown();
         // An id that a group and the line in it share is clear.
         std::vector<xml_node> named_lines;
@@ -86,12 +113,25 @@ public:
     }
 
 private:
-    template <class Name> std::vector<xml_node> those_with(Name name) const {
-        std::vector<xml_node> named;
+    template <class Is> std::vector<xml_node> those_that(Is is) const {
+        std::vector<xml_node> found;
         if (!name_.empty())
-            std::ranges::copy_if(all_, std::back_inserter(named),
-                                 [&](xml_node element) { return name(element) == name_; });
-        return named;
+            std::ranges::copy_if(all_, std::back_inserter(found), is);
+        return found;
+    }
+    template <class Name> std::vector<xml_node> those_with(Name name) const {
+        return those_that([&](xml_node element) { return name(element) == name_; });
+    }
+
+    /// Groups and layers that have a name and hold a line.
+    std::vector<xml_node> named_groups() const {
+        std::vector<xml_node> groups;
+        std::ranges::copy_if(all_, std::back_inserter(groups), [](xml_node element) {
+            return svg_name(element) == "g" &&
+                   !(id_of(element).empty() && label_of(element).empty()) &&
+                   std::ranges::any_of(svg_elements(element, true), is_line);
+        });
+        return groups;
     }
 
     /// The line of a group, or what the element is instead.
@@ -133,12 +173,18 @@ private:
             for (const std::string_view name : {id_of(line), label_of(line)})
                 if (!name.empty())
                     names.push_back(name);
+        const std::vector<xml_node> groups = named_groups();
+        for (const xml_node group : groups)
+            for (const std::string_view name : {id_of(group), label_of(group)})
+                if (!name.empty())
+                    names.push_back(name);
         const auto meant = nearest(name_, names);
-        refuse(fmt::format("has no path with the id {}{}; its paths: {}",
+        refuse(fmt::format("has no path with the id {}{}; its paths: {}{}",
                            name_.empty() ? "for detachment.svg_path to name"
                                          : fmt::format("svg_path = \"{}\"", shown(name_)),
                            meant ? fmt::format(", did you mean {}?", shown(*meant)) : "",
-                           listed(lines_)));
+                           listed(lines_),
+                           groups.empty() ? "" : "; its groups: " + listed(groups)));
     }
     [[noreturn]] void refuse(const std::string& what) const {
         throw SceneError(fmt::format("{}: {}", file_, what));

@@ -171,7 +171,7 @@ public:
         json_["kinematics"]["shear_angle_deg"] = kinematics.angle;
         std::cout << fmt::format("kinematics: misfit {:.0f} m, shear {:.0f} degrees from the "
                                  "vertical\n",
-                                 kinematics.misfit, kinematics.angle)
+                                 kinematics.misfit, std::round(kinematics.angle) + 0.0) // no -0
                   << text_of(predicted) << std::flush;
         ListricShape best = kinematics.shape;
         bool found = true;
@@ -219,7 +219,6 @@ private:
         plan.scene = request.scene;
         plan.set = request.set;
         plan.set.push_back("observed.horizons=" + quoted(fs::absolute(request.picks).string()));
-        plan.set.push_back("observed.shift_x_m=0.0");
         return plan;
     }
 
@@ -240,7 +239,8 @@ private:
         task.extension = scene.extension.distance;
         const double duration = task.extension / scene.extension.rate;
         std::set<double> ages;
-        for (const PickedLine& line : by_name(picked.lines)) {
+        // The scene has them shifted as its section is.
+        for (const PickedLine& line : by_name(scene.observed->horizons)) {
             const auto refuse = [&](const std::string& what) {
                 const auto piece = std::ranges::find(picked.lines, line.name, &PickedLine::name);
                 const auto& rows =

@@ -3,6 +3,7 @@
 #include "apps/archive/examine.hpp"
 #include "apps/archive/json_file.hpp"
 #include "apps/archive/output_folder.hpp"
+#include "apps/archive/provenance.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/archive/scene_lines.hpp"
 #include "apps/archive/setting.hpp"
@@ -175,6 +176,7 @@ private:
             }
             const JsonObject summary = read_object(rows[k].folder / "summary.json");
             rows[k].state_hash = text_at(summary, "state_hash");
+            rows[k].made_by = archive::makers_of(rows[k].folder);
             rows[k].measures = measures_of(plan_, rows[k].folder, summary);
         }
         return rows;

@@ -21,7 +21,7 @@ std::string header(const SweepPlan& plan) {
     std::string text = "run,seed";
     for (const SweepParameter& parameter : plan.parameters)
         text += "," + parameter.name;
-    text += ",outcome,exit_code,state_hash";
+    text += ",outcome,exit_code,state_hash,made_by";
     for (const SweepMeasure& measure : plan.measures)
         text += "," + measure.text;
     return text;
@@ -56,8 +56,8 @@ std::string to_csv(const SweepPlan& plan, std::span<const SweepPoint> points,
         text += fmt::format("{},{}", row.run, row.seed);
         for (const SweepValue& value : points[row.run - 1])
             text += fmt::format(",{}", csv_cell(value.text));
-        text +=
-            fmt::format(",{},{},{}", csv_cell(cell(row.outcome)), row.exit_code, row.state_hash);
+        text += fmt::format(",{},{},{},{}", csv_cell(cell(row.outcome)), row.exit_code,
+                            row.state_hash, csv_cell(cell(row.made_by)));
         for (const std::optional<double>& measure : row.measures)
             text += measure ? fmt::format(",{}", *measure) : ",";
         text += "\n";
@@ -102,7 +102,8 @@ std::vector<SweepRow> read_sweep(const SweepPlan& plan, std::span<const SweepPoi
         row.outcome = cells[before];
         row.exit_code = static_cast<int>(std::clamp(number(cells[before + 1]), -1.0, 255.0));
         row.state_hash = cells[before + 2];
-        for (std::size_t k = before + 3; k < all; ++k)
+        row.made_by = cells[before + 3];
+        for (std::size_t k = before + 4; k < all; ++k)
             row.measures.push_back(cells[k].empty() ? std::nullopt
                                                     : std::optional(number(cells[k])));
         rows.push_back(std::move(row));

@@ -19,13 +19,14 @@ struct SweepRow {
     std::string outcome = {}; ///< "finished", or why not
     int exit_code = 0;
     std::string state_hash = {};
+    std::string made_by = {};                         ///< versions of the program
     std::vector<std::optional<double>> measures = {}; ///< of the plan
     std::filesystem::path folder = {};                ///< of the run
 
     bool failed() const { return exit_code != 0; }
 };
 
-/// run, seed, <parameters>, outcome, exit_code, state_hash, <measures>
+/// run, seed, <parameters>, outcome, exit_code, state_hash, made_by, <measures>
 std::string to_csv(const SweepPlan& plan, std::span<const SweepPoint> points,
                    std::span<const SweepRow> rows);
 

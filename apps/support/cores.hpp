@@ -8,9 +8,4 @@ namespace listric {
 /// group and those above grant (docker --cpus, SLURM), a part of one counted whole. At least 1.
 int usable_cores();
 
-/// Cores that control groups grant to a process, or infinity. Of version 2 (cpu.max) and 1
-/// (cpu.cfs_quota_us).
-/// @param root  where /proc and /sys are
-double granted_cores(const std::filesystem::path& root);
-
 } // namespace listric

@@ -24,6 +24,11 @@ struct StorageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A file that is there cannot be opened or read: nothing is known of what it holds.
+struct UnreadableFile : StorageError {
+    using StorageError::StorageError;
+};
+
 /// There is less memory than is needed; what() says how much that is.
 struct MemoryError : std::runtime_error {
     using std::runtime_error::runtime_error;

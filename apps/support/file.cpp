@@ -1,8 +1,10 @@
 #include "apps/support/file.hpp"
 
 #include "apps/support/error.hpp"
+#include "apps/support/log.hpp"
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -37,6 +39,20 @@ std::pair<int, fs::path> open_part(const fs::path& path) {
     throw StorageError(path.string() + ": cannot write: " + std::strerror(errno));
 }
 
+/// Whether what was written is on the disk. Some file systems (CIFS, sshfs, others of FUSE) have no
+/// call for it: then nobody knows, and people are told once.
+bool is_on_disk(int file, const fs::path& path) {
+    if (fsync(file) == 0)
+        return true;
+    if (errno != EINVAL && errno != ENOTSUP && errno != ENOSYS)
+        return false;
+    static std::atomic_flag told;
+    if (!told.test_and_set())
+        warn(path.parent_path().string() + ": this file system does not say when a file is safe; "
+                                           "a loss of power may cost the newest files");
+    return true;
+}
+
 /// All of a file; nothing of what is not there or no file.
 std::optional<std::string> text_of(const fs::path& path) {
     errno = 0;
@@ -69,7 +85,7 @@ void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
         if (good)
             bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
-    good = good && fsync(file) == 0;
+    good = good && is_on_disk(file, path);
     const int cause = errno;
     if (close(file) != 0 && good)
         fail();

@@ -11,6 +11,7 @@
 #include "coupling/interface_loads.hpp"
 #include "coupling/lower_crust_thinning.hpp"
 #include "fem/blocks.hpp"
+#include "tests/places.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -417,7 +418,8 @@ TEST_F(ElasticBaseRun, RefusesBadInput) {
     EXPECT_THAT(refusal({"elastic_base.left_side=free", "elastic_base.right_side=free"}),
                 HasSubstr("nothing holds the footwall sideways"));
     EXPECT_THAT(refusal({"elastic_base.mesh_file=none.msh"}), HasSubstr("none.msh: no such file"));
-    EXPECT_THAT(refusal({"elastic_base.mesh_file=" LISTRIC_SOURCE_DIR "/meshes/lis1-footwall.msh"}),
+    EXPECT_THAT(refusal({std::string("elastic_base.mesh_file=") + source_folder +
+                         "/meshes/lis1-footwall.msh"}),
                 HasSubstr("does not match the scene"));
     EXPECT_THAT(refusal({"elastic_base.infill_density_kg_per_m3=1030"}, loads),
                 HasSubstr("fills hollows itself"));
@@ -430,7 +432,7 @@ TEST_F(ElasticBaseRun, RefusesBadInput) {
 }
 
 TEST_F(ElasticBaseRun, RefusesAnInvertedMesh) {
-    std::ifstream in(LISTRIC_SOURCE_DIR "/meshes/lis1-footwall.msh");
+    std::ifstream in(std::string(source_folder) + "/meshes/lis1-footwall.msh");
     std::ofstream out(folder / "inverted.msh");
     bool turned = false;
     for (std::string line; std::getline(in, line); out << line << '\n') {
@@ -471,7 +473,7 @@ TEST_F(ElasticBaseRun, AMissingOrStrangePluginIsNamedWithTheCure) {
                                        std::pair("libm.so.6", "of this build; build again")}) {
         const std::string call = fmt::format("LISTRIC_FEM_PLUGIN={2} {0} run {1}/small.toml "
                                              "--output {1}/out --force --quiet 2>&1",
-                                             LISTRIC_PROGRAM, folder.string(), plugin);
+                                             program_path, folder.string(), plugin);
         FILE* pipe = popen(call.c_str(), "r");
         ASSERT_TRUE(pipe);
         std::string said;

@@ -5,6 +5,7 @@
 #include "apps/run/run.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
+#include "tests/places.hpp"
 #include "tests/support.hpp"
 
 #include <gmock/gmock.h>
@@ -243,7 +244,7 @@ struct Ending {
 Ending ending(const std::string& arguments) {
     const Folder folder;
     const std::string said = folder.path.string() + ".txt";
-    const int status = std::system((std::string(LISTRIC_PROGRAM) + " " + arguments + " --output " +
+    const int status = std::system((std::string(program_path) + " " + arguments + " --output " +
                                     folder.path.string() + " >/dev/null 2>" + said)
                                        .c_str());
     std::ifstream in(said);

@@ -7,6 +7,7 @@
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/monitor.hpp"
 #include "dem/units.hpp"
+#include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"
 #include "tests/xml_files.hpp"
 
@@ -121,9 +122,10 @@ protected:
 
     /// Opens the series, and draws it if a picture is named.
     Seen look(const std::string& picture = "") const {
-        std::string line = fmt::format("/usr/bin/python3 '{}' '{}'",
-                                       LISTRIC_SOURCE_DIR "/tests/regression/render_paraview.py",
-                                       (run / "paraview.pvd").string());
+        std::string line =
+            fmt::format("/usr/bin/python3 '{}' '{}'",
+                        std::string(source_folder) + "/tests/regression/render_paraview.py",
+                        (run / "paraview.pvd").string());
         if (!picture.empty())
             line = fmt::format("{}{} '{}'", display(), line, (folder / picture).string());
         const int status =

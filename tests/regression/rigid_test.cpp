@@ -1,6 +1,7 @@
 // A rigid scene costs nothing of what an elastic base needs: the program neither links nor loads
 // finite elements, linear algebra or MPI.
 
+#include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"
 
 #include <gmock/gmock.h>
@@ -38,7 +39,7 @@ std::string maps_of_run(const fs::path& folder, const std::string& which, const 
     const pid_t child = fork();
     if (child == 0) {
         setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
-        execl(LISTRIC_PROGRAM, LISTRIC_PROGRAM, "run", which.c_str(), "--output", output.c_str(),
+        execl(program_path, program_path, "run", which.c_str(), "--output", output.c_str(),
               "--quiet", "--force", nullptr);
         _exit(127);
     }
@@ -73,7 +74,7 @@ TEST_F(Rigid, LoadsNoFiniteElements) {
         EXPECT_THAT(maps, Not(HasSubstr(library)));
 }
 
-#ifdef LISTRIC_FOOTWALL_PROGRAM // there is a plug-in
+#ifdef LISTRIC_HAS_FOOTWALL // there is a plug-in
 TEST_F(Rigid, TheTestWouldSeeThem) {
     const std::string maps = maps_of_run(folder_, "flexure", "footwall.pvd");
     for (const char* library : {"deal.ii", "petsc", "libmpi", "listric_fem"})

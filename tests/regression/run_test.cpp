@@ -8,6 +8,7 @@
 #include "apps/model/model.hpp"
 #include "apps/run/run.hpp"
 #include "dem/cycle/cycle.hpp"
+#include "tests/places.hpp"
 #include "tests/program.hpp"
 #include "tests/small_halfgraben.hpp"
 
@@ -378,7 +379,7 @@ TEST_F(RunTest, TheAdviceToResumeWorksAsPrinted) {
     ASSERT_NE(advice, std::string::npos) << stopped.err;
     const std::string words = stopped.err.substr(advice + before.size());
     const std::string line =
-        fmt::format("'{}' {} 2>'{}'", LISTRIC_PROGRAM, words.substr(0, words.find('\n')),
+        fmt::format("'{}' {} 2>'{}'", program_path, words.substr(0, words.find('\n')),
                     (folder / "stderr").string());
     EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 0) << line << contents(folder / "stderr");
     ASSERT_TRUE(fs::exists(output / "summary.json"));

@@ -6,6 +6,7 @@
 #include "apps/archive/setting.hpp"
 #include "apps/measures/horizons.hpp"
 #include "apps/scene/stage.hpp"
+#include "tests/places.hpp"
 #include "tests/program.hpp"
 #include "tests/scene_runs.hpp"
 
@@ -259,7 +260,7 @@ TEST_F(Stages, AreRefusedWithTheirLine) {
     EXPECT_THAT(of_lis({"stage.1.distance_m=-8000", "detachment.footwall_top_m=2000"}),
                 HasSubstr("lengthen"));
     std::string bare =
-        contents(std::filesystem::path(LISTRIC_SOURCE_DIR) / "apps/scenes/inversion-lis1.toml");
+        contents(std::filesystem::path(source_folder) / "apps/scenes/inversion-lis1.toml");
     const std::size_t top = bare.find("footwall_top_m");
     bare.erase(top, bare.find('\n', top) - top);
     EXPECT_THAT(refusal(bare), AllOf(HasSubstr("stage[1].distance_m"), HasSubstr("-4000"),

@@ -83,12 +83,11 @@ protected:
 TEST_F(SweepTest, KilledInTheMiddleItGoesOnToTheSameTable) {
     const Ended whole = sweep("whole");
     ASSERT_EQ(whole.code, 0) << whole.err;
-    EXPECT_THAT(
-        table("whole"),
-        StartsWith(
-            "run,seed,bonds.tensile_strength_pa,material.friction,outcome,exit_code,"
-            "state_hash,unbalanced_ratio_mean,inertial_number,basement_unbonded_fraction@100\n"
-            "1,1,10000000,0.3,finished,0,"));
+    EXPECT_THAT(table("whole"),
+                StartsWith("run,seed,bonds.tensile_strength_pa,material.friction,outcome,exit_code,"
+                           "state_hash,made_by,unbalanced_ratio_mean,inertial_number,basement_"
+                           "unbonded_fraction@100\n"
+                           "1,1,10000000,0.3,finished,0,"));
     const std::string rows = table("whole");
     EXPECT_EQ(std::ranges::count(rows, '\n'), 9);
     EXPECT_THAT(rows, testing::Not(HasSubstr(",,"))) << "a measure is missing";

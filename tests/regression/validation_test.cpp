@@ -3,6 +3,7 @@
 
 #include "apps/archive/output_folder.hpp"
 #include "apps/support/version.hpp"
+#include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"
 
 #include <gmock/gmock.h>
@@ -99,7 +100,7 @@ protected:
     /// Exit code of `listric validate` with these arguments; what it says is in `said`.
     int validate(const std::string& arguments) {
         const std::string line =
-            "LISTRIC_SCENES=" + (folder / "scenes").string() + " '" LISTRIC_PROGRAM "' validate " +
+            "LISTRIC_SCENES=" + (folder / "scenes").string() + " '" + program_path + "' validate " +
             "--plan " + (folder / "plan.toml").string() + " --runs " + (folder / "runs").string() +
             " --output " + (folder / "doc/report.md").string() + " " + arguments + " 2> " +
             (folder / "said").string();

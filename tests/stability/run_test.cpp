@@ -4,6 +4,7 @@
 #include "apps/model/effects.hpp"
 #include "dem/cycle/cycle.hpp"
 #include "dem/ranks/subdomain.hpp"
+#include "tests/places.hpp"
 #include "tests/scene_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -87,7 +88,7 @@ TEST_F(HardRun, ARunGoneWrongIsNamedAndGoesOnFromItsLastState) {
     EXPECT_EQ(list_snapshots(o.output), snapshots);
     EXPECT_FALSE(fs::exists(o.output / "summary.json"));
     const std::string call =
-        fmt::format("'{}' run '{}' --output '{}' --resume --quiet 2>/dev/null", LISTRIC_PROGRAM,
+        fmt::format("'{}' run '{}' --output '{}' --resume --quiet 2>/dev/null", program_path,
                     (o.output / "scene.toml").string(), o.output.string());
     EXPECT_EQ(WEXITSTATUS(std::system(call.c_str())), 3);
     // With the time step that it should have had, it ends as if nothing had been.
@@ -124,7 +125,7 @@ TEST_F(HardRun, RanksEndTogetherWhereDiscsRunAwayOrAreNowhere) {
             "timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
             "/usr/bin/mpirun --oversubscribe --mca mpi_yield_when_idle 1 -n 2 '{}' run '{}' "
             "--output '{}' --resume --quiet >'{}' 2>&1",
-            LISTRIC_PROGRAM, (o.output / "scene.toml").string(), o.output.string(), message);
+            program_path, (o.output / "scene.toml").string(), o.output.string(), message);
         EXPECT_EQ(WEXITSTATUS(std::system(call.c_str())), 3) << contents(message);
         EXPECT_THAT(contents(message), ContainsRegex("disc [0-9]+ ran away"));
     }

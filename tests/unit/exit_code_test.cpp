@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <system_error>
 #include <vector>
 
@@ -41,13 +42,23 @@ TEST(ExitCode, UsersMistakesNumericsStorageAndStopAreToldApart) {
 TEST(ExitCode, MemoryIsStorageAndSaysHowMuchIsNeeded) {
     EXPECT_EQ(ending(MemoryError("short")).code, ExitCode::storage_failed);
     note_memory_need(2.5e9);
-    for (const Ending& e : {ending(std::bad_alloc()),
-                            // of a thread without room for its stack
-                            ending(std::system_error(EAGAIN, std::generic_category()))}) {
+    for (const Ending& e :
+         {ending(std::bad_alloc()), ending(std::system_error(ENOMEM, std::generic_category()))}) {
         EXPECT_EQ(e.code, ExitCode::storage_failed);
         EXPECT_THAT(e.message, HasSubstr("2500 MB"));
     }
     note_memory_need(0.0);
+}
+
+// With a limit of addresses it is the stack's memory that is short.
+TEST(ExitCode, AThreadThatIsNotAllowedIsNoShortMemory) {
+    const Ending e = ending(std::system_error(EAGAIN, std::generic_category()));
+    EXPECT_EQ(e.code, ExitCode::storage_failed);
+    rlimit addresses{};
+    getrlimit(RLIMIT_AS, &addresses);
+    EXPECT_THAT(e.message, addresses.rlim_cur == RLIM_INFINITY
+                               ? HasSubstr("no further thread or process can be started")
+                               : HasSubstr("memory is short"));
 }
 
 TEST(ExitCode, WhateverElseIsOurOwnMistake) {

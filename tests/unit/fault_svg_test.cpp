@@ -105,6 +105,25 @@ TEST_F(Drawing, LinesOfEveryKindAreFound) {
     EXPECT_THAT(complaint("<text/>"), HasSubstr("has no path, polyline or line"));
 }
 
+TEST_F(Drawing, NamesOfDrawingProgramsAreFound) {
+    source.svg_path = "Main fault";
+    const auto layer = [](const char* attributes, const char* first = "") {
+        return fmt::format("<g id=\"horizons\"><path d=\"M0,0H9\"/></g><g {}>{}<path d=\"{}\"/></g>",
+                           attributes, first, d);
+    };
+    expect_placed(layer("id=\"Main_fault\" data-name=\"Main fault\"")); // Illustrator
+    expect_placed(layer("id=\"Main_x20_fault\""));
+    expect_placed(layer("id=\"Main_fault\""));
+    expect_placed(layer("id=\"Main-fault1\" serif:id=\"Main fault\"")); // Affinity
+    expect_placed(layer("id=\"Main_x0020_fault\""));                    // CorelDRAW
+    expect_placed(layer("id=\"g7\"", "<title>Main fault</title>"));
+    EXPECT_THAT(complaint(layer("id=\"Main_faults\"")),
+                AllOf(HasSubstr("did you mean Main_faults?"),
+                      HasSubstr("its groups: horizons, Main_faults")));
+    EXPECT_THAT(complaint(layer("id=\"x\" data-name=\"Thrust\"")),
+                HasSubstr("its groups: horizons, x (label Thrust)"));
+}
+
 TEST_F(Drawing, WhatIsNotReadIsNamed) {
     EXPECT_THAT(complaint("<symbol>" + path() + "</symbol>"), HasSubstr("is inside <symbol>"));
     EXPECT_THAT(complaint("<defs><g>" + path() + "</g></defs>"), HasSubstr("is inside <defs>"));

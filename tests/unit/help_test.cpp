@@ -1,6 +1,7 @@
 // Help of all calls: words instead of a parser's types, every default, examples that parse.
 
 #include "apps/commands/command.hpp"
+#include "tests/places.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -87,7 +88,7 @@ TEST(Help, EveryCallHasThreeExamplesThatParseAndADocument) {
         }
         const std::string footer = call->get_footer();
         const std::string page = footer.substr(footer.find("Documents: ") + 11);
-        EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(LISTRIC_SOURCE_DIR) /
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(source_folder) /
                                             page.substr(0, page.find('\n'))))
             << page;
     }

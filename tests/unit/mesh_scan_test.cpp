@@ -2,6 +2,7 @@
 
 #include "fem/footwall.hpp"
 #include "fem/mesh_scan.hpp"
+#include "tests/places.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,7 +59,7 @@ std::string refusal(const std::string& from = "", const std::string& to = "") {
 TEST(MeshScan, AMeshIsTakenAsGmshWritesIt) {
     EXPECT_EQ(refusal(), "");
     EXPECT_EQ(refusal("$Nodes", "$Comments\nanything 1e99 at all\n$EndComments\n$Nodes"), "");
-    EXPECT_NO_THROW(scan_mesh(LISTRIC_SOURCE_DIR "/meshes/lis1-footwall.msh"));
+    EXPECT_NO_THROW(scan_mesh(std::string(source_folder) + "/meshes/lis1-footwall.msh"));
 }
 
 TEST(MeshScan, NumbersThatAreAnnouncedAreBoundByTheFile) {

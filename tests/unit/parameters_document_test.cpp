@@ -5,6 +5,7 @@
 #include "apps/model/effects.hpp"
 #include "apps/scene/schema.hpp"
 #include "apps/studies/flexure_plan.hpp"
+#include "tests/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ namespace listric::parameters_document_test {
 namespace {
 
 std::string contents(const char* file) {
-    std::ifstream in(std::string(LISTRIC_SOURCE_DIR "/") + file);
+    std::ifstream in(std::string(source_folder) + "/" + file);
     return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -4,6 +4,7 @@
 #include "apps/run/time_left.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/text.hpp"
+#include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"
 
 #include <fmt/format.h>
@@ -106,8 +107,7 @@ Worst replay(const Trace& trace) {
 
 TEST(Progress, TimeLeftIsRightOfRunsThatWere) {
     std::size_t traces = 0;
-    for (const auto& entry :
-         fs::directory_iterator(fs::path(LISTRIC_SOURCE_DIR) / "tests/traces")) {
+    for (const auto& entry : fs::directory_iterator(fs::path(source_folder) / "tests/traces")) {
         const Trace trace = read_trace(entry.path());
         const Worst worst = replay(trace);
         EXPECT_LT(worst.off, trace.bound) << entry.path();

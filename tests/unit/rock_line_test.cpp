@@ -3,6 +3,7 @@
 #include "apps/scene/rock_line.hpp"
 
 #include "apps/model/effects.hpp"
+#include "tests/places.hpp"
 #include "tests/small_halfgraben.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ protected:
 
     /// The blocks of TOML in a document that are scenes.
     static std::vector<std::string> scenes_in(const fs::path& document) {
-        const std::string text = contents(fs::path(LISTRIC_SOURCE_DIR) / document);
+        const std::string text = contents(fs::path(source_folder) / document);
         const std::string fence = "```toml\n";
         std::vector<std::string> scenes;
         for (std::size_t at = text.find(fence); at != text.npos; at = text.find(fence, at + 1)) {
@@ -65,12 +66,11 @@ TEST_F(RockLine, ScenesOfTheDocumentsHaveTheShippedRock) {
             EXPECT_EQ(line(write("scene.toml", scene)), shipped) << document;
     }
     // The tutorial makes these tables.
-    fs::copy_file(fs::path(LISTRIC_SOURCE_DIR) / "docs/your-own-section/scene.toml",
+    fs::copy_file(fs::path(source_folder) / "docs/your-own-section/scene.toml",
                   folder / "tutorial.toml", fs::copy_options::overwrite_existing);
     write("picks.csv", "name,x_m,depth_m\na,3000,100\na,4000,200\n");
     EXPECT_EQ(line((folder / "tutorial.toml").string()), shipped);
-    for (const auto& entry :
-         fs::directory_iterator(fs::path(LISTRIC_SOURCE_DIR) / "docs/cookbook")) {
+    for (const auto& entry : fs::directory_iterator(fs::path(source_folder) / "docs/cookbook")) {
         const bool is_scene = contents(entry.path()).find("[fault_weakening]") != std::string::npos;
         EXPECT_EQ(is_scene ? line(entry.path().string()) : shipped, shipped) << entry.path();
     }
@@ -88,7 +88,7 @@ TEST_F(RockLine, NamesWhatIsInForce) {
               "rock: mat18-b; faults: mat18-w (friction 0); detachment friction 0.5");
     EXPECT_EQ(line("lis1", {"bonds.shear_strength_pa=9e9"}).substr(0, 13), "rock: its own");
     const std::string sandstone =
-        (fs::path(LISTRIC_SOURCE_DIR) / "docs/cookbook/sandstone.toml").string();
+        (fs::path(source_folder) / "docs/cookbook/sandstone.toml").string();
     EXPECT_EQ(line("lis1", {"materials.basement=" + sandstone}).substr(0, 16), "rock: sandstone;");
 }
 

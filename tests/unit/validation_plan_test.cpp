@@ -4,6 +4,7 @@
 #include "apps/scene/scene.hpp"
 #include "apps/studies/plan_file.hpp"
 #include "apps/studies/validation_plan.hpp"
+#include "tests/places.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -158,7 +159,8 @@ runs = "mine mine-0"
 like = "lis2"
 )";
     const auto shipped =
-        load_validation_plan(LISTRIC_SOURCE_DIR "/apps/studies/validation.toml").experiments;
+        load_validation_plan(std::string(source_folder) + "/apps/studies/validation.toml")
+            .experiments;
     const auto lis2 = std::ranges::find(shipped, "lis2", &ValidationExperiment::name);
     const ValidationPlan plan = load(own);
     ASSERT_EQ(plan.experiments.size(), 1u);
@@ -184,7 +186,7 @@ like = "lis2"
 
 TEST_F(Plan, TheOneThatIsShippedCanBeRead) {
     const ValidationPlan plan =
-        load_validation_plan(LISTRIC_SOURCE_DIR "/apps/studies/validation.toml");
+        load_validation_plan(std::string(source_folder) + "/apps/studies/validation.toml");
     std::vector<std::string> scenes;
     for (const auto& [name, description] : list_scenes())
         scenes.push_back(name);

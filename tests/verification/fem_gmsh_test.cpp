@@ -1,5 +1,6 @@
 // Meshes made with Gmsh: the same answer as the program's own, and what is refused.
 
+#include "tests/places.hpp"
 #include "tests/verification/footwalls.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +20,7 @@ using namespace support;
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::string mesh_file = LISTRIC_SOURCE_DIR "/meshes/lis1-footwall.msh";
+const std::string mesh_file = std::string(source_folder) + "/meshes/lis1-footwall.msh";
 
 fem::FootwallRequest lis1_footwall() {
     fem::FootwallRequest request;

@@ -1,5 +1,7 @@
 // One process and two give the same footwall.
 
+#include "tests/places.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,8 +33,8 @@ TEST(Parallel, TwoProcessesGiveTheSame) {
     const std::string run = std::string("/usr/bin/mpirun --oversubscribe --bind-to none "
                                         "--mca mpi_yield_when_idle 1 ") +
                             (geteuid() == 0 ? "--allow-run-as-root " : "");
-    const auto one = numbers_of(LISTRIC_FOOTWALL_PROGRAM);
-    const auto two = numbers_of(run + "-np 2 " LISTRIC_FOOTWALL_PROGRAM);
+    const auto one = numbers_of(footwall_program);
+    const auto two = numbers_of(run + "-np 2 " + footwall_program);
     ASSERT_GT(one.size(), 1000u);
     ASSERT_EQ(one.size(), two.size());
     // Displacements are compared with the largest among their neighbours in the list: round-off of

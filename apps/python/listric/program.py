@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -68,7 +69,7 @@ def _call(words, quiet) -> str:
                     elif last.startswith("listric: warning: "):
                         warnings.warn(last.removeprefix("listric: warning: "), stacklevel=3)
             except KeyboardInterrupt:
-                process.wait()  # it saves
+                _stop(process)
                 raise
         if process.returncode:
             said = last or "listric says nothing"
@@ -76,6 +77,16 @@ def _call(words, quiet) -> str:
                                f"`listric {' '.join(map(str, words))}`)", process.returncode)
         printed.seek(0)
         return printed.read()
+
+
+def _stop(process) -> None:
+    """Waits for a program that saves what it has reached. A terminal's Ctrl-C has reached it; a signal to this
+    process alone has not, so it is handed on."""
+    try:
+        process.communicate(timeout=1)
+    except subprocess.TimeoutExpired:
+        process.send_signal(signal.SIGINT)
+        process.communicate()
 
 
 def simulate(scene, *, set=None, without=(), accuracy=None, seed=None, threads=None, until_m=None,

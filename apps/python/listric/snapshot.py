@@ -3,6 +3,7 @@
 import tomllib
 from contextlib import contextmanager
 from copy import deepcopy
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -123,7 +124,7 @@ class Snapshot:
                 units = {key: _text(group[stored[key]].attrs["unit"]) or unit_of(key) for key in stored}
                 rows = int(group.attrs["rows"])
             self._tables[name] = Table(f"{self.path} {name}", rows, units,
-                                       lambda key: self._column(f"{name}/{stored[key]}"))
+                                       partial(self._column, name, stored))
         return self._tables[name]
 
     def lines(self, kind: str) -> list[dict]:
@@ -158,9 +159,9 @@ class Snapshot:
         `picture.save("strata.png")` writes it. Takes seconds. Throws UnknownName, ProgramError."""
         return draw_section(self, kind)
 
-    def _column(self, path: str) -> np.ndarray:
+    def _column(self, table: str, stored: dict[str, str], name: str) -> np.ndarray:
         with self._open() as file:
-            return file[path][()]
+            return file[table][stored[name]][()]
 
     @contextmanager
     def _open(self):

@@ -3,6 +3,7 @@
 import csv
 import re
 from collections.abc import Callable, Mapping
+from functools import partial
 from html import escape
 from pathlib import Path
 
@@ -117,7 +118,11 @@ def read_csv(path: Path, units: Callable[[str], str | None] = unit_of) -> Table:
     except (OSError, ValueError, OverflowError, csv.Error) as error:
         raise RunError(f"{path}: cannot be read as a table: {error}") from error
     return Table(str(path), len(rows), {name: units(name) for name in names},
-                 lambda name: columns[name].copy())
+                 partial(_copy_of, columns))
+
+
+def _copy_of(columns, name):
+    return columns[name].copy()
 
 
 def _rows(reader):

@@ -47,7 +47,7 @@ void write_summary(RunView& run) {
          .observed = run.observed,
          .wall_seconds = run.wall_seconds(),
          .state_hash = run.simulation.hash(),
-         .provenance = archive::provenance(run.scene),
+         .provenance = archive::provenance(run.scene, run.record),
          .known_errors = archive::known_errors_json(run.scene, run.state().clock.extension.m)});
     write_text(run.options.output / "summary.json", run.summary);
 }
