@@ -68,7 +68,7 @@ struct Motion {
     std::size_t stage(Travel travel) const;
 
     /// Whether base and wall rest in a pause.
-    bool rests(double travel) const { return !stages.empty() && stages[stage(travel)].rests(); }
+    bool rests(Travel travel) const { return !stages.empty() && stages[stage(travel)].rests(); }
 
     /// Whether the wall returns, or did so before it came to rest.
     bool shortens(Travel travel) const;
