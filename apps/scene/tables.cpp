@@ -200,11 +200,12 @@ std::vector<Parameter> cycle_parameters() {
 std::vector<Parameter> output_parameters() {
     using P = OutputParameters;
     return {
-        {"interval_m", at<&P::interval>, "m", between(1e-6, 1e6), "", "extension between snapshots",
+        {"interval_m", at<&P::interval>, "m", between(1e-6, 1e6), "",
+         "extension between snapshots, with [[stage]] the travel",
          "Lowering it gives finer histories and births of faults, and more files in proportion.",
          between(500, 1000)},
         {"figures_at_m", at<&P::figures>, "m", between(0, 1e6), "",
-         "extensions at which figures are drawn",
+         "extensions at which figures are drawn, with [[stage]] travels",
          "Adds pictures; the listric figures call draws others later, at any snapshot."},
         {"series", one_of<&P::series>({"paraview", "none"}), "", ranges::any, "",
          "files beside each snapshot that ParaView opens",
