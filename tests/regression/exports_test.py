@@ -152,15 +152,15 @@ class Exports(unittest.TestCase):
     def test_gdal_reads_every_kind_of_lines_where_pandas_does(self):
         for kind in ("horizons", "faults", "surfaces", "well"):
             files = self.export(kind, "--at", "2km", "--format", "csv,geojson")
-            tables = {file.stem: pandas.read_csv(file) for file in files if file.suffix == ".csv"}
-            maps = {file.stem: ogr.Open(str(file)) for file in files if file.suffix == ".geojson"}
-            self.assertEqual(set(tables), set(maps))
-            for stem, table in tables.items():
-                self.assertEqual(set(table.depth_reference), {LEVEL}, stem)
-                layer = maps[stem].GetLayer()
-                self.assertEqual(layer.GetFeatureCount(), table.line.nunique(), stem)
-                self.assertIn(f"m above the {LEVEL} (y = 0)", layer.GetMetadataItem("DESCRIPTION") or json.loads(
-                    Path(maps[stem].GetDescription()).read_text())["description"])
+            self.assertEqual({file.suffix for file in files}, {".csv", ".geojson"})
+            for file in files[::2]:
+                self.assertEqual(file.suffix, ".csv")
+                table, data = pandas.read_csv(file), ogr.Open(str(file.with_suffix(".geojson")))
+                self.assertIn("depth_reference", table)
+                self.assertLessEqual(set(table.depth_reference), {LEVEL})
+                layer = data.GetLayer()
+                self.assertEqual(layer.GetFeatureCount(), table.line.nunique(), file)
+                self.assertIn(f"m above the {LEVEL} (y = 0)", json.loads(file.with_suffix(".geojson").read_text())["description"])
                 for number, feature in enumerate(layer):
                     points = np.array(feature.GetGeometryRef().GetPoints())[:, :2]
                     rows = table[table.line == number]
@@ -182,14 +182,14 @@ class Exports(unittest.TestCase):
 
     def test_calls_with_other_options_write_other_files(self):
         formats = ("--format", "csv,geojson,gmt")
-        calls = [("well", *formats, *words) for words in ((), ("--x", "12km"), ("--x", "3km,12km"), ("--x", "3000.5,3000.25"),
-                                                          ("--at", "1km"), ("--at", "1km", "--x", "12km"))]
+        calls = [("well", *formats, *words) for words in ((), ("--x", "2km"), ("--x", "3km,2km"), ("--x", "2000.5,2000.25"),
+                                                          ("--at", "1km"), ("--at", "1km", "--x", "2km"))]
         calls += [("seismic", "--at", "4km", "--format", "segy,npy", *words) for words in (
             (), ("--depth",), ("--frequency", "40"), ("--lateral", "500"), ("--depth", "--frequency", "40", "--lateral", "500"))]
         calls += [("discs", "--format", "gsd", *words) for words in ((), ("--at", "2km"), ("--at", "1km,2km"), ("--at", "1km,2km,4km"))]
         content = {}
         for call in calls:
-            files = [file for file in self.export(*call) if "well" != call[0] or "burial" in file.name]
+            files = self.export(*call)
             self.assertFalse(content.keys() & set(files), call)
             content |= {file: file.read_bytes() for file in files}
         for file, before in content.items():   # nobody has written over them

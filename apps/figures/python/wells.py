@@ -100,7 +100,7 @@ def main(data: str, figures: str, order: str) -> None:
         raise InputError(f"{path}: holds no frames")
     with matplotlib.rc_context(STYLE):
         for frame in frames:
-            save(draw(frame), figures, f"well-{frame['extension_km']}km{frame['options']}", read_order(order))
+            save(draw(frame), figures, f"well-{frame['extension_km']}km{frame.get('options', '')}", read_order(order))
 
 
 if __name__ == "__main__":
