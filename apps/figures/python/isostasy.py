@@ -47,7 +47,7 @@ def draw_fitted(axes, fill: Fill) -> None:
     axes.plot(between, fill.uplift, "o-", color=fill.colour, lw=1.6,
               label=f"{fill.name}: breakaway")
     axes.hlines(fill.uplift, least, most, color=fill.colour, lw=4, alpha=0.3)
-    on_the_left = fill.name != "empty"  # the empty basin's bars are to the right of all others
+    on_the_left = fill.name not in ("saturated", "empty")  # others' bars are to their left
     below = math.inf
     for t, x, y in zip(fill.nominal, least if on_the_left else most, fill.uplift):
         below = min(y, below - LABEL_HEIGHT)
@@ -88,7 +88,7 @@ def draw(rows: list[dict[str, str]]):
         axes.set_xscale("log")
         axes.set_xticks([2, 5, 10, 15, 20, 30], labels=["2", "5", "10", "15", "20", "30"])
         axes.minorticks_off()
-        axes.set_ylim(0.0, 1.6 * max(float(row["uplift_m"]) for row in rows))
+        axes.set_ylim(0.0, 1.9 * max(float(row["uplift_m"]) for row in rows))
         axes.set_ylabel("uplift of the breakaway, m")
         axes.grid(True, lw=0.4, color="#d0d0d0")
         axes.legend(frameon=False, fontsize=7)
