@@ -18,15 +18,15 @@ using namespace dem;
 namespace {
 
 // Units.
-constexpr double nearest = 3.0;                   ///< disc beside a trace: drag reaches less far
-constexpr double middle = 9.0, farthest = 15.0;   ///< disc beside a trace
-constexpr double extended = 15.0;                 ///< the trace, upward
-constexpr double rock_band = 3.0, top_band = 2.0; ///< discs above and below a horizon that count
-constexpr double largest_error = 2.0;             ///< of a throw
-constexpr double trace_error = 0.5;               ///< of the place of a trace
-constexpr double thinnest = 3.0;                  ///< diameters: a stratum that has a throw
+constexpr double nearest_disc = 3.0;                 ///< disc beside a trace: drag reaches less far
+constexpr double near_reach = 9.0, far_reach = 15.0; ///< disc beside a trace
+constexpr double extension_up = 15.0;                ///< the trace, upward
+constexpr double rock_band = 3.0, top_band = 2.0;    ///< discs above and below a horizon that count
+constexpr double largest_throw_error = 2.0;          ///< of a throw
+constexpr double trace_error = 0.5;                  ///< of the place of a trace
+constexpr double thinnest_stratum = 3.0;             ///< diameters: a stratum that has a throw
 
-constexpr std::size_t fewest = 10; ///< discs of a plane
+constexpr std::size_t fewest_marks = 10; ///< discs of a plane
 
 /// A disc beside a fault.
 struct BesideFault {
@@ -36,7 +36,7 @@ struct BesideFault {
 };
 
 /// What lies beside a fault, above it and below it.
-struct Sides {
+struct FaultSides {
     std::vector<BesideFault> hanging, footwall;
 };
 
@@ -64,17 +64,18 @@ bool is_beyond(const Polyline& other, Point p, const Polyline& trace, double dra
     return !from.beyond && (from.distance > 0.0) != (place.distance > 0.0);
 }
 
-Sides sides_of(const State& state, const ThrownFault& fault, const Polyline& line, double unit) {
+FaultSides sides_of(const State& state, const ThrownFault& fault, const Polyline& line,
+                    double unit) {
     const ConstDiscColumns d = disc_columns(state);
     const bool right = falls_right(line);
-    Sides sides;
+    FaultSides sides;
     for (std::size_t i = 0; i < d.x.size(); ++i) {
         const Point p{d.x[i], d.y[i]};
         const PolylinePlace place = place_on(line, p);
         const double distance = std::abs(place.distance);
-        if (place.beyond || distance < nearest * unit || distance > farthest * unit ||
+        if (place.beyond || distance < nearest_disc * unit || distance > far_reach * unit ||
             std::ranges::any_of(fault.others, [&](const Polyline& other) {
-                return is_beyond(other, p, fault.trace, nearest * unit);
+                return is_beyond(other, p, fault.trace, nearest_disc * unit);
             }))
             continue;
         // The left of the downward direction is above a fault that falls right.
@@ -85,15 +86,15 @@ Sides sides_of(const State& state, const ThrownFault& fault, const Polyline& lin
 }
 
 /// Where a horizon meets a fault on one side.
-struct Cut {
+struct HorizonCut {
     Point at;           ///< m
     double error = 0.0; ///< of its height, m
 };
 
 /// Where a horizon, straight on, meets a line that falls; of several places the one next to the
 /// discs that tell of it.
-std::optional<Cut> cut_of(const BedPlane& bed, const Polyline& line, double trace_error) {
-    std::optional<Cut> cut;
+std::optional<HorizonCut> cut_of(const BedPlane& bed, const Polyline& line, double trace_error) {
+    std::optional<HorizonCut> cut;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
         const double up = bed.above(line[k]), down = bed.above(line[k + 1]);
@@ -113,11 +114,11 @@ std::optional<Cut> cut_of(const BedPlane& bed, const Polyline& line, double trac
 
 /// A horizon's cut on one side, found in two ways.
 struct TwoCuts {
-    std::optional<Cut> first, second;
+    std::optional<HorizonCut> first, second;
 };
 
 std::optional<BedPlane> plane_of(std::span<const Mark> marks) {
-    if (marks.size() < fewest)
+    if (marks.size() < fewest_marks)
         return std::nullopt;
     const MarkMoments moments(marks);
     return BedPlane::through(moments, moments);
@@ -146,8 +147,8 @@ std::vector<RockHorizon> rock_horizons(const State& state, std::span<const Layer
     return horizons;
 }
 
-std::optional<Cut> rock_cut(std::span<const BesideFault> side, const Polyline& line,
-                            const TargetLine& horizon, double unit, double reach) {
+std::optional<HorizonCut> rock_cut(std::span<const BesideFault> side, const Polyline& line,
+                                   const TargetLine& horizon, double unit, double reach) {
     std::vector<Mark> marks;
     for (const BesideFault& disc : side) {
         const double above = horizon.above(disc.start);
@@ -160,14 +161,14 @@ std::optional<Cut> rock_cut(std::span<const BesideFault> side, const Polyline& l
 
 TwoCuts rock_cuts(std::span<const BesideFault> side, const Polyline& line,
                   const TargetLine& horizon, double unit) {
-    return {rock_cut(side, line, horizon, unit, middle),
-            rock_cut(side, line, horizon, unit, farthest)};
+    return {rock_cut(side, line, horizon, unit, near_reach),
+            rock_cut(side, line, horizon, unit, far_reach)};
 }
 
 // -- strata
 
 /// Extensions at which strata were laid down, m, by stratum.
-std::map<int, double> strata_of(const State& state) {
+std::map<int, double> when_laid_down(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     std::map<int, double> strata;
     for (std::size_t i = 0; i < d.x.size(); ++i)
@@ -259,7 +260,7 @@ std::optional<Cutoffs> cutoffs_of(const TwoCuts& hanging, const TwoCuts& footwal
                              ? footwall.second->at.y - hanging.second->at.y - both.height()
                              : unit;
     both.error = norm({norm({hanging.first->error, footwall.first->error}), other});
-    both.is_resolved = both.error <= largest_error * unit;
+    both.is_resolved = both.error <= largest_throw_error * unit;
     return both;
 }
 
@@ -295,21 +296,21 @@ std::map<int, Cutoffs> fault_cutoffs(const State& state, const ThrownFault& faul
     const double diameter = 2.0 * state.mean_radius;
     const double unit = std::max(fault.unit, diameter);
     // Horizons that a fault cuts at a small angle would follow a trace's turns.
-    const Polyline line = extended_upward(even(fault.trace, unit), extended * unit);
-    const Sides sides = sides_of(state, fault, line, unit);
+    const Polyline line = extended_upward(even(fault.trace, unit), extension_up * unit);
+    const FaultSides sides = sides_of(state, fault, line, unit);
     std::map<int, Cutoffs> cutoffs;
     for (const auto& [number, horizon] : rock_horizons(state, fault.layers))
         if (const auto both = cutoffs_of(rock_cuts(sides.hanging, line, horizon, unit),
                                          rock_cuts(sides.footwall, line, horizon, unit), unit))
             cutoffs[number] = *both;
-    const std::map<int, double> strata = strata_of(state);
+    const std::map<int, double> strata = when_laid_down(state);
     const std::map<int, TwoCuts> hanging = top_cuts(sides.hanging, line, strata, unit);
     const std::map<int, TwoCuts> footwall = top_cuts(sides.footwall, line, strata, unit);
     for (const auto& [stratum, cuts] : hanging)
         if (const auto below = footwall.find(stratum); below != footwall.end())
             if (const auto both = cutoffs_of(cuts, below->second, unit))
                 cutoffs[stratum] = *both;
-    leave_out_thin(cutoffs, thinnest * diameter);
+    leave_out_thin(cutoffs, thinnest_stratum * diameter);
     mark_growth(cutoffs, strata, fault.born_at);
     return cutoffs;
 }
