@@ -49,7 +49,7 @@ Json points_of(P p) {
     return points;
 }
 
-Json median_throw_of(P p) {
+Json greatest_throw_of(P p) {
     const auto thrown = pre_rift_throw_of(p.fault().cutoffs);
     return thrown ? Json(*thrown) : Json();
 }
@@ -114,10 +114,10 @@ constexpr FaultField fields[] = {
      "thinner than three",
      throws_of},
     {field_points, "m", "points of the line, one per diameter", points_of},
-    {"pre_rift_throw_m", "m",
-     "median of `throw_m` over the horizons of rock before extension: the pre-rift top and the "
-     "layers below it that the fault cuts",
-     median_throw_of, 17, "throw, median of layers"},
+    {"greatest_throw_m", "m",
+     "greatest of `throw_m` over the horizons of rock before extension, the pre-rift top and the "
+     "layers below it; of negative ones the one furthest from 0",
+     greatest_throw_of, 17, "greatest throw"},
     {"throw_error_m", "m",
      "error of each of `throw_m`: scatter of the discs about the horizons, and what another way to "
      "extend these to the fault changes",

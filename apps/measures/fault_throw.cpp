@@ -2,7 +2,6 @@
 
 #include "apps/measures/bed_plane.hpp"
 #include "apps/measures/split.hpp"
-#include "apps/support/statistics.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -35,7 +34,7 @@ struct BesideFault {
     int stratum = 0;
 };
 
-/// What lies beside a fault, above it and below it.
+/// Discs beside a fault, above it and below it.
 struct FaultSides {
     std::vector<BesideFault> hanging, footwall;
 };
@@ -114,7 +113,7 @@ std::optional<HorizonCut> cut_of(const BedPlane& bed, const Polyline& line, doub
 
 /// A horizon's cut on one side, found in two ways.
 struct TwoCuts {
-    std::optional<HorizonCut> first, second;
+    std::optional<HorizonCut> first, second; ///< none of the second if it has no discs of its own
 };
 
 std::optional<BedPlane> plane_of(std::span<const Mark> marks) {
@@ -147,22 +146,29 @@ std::vector<RockHorizon> rock_horizons(const State& state, std::span<const Layer
     return horizons;
 }
 
-std::optional<HorizonCut> rock_cut(std::span<const BesideFault> side, const Polyline& line,
-                                   const TargetLine& horizon, double unit, double reach) {
+std::vector<Mark> rock_marks(std::span<const BesideFault> side, const TargetLine& horizon,
+                             double unit, double reach) {
     std::vector<Mark> marks;
     for (const BesideFault& disc : side) {
         const double above = horizon.above(disc.start);
         if (disc.stratum == 0 && disc.distance < reach * unit && std::abs(above) < rock_band * unit)
             marks.push_back({disc.at, above});
     }
-    const auto bed = plane_of(marks);
-    return bed ? cut_of(*bed, line, trace_error * unit) : std::nullopt;
+    return marks;
 }
 
 TwoCuts rock_cuts(std::span<const BesideFault> side, const Polyline& line,
                   const TargetLine& horizon, double unit) {
-    return {rock_cut(side, line, horizon, unit, near_reach),
-            rock_cut(side, line, horizon, unit, far_reach)};
+    const auto cut = [&](std::span<const Mark> marks) {
+        const auto bed = plane_of(marks);
+        return bed ? cut_of(*bed, line, trace_error * unit) : std::nullopt;
+    };
+    const std::vector<Mark> near = rock_marks(side, horizon, unit, near_reach);
+    const std::vector<Mark> all = rock_marks(side, horizon, unit, far_reach);
+    constexpr double fewest_more = 1.2; // where another fault is near, none lies further away
+    const bool has_more =
+        static_cast<double>(all.size()) > fewest_more * static_cast<double>(near.size());
+    return {cut(near), has_more ? cut(all) : std::nullopt};
 }
 
 // -- strata
@@ -255,10 +261,11 @@ std::optional<Cutoffs> cutoffs_of(const TwoCuts& hanging, const TwoCuts& footwal
     if (!hanging.first || !footwall.first)
         return std::nullopt;
     Cutoffs both{hanging.first->at, footwall.first->at};
-    // A second way that finds nothing tells nothing.
-    const double other = hanging.second && footwall.second
-                             ? footwall.second->at.y - hanging.second->at.y - both.height()
-                             : unit;
+    // Without a second way the beds between are taken for straight to a unit.
+    double other = unit;
+    if (hanging.second || footwall.second)
+        other = footwall.second.value_or(*footwall.first).at.y -
+                hanging.second.value_or(*hanging.first).at.y - both.height();
     both.error = norm({norm({hanging.first->error, footwall.first->error}), other});
     both.is_resolved = both.error <= largest_throw_error * unit;
     return both;
@@ -332,11 +339,12 @@ std::map<int, double> growth_throws_of(const std::map<int, Cutoffs>& cutoffs) {
 }
 
 std::optional<double> pre_rift_throw_of(const std::map<int, Cutoffs>& cutoffs) {
-    std::vector<double> throws;
+    std::optional<double> greatest;
     for (const auto& [number, at] : cutoffs)
-        if (at.is_resolved && number <= 0)
-            throws.push_back(at.height());
-    return throws.empty() ? std::nullopt : std::optional(median(std::move(throws)));
+        if (at.is_resolved && number <= 0 &&
+            (!greatest || std::abs(at.height()) > std::abs(*greatest)))
+            greatest = at.height();
+    return greatest;
 }
 
 } // namespace listric::measures

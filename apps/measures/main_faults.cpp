@@ -89,7 +89,7 @@ constexpr Measure<MainFault> of_main_fault[] = {
      [](F f) -> Value { return f.fault.dip_at_birth; }},
     {"_turn_deg", "deg", "`footwall_turn_deg` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.footwall_turn; }},
-    {"_throw_m", "m", "`pre_rift_throw_m` of the main fault of that attitude",
+    {"_throw_m", "m", "`greatest_throw_m` of the main fault of that attitude",
      [](F f) { return pre_rift_throw_of(f.fault.cutoffs); }},
     {"_rate_mm_per_a", "mm/a", "`rate_mm_per_a` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.rate; }},
@@ -143,7 +143,7 @@ constexpr Quantity throw_age{
 constexpr Quantity throw_age_count{"throw_age_faults", "1",
                                    "number of the faults of `throw_age_correlation`"};
 
-/// Ratio of the two main faults' pre-rift throws. None unless both are there.
+/// Ratio of the two main faults' greatest throws. None unless both are there.
 std::optional<double> throw_ratio(const FaultReport& report) {
     if (!report.main_antithetic || !report.main_synthetic)
         return std::nullopt;

@@ -57,7 +57,7 @@ TEST(Summary, Faults) {
     EXPECT_EQ(f["foot_z_m"], 2000.0);
     EXPECT_EQ(f["throw_m"], json({{"-1", 350.0}, {"0", 300.0}, {"3", 100.0}}));
     EXPECT_EQ(f["throw_error_m"], json({{"-1", 20.0}, {"0", 10.0}, {"3", 30.0}}));
-    EXPECT_EQ(f["pre_rift_throw_m"], 350.0); // the larger of two
+    EXPECT_EQ(f["greatest_throw_m"], 350.0);
     EXPECT_EQ(f["points_m"].size(), 3u);
     for (const char* name : {"dip_deg", "rate_mm_per_a", "width_diameters", "curvature_per_m",
                              "born_at_m", "dip_at_birth_deg", "footwall_turn_deg", "foot_x_m"})

@@ -79,7 +79,7 @@ public:
         return fault_cutoffs(state_, {.trace = trace, .others = others});
     }
 
-    /// Of a horizon.
+    /// Throw of a horizon, m.
     double throw_of(int number) const {
         const double height = number > 0 ? number * thickness : 1000.0 * number;
         const double slip = slip_at(height);

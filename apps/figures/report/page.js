@@ -225,7 +225,7 @@ async function describe() {
       `${fault.dip_deg.toFixed(1)}°, ${digits(fault.rate_mm_per_a, 2)} mm/a, ${valueText(fault.length_m, "m", run.head.mean_radius_m)} long` +
       (fault.born_at_m === null ? "; its birth is known at the figures' moments and at the end"
         : `; born at ${metresText(fault.born_at_m)} of ${clockWord(run)}`) +
-      (fault.pre_rift_throw_m === null ? "" : `; throw, median of layers ${metresText(fault.pre_rift_throw_m)}`) +
+      (fault.greatest_throw_m === null ? "" : `; greatest throw ${metresText(fault.greatest_throw_m)}`) +
       throwsOf(fault).map(([horizon, metres, error], n) =>
         `${n ? ", " : "; throw by horizon: "}${horizonName(horizon, horizonNames(lines))} ${metresText(metres)} (± ${metresText(error)})`).join("")
       : `${which}fault ${picked.index}: not active at this moment`;
