@@ -68,7 +68,7 @@ Polyline points_of(const Chain& chain, double right, double spacing) {
     return points;
 }
 
-Line fault_line(const ExportedMoment& at, std::size_t k, const std::set<int>& strata) {
+Line fault_line(const ExportedMoment& at, std::size_t k, const std::set<int>& thrown) {
     const Fault& f = at.faults.faults[k];
     Line line{{}, rounded(at, f.trace.points)};
     for (const FaultField* field : exported_fault_fields()) {
@@ -77,9 +77,11 @@ Line fault_line(const ExportedMoment& at, std::size_t k, const std::set<int>& st
                               : value.is_number() ? value.get<double>()
                                                   : none);
     }
-    for (const int stratum : strata) {
-        const auto found = f.throws.find(stratum);
-        line.values.emplace_back(found == f.throws.end() ? none : found->second);
+    for (const int horizon : thrown) {
+        const auto found = f.cutoffs.find(horizon);
+        const bool is_known = found != f.cutoffs.end() && found->second.is_resolved;
+        line.values.emplace_back(is_known ? found->second.height() : none);
+        line.values.emplace_back(is_known ? found->second.error : none);
     }
     for (std::size_t p = 0; p < f.trace.points.size(); ++p)
         line.at_points.insert(line.at_points.end(), {f.trace.slip[p], f.trace.width[p]});
@@ -121,14 +123,15 @@ LineTable faults_table(const ExportedMoment& at) {
     for (const FaultField* field : exported_fault_fields())
         table.columns.emplace_back(field->name);
     const FaultReport& report = at.faults;
-    std::set<int> strata;
+    std::set<int> thrown;
     for (const Fault& f : report.faults)
-        for (const auto& [stratum, value] : f.throws)
-            strata.insert(stratum);
-    for (const int stratum : strata)
-        table.columns.push_back(fmt::format("throw_{}_m", stratum));
+        for (const auto& [horizon, value] : throws_of(f.cutoffs))
+            thrown.insert(horizon);
+    for (const int horizon : thrown)
+        for (const char* column : {"throw_{}_m", "throw_{}_error_m"})
+            table.columns.push_back(fmt::format(fmt::runtime(column), horizon));
     for (std::size_t k = 0; k < report.faults.size(); ++k)
-        table.lines.push_back(fault_line(at, k, strata));
+        table.lines.push_back(fault_line(at, k, thrown));
     return table;
 }
 

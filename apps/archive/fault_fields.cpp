@@ -28,9 +28,17 @@ Json main_of(P p) {
 
 Json throws_of(P p) {
     Json throws = Json::object();
-    for (const auto& [stratum, value] : p.fault().throws)
-        throws[fmt::format("{}", stratum)] = value;
+    for (const auto& [horizon, value] : measures::throws_of(p.fault().cutoffs))
+        throws[fmt::format("{}", horizon)] = value;
     return throws;
+}
+
+Json throw_errors_of(P p) {
+    Json errors = Json::object();
+    for (const auto& [horizon, at] : p.fault().cutoffs)
+        if (at.is_resolved)
+            errors[fmt::format("{}", horizon)] = at.error;
+    return errors;
 }
 
 Json points_of(P p) {
@@ -41,8 +49,9 @@ Json points_of(P p) {
     return points;
 }
 
-Json pre_rift_throw_of(P p) {
-    return p.fault().pre_rift_throw ? Json(*p.fault().pre_rift_throw) : Json();
+Json greatest_throw_of(P p) {
+    const auto thrown = pre_rift_throw_of(p.fault().cutoffs);
+    return thrown ? Json(*thrown) : Json();
 }
 
 constexpr std::size_t of_trace = 7;
@@ -102,21 +111,22 @@ constexpr FaultField fields[] = {
      [](P p) -> Json { return p.fault().foot.x; }, 15},
     {"foot_z_m", "m", "depth of the foot", [](P p) -> Json { return -p.fault().foot.y; }, 16},
     {field_throw, "m",
-     "throw by stratum, 0 the pre-rift top, of the strata younger than the fault and of the "
-     "surface "
-     "that it broke first: height between two parallel lines through the stratum's top, 3 to 15 "
-     "diameters to both sides of the fault; positive: the side above the fault lies deeper. A "
-     "stratum thinner "
-     "than three diameters has none",
+     "throw by horizon, numbered as `stratum` of the exported horizons: 0 the pre-rift top, 1 and "
+     "more the tops of strata, -1 and less the layers below the pre-rift top. Height of the "
+     "footwall's cutoff over that of the hanging wall; a cutoff is where the horizon, straight on "
+     "from 3 diameters and more beside the fault, meets the trace. Positive: the side above the "
+     "fault lies deeper. None where `throw_error_m` would exceed two diameters, and of a stratum "
+     "thinner than three",
      throws_of},
     {field_points, "m", "points of the line, one per diameter", points_of},
-    {"pre_rift_throw_m", "m",
-     "median throw of the pre-rift layers, from the start heights of discs 6 diameters to both "
-     "sides of the trace. It has a value also where the two sides of the pre-rift top have parted "
-     "by kilometres",
-     pre_rift_throw_of, 17, "pre-rift throw"},
-    {"throw_error_m", "m", "error of each throw by stratum: a mean disc's diameter",
-     of<&Fault::throw_error>, 18, "", true, true},
+    {"greatest_throw_m", "m",
+     "greatest of `throw_m` over the horizons of rock before extension, the pre-rift top and the "
+     "layers below it; of negative ones the one furthest from 0",
+     greatest_throw_of, 17, "greatest throw"},
+    {"throw_error_m", "m",
+     "error of each of `throw_m`: scatter of the discs about the horizons, and what another way to "
+     "extend these to the fault changes",
+     throw_errors_of},
     {"name", "", "`fault N`", [](P p) -> Json { return fmt::format("fault {}", p.index); }, 1, "",
      false},
     {"fault", "1", "index in `faults`", [](P p) -> Json { return static_cast<double>(p.index); }, 2,

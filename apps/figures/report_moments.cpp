@@ -152,15 +152,16 @@ json faults_of(const ExportedMoment& at, bool followed) {
     return faults;
 }
 
-/// Cutoffs of each fault, by stratum: depth of its top above the fault and below it, m, and whether
-/// the stratum is thick enough for a throw.
+/// Cutoffs of each fault, by horizon: depth of the horizon above the fault and below it, m, whether
+/// it is known well enough for a throw, and the throw's error, m.
 json cutoffs_of(const FaultReport& report, double steps) {
     json list = json::array();
     for (const Fault& fault : report.faults) {
         json cutoffs = json::array();
-        for (const auto& [stratum, at] : fault.cutoffs)
-            cutoffs.push_back({stratum, short_number(0.0 - at.hanging, steps),
-                               short_number(0.0 - at.footwall, steps), at.is_resolved});
+        for (const auto& [horizon, at] : fault.cutoffs)
+            cutoffs.push_back({horizon, short_number(0.0 - at.hanging.y, steps),
+                               short_number(0.0 - at.footwall.y, steps), at.is_resolved,
+                               short_number(at.error, steps)});
         list.push_back(std::move(cutoffs));
     }
     return list;
@@ -230,13 +231,13 @@ SectionLines section_lines(const Observation& now, const FaultReport& faults, bo
     const ExportedMoment at{now, faults};
     json lines{{"followed", followed},
                {"faults", faults_of(at, followed)},
+               {"cutoffs", cutoffs_of(faults, steps_of(now))},
                {"surfaces", lines_of(reference_surfaces_table(at), steps_of(now))},
                {"base", lines_of(base_table(at), steps_of(now))}};
     if (followed) {
         std::vector<Horizon> horizons = horizons_of(at);
         lines["horizons"] = lines_of(horizons_table(at, horizons), steps_of(now));
         lines["predictions"] = predictions_of(now);
-        lines["cutoffs"] = cutoffs_of(faults, steps_of(now));
         if (has_seismics(now.scene))
             lines["seismic"] = seismic_of(now, seismic_horizons(now, std::move(horizons)));
     }

@@ -29,11 +29,8 @@ struct Fault {
     double footwall_turn = 0.0;  ///< rotation of the footwall block since birth, degrees, > 0
                                  ///< counter-clockwise: toward the detachment
     dem::Point foot;             ///< lower end, extended to the detachment if that is close, m
-    /// By stratum, 0: pre-rift top, m; > 0: normal. None of a fault whose birth is not known.
-    std::map<int, double> throws;
-    std::map<int, Cutoffs> cutoffs;       ///< by stratum, which the throws are of
-    double throw_error = 0.0;             ///< of each of them: a mean disc's diameter, m
-    std::optional<double> pre_rift_throw; ///< of the layers below it, median, m
+    /// By horizon; those of growth are told only of a fault that has been followed to its birth.
+    std::map<int, Cutoffs> cutoffs;
 };
 
 /// Properties that the faults of a state share.

@@ -247,8 +247,6 @@ Fault describe(const FaultTrace& trace, const State& now, const Chain& detachmen
     f.width = median(trace.width) / diameter;
     f.curvature = curvature_of(trace.points);
     f.foot = foot_of(trace, detachment, unit);
-    f.throw_error = diameter;
-    f.pre_rift_throw = pre_rift_throw(now, trace.points);
     f.born_at = f.traced_since = now.clock.extension;
     f.born_travel = now.clock.travel;
     f.dip_at_birth = f.dip;
@@ -349,13 +347,18 @@ FaultReport report_faults(const Setting& setting, const RigidBase& base, const S
         for (Fault& fault : report.faults)
             trace_back(fault, footwall_of(fault.trace, now, cells, unit), windows, detachment,
                        unit);
-        // Without earlier windows the birth is not known, and with it which strata are younger.
-        if (older.size() > 1 || older.front().travel.m <= 0.0)
-            for_each_shared(traces.size(), [&](std::size_t k) {
-                Fault& fault = report.faults[k];
-                fault.cutoffs = fault_cutoffs(now, fault.trace.points, fault.born_travel);
-                fault.throws = throws_of(fault.cutoffs);
-            });
+        for_each_shared(traces.size(), [&](std::size_t k) {
+            std::vector<Polyline> others;
+            for (std::size_t m = 0; m < traces.size(); ++m)
+                if (m != k)
+                    others.push_back(traces[m].points);
+            Fault& fault = report.faults[k];
+            fault.cutoffs = fault_cutoffs(now, {.trace = fault.trace.points,
+                                                .born_at = fault.born_travel,
+                                                .others = others,
+                                                .layers = setting.boundaries,
+                                                .unit = unit});
+        });
     }
     summarise(report, detachment, diameter);
     if (setting.detection_circle)

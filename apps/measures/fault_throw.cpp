@@ -1,20 +1,14 @@
 #include "apps/measures/fault_throw.hpp"
 
-#include "apps/measures/rigid_motion.hpp"
+#include "apps/measures/bed_plane.hpp"
 #include "apps/measures/split.hpp"
-#include "apps/support/statistics.hpp"
-#include "dem/contacts/cells.hpp"
-#include "dem/hypotenuse.hpp"
-#include "dem/units.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <span>
 #include <utility>
-#include <vector>
 
 namespace listric::measures {
 
@@ -22,290 +16,335 @@ using namespace dem;
 
 namespace {
 
-// Mean diameters.
-constexpr double nearest_column = 3.0, farthest_column = 15.0; ///< beside the trace
-constexpr double extended = 15.0;                              ///< the trace, upward
-constexpr double thinnest = 3.0;                               ///< a stratum that has a throw
+// Units.
+constexpr double nearest_disc = 3.0;                 ///< disc beside a trace: drag reaches less far
+constexpr double near_reach = 9.0, far_reach = 15.0; ///< disc beside a trace
+constexpr double extension_up = 15.0;                ///< the trace, upward
+constexpr double rock_band = 3.0, top_band = 2.0;    ///< discs above and below a horizon that count
+constexpr double largest_throw_error = 2.0;          ///< of a throw
+constexpr double trace_error = 0.5;                  ///< of the place of a trace
+constexpr double thinnest_stratum = 3.0;             ///< diameters: a stratum that has a throw
 
-constexpr double filled = 0.83; ///< share of the plane that discs fill
+constexpr std::size_t fewest_marks = 10; ///< discs of a plane
 
 /// A disc beside a fault.
 struct BesideFault {
-    Point at;            ///< m
-    double radius = 0.0; ///< m
+    Point at, start;       ///< m
+    double distance = 0.0; ///< from the trace, m
     int stratum = 0;
-    bool on_left = false;     ///< of the downward direction
-    bool is_near_top = false; ///< of its stratum
+};
+
+/// Discs beside a fault, above it and below it.
+struct FaultSides {
+    std::vector<BesideFault> hanging, footwall;
 };
 
 /// The trace with its upper end drawn out straight.
 Polyline extended_upward(const Polyline& trace, double length) {
     Polyline line = trace;
     const Point below = trace[std::min<std::size_t>(6, trace.size() - 1)];
-    const Point up = trace.front() - below;
-    const double d = norm(up);
-    line.insert(line.begin(),
-                {trace.front().x + length * up.x / d, trace.front().y + length * up.y / d});
+    line.insert(line.begin(), trace.front() + length * unit(trace.front() - below));
     return line;
 }
 
-std::vector<BesideFault> discs_beside(const State& state, const Polyline& line, double diameter) {
-    const ConstDiscColumns d = disc_columns(state);
-    // Columns are upright and the line is not: a disc of a column may be this far from it.
-    const double reach = 2.0 * farthest_column * diameter;
-    std::vector<BesideFault> discs;
-    for (std::size_t i = 0; i < d.x.size(); ++i) {
-        const PolylinePlace place = place_on(line, {d.x[i], d.y[i]});
-        if (std::abs(place.distance) < reach)
-            discs.push_back({{d.x[i], d.y[i]},
-                             d.radius[i],
-                             d.stratum[i],
-                             place.distance > 0.0,
-                             d.stratum[i] > 0 || d.start_y[i] > -1.5 * diameter});
-    }
-    return discs;
+/// The trace's point next to another one.
+Point point_next_to(const Polyline& trace, Point p) {
+    return *std::ranges::min_element(trace, {}, [&](Point q) { return dot(q - p, q - p); });
 }
 
-/// By stratum: travel at which it was laid down, m; the pre-rift top: before all.
-std::map<int, double> strata_of(const State& state) {
+/// Whether a place is in the drag of another fault, or has it between itself and the trace.
+bool is_beyond(const Polyline& other, Point p, const Polyline& trace, double drag) {
+    const PolylinePlace place = place_on(other, p);
+    if (std::abs(place.distance) < drag)
+        return true;
+    if (place.beyond)
+        return false;
+    const PolylinePlace from = place_on(other, point_next_to(trace, p));
+    return !from.beyond && (from.distance > 0.0) != (place.distance > 0.0);
+}
+
+FaultSides sides_of(const State& state, const ThrownFault& fault, const Polyline& line,
+                    double unit) {
     const ConstDiscColumns d = disc_columns(state);
-    std::map<int, double> strata{{0, -std::numeric_limits<double>::infinity()}};
+    const bool right = falls_right(line);
+    FaultSides sides;
+    for (std::size_t i = 0; i < d.x.size(); ++i) {
+        const Point p{d.x[i], d.y[i]};
+        const PolylinePlace place = place_on(line, p);
+        const double distance = std::abs(place.distance);
+        if (place.beyond || distance < nearest_disc * unit || distance > far_reach * unit ||
+            std::ranges::any_of(fault.others, [&](const Polyline& other) {
+                return is_beyond(other, p, fault.trace, nearest_disc * unit);
+            }))
+            continue;
+        // The left of the downward direction is above a fault that falls right.
+        auto& side = (place.distance > 0.0) == right ? sides.hanging : sides.footwall;
+        side.push_back({p, {d.start_x[i], d.start_y[i]}, distance, d.stratum[i]});
+    }
+    return sides;
+}
+
+/// Where a horizon meets a fault on one side.
+struct HorizonCut {
+    Point at;           ///< m
+    double error = 0.0; ///< of its height, m
+};
+
+/// Where a horizon, straight on, meets a line that falls; of several places the one next to the
+/// discs that tell of it.
+std::optional<HorizonCut> cut_of(const BedPlane& bed, const Polyline& line, double trace_error) {
+    std::optional<HorizonCut> cut;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        const double up = bed.above(line[k]), down = bed.above(line[k + 1]);
+        if (!(up > 0.0 && down <= 0.0))
+            continue;
+        const Point step = line[k + 1] - line[k];
+        const Point at = line[k] + (up / (up - down)) * step;
+        if (const double away = norm(at - bed.middle()); away < least) {
+            least = away;
+            const Point slope = bed.slope(), n = unit(Point{-step.y, step.x});
+            const double aside = dot(slope, n) * step.y / (up - down) + n.y;
+            cut = {at, norm({bed.standard_error(at) * step.y / (up - down), aside * trace_error})};
+        }
+    }
+    return cut;
+}
+
+/// A horizon's cut on one side, found in two ways.
+struct TwoCuts {
+    std::optional<HorizonCut> first, second; ///< none of the second if it has no discs of its own
+};
+
+std::optional<BedPlane> plane_of(std::span<const Mark> marks) {
+    if (marks.size() < fewest_marks)
+        return std::nullopt;
+    const MarkMoments moments(marks);
+    return BedPlane::through(moments, moments);
+}
+
+// -- rock before extension
+
+/// A horizon of the rock before extension, by its number.
+struct RockHorizon {
+    int number = 0;
+    TargetLine line; ///< before extension
+};
+
+/// The pre-rift top, and below it boundaries of layers, or else one horizon each kilometre.
+std::vector<RockHorizon> rock_horizons(const State& state, std::span<const LayerBoundary> layers) {
+    constexpr double layer = 1000.0; // m, as those of HorizonOptions
+    std::vector<RockHorizon> horizons{{0, TargetLine({{0.0, 0.0}})}};
+    for (std::size_t k = 0; k < layers.size(); ++k)
+        horizons.push_back({-static_cast<int>(k) - 1, layers[k].line});
+    if (!layers.empty())
+        return horizons;
+    const ConstDiscColumns d = disc_columns(state);
+    const double deepest = d.start_y.empty() ? 0.0 : *std::ranges::min_element(d.start_y);
+    for (int k = 1; k * layer < -deepest; ++k)
+        horizons.push_back({-k, TargetLine({{0.0, -k * layer}})});
+    return horizons;
+}
+
+std::vector<Mark> rock_marks(std::span<const BesideFault> side, const TargetLine& horizon,
+                             double unit, double reach) {
+    std::vector<Mark> marks;
+    for (const BesideFault& disc : side) {
+        const double above = horizon.above(disc.start);
+        if (disc.stratum == 0 && disc.distance < reach * unit && std::abs(above) < rock_band * unit)
+            marks.push_back({disc.at, above});
+    }
+    return marks;
+}
+
+TwoCuts rock_cuts(std::span<const BesideFault> side, const Polyline& line,
+                  const TargetLine& horizon, double unit) {
+    const auto cut = [&](std::span<const Mark> marks) {
+        const auto bed = plane_of(marks);
+        return bed ? cut_of(*bed, line, trace_error * unit) : std::nullopt;
+    };
+    const std::vector<Mark> near = rock_marks(side, horizon, unit, near_reach);
+    const std::vector<Mark> all = rock_marks(side, horizon, unit, far_reach);
+    constexpr double fewest_more = 1.2; // where another fault is near, none lies further away
+    const bool has_more =
+        static_cast<double>(all.size()) > fewest_more * static_cast<double>(near.size());
+    return {cut(near), has_more ? cut(all) : std::nullopt};
+}
+
+// -- strata
+
+/// When strata were laid down, by stratum.
+std::map<int, Travel> when_laid_down(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    std::map<int, Travel> strata;
     for (std::size_t i = 0; i < d.x.size(); ++i)
         if (d.stratum[i] > 0)
-            strata[d.stratum[i]] = d.start_travel[i];
+            strata[d.stratum[i]] = Travel(d.start_travel[i]);
     return strata;
 }
 
-/// Leaves out what is older than a fault but the surface that it broke, the youngest such stratum.
-void leave_out_older(std::map<int, double>& strata, Travel born_at) {
-    constexpr double tolerance = 1.0; // m: a window and a stratum may end in the same cycle
-    while (strata.size() > 1 && std::next(strata.begin())->second < born_at.m - tolerance)
-        strata.erase(strata.begin());
-}
-
-/// Mean height of a stratum's discs on both sides, m. None if a side has none.
-std::optional<double> mean_height(std::span<const BesideFault> discs, int stratum) {
-    double height[2] = {}, count[2] = {};
-    for (const BesideFault& disc : discs)
-        if (disc.stratum == stratum && disc.is_near_top) {
-            height[disc.on_left] += disc.at.y;
-            count[disc.on_left] += 1.0;
-        }
-    if (count[0] == 0.0 || count[1] == 0.0)
-        return std::nullopt;
-    return 0.5 * (height[0] / count[0] + height[1] / count[1]);
-}
-
-/// x where a line that falls comes to a height, m; none if it does not.
-std::optional<double> crossing(const Polyline& line, double y) {
-    const auto next = std::ranges::find_if(line, [&](Point p) { return p.y < y; });
-    if (next == line.begin() || next == line.end())
-        return std::nullopt;
-    const Point a = *(next - 1), b = *next;
-    return a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y);
-}
-
-/// Tops of a stratum and all below it on one side of a fault, in columns one diameter wide: sums
-/// for a line through them.
-struct Side {
-    double count = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-    double area = 0.0; ///< of the stratum's discs, m^2
-
-    void add(Point top) {
-        count += 1.0;
-        x += top.x;
-        y += top.y;
-        xx += top.x * top.x;
-        xy += top.x * top.y;
-    }
-    double spread() const { return xx - x * x / count; }
-    double tilt_moment() const { return xy - x * y / count; }
-};
-
-/// The top in one column: between the discs below it and those above, or on the highest disc. None
-/// in a column without disc of the stratum.
-/// @param discs  of the column
-std::optional<double> top_of(std::span<const BesideFault> discs, int stratum) {
+/// Discs around a level line through their middle height between those of a stratum and below it
+/// and those above: where the search for its top begins.
+std::optional<BedPlane> level_top(std::span<const BesideFault> side, int stratum) {
     std::vector<MarkedPlace> places;
-    double highest = -std::numeric_limits<double>::infinity();
-    bool has_above = false, has_stratum = false;
-    for (const BesideFault& disc : discs) {
+    for (const BesideFault& disc : side)
         places.push_back({disc.at.y, disc.stratum <= stratum});
-        highest = std::max(highest, disc.at.y + disc.radius);
-        has_above = has_above || disc.stratum > stratum;
-        has_stratum = has_stratum || disc.stratum == stratum;
-    }
-    if (!has_stratum)
-        return std::nullopt;
-    if (!has_above)
-        return highest;
     const auto split = best_split(std::move(places));
-    return split ? std::optional(split->at) : std::nullopt;
-}
-
-/// @param x  where the line crosses the stratum, m
-Side side_of(std::span<const BesideFault> discs, bool left, double x, int stratum,
-             double diameter) {
-    const double outward = left ? 1.0 : -1.0; // the left of a direction downward is at larger x
-    constexpr auto columns = static_cast<std::size_t>(farthest_column - nearest_column);
-    std::vector<std::vector<BesideFault>> in_column(columns);
-    Side side;
-    for (const BesideFault& disc : discs) {
-        const double column = outward * (disc.at.x - x) / diameter - nearest_column;
-        if (disc.on_left != left || column < 0.0 || column >= static_cast<double>(columns))
-            continue;
-        in_column[static_cast<std::size_t>(column)].push_back(disc);
-        if (disc.stratum == stratum)
-            side.area += pi * disc.radius * disc.radius;
-    }
-    for (const auto& column : in_column)
-        if (const auto top = top_of(column, stratum)) {
-            double middle = 0.0;
-            for (const BesideFault& disc : column)
-                middle += disc.at.x / static_cast<double>(column.size());
-            side.add({middle - x, *top});
+    if (!split)
+        return std::nullopt;
+    Point at{0.0, split->at};
+    double count = 0.0;
+    for (const BesideFault& disc : side)
+        if (disc.stratum == stratum) {
+            at.x += disc.at.x;
+            count += 1.0;
         }
-    return side;
+    if (count == 0.0)
+        return std::nullopt;
+    at.x /= count;
+    // A level plane of slope 1.
+    const Mark marks[] = {{at + Point{-1.0, -1.0}, -1.0},
+                          {at + Point{1.0, -1.0}, -1.0},
+                          {at + Point{-1.0, 1.0}, 1.0},
+                          {at + Point{1.0, 1.0}, 1.0}};
+    return BedPlane::through(MarkMoments(marks), MarkMoments(marks));
 }
 
-/// A stratum's top on both sides of a fault.
-struct Tops {
-    int stratum = 0;
-    Side left, right;
-
-    double spread() const { return left.spread() + right.spread(); }
-    double tilt_moment() const { return left.tilt_moment() + right.tilt_moment(); }
-    /// Where the fault is, of lines of a tilt, m.
-    double height_on_left(double tilt) const { return (left.y - tilt * left.x) / left.count; }
-    double height_on_right(double tilt) const { return (right.y - tilt * right.x) / right.count; }
-};
-
-/// Whether a stratum is thick enough, in the mean of both sides, to have a throw.
-bool is_resolved(const Side& left, const Side& right, double diameter) {
-    const double width = 2.0 * (farthest_column - nearest_column) * diameter;
-    return left.area + right.area >= thinnest * diameter * filled * width;
-}
-
-/// None if the fault does not cross the stratum, or a side has too few columns of it.
-std::optional<Tops> tops_beside(std::span<const BesideFault> discs, const Polyline& line,
-                                int stratum, double diameter) {
-    constexpr int rounds = 3;      // the fault is crossed half way between both heights
-    constexpr double fewest = 5.0; // columns on a side
-    auto y = mean_height(discs, stratum);
-    Tops tops{stratum, {}, {}};
-    for (int n = 0; n < rounds; ++n) {
-        const auto x = y ? crossing(line, *y) : std::nullopt;
-        if (!x)
+/// Discs next to the top of a stratum. A plane through 1 above it and -1 below it is 0 in the
+/// middle of a band of discs; a band that is off by some distance comes to a third of it.
+std::optional<MarkMoments> marks_at_top(std::span<const BesideFault> side, int stratum,
+                                        double unit) {
+    auto bed = level_top(side, stratum);
+    std::vector<Mark> marks;
+    for (const double band : {4.0, 3.0, 2.5, 2.0, 2.0, 2.0, 2.0}) {
+        if (!bed)
             return std::nullopt;
-        tops.left = side_of(discs, true, *x, stratum, diameter);
-        tops.right = side_of(discs, false, *x, stratum, diameter);
-        if (tops.left.count < fewest || tops.right.count < fewest)
-            return std::nullopt;
-        const double tilt = tops.tilt_moment() / tops.spread();
-        y = 0.5 * (tops.height_on_left(tilt) + tops.height_on_right(tilt));
+        const double reach = band / 2.0 * top_band * unit * norm(bed->slope());
+        marks.clear();
+        for (const BesideFault& disc : side)
+            if (std::abs(bed->above(disc.at)) < reach)
+                marks.push_back({disc.at, disc.stratum <= stratum ? -1.0 : 1.0});
+        bed = plane_of(marks);
     }
-    return tops;
+    if (!bed)
+        return std::nullopt;
+    return MarkMoments(marks);
 }
 
-/// Tilt of the top k and the two next to it, which lie alike: one alone is known too badly.
-double tilt_around(std::span<const Tops> tops, std::size_t k) {
-    double moment = 0.0, spread = 0.0;
-    for (std::size_t m = k > 0 ? k - 1 : 0; m < std::min(k + 2, tops.size()); ++m) {
-        moment += tops[m].tilt_moment();
-        spread += tops[m].spread();
+/// By stratum: the cut of its top, with the tilt of the tops next to it and with its own.
+std::map<int, TwoCuts> top_cuts(std::span<const BesideFault> side, const Polyline& line,
+                                const std::map<int, Travel>& strata, double unit) {
+    std::vector<std::pair<int, MarkMoments>> tops;
+    for (const auto& [stratum, laid_down_at] : strata)
+        if (auto marks = marks_at_top(side, stratum, unit))
+            tops.emplace_back(stratum, *marks);
+    std::map<int, TwoCuts> cuts;
+    for (std::size_t k = 0; k < tops.size(); ++k) {
+        MarkMoments spread = tops[k].second;
+        if (k > 0)
+            spread.add_spread(tops[k - 1].second);
+        if (k + 1 < tops.size())
+            spread.add_spread(tops[k + 1].second);
+        TwoCuts& both = cuts[tops[k].first];
+        if (const auto bed = BedPlane::through(tops[k].second, spread))
+            both.first = cut_of(*bed, line, trace_error * unit);
+        if (const auto bed = BedPlane::through(tops[k].second, tops[k].second))
+            both.second = cut_of(*bed, line, trace_error * unit);
     }
-    return moment / spread;
+    return cuts;
 }
 
-/// Height of the trace, and of the layer beside it at the start, m.
-struct Layer {
-    double now, start;
-};
+// -- both sides
 
-/// Layers along one side of a trace, from top to bottom.
-/// @param offset  of the discs that say so, m into the footwall
-std::vector<Layer> layers_beside(const State& state, const Cells& cells, const Polyline& trace,
-                                 double offset, double reach) {
-    constexpr std::size_t fewest = 8; // discs beside a point
-    const ConstDiscColumns d = disc_columns(state);
-    std::vector<Layer> layers;
-    for (std::size_t k = 0; k < trace.size(); ++k) {
-        const Point centre = trace[k] + offset * footwall_normal(trace, k);
-        RigidMotion back;
-        cells.for_each_near(centre.x, centre.y, [&](std::int32_t row) {
-            const auto i = static_cast<std::size_t>(row);
-            if (d.stratum[i] == 0 && hypotenuse(d.x[i] - centre.x, d.y[i] - centre.y) < reach)
-                back.add({d.x[i], d.y[i]}, {d.start_x[i], d.start_y[i]});
-        });
-        if (back.size() < fewest)
+/// None unless the horizon meets the fault on both sides.
+std::optional<Cutoffs> cutoffs_of(const TwoCuts& hanging, const TwoCuts& footwall, double unit) {
+    if (!hanging.first || !footwall.first)
+        return std::nullopt;
+    Cutoffs both{hanging.first->at, footwall.first->at};
+    // Without a second way the beds between are taken for straight to a unit.
+    double other = unit;
+    if (hanging.second || footwall.second)
+        other = footwall.second.value_or(*footwall.first).at.y -
+                hanging.second.value_or(*hanging.first).at.y - both.height();
+    both.error = norm({norm({hanging.first->error, footwall.first->error}), other});
+    both.is_resolved = both.error <= largest_throw_error * unit;
+    return both;
+}
+
+/// Takes throws from strata that are too thin, or whose thickness is not known.
+void leave_out_thin(std::map<int, Cutoffs>& cutoffs, double least) {
+    for (auto& [stratum, top] : cutoffs) {
+        if (stratum <= 0)
             continue;
-        back.fit();
-        // Above the pre-rift top there is no layer that the side's motion could bring back.
-        if (const double start = back.move(trace[k]).y; start <= 0.0)
-            layers.push_back({trace[k].y, start});
+        const auto base = cutoffs.find(stratum - 1);
+        top.is_resolved =
+            top.is_resolved && base != cutoffs.end() &&
+            top.hanging.y - base->second.hanging.y + top.footwall.y - base->second.footwall.y >=
+                2.0 * least;
     }
-    return layers;
+}
+
+/// Marks the strata younger than the fault, and the youngest that is older.
+void mark_growth(std::map<int, Cutoffs>& cutoffs, const std::map<int, Travel>& strata,
+                 Travel born_at) {
+    constexpr Travel tolerance(1.0); // a window and a stratum may end in the same cycle
+    int broken = 0;
+    for (const auto& [stratum, laid_down_at] : strata)
+        if (laid_down_at < born_at - tolerance)
+            broken = stratum;
+    for (auto& [stratum, top] : cutoffs)
+        top.is_of_growth = stratum >= broken;
 }
 
 } // namespace
 
-std::map<int, Cutoffs> fault_cutoffs(const State& state, const Polyline& trace, Travel born_at) {
-    assert(trace.size() > 1);
+std::map<int, Cutoffs> fault_cutoffs(const State& state, const ThrownFault& fault) {
+    assert(fault.trace.size() > 1);
     const double diameter = 2.0 * state.mean_radius;
-    const Polyline line = extended_upward(trace, extended * diameter);
-    const std::vector<BesideFault> discs = discs_beside(state, line, diameter);
-    std::map<int, double> strata = strata_of(state);
-    leave_out_older(strata, born_at);
-    std::vector<Tops> all;
-    for (const auto& [stratum, laid_down_at] : strata)
-        if (auto tops = tops_beside(discs, line, stratum, diameter))
-            all.push_back(*tops);
+    const double unit = std::max(fault.unit, diameter);
+    // Horizons that a fault cuts at a small angle would follow a trace's turns.
+    const Polyline line = extended_upward(even(fault.trace, unit), extension_up * unit);
+    const FaultSides sides = sides_of(state, fault, line, unit);
     std::map<int, Cutoffs> cutoffs;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const Tops& tops = all[k];
-        const double tilt = tilt_around(all, k);
-        const double left = tops.height_on_left(tilt), right = tops.height_on_right(tilt);
-        // The left of the downward direction is above a fault that falls right.
-        cutoffs[tops.stratum] = {.hanging = falls_right(line) ? left : right,
-                                 .footwall = falls_right(line) ? right : left,
-                                 .is_resolved = tops.stratum == 0 ||
-                                                is_resolved(tops.left, tops.right, diameter)};
-    }
+    for (const auto& [number, horizon] : rock_horizons(state, fault.layers))
+        if (const auto both = cutoffs_of(rock_cuts(sides.hanging, line, horizon, unit),
+                                         rock_cuts(sides.footwall, line, horizon, unit), unit))
+            cutoffs[number] = *both;
+    const std::map<int, Travel> strata = when_laid_down(state);
+    const std::map<int, TwoCuts> hanging = top_cuts(sides.hanging, line, strata, unit);
+    const std::map<int, TwoCuts> footwall = top_cuts(sides.footwall, line, strata, unit);
+    for (const auto& [stratum, cuts] : hanging)
+        if (const auto below = footwall.find(stratum); below != footwall.end())
+            if (const auto both = cutoffs_of(cuts, below->second, unit))
+                cutoffs[stratum] = *both;
+    leave_out_thin(cutoffs, thinnest_stratum * diameter);
+    mark_growth(cutoffs, strata, fault.born_at);
     return cutoffs;
 }
 
 std::map<int, double> throws_of(const std::map<int, Cutoffs>& cutoffs) {
     std::map<int, double> throws;
-    for (const auto& [stratum, cutoff] : cutoffs)
-        if (cutoff.is_resolved)
-            throws[stratum] = cutoff.offset();
+    for (const auto& [number, at] : cutoffs)
+        if (at.is_resolved)
+            throws[number] = at.height();
     return throws;
 }
 
-std::map<int, double> fault_throws(const State& state, const Polyline& trace, Travel born_at) {
-    return throws_of(fault_cutoffs(state, trace, born_at));
+std::map<int, double> growth_throws_of(const std::map<int, Cutoffs>& cutoffs) {
+    std::map<int, double> throws;
+    for (const auto& [number, at] : cutoffs)
+        if (at.is_resolved && at.is_of_growth)
+            throws[number] = at.height();
+    return throws;
 }
 
-std::optional<double> pre_rift_throw(const State& state, const Polyline& trace) {
-    assert(trace.size() > 1);
-    constexpr std::size_t fewest = 4; // layers
-    const ConstDiscColumns d = disc_columns(state);
-    const double diameter = 2.0 * state.mean_radius;
-    const double reach = 3.0 * diameter, offset = 6.0 * diameter;
-    const Cells cells(d.x, d.y, reach);
-    const std::vector<Layer> footwall = layers_beside(state, cells, trace, offset, reach);
-    const std::vector<Layer> hanging_wall = layers_beside(state, cells, trace, -offset, reach);
-    std::vector<double> throws;
-    for (const Layer& layer : hanging_wall)
-        for (std::size_t k = 0; k + 1 < footwall.size(); ++k) {
-            const Layer &up = footwall[k], &down = footwall[k + 1];
-            if (up.start >= layer.start && down.start < layer.start) {
-                const double share = (up.start - layer.start) / (up.start - down.start);
-                throws.push_back(up.now + share * (down.now - up.now) - layer.now);
-                break;
-            }
-        }
-    return throws.size() < fewest ? std::nullopt : std::optional(median(std::move(throws)));
+std::optional<double> pre_rift_throw_of(const std::map<int, Cutoffs>& cutoffs) {
+    std::optional<double> greatest;
+    for (const auto& [number, at] : cutoffs)
+        if (at.is_resolved && number <= 0 &&
+            (!greatest || std::abs(at.height()) > std::abs(*greatest)))
+            greatest = at.height();
+    return greatest;
 }
 
 } // namespace listric::measures

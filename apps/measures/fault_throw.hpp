@@ -1,48 +1,58 @@
 #pragma once
 
 #include "apps/measures/polyline.hpp"
+#include "apps/measures/setting.hpp"
 #include "dem/state.hpp"
 
 #include <map>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace listric::measures {
 
-/// Throw of the strata younger than a fault, and of the surface that it broke first, m by stratum
-/// number; 0 is the pre-rift top. Positive where the side above the fault lies deeper: normal.
-/// Known to a mean disc's diameter. A stratum that is thinner than three of them beside the fault
-/// has no value.
-///
-/// The tops of a stratum and all below it, in columns one diameter wide between 3 and 15 diameters
-/// to the left and right of where the trace crosses the stratum, as two parallel lines, one per
-/// side, of the mean tilt of the stratum and the two next to it; their distance is the throw. A top
-/// lies between the discs below it and those above. The trace is extended upward by up to 15
-/// diameters along its upper end, since young sediment slips too little to be traced.
-/// @param born_at  when the fault formed
-std::map<int, double> fault_throws(const dem::State& state, const Polyline& trace,
-                                   dem::Travel born_at);
-
-/// Where a stratum's top meets a fault, on both sides.
+/// Where a horizon, straight on from both sides, meets a fault.
 struct Cutoffs {
-    double hanging = 0.0;     ///< height on the side above the fault, m
-    double footwall = 0.0;    ///< height on the side below it, m
-    bool is_resolved = false; ///< the stratum is thick enough for a throw
+    dem::Point hanging, footwall; ///< above the fault and below it, m
+    double error = 0.0;           ///< of the throw, m
+    bool is_resolved = false;     ///< it is known well enough for a throw
+    bool is_of_growth = false;    ///< younger than the fault, or the surface that it broke first
 
-    double offset() const { return footwall - hanging; } ///< the throw, m
+    /// Height of the footwall's cutoff over that of the hanging wall, m; > 0: normal.
+    double height() const { return footwall.y - hanging.y; }
 };
 
-/// Cutoffs by which fault_throws() tells throws, also of strata that are too thin for one: between
-/// two in succession is the thickness of the upper stratum on both sides.
-std::map<int, Cutoffs> fault_cutoffs(const dem::State& state, const Polyline& trace,
-                                     dem::Travel born_at);
+/// A fault and what lies around it.
+struct ThrownFault {
+    const Polyline& trace;
+    dem::Travel born_at = {};                   ///< when it formed
+    std::span<const Polyline> others = {};      ///< faults beyond which a horizon is another one's
+    std::span<const LayerBoundary> layers = {}; ///< of rock before extension; none: every kilometre
+    double unit = 0.0;                          ///< of lengths, m; 0: a mean disc's diameter
+};
 
-/// Throws by stratum of those cutoffs that have one, m.
+/// Cutoffs of all horizons that meet a fault on both sides, by the numbers of Horizon: 0 the
+/// pre-rift top, n the top of the n-th stratum, -n the n-th horizon below the pre-rift top.
+///
+/// A horizon beside the fault is a plane through discs between 3 and 15 units away from it, where
+/// neither drag nor another fault reaches, and it meets the trace where it is straight on. Of rock
+/// before extension each disc tells by its start how far above the horizon it is; of sediment it
+/// tells only whether it is above, so that the tops of three strata in succession share one tilt.
+/// The trace is extended upward by 15 units, as young sediment slips too little to be traced.
+///
+/// The error holds the scatter of the discs about the planes and what a second way brings: other
+/// distances (3 to 15 for 3 to 9 units) or a top's own tilt. A throw needs an error of at most two
+/// units and, of a stratum, a thickness of three discs in the mean of both sides.
+std::map<int, Cutoffs> fault_cutoffs(const dem::State& state, const ThrownFault& fault);
+
+/// Throws by horizon of those cutoffs that have one, m.
 std::map<int, double> throws_of(const std::map<int, Cutoffs>& cutoffs);
 
-/// Throw of the pre-rift layers, m: median over the layers that the trace cuts on both sides. Where
-/// a layer meets the trace follows from the rigid motion since the start of the discs 3 to 9
-/// diameters beside it. Unlike the throw of the pre-rift top it is there however far the two sides
-/// have parted. Positive: normal. None if no layer is on both sides.
-std::optional<double> pre_rift_throw(const dem::State& state, const Polyline& trace);
+/// Throws of the strata younger than the fault and of the surface that it broke first, m.
+std::map<int, double> growth_throws_of(const std::map<int, Cutoffs>& cutoffs);
+
+/// Median throw of the horizons of the rock before extension, its top among them, m; none without
+/// any.
+std::optional<double> pre_rift_throw_of(const std::map<int, Cutoffs>& cutoffs);
 
 } // namespace listric::measures

@@ -133,11 +133,12 @@ SurveyedLine survey(Polyline points, const ShearField& field, const Cells& cells
     SurveyedLine line{{std::move(points), std::vector<double>(count), std::vector<double>(count)},
                       std::vector<char>(count)};
     FaultTrace& t = line.trace;
+    constexpr std::size_t straight = 10; // points, over which a trace's turns are chance
     in_pieces(count, 8, [&](std::size_t k, std::size_t end) {
         for (; k < end; ++k) {
             const ShearProfile profile(field, cells, t.points[k], unit(chord_at(t.points, k)),
                                        options.profile_reach * field.diameter);
-            t.slip[k] = profile.slip();
+            t.slip[k] = profile.slip(unit(chord_at(t.points, k, straight)));
             t.width[k] = profile.width();
             line.is_sound[k] =
                 profile.peak() >= least_strain && profile.alignment() >= options.least_alignment;

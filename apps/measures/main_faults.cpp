@@ -89,8 +89,8 @@ constexpr Measure<MainFault> of_main_fault[] = {
      [](F f) -> Value { return f.fault.dip_at_birth; }},
     {"_turn_deg", "deg", "`footwall_turn_deg` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.footwall_turn; }},
-    {"_throw_m", "m", "`pre_rift_throw_m` of the main fault of that attitude",
-     [](F f) { return f.fault.pre_rift_throw; }},
+    {"_throw_m", "m", "`greatest_throw_m` of the main fault of that attitude",
+     [](F f) { return pre_rift_throw_of(f.fault.cutoffs); }},
     {"_rate_mm_per_a", "mm/a", "`rate_mm_per_a` of the main fault of that attitude",
      [](F f) -> Value { return f.fault.rate; }},
     {"_x_at_half_depth_m", "m",
@@ -137,18 +137,18 @@ constexpr Quantity inner_step{
     "ones"};
 constexpr Quantity throw_age{
     "throw_age_correlation", "1",
-    "rank correlation (Spearman) of `faults.throw_m` with stratum, -1 where each younger stratum "
-    "has "
-    "less: median over the normal faults of 30 degrees or more that have five throws or more"};
+    "rank correlation (Spearman) of `faults.throw_m` with stratum, of the strata younger than the "
+    "fault and the surface that it broke first, -1 where each younger stratum has less: median "
+    "over the normal faults of 30 degrees or more that have five throws or more"};
 constexpr Quantity throw_age_count{"throw_age_faults", "1",
                                    "number of the faults of `throw_age_correlation`"};
 
-/// Ratio of the two main faults' pre-rift throws. None unless both are there.
+/// Ratio of the two main faults' greatest throws. None unless both are there.
 std::optional<double> throw_ratio(const FaultReport& report) {
     if (!report.main_antithetic || !report.main_synthetic)
         return std::nullopt;
-    const auto& antithetic = report.faults[*report.main_antithetic].pre_rift_throw;
-    const auto& synthetic = report.faults[*report.main_synthetic].pre_rift_throw;
+    const auto antithetic = pre_rift_throw_of(report.faults[*report.main_antithetic].cutoffs);
+    const auto synthetic = pre_rift_throw_of(report.faults[*report.main_synthetic].cutoffs);
     if (!antithetic || !synthetic || *synthetic <= 0.0)
         return std::nullopt;
     return *antithetic / *synthetic;
@@ -158,7 +158,7 @@ NamedNumbers measure_throws_by_age(const std::vector<Fault>& faults) {
     std::vector<double> correlations;
     for (const Fault& f : faults)
         if (f.normal && f.dip >= least_main_dip)
-            if (const auto r = throw_age_correlation(f.throws))
+            if (const auto r = throw_age_correlation(growth_throws_of(f.cutoffs)))
                 correlations.push_back(*r);
     NamedNumbers numbers;
     add(numbers, throw_age_count, static_cast<double>(correlations.size()));

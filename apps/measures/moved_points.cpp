@@ -124,6 +124,7 @@ ShearField shear_field(const MovedPoints& points) {
 }
 
 std::vector<TracedFault> trace_faults(const MovedPoints& points, const FaultTraceOptions& options) {
+    constexpr double vertical = 88.0; // degrees: a dip is known to two
     const ShearField field = shear_field(points);
     std::vector<TracedFault> faults;
     if (!(field.diameter > 0.0))
@@ -132,11 +133,12 @@ std::vector<TracedFault> trace_faults(const MovedPoints& points, const FaultTrac
         TracedFault f;
         const double slip = median(trace.slip);
         f.dip = dip_of(trace.points);
-        f.normal = (slip > 0.0) == falls_right(trace.points);
+        // Which side of a vertical fault is above it is chance; the side that sinks is.
+        f.normal = f.dip > vertical || (slip > 0.0) == falls_right(trace.points);
         f.slip = std::abs(slip);
         f.width = median(trace.width) / field.diameter;
         if (const auto moves = movement_across(points, field, trace.points))
-            f.throw_down = -moves->y;
+            f.throw_down = f.dip > vertical ? std::abs(moves->y) : -moves->y;
         f.trace = std::move(trace);
         faults.push_back(std::move(f));
     }

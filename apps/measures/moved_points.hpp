@@ -30,7 +30,7 @@ ShearField shear_field(const MovedPoints& points);
 struct TracedFault {
     FaultTrace trace;
     double dip = 0.0;        ///< of the best straight line, degrees
-    bool normal = true;      ///< else reverse
+    bool normal = true;      ///< else reverse; a fault of 88 degrees or more always
     double slip = 0.0;       ///< median along the trace, m, without sign
     double throw_down = 0.0; ///< of the side above the fault relative to that below, m; > 0: normal
     double width = 0.0;      ///< median along the trace, in spacings

@@ -72,9 +72,9 @@ double curvature_of(const Polyline& points) {
     return -2.0 * c2 / (half * half);
 }
 
-Point chord_at(const Polyline& points, std::size_t k) {
+Point chord_at(const Polyline& points, std::size_t k, std::size_t reach) {
     assert(k < points.size());
-    return points[std::min(k + 3, points.size() - 1)] - points[k > 3 ? k - 3 : 0];
+    return points[std::min(k + reach, points.size() - 1)] - points[k > reach ? k - reach : 0];
 }
 
 Point footwall_normal(const Polyline& points, std::size_t k) {

@@ -23,8 +23,8 @@ double dip_of(const Polyline& points);
 /// Curvature of the best parabola over the points' chord, 1/m; > 0: convex upward.
 double curvature_of(const Polyline& points);
 
-/// From three points before a point to three behind it, fewer at the ends, m.
-dem::Point chord_at(const Polyline& points, std::size_t k);
+/// From some points before a point to as many behind it, fewer at the ends, m.
+dem::Point chord_at(const Polyline& points, std::size_t k, std::size_t reach = 3);
 
 /// Unit vector into the footwall: on the right of the downward direction where the fault falls
 /// right.

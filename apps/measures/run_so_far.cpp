@@ -10,16 +10,18 @@ namespace {
 
 /// Discs of an earlier field that are still there.
 ShearField only_present(ShearField field, const DiscPlaces& now) {
+    const auto columns = {&field.x,  &field.y,  &field.xx, &field.xy,
+                          &field.yx, &field.yy, &field.dx, &field.dy};
     std::size_t kept = 0;
     for (std::size_t k = 0; k < field.x.size(); ++k) {
         if (now.row_of[static_cast<std::size_t>(field.id[k])] < 0)
             continue;
         field.id[kept] = field.id[k];
-        for (auto* values : {&field.x, &field.y, &field.xx, &field.xy, &field.yx, &field.yy})
+        for (auto* values : columns)
             (*values)[kept] = (*values)[k];
         ++kept;
     }
-    for (auto* values : {&field.x, &field.y, &field.xx, &field.xy, &field.yx, &field.yy})
+    for (auto* values : columns)
         values->resize(kept);
     field.id.resize(kept);
     return field;

@@ -39,10 +39,14 @@ void fit_gradients(ShearField& field, std::span<const double> old_x,
     const std::size_t count = field.x.size();
     for (auto* values : {&field.xx, &field.xy, &field.yx, &field.yy})
         values->assign(count, 0.0);
+    field.dx.resize(count);
+    field.dy.resize(count);
     // Neighbours and gradient refer to the places half way: where two sides slid past each other, a
     // disc's neighbours across the fault then lie as much ahead of it as behind.
     std::vector<double> half_x(count), half_y(count);
     for (std::size_t i = 0; i < count; ++i) {
+        field.dx[i] = field.x[i] - old_x[i];
+        field.dy[i] = field.y[i] - old_y[i];
         half_x[i] = 0.5 * (old_x[i] + field.x[i]);
         half_y[i] = 0.5 * (old_y[i] + field.y[i]);
     }
@@ -50,13 +54,12 @@ void fit_gradients(ShearField& field, std::span<const double> old_x,
     const Cells cells(half_x, half_y, reach);
     const auto fit_one = [&](std::size_t i) {
         GradientFit fit;
-        const double ux_i = field.x[i] - old_x[i], uy_i = field.y[i] - old_y[i];
         cells.for_each_near(half_x[i], half_y[i], [&](std::int32_t row) {
             const auto j = static_cast<std::size_t>(row);
             const double dx = half_x[j] - half_x[i], dy = half_y[j] - half_y[i];
             if (dx * dx + dy * dy > reach * reach)
                 return;
-            fit.add(dx, dy, field.x[j] - old_x[j] - ux_i, field.y[j] - old_y[j] - uy_i);
+            fit.add(dx, dy, field.dx[j] - field.dx[i], field.dy[j] - field.dy[i]);
         });
         if (const auto gradient = fit.gradient(flattest)) {
             field.xx[i] = gradient->xx;

@@ -50,6 +50,7 @@ struct ShearField {
     std::vector<double> x, y;           ///< where the discs are in the later state, m
     std::vector<std::int64_t> id;       ///< of the discs
     std::vector<double> xx, xy, yx, yy; ///< xy: change of u_x with y
+    std::vector<double> dx, dy;         ///< displacement, m
     double diameter = 0.0;              ///< mean of the basement, or what coarsen() made of it, m
     double discs_across = 1.0;          ///< mean diameters in that
     dem::Extension window;              ///< way of the wall between the states
@@ -60,7 +61,8 @@ struct ShearField {
     PlaneShear components(std::size_t k) const { return {xx[k] - yy[k], xy[k] + yx[k]}; }
 };
 
-/// Fits the gradients of a field whose points are known, and where they were before, m.
+/// Fits the gradients of a field whose points are known, and where they were before, m; sets the
+/// displacements, too.
 void fit_gradients(ShearField& field, std::span<const double> old_x, std::span<const double> old_y);
 
 /// Lets the field be looked at in units of at least `unit` m instead of a disc's diameter: among

@@ -29,45 +29,54 @@ std::vector<std::int32_t> discs_across(const ShearField& field, const Cells& cel
     return seen;
 }
 
-/// Mean shear at 2 half + 1 places across a trace, one `step` apart; 0 where there is no disc.
-std::vector<PlaneShear> mean_shear(const ShearField& field, const Cells& cells, Point p, Point t,
-                                   double reach, double step, std::ptrdiff_t half) {
-    const auto size = static_cast<std::size_t>(2 * half + 1);
-    std::vector<double> weight(size, 0.0);
-    std::vector<PlaneShear> mean(size);
-    const double band = ShearProfile::band * field.diameter;
-    const Point n{-t.y, t.x};
-    for (std::int32_t row : discs_across(field, cells, p, n, reach, band)) {
-        const auto k = static_cast<std::size_t>(row);
-        const Point r = Point{field.x[k], field.y[k]} - p;
-        const PlaneShear shear = field.components(k);
-        const double place = dot(r, n) / step + static_cast<double>(half);
-        // A triangle of 0.75 diameters to either side.
-        const auto low = static_cast<std::ptrdiff_t>(std::ceil(place - 1.5));
-        for (std::ptrdiff_t b = low; static_cast<double>(b) < place + 1.5; ++b) {
-            if (b < 0 || b > 2 * half)
-                continue;
-            const double share = 1.0 - std::abs(static_cast<double>(b) - place) / 1.5;
-            mean[static_cast<std::size_t>(b)].stretch += share * shear.stretch;
-            mean[static_cast<std::size_t>(b)].turn += share * shear.turn;
-            weight[static_cast<std::size_t>(b)] += share;
-        }
-    }
-    for (std::size_t b = 0; b < size; ++b)
-        if (weight[b] > 0.0)
-            mean[b] = {mean[b].stretch / weight[b], mean[b].turn / weight[b]};
-    return mean;
+} // namespace
+
+void ShearProfile::Place::add(const Place& disc, double share) {
+    weight += share;
+    shear.stretch += share * disc.shear.stretch;
+    shear.turn += share * disc.shear.turn;
+    across += share * disc.across;
+    moved = moved + share * disc.moved;
+    turn += share * disc.turn;
 }
 
-} // namespace
+void ShearProfile::Place::divide() {
+    if (weight == 0.0)
+        return;
+    for (double* sum : {&shear.stretch, &shear.turn, &across, &moved.x, &moved.y, &turn})
+        *sum /= weight;
+}
+
+ShearProfile::Place ShearProfile::place_of(const ShearField& field, std::size_t k, Point p,
+                                           Point t) {
+    const Point n{-t.y, t.x};
+    return {.shear = field.components(k),
+            .across = dot(Point{field.x[k], field.y[k]} - p, n),
+            .moved = {field.dx[k], field.dy[k]},
+            .turn = n.x * (field.xx[k] * t.x + field.xy[k] * t.y) +
+                    n.y * (field.yx[k] * t.x + field.yy[k] * t.y)};
+}
 
 ShearProfile::ShearProfile(const ShearField& field, const Cells& cells, Point p, Point t,
                            double reach)
     : step_(0.5 * field.diameter), half_(static_cast<std::ptrdiff_t>(reach / step_)) {
     assert(half_ >= 3);
-    const std::vector<PlaneShear> shear = mean_shear(field, cells, p, t, reach, step_, half_);
-    for (const PlaneShear& s : shear)
-        values_.push_back(s.along(t));
+    places_.resize(static_cast<std::size_t>(2 * half_ + 1)); // one step apart
+    const Point n{-t.y, t.x};
+    for (std::int32_t row : discs_across(field, cells, p, n, reach, band * field.diameter)) {
+        const Place disc = place_of(field, static_cast<std::size_t>(row), p, t);
+        const double place = disc.across / step_ + static_cast<double>(half_);
+        // A triangle of 0.75 diameters to either side.
+        const auto low = static_cast<std::ptrdiff_t>(std::ceil(place - 1.5));
+        for (std::ptrdiff_t b = low; static_cast<double>(b) < place + 1.5; ++b)
+            if (b >= 0 && b <= 2 * half_)
+                places_[static_cast<std::size_t>(b)].add(
+                    disc, 1.0 - std::abs(static_cast<double>(b) - place) / 1.5);
+    }
+    for (Place& mean : places_) {
+        mean.divide();
+        values_.push_back(mean.shear.along(t));
+    }
     for (std::ptrdiff_t b = -3; b <= 3; ++b)
         if (const double v = values_[static_cast<std::size_t>(half_ + b)];
             std::abs(v) > peak_value_) {
@@ -75,20 +84,35 @@ ShearProfile::ShearProfile(const ShearField& field, const Cells& cells, Point p,
             sign_ = v < 0.0 ? -1.0 : 1.0;
             peak_ = half_ + b;
         }
-    const double largest = shear[static_cast<std::size_t>(peak_)].size();
+    const double largest = places_[static_cast<std::size_t>(peak_)].shear.size();
     alignment_ = largest > 0.0 ? peak_value_ / largest : 0.0;
 }
 
-double ShearProfile::slip() const {
-    double sum = value(peak_);
-    for (std::ptrdiff_t step : {1, -1})
-        for (std::ptrdiff_t b = peak_ + step; b >= 0 && b <= 2 * half_; b += step) {
-            const double v = value(b);
-            if (v < 0.1 * peak_value_ || (v < 0.5 * peak_value_ && v > 1.1 * value(b - step)))
-                break;
-            sum += v;
-        }
-    return sign_ * sum * step_;
+std::size_t ShearProfile::end(std::ptrdiff_t step) const {
+    std::ptrdiff_t end = peak_;
+    for (std::ptrdiff_t b = peak_ + step; b >= 0 && b <= 2 * half_; b += step) {
+        const double v = value(b);
+        if (v < 0.5 * peak_value_ && v > 1.1 * value(b - step))
+            break;
+        if (places_[static_cast<std::size_t>(b)].weight > 0.0)
+            end = b;
+        if (v < 0.1 * peak_value_ && end == b)
+            break;
+    }
+    return static_cast<std::size_t>(end);
+}
+
+double ShearProfile::slip(Point direction) const {
+    if (peak_value_ == 0.0)
+        return 0.0;
+    const std::size_t left = end(1), right = end(-1);
+    double turn = 0.0, weight = 0.0;
+    for (std::size_t b = right; b <= left; ++b) {
+        turn += places_[b].weight * places_[b].turn;
+        weight += places_[b].weight;
+    }
+    return dot(places_[left].moved - places_[right].moved, direction) +
+           (places_[left].across - places_[right].across) * turn / weight;
 }
 
 double ShearProfile::side(double share, std::ptrdiff_t step) const {

@@ -48,8 +48,8 @@ std::string main_fault(const char* name, const Fault& fault) {
     const auto& line = fault.trace.points;
     std::string text =
         fmt::format("{} at x = {}, dip {:.0f} degrees", name, km(line.front().x), fault.dip);
-    if (fault.pre_rift_throw)
-        text += fmt::format(", throw {}", km(*fault.pre_rift_throw));
+    if (const auto thrown = pre_rift_throw_of(fault.cutoffs))
+        text += fmt::format(", throw {}", km(*thrown));
     return text;
 }
 

@@ -381,20 +381,24 @@ class Report(Browsed):
 
     def test_07e_throws_are_points_and_thin_strata_have_none(self):
         self.open()
-        cutoffs = [[0, 3000, 2500, True], [1, 1800, 1400, True], [2, 1500, 1250, False], [3, 100, 100, True]]
-        throws = self.script("return throwPoints(a[0]);", cutoffs)   # stratum, depth above and below the fault
-        self.assertEqual([(p["stratum"], p["throw"], p["depth"]) for p in throws],
-                         [(0, 500, 2750), (1, 400, 1600), (3, 0, 100)])
+        # Horizon, depth above and below the fault, whether it is resolved, error of the throw.
+        cutoffs = [[-1, 4100, 3500, True, 40], [0, 3000, 2500, True, 20], [1, 1800, 1400, True, 90],
+                   [2, 1500, 1250, False, 700], [3, 100, 100, True, 80]]
+        throws = self.script("return throwPoints(a[0]);", cutoffs)
+        self.assertEqual([(p["horizon"], p["throw"], p["depth"], p["error"]) for p in throws],
+                         [(-1, 600, 3800, 40), (0, 500, 2750, 20), (1, 400, 1600, 90), (3, 0, 100, 80)])
         diameter = 300.0
         growth = self.script("return expansionPoints(a[0], a[1]);", cutoffs, diameter)
         # 1200 m above the fault and 1100 m below it; stratum 2 has 300 and 150 m; 3 has 1400 and 1150 m.
         self.assertEqual([p["stratum"] for p in growth], [1, 3])
         self.assertAlmostEqual(growth[0]["index"], 1200 / 1100)
         self.assertAlmostEqual(growth[0]["error"], 1200 / 1100 * np.hypot(diameter / 1200, diameter / 1100))
-        self.script("drawThrows($('throws'), page.runs[0], {throw_error_m: 300}, a[0], 3); return 0;", cutoffs)
+        self.script("drawThrows($('throws'), {}, a[0], {'-1': 'pre-rift 1000 m'}, 3); return 0;", cutoffs)
         self.assertEqual(len(self.driver.find_elements("css selector", "#throws canvas")), 1)
-        self.script("drawThrows($('throws'), page.runs[0], {}, [], 3); return 0;")
-        self.assertIn("three discs (1,117 m)", self.driver.find_element("id", "throws").text)
+        self.script("drawThrows($('throws'), {}, [], {}, 3); return 0;")
+        self.assertIn("known to two discs", self.driver.find_element("id", "throws").text)
+        self.script("drawExpansion($('expansion'), page.runs[0], {}, [], 3); return 0;")
+        self.assertIn("three discs (1,117 m)", self.driver.find_element("id", "expansion").text)
 
     def test_07f_time_over_the_section_holds_all_sediment(self):
         self.open()

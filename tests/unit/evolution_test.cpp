@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -88,17 +89,22 @@ TEST(PreRiftThrow, OfSidesThatHavePartedAndTurned) {
         std::vector<Point> trace;
         for (int k = -18; k <= 18; ++k)
             trace.push_back({through.x + k * d * down.x, through.y + k * d * down.y});
-        const auto found = pre_rift_throw(state, trace);
-        ASSERT_TRUE(found.has_value());
+        const std::map<int, Cutoffs> cutoffs = fault_cutoffs(state, {.trace = trace});
+        EXPECT_GE(cutoffs.size(), 3u);
         // A layer that started h above the pivot meets the fault there in the footwall at the
         // height h sin 60 / sin(120 - turn), in the hanging wall at h less the slip's height.
-        // Layers of -18 diameters down the hanging wall to 18 up the footwall are on both.
         const double sine = std::sin(60.0 * degree), turned = std::sin((120.0 - turn) * degree);
-        const double layer = 0.5 * ((20.0 - 18.0) * sine + 18.0 * turned) * d;
-        EXPECT_NEAR(*found, 20.0 * d * sine + layer * (sine / turned - 1.0), 0.3 * d) << turn;
+        std::vector<double> expected;
+        for (const auto& [number, at] : cutoffs) {
+            const double h = 1000.0 * number - through.y;
+            expected.push_back(20.0 * d * sine + h * (sine / turned - 1.0));
+            EXPECT_TRUE(at.is_resolved);
+            EXPECT_NEAR(at.height(), expected.back(), 0.1 * d) << turn << " " << number;
+        }
+        EXPECT_NEAR(*pre_rift_throw_of(cutoffs), std::ranges::max(expected), 0.1 * d);
         for (std::int32_t& stratum : c.stratum)
             stratum = 1;
-        EXPECT_FALSE(pre_rift_throw(state, trace).has_value());
+        EXPECT_FALSE(pre_rift_throw_of(fault_cutoffs(state, {.trace = trace})).has_value());
     }
 }
 

@@ -262,9 +262,10 @@ struct Growth {
 
 TEST(FaultThrow, FallsWithYoungerAge) {
     const Growth growth;
-    const std::map<int, double> throws = fault_throws(growth.state, growth.fault, {});
-    // Tops in 12 columns a side scatter by some 0.35 diameters; their lines differ by 0.15, and the
-    // tilt of three tops brings 0.25 to where the fault is.
+    const std::map<int, double> throws =
+        throws_of(fault_cutoffs(growth.state, {.trace = growth.fault}));
+    // A top is known to a tenth of a diameter, and the tilt of three tops brings 0.2 to where the
+    // fault is, on both sides.
     for (int stratum = 1; stratum <= 4; ++stratum) {
         ASSERT_TRUE(throws.contains(stratum)) << stratum;
         EXPECT_NEAR(throws.at(stratum), 500.0 - 100.0 * stratum, 0.5 * d) << stratum;
@@ -274,7 +275,7 @@ TEST(FaultThrow, FallsWithYoungerAge) {
     std::vector<Point> left = growth.fault;
     for (Point& p : left)
         p.x = 2.0 * middle.x - p.x;
-    for (const auto& [stratum, value] : fault_throws(growth.state, left, {}))
+    for (const auto& [stratum, value] : throws_of(fault_cutoffs(growth.state, {.trace = left})))
         EXPECT_LT(value, 200.0) << stratum;
 }
 
@@ -285,8 +286,8 @@ TEST(FaultThrow, OnlyOfStrataYoungerThanTheFaultAndOfItsFirstSurface) {
         c.start_travel[i] = 500.0 * c.stratum[i];
     const auto strata = [&](double born_at) {
         std::vector<int> numbers;
-        for (const auto& [stratum, value] :
-             fault_throws(growth.state, growth.fault, Travel(born_at)))
+        for (const auto& [stratum, value] : growth_throws_of(
+                 fault_cutoffs(growth.state, {.trace = growth.fault, .born_at = Travel(born_at)})))
             if (stratum <= 4)
                 numbers.push_back(stratum);
         return numbers;
@@ -304,9 +305,9 @@ TEST(FaultThrow, NoneOfStrataThinnerThanThreeDiscs) {
         if (c.stratum[i] > 0) // the older half of each keeps its number, the younger gets its own
             c.stratum[i] =
                 2 * c.stratum[i] - (c.start_y[i] < 4.0 * d * c.stratum[i] - 2.0 * d ? 1 : 0);
-    const auto throws = fault_throws(growth.state, growth.fault, {});
-    EXPECT_EQ(throws.size(), 1u);
+    const auto throws = throws_of(fault_cutoffs(growth.state, {.trace = growth.fault}));
     EXPECT_TRUE(throws.contains(0));
+    EXPECT_EQ(throws.rbegin()->first, 0);
 }
 
 /// A fault whose right side is the footwall (it falls left) and slides every window, while the

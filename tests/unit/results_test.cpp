@@ -35,7 +35,7 @@ TEST(Results, SayWhatTheRunHasComeTo) {
     faults.faults.resize(2);
     faults.faults[0].trace.points = {{17.9e3, -500.0}, {15e3, -9e3}};
     faults.faults[0].dip = 61.3;
-    faults.faults[0].pre_rift_throw = 1247.0;
+    faults.faults[0].cutoffs[0] = {.hanging = {0.0, -1247.0}, .is_resolved = true};
     faults.faults[1].trace.points = {{12e3, -500.0}, {15e3, -9e3}};
     faults.faults[1].dip = 55.0;
     faults.main_antithetic = 0;

@@ -29,7 +29,10 @@ TEST(Summary, Faults) {
     fault.normal = false;
     fault.synthetic = false;
     fault.foot = {2000.0, -2000.0};
-    fault.throws = {{0, 300.0}, {3, 100.0}};
+    fault.cutoffs = {{-1, {{0.0, -350.0}, {0.0, 0.0}, 20.0, true}},
+                     {0, {{0.0, -300.0}, {0.0, 0.0}, 10.0, true}},
+                     {2, {{0.0, -200.0}, {0.0, 0.0}, 500.0, false}},
+                     {3, {{0.0, -100.0}, {0.0, 0.0}, 30.0, true}}};
     FaultReport report;
     report.faults = {fault};
     report.main_antithetic = 0;
@@ -52,7 +55,9 @@ TEST(Summary, Faults) {
     EXPECT_EQ(f["sense"], "reverse");
     EXPECT_EQ(f["attitude"], "antithetic");
     EXPECT_EQ(f["foot_z_m"], 2000.0);
-    EXPECT_EQ(f["throw_m"], json({{"0", 300.0}, {"3", 100.0}}));
+    EXPECT_EQ(f["throw_m"], json({{"-1", 350.0}, {"0", 300.0}, {"3", 100.0}}));
+    EXPECT_EQ(f["throw_error_m"], json({{"-1", 20.0}, {"0", 10.0}, {"3", 30.0}}));
+    EXPECT_EQ(f["greatest_throw_m"], 350.0);
     EXPECT_EQ(f["points_m"].size(), 3u);
     for (const char* name : {"dip_deg", "rate_mm_per_a", "width_diameters", "curvature_per_m",
                              "born_at_m", "dip_at_birth_deg", "footwall_turn_deg", "foot_x_m"})

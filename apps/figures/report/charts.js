@@ -79,7 +79,7 @@ function drawPlain(host, rows, labels, options) {
 }
 
 function throwsOf(fault) {
-  return Object.keys(fault).map(key => key.match(/^throw_(\d+)_m$/)).filter(Boolean)
-    .map(match => [Number(match[1]), fault[match[0]]]).filter(([, value]) => value !== null)
+  return Object.keys(fault).map(key => key.match(/^throw_(-?\d+)_m$/)).filter(Boolean)
+    .map(match => [Number(match[1]), fault[match[0]], fault[`throw_${match[1]}_error_m`]]).filter(([, value]) => value !== null)
     .sort((a, b) => a[0] - b[0]);
 }

@@ -184,10 +184,10 @@ async function drawFaults() {
   const chosen = page.picked?.kind === "fault" ? page.picked.index : -1;
   drawFaultTable($("faults"), faults, chosen, index => pick({kind: "fault", run, index}), run.head.mean_radius_m);
   const index = Math.max(chosen, 0), fault = faults[index], cutoffs = lines.cutoffs?.[index];
-  $("throws_title").textContent = fault ? `Throw by stratum, fault ${index}` : "Throw by stratum";
+  $("throws_title").textContent = fault ? `Throw along fault ${index}` : "Throw along a fault";
   $("expansion_title").textContent = fault ? `Growth of strata, fault ${index}` : "Growth of strata";
   await run.load(["start_travel_m"]);
-  drawThrows($("throws"), run, fault, cutoffs, page.scale.strata);
+  drawThrows($("throws"), fault, cutoffs, horizonNames(lines), page.scale.strata);
   drawExpansion($("expansion"), run, fault, cutoffs, page.scale.strata);
   drawWheeler($("wheeler"), run, momentOf(run));
   await drawUplift(run);
@@ -220,14 +220,14 @@ async function describe() {
       say("strain of the window", "window_strain") + say("total strain", "total_strain") + say("bonds", "bonds") +
       say("mean stress", "mean_stress_pa", 1e6, " MPa") + say("shear stress", "shear_stress_pa", 1e6, " MPa");
   } else if (picked.kind === "fault") {
-    const fault = (await run.loadLines(k)).faults[picked.index];
+    const lines = await run.loadLines(k), fault = lines.faults[picked.index];
     $("picked").textContent = fault ? `${which}fault ${picked.index}: ${fault.attitude}, ${fault.sense}, dip ` +
       `${fault.dip_deg.toFixed(1)}°, ${digits(fault.rate_mm_per_a, 2)} mm/a, ${valueText(fault.length_m, "m", run.head.mean_radius_m)} long` +
       (fault.born_at_m === null ? "; its birth is known at the figures' moments and at the end"
         : `; born at ${metresText(fault.born_at_m)} of extension`) +
-      (fault.pre_rift_throw_m === null ? "" : `; pre-rift throw ${metresText(fault.pre_rift_throw_m)}`) +
-      throwsOf(fault).map(([stratum, metres], n) => `${n ? ", " : "; throw by stratum: "}${stratum}: ${metresText(metres)}`).join("") +
-      (throwsOf(fault).length ? ` (± ${metresText(fault.throw_error_m)})` : "")
+      (fault.greatest_throw_m === null ? "" : `; greatest throw ${metresText(fault.greatest_throw_m)}`) +
+      throwsOf(fault).map(([horizon, metres, error], n) =>
+        `${n ? ", " : "; throw by horizon: "}${horizonName(horizon, horizonNames(lines))} ${metresText(metres)} (± ${metresText(error)})`).join("")
       : `${which}fault ${picked.index}: not active at this moment`;
   } else {
     $("picked").textContent = picked.text;

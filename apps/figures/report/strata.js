@@ -99,17 +99,22 @@ function endsOf(values, error, shown) {
 
 function stratumName(stratum) { return stratum ? `stratum ${stratum}` : "pre-rift top"; }
 
-/** Throws at a fault: stratum, throw, depth of its cutoffs, of strata of three discs or more. */
+/** Names of the horizons of a moment, by number, as far as it has them. */
+function horizonNames(lines) { return Object.fromEntries((lines.horizons || []).map(({stratum, name}) => [stratum, name])); }
+
+function horizonName(horizon, names) { return names[horizon] || (horizon < 0 ? `pre-rift layer ${-horizon}` : stratumName(horizon)); }
+
+/** Throws at a fault: horizon, throw with its error, depth of its cutoffs, of horizons that are resolved. */
 function throwPoints(cutoffs) {
   return cutoffs.filter(([, , , resolved]) => resolved)
-    .map(([stratum, hanging, footwall]) => ({stratum, throw: hanging - footwall, depth: (hanging + footwall) / 2}));
+    .map(([horizon, hanging, footwall, , error]) => ({horizon, throw: hanging - footwall, error, depth: (hanging + footwall) / 2}));
 }
 
 /** Thickness above the fault over that below it, of strata of three discs or more on both sides. */
 function expansionPoints(cutoffs, diameter) {
   const points = [];
   cutoffs.forEach(([stratum, hanging, footwall], n) => {
-    if (n === 0 || cutoffs[n - 1][0] !== stratum - 1) return;
+    if (n === 0 || stratum < 1 || cutoffs[n - 1][0] !== stratum - 1) return;
     const above = cutoffs[n - 1][1] - hanging, below = cutoffs[n - 1][2] - footwall;
     if (above < 3 * diameter || below < 3 * diameter) return;
     const index = above / below;
@@ -118,30 +123,25 @@ function expansionPoints(cutoffs, diameter) {
   return points;
 }
 
-/** Why a chart of a fault's strata is empty. */
-function nothingWords(fault, cutoffs, diameter, sides) {
-  if (!fault) return "No fault is active now.";
-  if (!cutoffs) return "Known at the figures' moments and at the end.";
-  return `Nothing: no stratum younger than this fault is three discs (${metresText(3 * diameter)}) thick ${sides}.`;
-}
-
-function drawThrows(host, run, fault, cutoffs, strata) {
-  const diameter = 2 * run.head.mean_radius_m, points = fault && cutoffs ? throwPoints(cutoffs) : [];
-  if (points.length === 0) return void (host.textContent = nothingWords(fault, cutoffs, diameter, "beside it"));
-  const {name, metres} = lengthUnit(), error = fault.throw_error_m || diameter;
+function drawThrows(host, fault, cutoffs, names, strata) {
+  const points = fault && cutoffs ? throwPoints(cutoffs) : [];
+  if (points.length === 0)
+    return void (host.textContent = fault ? "Nothing: no horizon meets this fault on both sides so that its throw is known to two discs." : "No fault is active now.");
+  const {name, metres} = lengthUnit();
   const depths = endsOf(points.map(p => p.depth / metres), 0.2 * marginUnit() / metres, points[0].depth / metres);
-  const axes = new Axes(host, "throw against depth", {label: "throw (m), ± a disc", ...endsOf(points.map(p => p.throw), error, 0)},
+  const axes = new Axes(host, "throw against depth", {label: "throw (m)", ...endsOf(points.flatMap(p => [p.throw - p.error, p.throw + p.error]), 0, 0)},
     {label: `depth (${name})`, low: depths.high, high: depths.low});
   axes.rule(axes.toX(0), axes.box.top, axes.toX(0), axes.box.bottom, axes.ink, 1);
   const table = paletteOf("strata", "figures");
   for (const p of points)
-    axes.point(p.throw, p.depth / metres, error, p.stratum ? cssColour(stratumColour(p.stratum, strata, table)) : vocabulary.pre_rift.colours[0],
-      stratumName(p.stratum));
+    axes.point(p.throw, p.depth / metres, p.error, p.horizon > 0 ? cssColour(stratumColour(p.horizon, strata, table)) : vocabulary.pre_rift.colours[0],
+      horizonName(p.horizon, names));
 }
 
 function drawExpansion(host, run, fault, cutoffs, strata) {
   const diameter = 2 * run.head.mean_radius_m, points = fault && cutoffs ? expansionPoints(cutoffs, diameter) : [];
-  if (points.length === 0) return void (host.textContent = nothingWords(fault, cutoffs, diameter, "on both sides of it"));
+  if (points.length === 0)
+    return void (host.textContent = fault ? `Nothing: no stratum is three discs (${metresText(3 * diameter)}) thick on both sides of it.` : "No fault is active now.");
   const axes = new Axes(host, "expansion index by stratum", {label: "thickness above the fault over that below it", ...endsOf(points.flatMap(p =>
     [p.index - p.error, p.index + p.error]), 0, 1)}, {label: "stratum", ...endsOf(points.map(p => p.stratum), 0.5, points[0].stratum)});
   axes.rule(axes.toX(1), axes.box.top, axes.toX(1), axes.box.bottom, axes.ink, 1, [4, 3]);

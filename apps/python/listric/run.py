@@ -97,10 +97,11 @@ class Run:
     @property
     def faults(self) -> list[dict]:
         """The faults of summary.json in its order, a dict each with its names (docs/measures.md).
-        `points_m` is an array of shape (points, 2) of x and depth; `throw_m` is {stratum: throw in m},
-        0 the pre-rift top. `snapshot.lines("faults")` has those of any moment."""
+        `points_m` is an array of shape (points, 2) of x and depth; `throw_m` is {horizon: throw in m},
+        numbered as `stratum` of `run.horizons`, `throw_error_m` its errors. `snapshot.lines("faults")` has those of any moment."""
         return [{**fault, "points_m": np.array(fault["points_m"], dtype=float).reshape(-1, 2),
-                 "throw_m": {int(stratum): throw for stratum, throw in fault["throw_m"].items()}}
+                 **{name: {int(horizon): value for horizon, value in fault[name].items()}
+                    for name in ("throw_m", "throw_error_m") if isinstance(fault.get(name), dict)}}
                 for fault in self.summary["faults"]]
 
     @property
