@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/archive/json_file.hpp"
 #include "apps/archive/observed_misfit.hpp"
 #include "apps/archive/snapshot.hpp"
 #include "apps/measures/fault.hpp"
