@@ -131,7 +131,7 @@ Point age_gradient(const State& state, const PoreCells& cells, std::size_t k) {
         if (cells.cell_of[j] < 0)
             continue;
         const double x = d.x[j] - d.x[i], y = d.y[j] - d.y[i];
-        const double later = d.start_extension[j] - d.start_extension[i];
+        const double later = d.start_travel[j] - d.start_travel[i];
         xx += x * x;
         xy += x * y;
         yy += y * y;

@@ -1,17 +1,14 @@
 #!/usr/bin/python3
-"""Draws docs/pictures/mud-rates.webp: overpressure and undercompaction at the depocentre over Gibson's number, a mark a run of
-docs/cookbook/permeability-and-rate.toml, and what `explain` has for a column.
+"""Draws docs/pictures/mud-rates.webp: overpressure and undercompaction at the depocentre over Gibson's number, a mark a run, and what
+`explain` has for a column.
 
-Usage: PYTHONPATH=apps/python docs/pictures/mud_rates.py PROGRAM SWEEP [PICTURE.webp]
+Usage: PYTHONPATH=apps/python docs/pictures/mud_rates.py PROGRAM PICTURE.webp RUN [RUN ...]
 
-SWEEP is the finished sweep's folder. Prints the numbers as a table.
+RUN is the folder of a finished run of lis1-mud, or SWEEP/runs/* of docs/cookbook/permeability-and-rate.toml. Prints the numbers as a table.
 """
-import csv
 import re
 import subprocess
 import sys
-from pathlib import Path
-
 import listric
 import matplotlib.pyplot as plt
 import numpy as np
@@ -33,19 +30,19 @@ def column(program, changes):
 
 def depocentre(run):
     """Overpressure ratio and undercompaction at DEPTH."""
-    profile = listric.Run(run).summary["pressure_profile"]
+    profile = run.summary["pressure_profile"]
     at = [point["depth_m"] for point in profile]
     of = {name: np.interp(DEPTH, at, [point[name] for point in profile])
           for name in ("overpressure_ratio", "porosity", "normal_porosity")}
     return of["overpressure_ratio"], of["porosity"] - of["normal_porosity"]
 
 
-def main(program, sweep, picture="docs/pictures/mud-rates.webp"):
-    keys = "pore_fluid.permeability_m2", "extension.rate_m_per_a"
+def main(program, picture, *folders):
     rows = []
-    for row in csv.DictReader((Path(sweep) / "sweep.csv").open()):
-        changes = {key: float(row[key]) for key in keys}
-        run = Path(sweep) / "runs" / f"{int(row['run']):04}-seed={row['seed']}"
+    for folder in folders:
+        run = listric.Run(folder)
+        changes = {"pore_fluid.permeability_m2": run.scene["pore_fluid"]["permeability_m2"],
+                   "extension.rate_m_per_a": run.scene["extension"]["rate_m_per_a"]}
         rows.append((*changes.values(), *column(program, changes), *depocentre(run)))
         print("| {:g} | {:g} | {:g} | {:.2f}, {:.2f} | {:.3f}, {:.3f} |".format(
             rows[-1][0], 1e3 * rows[-1][1], rows[-1][2], rows[-1][5], rows[-1][3], rows[-1][6], rows[-1][4]))
@@ -66,6 +63,6 @@ def main(program, sweep, picture="docs/pictures/mud-rates.webp"):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (3, 4):
+    if len(sys.argv) < 4:
         sys.exit(__doc__)
     main(*sys.argv[1:])

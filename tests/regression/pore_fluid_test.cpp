@@ -97,46 +97,27 @@ TEST_F(PoreFluidRun, HasTheSameBitsHoweverItIsRun) {
     EXPECT_THAT(contents(folder / "once/history.csv"), HasSubstr("overpressure_ratio_mean"));
 }
 
-/// Between two strata, in a pause, and where a stage erodes and another does nothing: what is
-/// pending follows from the state alone.
+/// Between two strata (every 50 m) in a pause, and where a stage lays nothing down or erodes: what
+/// is pending follows from the state alone.
 TEST_F(PoreFluidRun, GoesOnBetweenTwoStrata) {
-    const std::vector<std::vector<std::string>> cases{
-        {"sedimentation.interval_a=5000"},
-        {"sedimentation.interval_a=5000", "detachment.footwall_top_m=2000",
-         "stage=[{distance_m=75.0}, {pause_a=5000}, {distance_m=75.0, sedimentation=\"erode\"}]"},
-        {"sedimentation.interval_a=5000",
-         "stage=[{distance_m=75.0}, {distance_m=75.0, sedimentation=\"none\"}, "
-         "{distance_m=50.0, rate_m_per_a=0.002}]"}};
-    for (std::vector<std::string> set : cases) {
-        set.push_back("pore_fluid.permeability_m2=1e-20");
-        set.push_back("pore_fluid.permeability_ratio=5");
-        const auto once = run_with("once", set);
-        EXPECT_LE(std::abs(once["water_error"].get<double>()), 1e-12);
-        for (const double until : {37.5, 87.5, 112.5}) {
-            RunOptions o = options("parts");
-            o.force = true;
-            o.until = until;
-            run_scene(with(set), o);
-            o.until = {};
-            o.force = false;
-            o.resume = true;
-            EXPECT_EQ(run(with(set), o)["state_hash"], once["state_hash"])
-                << set[1] << ", " << until;
-        }
+    const std::vector<std::string> set{
+        "sedimentation.interval_a=5000", "pore_fluid.permeability_m2=1e-20",
+        "pore_fluid.permeability_ratio=5",
+        "stage=[{distance_m=75.0}, {pause_a=2500}, {distance_m=50.0, sedimentation=\"none\"}, "
+        "{distance_m=50.0, sedimentation=\"erode\"}]"};
+    const auto once = run_with("once", set);
+    EXPECT_LE(std::abs(once["water_error"].get<double>()), 1e-12);
+    EXPECT_GT(once["overpressure_ratio_mean"].get<double>(), 0.01);
+    for (const double until : {87.5, 137.5}) {
+        RunOptions o = options("parts");
+        o.force = true;
+        o.until = until;
+        run_scene(with(set), o);
+        o.until = {};
+        o.force = false;
+        o.resume = true;
+        EXPECT_EQ(run(with(set), o)["state_hash"], once["state_hash"]) << until;
     }
-}
-
-TEST_F(PoreFluidRun, PressureDoesNotDependOnTheTimeOfStrata) {
-    // Strata of 25 and of 75 m, the last solution half-way between two of them. Discs of a packing
-    // are other ones: a tenth of the ratio.
-    const auto ratio = [&](const char* interval) {
-        return run_with("strata", {fmt::format("sedimentation.interval_a={}", interval),
-                                   "pore_fluid.permeability_m2=1e-18"})["overpressure_ratio_mean"]
-            .get<double>();
-    };
-    const double thin = ratio("2500");
-    EXPECT_GT(thin, 0.0);
-    EXPECT_NEAR(ratio("7500"), thin, 0.1 * thin);
 }
 
 TEST_F(PoreFluidRun, DrainsAlongTheBeds) {

@@ -41,7 +41,7 @@ double at_depth(const std::map<double, double>& profile, double depth) {
 
 // ---- laid down continuously
 
-/// Of sediment at an equivalent depth.
+/// Sediment at an equivalent depth.
 struct Mud {
     explicit Mud(double z) : porosity(fresh * std::exp(-decay * z)) {}
 
@@ -91,7 +91,7 @@ private:
                (1.0 + mud.solid() * (above - below) / distance);
     }
 
-    /// What the balance of every cell misses after a step in which the grains grew by so much.
+    /// Shortfall of the balance of every cell after a step in which the grains grew by so much.
     std::vector<double> missing(const std::vector<double>& z, const std::vector<double>& before,
                                 double grains, double growth, double step) const {
         const std::size_t n = z.size();

@@ -27,11 +27,13 @@ std::vector<Parameter> parameters() {
         by_travel(
             {"interval_a", at<&P::interval>, "a", ranges::interval, "",
              "time between solutions for the pressure; a multiple of the time between updates of "
-             "porosity",
+             "porosity. The stratum that is to come is part of every solution",
              "Raising it above the default makes pressures less accurate: 0.3 % at 2,500 a.",
              between(500, 2500)}),
         {"fluid_density_kg_per_m3", at<&P::density>, "kg/m3", ranges::density, "",
-         "density of the water", "Raising it lets grains weigh less."},
+         "density of the water",
+         "Raising it lets all discs weigh less: rock is as full of water as sediment, also above "
+         "the water's level."},
         {"viscosity_pa_s", at<&P::viscosity>, "Pa s", between(1e-5, 1.0), "",
          "viscosity of the water", "Raising it acts as a permeability that is lower by as much."},
         {"compressibility_per_pa", at<&P::compressibility>, "1/Pa", between(1e-12, 1e-6), "",
@@ -62,7 +64,7 @@ std::vector<Parameter> parameters() {
          "filled to, 0 where that is a line",
          "Moves the pressure of water at rest, no excess pressure and no weight."},
         {"hydrostatic", at<&P::hydrostatic>, "", ranges::any, "",
-         "water at rest: buoyancy and nothing else",
+         "water at rest: buoyancy of sediment and rock, and nothing else",
          "true is the limit of high permeability, at no cost."},
         {"pushes", at<&P::pushes>, "", ranges::any, "",
          "whether excess pressure exerts forces on discs",
@@ -225,7 +227,8 @@ Works works() {
 const Effect& effect() {
     static const Effect effect{
         .name = "pore_fluid",
-        .doc = "water in the pores of sediment: buoyancy, overpressure and undercompaction",
+        .doc = "water in the pores: buoyancy of all discs, rock too; overpressure and "
+               "undercompaction of sediment",
         .defaults = make_defaults<P>,
         .address = address_of<P>,
         .parameters = parameters(),

@@ -131,7 +131,7 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
     return {
         {"overpressure_ratio_mean", "1",
          "excess pore pressure over the weight of grains in water: ratio of their sums over the "
-         "sediment. 0: water at rest, 1: water carries all",
+         "sediment, with the stratum that is to come. 0: water at rest, 1: water carries all",
          of_discs<mean_ratio>},
         {"overpressure_ratio_max", "1",
          "excess pore pressure over the weight of grains in water, where that ratio is greatest",
@@ -144,7 +144,8 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
          "the depocentre",
          top_of_overpressure},
         {"undercompaction", "1",
-         "mean porosity of sediment less what its depth has where water is at rest",
+         "mean porosity of sediment less what its depth, with the stratum that is to come, has "
+         "where water is at rest",
          of_discs<undercompaction>},
         {"overpressured_share", "1",
          "share of sediment whose excess pressure is at least half of the grains' weight in water",
@@ -170,7 +171,8 @@ std::vector<Measure<Observation>> pore_fluid_measures() {
         {"newton_worst", "1", "greatest number of Newton's steps of a solution so far",
          remembered<Sums::newton>},
         {"pore_fluid_work_j_per_m", "J/m",
-         "work of excess pore pressure on the discs, over the cycles, where energy is accounted",
+         "work of excess pore pressure and of the stratum that is to come on the discs, over the "
+         "cycles, where energy is accounted",
          push_work},
     };
 }
