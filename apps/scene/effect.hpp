@@ -255,7 +255,7 @@ struct Effect {
 
     /// Lines for `explain`. @param list  all effects that there are
     std::string (*explain)(const Scene& scene, EffectList list) = nullptr;
-    Lack absence = {};           ///< of a model without it, where the base bends; none: no text
+    Lack absence = {};            ///< of a model without it, where the base bends; none: no text
     std::vector<Lack> lacks = {}; ///< of a model with it, likewise
 
     /// Time that it takes, disc-steps of the bare cycle.

@@ -221,8 +221,8 @@ read_experiment(const Entry& entry, const std::vector<ValidationExperiment>& bef
         for (const auto& [key, name] : {std::pair{"measure", x.expectations.back().measure},
                                         std::pair{"over", x.expectations.back().over}})
             if (!name.empty())
-                check_measure({*item.node.as_table()->get(key), fmt::format("{}.{}", item.path, key)},
-                              name);
+                check_measure(
+                    {*item.node.as_table()->get(key), fmt::format("{}.{}", item.path, key)}, name);
         if (x.expectations.back().run.empty())
             x.expectations.back().run = x.runs.front();
     }

@@ -158,13 +158,20 @@ int shown_beside_too(const ValidationFindings& f, const ValidationExperiment& x)
     }));
 }
 
-/// "LIS1: 13 of 18 criteria shown, 4 open, 1 not shown: two grabens (20 of 20 seeds)."
+/// "width of faults, diameters, 10 km"
+std::string what_and_when(const ValidationFindings& f, const Expectation& e) {
+    const std::vector<double>& at = f.plan.run(e.run).at;
+    return at.size() > 1 || e.at ? e.what + ", " + extension_text(e.at.value_or(at.back()))
+                                 : e.what;
+}
+
+/// "LIS1: 13 of 18 criteria shown, 4 open, 1 not shown: two grabens, 10 km (20 of 20 seeds)."
 std::string sentence(const ValidationFindings& f, const ValidationExperiment& x) {
     const std::array<int, 8> count = tally(f, x, Kind::faults);
     std::vector<std::string> missing;
     for (const Expectation& e : x.expectations)
         if (e.kind == Kind::faults && e.is_judged() && f.verdict(e).name == VerdictName::not_shown)
-            missing.push_back(e.what);
+            missing.push_back(what_and_when(f, e));
     const int all = rows_with(count, VerdictName::shown) + rows_with(count, VerdictName::open) +
                     rows_with(count, VerdictName::not_shown);
     if (all == 0)
@@ -207,8 +214,8 @@ std::string sentences(const ValidationFindings& f) {
         return "";
     all.insert(all.begin(),
                fmt::format("Criteria of faulting: {} of {} shown, {} open, {} not shown. The "
-                           "runs beside them show {} of those shown, too.",
-                           shown, shown + open + not_shown, open, not_shown, beside_too));
+                           "runs beside them show {} of the {}, too.",
+                           shown, shown + open + not_shown, open, not_shown, beside_too, shown));
     all.push_back(fmt::format("Kinematics and conservation hold in every seed in {} of {} rows; a "
                               "hanging wall that slides on these detachments has the geometry with "
                               "any material, so these rows test the machinery and no faults.",
@@ -285,9 +292,7 @@ std::string overview(const ValidationFindings& f) {
 /// Measure and place of an expectation: "width of faults, diameters, 10 km
 /// (`fault_width_diameters`)".
 std::string subject(const ValidationFindings& f, const Expectation& e) {
-    std::string what = e.what;
-    if (f.plan.run(e.run).at.size() > 1 || e.at)
-        what += ", " + extension_text(e.at.value_or(f.plan.run(e.run).at.back()));
+    const std::string what = what_and_when(f, e);
     return e.over.empty() ? fmt::format("{} (`{}`)", what, e.measure)
                           : fmt::format("{} (`{}` over `{}`)", what, e.measure, e.over);
 }
@@ -455,8 +460,7 @@ nlohmann::ordered_json chart_row(const ValidationFindings& f, const ValidationEx
     }
     const Verdict v = f.verdict(e);
     const Verdict beside = verdict_beside(f, x, e);
-    const std::string subject_text = subject(f, e);
-    return {{"what", subject_text.substr(0, subject_text.rfind(" (`"))},
+    return {{"what", what_and_when(f, e)},
             {"expected", e.target()},
             {"cells", cells},
             {"verdict", name_of(v.name)},

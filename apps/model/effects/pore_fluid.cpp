@@ -244,7 +244,8 @@ const Effect& effect() {
         .contribute = contribute,
         .add_events = add_events,
         .explain = explain,
-        .absence = {"pressure and buoyancy of pore water on the discs", "@@PORE@@"},
+        .absence = {"pressure and buoyancy of pore water on the discs",
+                    "not measured: [pore_fluid] needs a rigid base"},
         .price =
             [](const Scene& scene, const Workload& work) {
                 const P& p = *scene.find<P>();
