@@ -10,6 +10,7 @@
 #include "dem/order_free.hpp"
 #include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
+#include "dem/rest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -178,8 +179,8 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
     base_forces(state, base, force, account);
     contact_forces(state, pairs, force, account);
     const Stretching thins = stretching(base, clock.extension, motion.speed);
-    const double disc_speed =
-        move_discs(state, physics, {state, physics, thins, motion.rests}, force, account);
+    const double disc_speed = move_discs(
+        state, physics, {state, physics, thins, rests(base.motion, clock.travel)}, force, account);
     account.enter_half_step();
     around.respond(state, clock, response);
     account.enter_half_step();
