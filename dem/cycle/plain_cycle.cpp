@@ -97,11 +97,9 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
     }
 }
 
-/// The motion that damping leaves alone.
+/// The motion that damping leaves alone: none, nor one that is remembered, where the wall rests.
 class UndampedMotion {
 public:
-    /// @param thins  rate in 1/s
-    /// @param rests  as base and wall do: then no motion is left alone, nor remembered
     UndampedMotion(State& state, const CyclePhysics& physics, Stretching thins, bool rests)
         : averages_(physics.averaging_time > 0.0 && !rests), thins_(thins) {
         if (!averages_)

@@ -13,7 +13,7 @@ using namespace dem;
 
 namespace {
 
-/// Of every disc since the run began, with what the window has so far.
+/// Strain of every disc since the run began, with that of the window so far.
 std::vector<double> strain_so_far(const State& state) {
     std::vector<double> strain = shear_strain(state);
     const auto before = state.discs.get<double>("total_strain");
@@ -21,7 +21,7 @@ std::vector<double> strain_so_far(const State& state) {
     return strain;
 }
 
-/// Of the pause that goes on.
+/// Unrest of the pause that goes on.
 Unrest unrest_now(const State& state) {
     const ConstDiscColumns d = disc_columns(state);
     const auto x = state.discs.get<double>("rest_x"), y = state.discs.get<double>("rest_y");

@@ -11,7 +11,7 @@ namespace listric::effects::stage {
 /// Measure that the report judges.
 inline constexpr const char* rest_strain_windows = "rest_strain_windows";
 
-/// What goes on in rock from before the rift while base and wall rest.
+/// Strain and displacement of rock from before the rift while base and wall rest.
 struct Unrest {
     double strain = 0.0;   ///< mean shear strain
     double moved = 0.0;    ///< discs that are further than `far` from where they were
