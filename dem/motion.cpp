@@ -42,7 +42,7 @@ MotionInstant Motion::staged_at(double time, Travel travel) const {
         share *= std::sqrt(std::max(distance, crawl) / change);
     const double travel_speed = now.speed * share;
     return {travel_speed, now.slope * travel_speed, now.base_moves ? 1.0 : 0.0,
-            now.detachment_friction, now.rests()};
+            now.detachment_friction};
 }
 
 Extension Motion::staged_position(Travel travel) const {

@@ -22,8 +22,6 @@ struct MotionStage {
     std::optional<double> detachment_friction = {}; ///< in place of the surface's
     std::optional<double> sediment_friction = {};   ///< of sediment discs, in place of their own
     SurfaceWork surface = SurfaceWork::both;
-
-    bool rests() const { return slope == 0.0; } ///< a pause
 };
 
 /// Base and right wall in a cycle.
@@ -32,7 +30,6 @@ struct MotionInstant {
     double speed;                        ///< of the wall, m/s
     double conveyor = 1.0;               ///< factor of that speed along the detachment
     std::optional<double> friction = {}; ///< of the detachment, in place of its own
-    bool rests = false;                  ///< in a pause
 };
 
 /// The prescribed motion of base and right wall. Its clock is the travel, which ascends even while
@@ -66,9 +63,6 @@ struct Motion {
 
     /// Number of the stage that a travel is in; 0 where there are none.
     std::size_t stage(Travel travel) const;
-
-    /// Whether base and wall rest in a pause.
-    bool rests(Travel travel) const { return !stages.empty() && stages[stage(travel)].rests(); }
 
     /// Whether the wall returns, or did so before it came to rest.
     bool shortens(Travel travel) const;

@@ -4,6 +4,7 @@
 #include "apps/archive/summary.hpp"
 #include "apps/measures/dictionary.hpp"
 #include "apps/measures/measures.hpp"
+#include "apps/model/effects/pause_record.hpp"
 #include "apps/model/measure_names.hpp"
 #include "apps/scene/stage.hpp"
 
@@ -143,6 +144,20 @@ void add_sediment(std::vector<QualityCheck>& all, const JsonObject& summary) {
                            "weight. The range is that of lis1 at standard."});
 }
 
+void add_rest(std::vector<QualityCheck>& all, const JsonObject& summary) {
+    constexpr double most = 0.15; // of a window's strain (docs/inversion.md)
+    const auto windows = number_at(summary, effects::stage::rest_strain_windows);
+    if (!windows)
+        return;
+    const bool good = *windows <= most;
+    all.push_back({effects::stage::rest_strain_windows, "Rest in pauses",
+                   fmt::format("strain of {:.2g} windows", *windows),
+                   fmt::format("at most {:g}", most), verdict_of(good),
+                   good ? "Rock rests while base and wall do."
+                        : "Rock goes on to move in a pause (rest_moved_discs, rest_farthest_m): "
+                          "strain of the pause is no rest's."});
+}
+
 } // namespace
 
 std::vector<QualityCheck> quality_checks(const JsonObject& summary, const QualityContext& context) {
@@ -155,6 +170,7 @@ std::vector<QualityCheck> quality_checks(const JsonObject& summary, const Qualit
     add_balance(all, summary, context);
     add_discs_per_fault(all, summary, context);
     add_sediment(all, summary);
+    add_rest(all, summary);
     return all;
 }
 

@@ -182,7 +182,7 @@ std::optional<double> keep_volume(State& state, const RigidBase& base, const Vol
                     before += rock_area;
                 }
             });
-            if (before > 0.0) {
+            if (how.corrects && before > 0.0) {
                 // At constant stress a spacing follows twice the radius: dA / A = 2 factor dr / r.
                 const double error = gain * (now / before - 1.0) + common_gain * common_error;
                 w.correction[i] =

@@ -53,6 +53,7 @@ struct VolumeKeeping {
     double zone = 0.0;               ///< radius in which the error of a volume is taken, m
     double mean_stress_ratio = 0.75; ///< mean stress over the weight above
     double largest_change = 0.05;    ///< largest relative change of a radius at once
+    bool corrects = true;            ///< takes errors of volume back; else radii follow the load
 };
 
 /// Adjusts the radii of soft discs once, see PropertyUpdate. Returns the error that it found, the

@@ -5,6 +5,7 @@
 #include "dem/cycle/surroundings.hpp"
 #include "dem/law.hpp"
 #include "dem/order_free.hpp"
+#include "dem/rest.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/threads/team.hpp"
 
@@ -231,9 +232,9 @@ private:
             fast_.fastest_node_[parity] =
                 fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.around);
         const Stretching thins = stretching(*fast_.base_, clock_.extension.m, motion.speed);
-        const auto sweep = motion.rests                             ? &Kernels::resting_sweep
-                           : clock_.cycle % averaging_interval == 0 ? &Kernels::sampling_sweep
-                                                                    : &Kernels::sweep;
+        const auto sweep = rests(fast_.base_->motion, clock_.travel) ? &Kernels::resting_sweep
+                           : clock_.cycle % averaging_interval == 0  ? &Kernels::sampling_sweep
+                                                                     : &Kernels::sweep;
         double& mine = piece_.fastest[static_cast<std::size_t>(thread_)].in[parity];
         mine = 0.0;
         const auto sweep_strips = [&](bool that_send) {

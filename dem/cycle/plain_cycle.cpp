@@ -10,6 +10,7 @@
 #include "dem/order_free.hpp"
 #include "dem/pushes.hpp"
 #include "dem/radius_rates.hpp"
+#include "dem/rest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -96,11 +97,9 @@ void contact_forces(State& state, const PairParameters& pairs, std::span<Force> 
     }
 }
 
-/// The motion that damping leaves alone.
+/// The motion that damping leaves alone: none, nor one that is remembered, where the wall rests.
 class UndampedMotion {
 public:
-    /// @param thins  rate in 1/s
-    /// @param rests  as base and wall do: then no motion is left alone, nor remembered
     UndampedMotion(State& state, const CyclePhysics& physics, Stretching thins, bool rests)
         : averages_(physics.averaging_time > 0.0 && !rests), thins_(thins) {
         if (!averages_)
@@ -178,8 +177,8 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
     base_forces(state, base, force, account);
     contact_forces(state, pairs, force, account);
     const Stretching thins = stretching(base, clock.extension.m, motion.speed);
-    const double disc_speed =
-        move_discs(state, physics, {state, physics, thins, motion.rests}, force, account);
+    const double disc_speed = move_discs(
+        state, physics, {state, physics, thins, rests(base.motion, clock.travel)}, force, account);
     account.enter_half_step();
     around.respond(state, clock, response);
     account.enter_half_step();

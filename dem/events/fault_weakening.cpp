@@ -7,6 +7,7 @@
 #include "dem/events/measure_circle.hpp"
 #include "dem/gradient.hpp"
 #include "dem/hypotenuse.hpp"
+#include "dem/rest.hpp"
 #include "dem/round_off.hpp"
 #include "dem/threads/shared_loop.hpp"
 #include "dem/units.hpp"
@@ -211,6 +212,26 @@ std::vector<std::int32_t> rested_discs(State& state, const Displacements& s, con
     return rows;
 }
 
+/// Keeps discs that are found at rest for the next scan in motion, and gives them to that.
+void postpone(State& state, std::vector<std::int32_t>& rows, bool at_rest) {
+    constexpr std::string_view column = "found_at_rest";
+    if (!state.discs.has(column)) {
+        if (!at_rest)
+            return;
+        state.discs.add<std::uint8_t>(column, "1", 0);
+    }
+    const auto waits = state.discs.get<std::uint8_t>(column);
+    if (at_rest) {
+        for (const std::int32_t row : rows)
+            waits[static_cast<std::size_t>(row)] = 1;
+        rows.clear();
+        return;
+    }
+    for (std::size_t i = 0; i < waits.size(); ++i)
+        if (std::exchange(waits[i], 0) != 0)
+            rows.push_back(static_cast<std::int32_t>(i));
+}
+
 /// Makes weak discs rock, or sediment, again: what weakening did, undone under the present load.
 void heal(State& state, const std::vector<std::int32_t>& rows, double stress_ratio,
           double gravity) {
@@ -303,6 +324,7 @@ bool FaultWeakening::apply(State& state, const RigidBase& base) {
                                   std::back_inserter(rows));
             return rows;
         }));
+    postpone(state, converted, rests_from_now(base, state.clock));
     std::ranges::sort(converted);
     converted.erase(std::unique(converted.begin(), converted.end()), converted.end());
     weaken(state, base, converted, mean_stress_ratio(p, state, base), gravity_);

@@ -59,6 +59,11 @@ double critical_rate(const FaultWeakeningParameters& p, double mean_diameter);
 /// bands would leave for good. Loose sediment is not looked at unless asked for: it deforms
 /// everywhere [paper, Fig. 5], and its base would be taken for a fault.
 ///
+/// In a pause nothing is weakened: what a scan finds there, at its start most of all, slipped
+/// before. A fault that lost its strength at once would let the graben down though nothing pulls.
+/// Its discs are weakened by the next scan in motion (column found_at_rest, from the first such
+/// scan on).
+///
 /// With `heal_after` the years that a weakened disc has rested are a column, rested_a; once they
 /// are enough the disc has the stiffness of its rock again, and the radius that carries its load
 /// with it. Its bonds come by bond healing.

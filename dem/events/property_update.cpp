@@ -1,6 +1,7 @@
 #include "dem/events/property_update.hpp"
 
 #include "dem/contacts/soft_discs.hpp"
+#include "dem/rest.hpp"
 
 namespace listric::dem {
 
@@ -21,8 +22,8 @@ PropertyUpdate::PropertyUpdate(double extension_rate, double gravity)
 
 bool PropertyUpdate::apply(State& state, const RigidBase& base) {
     const VolumeKeeping how{parameters_.band_diameters * state.mean_radius,
-                            mean_stress_ratio(parameters_, state, base),
-                            parameters_.largest_change};
+                            mean_stress_ratio(parameters_, state, base), parameters_.largest_change,
+                            !rests_from_now(base, state.clock)};
     return keep_volume(state, base, how, gravity_).has_value();
 }
 

@@ -13,6 +13,9 @@ namespace listric::dem {
 /// a change of volume, measured by power cells around the disc, is taken back step by step.
 /// Feedback from the disc's surroundings lags behind where a zone changes steadily, so that a
 /// common factor takes back the change of all zones together.
+///
+/// In a pause radii follow the load alone. What the feedback takes back is made by motion; at rest
+/// it would go on from step to step, shake zones loose and let what lies on them sink.
 class PropertyUpdate : public Event {
 public:
     PropertyUpdate(const FaultWeakeningParameters& parameters, double extension_rate,

@@ -1,5 +1,7 @@
 #include "dem/events/stage_change.hpp"
 
+#include "dem/rest.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -7,8 +9,6 @@
 namespace listric::dem {
 
 namespace {
-
-bool rests(const MotionStage& one) { return one.slope == 0.0; }
 
 bool changes(const MotionStage& one) { return one.sediment_friction || rests(one); }
 

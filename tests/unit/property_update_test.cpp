@@ -122,6 +122,19 @@ TEST(PropertyUpdate, WhatAllHaveLostIsTakenBackByAll) {
                 1.0 - 0.5 * (2.0 / 1.98 - 1.0) / (2.0 * factor), 1e-12);
 }
 
+TEST(PropertyUpdate, InAPauseRadiiFollowTheLoadAlone) {
+    Lattice l(0.9 * cell); // it has won volume
+    const RigidBase base{
+        .motion = {.speed = 1.0, .stages = {{.end = 100.0, .slope = 0.0, .speed = 1.0}}}};
+    const double target = r * enlargement(l.stress(), l.state.materials[weak]);
+    for (int k = 0; k < 10; ++k)
+        EXPECT_TRUE(l.event.apply(l.state, base));
+    EXPECT_EQ(enlarged_columns(l.state).correction[middle], 1.0);
+    EXPECT_NEAR(l.radius(), target, 1e-12 * r);
+    l.apply();
+    EXPECT_LT(enlarged_columns(l.state).correction[middle], 1.0);
+}
+
 TEST(PropertyUpdate, VolumeChangeIsThatOfThePowerCells) {
     Lattice l(0.9 * cell);
     EXPECT_NEAR(weakened_volume_change(l.state, {}), 0.1 * cell, 1e-12 * cell);

@@ -92,5 +92,15 @@ TEST(Quality, SaysWhatIsTooNarrowAndLeavesOutWhatARunHasNot) {
     EXPECT_EQ(checks_of(dry).size(), 4u);
 }
 
+TEST(Quality, APauseIsToBeARest) {
+    JsonObject run = good_run();
+    EXPECT_EQ(check_named(checks_of(run), "rest_strain_windows").key, ""); // no pause
+    for (const auto& [windows, verdict] :
+         {std::pair(0.15, Verdict::good), std::pair(0.16, Verdict::doubtful)}) {
+        run["rest_strain_windows"] = windows;
+        EXPECT_EQ(check_named(checks_of(run), "rest_strain_windows").verdict, verdict);
+    }
+}
+
 } // namespace
 } // namespace listric::quality_test

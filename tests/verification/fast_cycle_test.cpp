@@ -3,6 +3,7 @@
 // searches, and with a base that moves.
 
 #include "dem/cycle/cycle.hpp"
+#include "dem/rest.hpp"
 #include "tests/support.hpp"
 
 #include <gtest/gtest.h>
@@ -136,6 +137,35 @@ TEST(FastCycle, HasTheSameBitsAtEveryLevel) {
                             << friction;
                     }
                 }
+}
+
+/// A pause begins amid the cycles: from there on damping is towards rest, whatever discs remember
+/// of their mean motion, and they remember no more of it.
+TEST(FastCycle, HasTheSameBitsWhereTheWallRests) {
+    CyclePhysics against_mean = physics, against_rest = physics;
+    against_mean.averaging_time = 2.0;
+    for (const float strength : {-1.0f, 3e9f}) {
+        Heap heap(20, strength, 0.3);
+        add_mean_velocities(heap.state);
+        std::ranges::fill(heap.state.discs.get<float>("mean_vy"), -1.0f);
+        constexpr double speed = 1.5, begins = 0.01; // m: after some hundred cycles
+        heap.base.motion = {
+            .speed = speed,
+            .stages = {{.end = begins, .speed = speed},
+                       {.start = begins, .end = 1e3, .slope = 0.0, .speed = speed}}};
+        State plain = heap.state;
+        advance(plain, heap.base, against_mean, 500, {1, Cycle::plain});
+        ASSERT_TRUE(rests(heap.base.motion, plain.clock.travel));
+        for (const Cycle cycle : cycles()) {
+            State fast = heap.state;
+            advance(fast, heap.base, against_mean, 500, {2, cycle});
+            EXPECT_EQ(hash(fast), hash(plain)) << name(cycle) << ", strength " << strength;
+        }
+        State still = plain;
+        advance(plain, heap.base, against_mean, 100, {1, Cycle::plain});
+        advance(still, heap.base, against_rest, 100, {1, Cycle::plain});
+        EXPECT_EQ(hash(plain), hash(still)) << "strength " << strength;
+    }
 }
 
 TEST(FastCycle, GoesOnWhereThePlainOneStopped) {

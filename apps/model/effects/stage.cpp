@@ -1,6 +1,7 @@
 #include "apps/scene/stages.hpp"
 
 #include "apps/model/effect_list.hpp"
+#include "apps/model/effects/pause_record.hpp"
 #include "apps/model/effects/stage_measures.hpp"
 #include "dem/events/stage_change.hpp"
 #include "dem/just_before.hpp"
@@ -66,6 +67,8 @@ void add_events(const Scene& scene, const ModelParts& parts, dem::Events& events
     const dem::Motion& motion = parts.base.motion;
     if (dem::StageChange::is_needed(motion))
         dem::add(events, std::make_unique<dem::StageChange>(motion));
+    if (PauseRecord::is_needed(motion))
+        dem::add(events, std::make_unique<PauseRecord>(motion));
     if (const auto turn = turn_of(motion))
         dem::add(events, std::make_unique<TurnRecord>(*turn, regional_in(scene, parts)));
 }
@@ -131,6 +134,28 @@ std::optional<double> inversion_ratio(const Observation& now, bool decompacted) 
     return null && *extended > 0.0 ? std::optional(1.0 - *null / *extended) : std::nullopt;
 }
 
+/// A column is there from the first row on; nothing is not a number.
+std::optional<double> or_nan(std::optional<double> value) {
+    return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Number of what goes on in the newest pause; none in scenes without one.
+std::optional<double> in_pause(const Observation& now, double Unrest::*value) {
+    const auto* record = dem::find<const PauseRecord>(now.events);
+    if (!record)
+        return std::nullopt;
+    const auto all = record->unrest(now.state);
+    return or_nan(all ? std::optional((*all).*value) : std::nullopt);
+}
+
+std::optional<double> rest_strain(const Observation& now) {
+    const auto strain = in_pause(now, &Unrest::strain);
+    if (!strain)
+        return std::nullopt;
+    const double before = dem::find<const PauseRecord>(now.events)->strain_before();
+    return or_nan(before > 0.0 ? std::optional(*strain / before) : std::nullopt);
+}
+
 std::string explain(const Scene& scene, EffectList) {
     std::string text = "stages\n";
     const dem::Motion motion = make_motion(scene);
@@ -144,11 +169,6 @@ std::string explain(const Scene& scene, EffectList) {
                             years / 1e6);
     }
     return text;
-}
-
-/// A column is there from the first row on; nothing is not a number.
-std::optional<double> or_nan(std::optional<double> value) {
-    return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 std::vector<Measure<Observation>> measures_of_stages() {
@@ -166,6 +186,20 @@ std::vector<Measure<Observation>> measures_of_stages() {
              return static_cast<double>(
                  now.parts.base.motion.stage(just_before(now.parts.base.motion, now.state.clock)));
          }},
+        {rest_strain_windows, "1",
+         "shear strain of rock in the newest pause (mean of discs) over that of the last window of "
+         "500 m of travel before: what goes on while base and wall rest; in summary.json the "
+         "greatest",
+         rest_strain, OverTime::largest, "at most 0.15"},
+        {"rest_moved_discs", "1",
+         "discs of rock that the newest pause has moved by more than 100 m; in summary.json the "
+         "greatest number",
+         [](const Observation& now) { return in_pause(now, &Unrest::moved); }, OverTime::largest},
+        {"rest_farthest_m", "m",
+         "greatest displacement of a disc of rock in the newest pause; in summary.json the "
+         "greatest",
+         [](const Observation& now) { return in_pause(now, &Unrest::farthest); },
+         OverTime::largest},
         {"uplift_area_m2", "m2",
          "growth since the turn of the area above the regional, over the footwall, too, with what "
          "was eroded, its mass at the hanging wall's density (sediment counts by half): thickness "

@@ -1,0 +1,119 @@
+#include "apps/model/effects/pause_record.hpp"
+
+#include "dem/events/strain.hpp"
+#include "dem/hypotenuse.hpp"
+#include "dem/rest.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace listric::effects::stage {
+
+using namespace dem;
+
+namespace {
+
+/// Strain of every disc since the run began, with that of the window so far.
+std::vector<double> strain_so_far(const State& state) {
+    std::vector<double> strain = shear_strain(state);
+    const auto before = state.discs.get<double>("total_strain");
+    std::ranges::transform(strain, before, strain.begin(), std::plus());
+    return strain;
+}
+
+/// Unrest of the pause that goes on.
+Unrest unrest_now(const State& state) {
+    const ConstDiscColumns d = disc_columns(state);
+    const auto x = state.discs.get<double>("rest_x"), y = state.discs.get<double>("rest_y");
+    const auto before = state.discs.get<double>("rest_strain");
+    const std::vector<double> strain = strain_so_far(state);
+    Unrest all;
+    double count = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (d.stratum[i] != 0)
+            continue;
+        const double way = hypotenuse(d.x[i] - x[i], d.y[i] - y[i]);
+        all.strain += strain[i] - before[i];
+        all.moved += way > Unrest::far ? 1.0 : 0.0;
+        all.farthest = std::max(all.farthest, way);
+        count += 1.0;
+    }
+    all.strain /= std::max(1.0, count);
+    return all;
+}
+
+double last_window(const State& state) {
+    const auto stratum = disc_columns(state).stratum;
+    const auto strain = state.discs.get<double>("window_strain");
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < strain.size(); ++i)
+        if (stratum[i] == 0) {
+            sum += strain[i];
+            count += 1.0;
+        }
+    return sum / std::max(1.0, count);
+}
+
+} // namespace
+
+PauseRecord::PauseRecord(const Motion& motion) : Observer("pause", never, Stage::load) {
+    for (const MotionStage& one : motion.stages) {
+        if (!rests(one))
+            continue;
+        if (!ends_.empty() && ends_.back() == one.start) // one pause in two stages
+            ends_.pop_back();
+        else
+            ends_.push_back(one.start);
+        ends_.push_back(one.end);
+    }
+}
+
+bool PauseRecord::is_needed(const Motion& motion) {
+    return std::ranges::any_of(motion.stages, [](const MotionStage& one) { return rests(one); });
+}
+
+double PauseRecord::next_due() const {
+    const auto next = static_cast<std::size_t>(applied);
+    return next < ends_.size() ? ends_[next] : std::numeric_limits<double>::infinity();
+}
+
+void PauseRecord::begin(State& state) {
+    state.discs.add<double>("rest_x", "m", 0.0);
+    state.discs.add<double>("rest_y", "m", 0.0);
+    state.discs.add<double>("rest_strain", "1", 0.0);
+    for (const char* name : {"strain_before", "strain", "moved"})
+        memory.add<double>(name, "1", 0.0);
+    memory.add<double>("farthest_m", "m", 0.0);
+}
+
+bool PauseRecord::apply(State& state, const RigidBase&) {
+    if (applied % 2 != 0) { // the pause ends
+        const Unrest all = unrest_now(state);
+        memory.get<double>("strain").back() = all.strain;
+        memory.get<double>("moved").back() = all.moved;
+        memory.get<double>("farthest_m").back() = all.farthest;
+        return false;
+    }
+    const DiscColumns d = disc_columns(state);
+    std::ranges::copy(d.x, state.discs.get<double>("rest_x").begin());
+    std::ranges::copy(d.y, state.discs.get<double>("rest_y").begin());
+    std::ranges::copy(strain_so_far(state), state.discs.get<double>("rest_strain").begin());
+    memory.resize(memory.rows() + 1);
+    memory.get<double>("strain_before").back() = last_window(state);
+    return false;
+}
+
+std::optional<Unrest> PauseRecord::unrest(const State& state) const {
+    if (memory.rows() == 0)
+        return std::nullopt;
+    if (applied % 2 != 0)
+        return unrest_now(state);
+    return Unrest{memory.get<double>("strain").back(), memory.get<double>("moved").back(),
+                  memory.get<double>("farthest_m").back()};
+}
+
+double PauseRecord::strain_before() const {
+    return memory.rows() == 0 ? 0.0 : memory.get<double>("strain_before").back();
+}
+
+} // namespace listric::effects::stage

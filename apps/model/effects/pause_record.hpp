@@ -1,0 +1,46 @@
+#pragma once
+
+#include "dem/event.hpp"
+#include "dem/motion.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace listric::effects::stage {
+
+/// Measure that the report judges.
+inline constexpr const char* rest_strain_windows = "rest_strain_windows";
+
+/// Strain and displacement of rock from before the rift while base and wall rest.
+struct Unrest {
+    double strain = 0.0;   ///< mean shear strain
+    double moved = 0.0;    ///< discs that are further than `far` from where they were
+    double farthest = 0.0; ///< greatest displacement of a disc, m
+
+    static constexpr double far = 100.0; ///< m
+};
+
+/// Remembers how rock was when a pause began: columns `rest_x`, `rest_y` and `rest_strain`; and
+/// what went on in the pause, a row for each.
+class PauseRecord final : public dem::Observer {
+public:
+    explicit PauseRecord(const dem::Motion& motion);
+
+    /// Whether a motion has a pause.
+    static bool is_needed(const dem::Motion& motion);
+
+    double next_due() const override;
+    void begin(dem::State& state) override;
+    bool apply(dem::State& state, const dem::RigidBase& base) override;
+
+    /// Since the newest pause began, up to its end; none before the first.
+    std::optional<Unrest> unrest(const dem::State& state) const;
+
+    /// Mean shear strain of rock in the last whole window before that pause; 0 where there is none.
+    double strain_before() const;
+
+private:
+    std::vector<double> ends_; ///< travel at which pauses begin and end, in turn, m
+};
+
+} // namespace listric::effects::stage
