@@ -1,10 +1,10 @@
 #include "apps/support/option_names.hpp"
 
 #include "apps/support/spelling.hpp"
-#include "dem/hash.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cctype>
@@ -18,7 +18,8 @@ constexpr std::string_view hexadecimal = "0123456789abcdef";
 constexpr std::string_view in_numbers = "0123456789e.+-", in_lists = "0123456789abcdef.+-_";
 
 std::string short_hash(std::string_view text) {
-    return fmt::format("{:08x}", dem::fnv1a(text) & 0xffffffffu);
+    return fmt::format(
+        "{:08x}", crc32_z(0, reinterpret_cast<const unsigned char*>(text.data()), text.size()));
 }
 
 bool take(std::string_view& rest, std::string_view begin, std::string_view letters,
