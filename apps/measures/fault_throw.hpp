@@ -40,9 +40,10 @@ struct ThrownFault {
 /// tells only whether it is above, so that the tops of three strata in succession share one tilt.
 /// The trace is extended upward by 15 units, as young sediment slips too little to be traced.
 ///
-/// The error holds the scatter of the discs about the planes and what a second way brings: other
-/// distances (3 to 15 for 3 to 9 units) or a top's own tilt. A throw needs an error of at most two
-/// units and, of a stratum, a thickness of three discs in the mean of both sides.
+/// The error holds the scatter of the discs about the planes, half a unit for the place of the
+/// trace and what a second way brings: other distances (3 to 15 for 3 to 9 units) or a top's own
+/// tilt. A throw needs an error of at most two units and, of a stratum, a thickness of three discs
+/// in the mean of both sides.
 std::map<int, Cutoffs> fault_cutoffs(const dem::State& state, const ThrownFault& fault);
 
 /// Throws by horizon of those cutoffs that have one, m.
@@ -51,8 +52,9 @@ std::map<int, double> throws_of(const std::map<int, Cutoffs>& cutoffs);
 /// Throws of the strata younger than the fault and of the surface that it broke first, m.
 std::map<int, double> growth_throws_of(const std::map<int, Cutoffs>& cutoffs);
 
-/// Median throw of the horizons of the rock before extension, its top among them, m; none without
-/// any.
+/// Greatest throw of the horizons of the rock before extension, its top among them, m; of negative
+/// ones the one furthest from 0. None without any. It grows with the fault's slip, where a median
+/// changes with how far down the fault is traced.
 std::optional<double> pre_rift_throw_of(const std::map<int, Cutoffs>& cutoffs);
 
 } // namespace listric::measures
