@@ -72,9 +72,9 @@ bool PauseRecord::is_needed(const Motion& motion) {
     return std::ranges::any_of(motion.stages, [](const MotionStage& one) { return rests(one); });
 }
 
-double PauseRecord::next_due() const {
+Travel PauseRecord::next_due() const {
     const auto next = static_cast<std::size_t>(applied);
-    return next < ends_.size() ? ends_[next] : std::numeric_limits<double>::infinity();
+    return next < ends_.size() ? ends_[next] : Travel(std::numeric_limits<double>::infinity());
 }
 
 void PauseRecord::begin(State& state) {

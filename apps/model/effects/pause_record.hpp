@@ -29,7 +29,7 @@ public:
     /// Whether a motion has a pause.
     static bool is_needed(const dem::Motion& motion);
 
-    double next_due() const override;
+    dem::Travel next_due() const override;
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
@@ -40,7 +40,7 @@ public:
     double strain_before() const;
 
 private:
-    std::vector<double> ends_; ///< travel at which pauses begin and end, in turn, m
+    std::vector<dem::Travel> ends_; ///< when pauses begin and end, in turn
 };
 
 } // namespace listric::effects::stage
