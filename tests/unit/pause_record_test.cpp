@@ -1,5 +1,5 @@
-// Strain and displacement of rock since a pause began, and those of the newest once it is over. Made
-// motions, exact up to round-off.
+// Strain and displacement of rock since a pause began, and those of the newest once it is over.
+// Made motions, exact up to round-off.
 
 #include "apps/model/effects/pause_record.hpp"
 #include "dem/events/strain.hpp"
@@ -17,9 +17,11 @@ namespace {
 
 using namespace support;
 
-MotionStage moves(double start, double end) { return {.start = start, .end = end, .speed = 1.0}; }
+MotionStage moves(double start, double end) {
+    return {.start = Travel(start), .end = Travel(end), .speed = 1.0};
+}
 MotionStage pause(double start, double end) {
-    return {.start = start, .end = end, .slope = 0.0, .speed = 1.0};
+    return {.start = Travel(start), .end = Travel(end), .slope = 0.0, .speed = 1.0};
 }
 
 struct Block {
@@ -51,7 +53,7 @@ TEST(PauseRecord, TellsStrainAndDisplacementOfThePauseAlone) {
     b.shear(0.2);
     b.apply(b.windows); // at 500 m
     b.shear(0.05);      // of a window that is not over when the pause begins
-    EXPECT_EQ(b.record.next_due(), 600.0);
+    EXPECT_EQ(b.record.next_due().m, 600.0);
     b.apply(b.record);
     EXPECT_NEAR(b.record.unrest(b.state)->strain, 0.0, 1e-12);
     EXPECT_NEAR(b.record.strain_before(), 0.2, 1e-12);
@@ -64,12 +66,12 @@ TEST(PauseRecord, TellsStrainAndDisplacementOfThePauseAlone) {
     for (const double y : disc_columns(b.state).y)
         far += std::abs(0.1 * y) > 100.0 ? 1.0 : 0.0;
     EXPECT_EQ(all->moved, far);
-    EXPECT_EQ(b.record.next_due(), 1000.0);
+    EXPECT_EQ(b.record.next_due().m, 1000.0);
     b.apply(b.record);
     b.shear(0.5); // motion again
     EXPECT_EQ(b.record.unrest(b.state)->strain, all->strain);
     EXPECT_EQ(b.record.unrest(b.state)->farthest, all->farthest);
-    EXPECT_EQ(b.record.next_due(), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(b.record.next_due().m, std::numeric_limits<double>::infinity());
 }
 
 TEST(PauseRecord, SedimentIsNoneOfIt) {
@@ -88,13 +90,13 @@ TEST(PauseRecord, SedimentIsNoneOfIt) {
 TEST(PauseRecord, EveryPauseBeginsAnew) {
     Block b({pause(0.0, 100.0), pause(100.0, 200.0), moves(200.0, 300.0), pause(300.0, 400.0)});
     for (const double travel : {0.0, 200.0, 300.0}) { // two stages are one pause
-        EXPECT_EQ(b.record.next_due(), travel);
+        EXPECT_EQ(b.record.next_due().m, travel);
         b.apply(b.record);
         b.shear(0.3);
         if (travel == 200.0)
             EXPECT_NEAR(b.record.unrest(b.state)->strain, 0.3, 1e-12);
     }
-    EXPECT_EQ(b.record.next_due(), 400.0);
+    EXPECT_EQ(b.record.next_due().m, 400.0);
     EXPECT_EQ(b.record.strain_before(), 0.0);
 }
 
