@@ -135,7 +135,9 @@ void hand_over(Snapshot& snapshot, std::span<const std::unique_ptr<Event>> event
     };
     for (const auto& event : events) // before any of them is handed its memory
         if (!is_known(*event) && !begins_any_time(*event))
-            throw StorageError(path.string() + ": knows nothing of " + event->name());
+            throw UsageError(fmt::format("{}: knows nothing of {}, as a program of another version "
+                                         "wrote it; that version can go on with it",
+                                         path.string(), event->name()));
     for (const auto& event : events) {
         if (is_known(*event)) {
             event->memory = std::move(snapshot.event_memory.at(event->name()));

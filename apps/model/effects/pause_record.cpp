@@ -88,12 +88,16 @@ void PauseRecord::begin(State& state) {
 
 bool PauseRecord::apply(State& state, const RigidBase&) {
     if (applied % 2 != 0) { // the pause ends
+        if (memory.rows() == 0) // an earlier version began it, which remembered nothing
+            return false;
         const Unrest all = unrest_now(state);
         memory.get<double>("strain").back() = all.strain;
         memory.get<double>("moved").back() = all.moved;
         memory.get<double>("farthest_m").back() = all.farthest;
         return false;
     }
+    if (!state.discs.has("rest_x"))
+        begin(state);
     const DiscColumns d = disc_columns(state);
     std::ranges::copy(d.x, state.discs.get<double>("rest_x").begin());
     std::ranges::copy(d.y, state.discs.get<double>("rest_y").begin());

@@ -30,6 +30,7 @@ public:
     static bool is_needed(const dem::Motion& motion);
 
     dem::Travel next_due() const override;
+    bool begins_any_time() const override { return true; }
     void begin(dem::State& state) override;
     bool apply(dem::State& state, const dem::RigidBase& base) override;
 
