@@ -41,7 +41,7 @@ TEST(Results, SayWhatTheRunHasComeTo) {
     faults.main_antithetic = 0;
     faults.main_synthetic = 1;
     EXPECT_THAT(
-        result_lines({m, faults, 7120.0, 3e-4, 10e3}),
+        result_lines({m, faults, 7120.0, 3e-4, dem::Extension(10e3)}),
         ElementsAre("tilt of the head block 38.1 degrees; cutoff at x = 9.3 km, 3.2 km deep",
                     "basin 147.6 km2, 7.1 km deep; area balance 0.98",
                     "2 depocentres: 4.1 km of sediment at x = 3.2 km, 2.3 km of sediment at x = "
