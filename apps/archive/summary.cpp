@@ -156,8 +156,7 @@ std::span<const HeadField> head_fields() {
          "program that finished the run, `scene_hash` of every parameter in scene.toml, and "
          "`seed`; equal for equal programs and scenes. Figures have it in their metadata, too"},
         {"effects", "", "names of the effects that were on"},
-        {"warnings", "",
-         "what the program warned of in the scene, as the log has it; mostly empty"},
+        {"warnings", "", "the program's warnings of the scene, as the log has them; mostly none"},
         {"time_by_part_s", "s",
          "`wall_s` split: `genesis` `rebuild` `cycle`, each event, `output` `figures` `report` "
          "`measures` `other`"},
