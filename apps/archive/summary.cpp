@@ -158,8 +158,7 @@ std::span<const HeadField> head_fields() {
          "made a part of the run, where it was resumed by another version. Figures have it in "
          "their metadata, too"},
         {"effects", "", "names of the effects that were on"},
-        {"warnings", "",
-         "what the program warned of in the scene, as the log has it; mostly empty"},
+        {"warnings", "", "the program's warnings of the scene, as the log has them; mostly none"},
         {"time_by_part_s", "s",
          "`wall_s` split: `genesis` `rebuild` `cycle`, each event, `output` `figures` `report` "
          "`measures` `other`"},

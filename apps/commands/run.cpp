@@ -114,7 +114,7 @@ Scene scene_of(const RunCall& call) {
     };
     if (!call.options.resume || is_before(scene))
         return scene;
-    for (const auto [rocks, intervals] : {std::pair(false, true), {true, false}, {true, true}}) {
+    for (const auto& [rocks, intervals] : {std::pair(false, true), {true, false}, {true, true}}) {
         SceneRequest request = call.scene;
         request.former_rocks = rocks;
         request.former_intervals = intervals;

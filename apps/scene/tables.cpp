@@ -156,7 +156,8 @@ std::vector<Parameter> extension_parameters() {
          between(2000, 12e3)},
         {"rate_m_per_a", at<&P::rate>, "m/a", between(1e-9, 1), "", "geological extension rate",
          "Lowering it lets pore water drain for longer. Intervals that the scene does not state "
-         "follow it, so that without pore water only the years change; stated ones are less way."},
+         "follow it, so that without pore water only the years change; stated ones hold less of "
+         "the wall's way."},
         {"speed_m_per_s", at<&P::speed>, "m/s", between(1e-6, 1e3), "",
          "speed in the model, metres per model second; its default depends on the accuracy",
          "Raising it shortens a run in proportion; above 2 m/s strain is less localised and forces "

@@ -77,8 +77,9 @@ TEST_F(RateRun, ARunThatAnOlderVersionBeganAtALowRateIsSampledOn) {
     const Events events = make_events(scene, parts);
     archive::hand_over(snapshot, events, path);
     for (const auto& event : events)
-        if (event->name() == "equilibrium")
+        if (event->name() == "equilibrium") {
             EXPECT_EQ(event->next_due(), 325.0);
+        }
 }
 
 // Its record states the intervals that it had.

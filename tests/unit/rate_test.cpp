@@ -8,6 +8,9 @@
 #include "apps/scene/template.hpp"
 #include "apps/studies/sweep_plan.hpp"
 #include "dem/event.hpp"
+#include "dem/events/bond_healing.hpp"
+#include "dem/events/fault_weakening.hpp"
+#include "dem/events/sedimentation.hpp"
 #include "dem/round_off.hpp"
 #include "tests/scene_runs.hpp"
 
@@ -58,7 +61,7 @@ std::map<std::string, std::uint64_t> ways(const Scene& scene) {
     return all;
 }
 
-/// lis1-mud with all other effects that have intervals.
+/// Loads on an elastic base that have intervals.
 const std::vector<std::string> elastic{"basin_water={}", "footwall_erosion={}"};
 
 TEST(Rate, DefaultsStandForTheSameMetresToTheLastBit) {

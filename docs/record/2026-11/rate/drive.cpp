@@ -1,4 +1,4 @@
-// LIS1 by the library dem at a geological rate, with faults alone or with healing and sediment, too:
+// LIS1 by the library dem at a geological rate, with faults alone or with healing and sediment:
 //   drive RATE TRAVEL MEAN_RADIUS full|bare SEED
 // prints the hash of the state every 500 m. Defaults in years and per second are turned to the rate
 // as at_rate() in apps/scene/parameter.cpp does it.
@@ -59,7 +59,7 @@ int main(int, char** arguments) {
     simulation.begin(make_hanging_wall(lis1));
     for (double at = 500.0; at < until + 1.0; at += 500.0) {
         simulation.extend_to(at, {.threads = 1});
-        std::printf("%g m/a, %s, seed %s, %g m: %016" PRIx64 "\n", rate, arguments[4],
-                    arguments[5], at, simulation.hash());
+        std::printf("%g m/a, %s, seed %s, %g m: %016" PRIx64 "\n", rate, arguments[4], arguments[5],
+                    at, simulation.hash());
     }
 }
