@@ -293,7 +293,7 @@ TEST_F(PoreFluidRun, WarnsOfThickStrata) {
         return load_scene({.scene = test_scene("every-effect.toml"), .set = set}).warnings;
     };
     EXPECT_THAT(warnings({"pore_fluid={}", "sedimentation.interval_a=50000"}),
-                Contains(AllOf(HasSubstr("50000 a"), HasSubstr("interval_a = 10000 or less"))));
+                Contains(AllOf(HasSubstr("50000 a"), HasSubstr("every 10000 a or less"))));
     EXPECT_THAT(warnings({"pore_fluid={}", "sedimentation.interval_a=50000",
                           "extension.rate_m_per_a=0.002"}),
                 Not(Contains(HasSubstr("thick"))));
