@@ -317,6 +317,20 @@ TEST_F(PoreFluidRun, ExplainLetsTheFloorSinkInExtensionAlone) {
               column({"stage=[{distance_m=200.0}, {pause_a=1e6}]", "extension.distance_m=10200"}));
 }
 
+TEST_F(PoreFluidRun, ExplainTellsTheFractureLineAndGibsonsBounds) {
+    const auto text = [](const std::string& permeability) {
+        return explain(load_scene({.scene = "lis1-mud",
+                                   .set = {"pore_fluid.permeability_m2=" + permeability}}),
+                       1, program_effects());
+    };
+    // The limit of thin layers, not that of 100: .35 and .54.
+    EXPECT_THAT(text("1e-18"), AllOf(HasSubstr("0.37 at 1 km, 0.55 at 4.5 km"),
+                                     HasSubstr("0.949 of the weight of grains and water"),
+                                     HasSubstr("water leaves while mud is buried")));
+    EXPECT_THAT(text("2e-16"), HasSubstr("water is nearly at rest")); // Gibson's number 0.05
+    EXPECT_THAT(text("5e-20"), HasSubstr("but through fractures"));   // 200
+}
+
 TEST_F(PoreFluidRun, GenesisDependsOnTheDensityOnly) {
     const auto text = [](const std::vector<std::string>& set) {
         return to_toml(genesis_of(with(set)));
