@@ -35,7 +35,7 @@ public:
     double grains(dem::Point p, double of_discs) const;
 
     /// Depth of the smooth ground below the line that sedimentation has filled it up to, in mean
-    /// radii: .17 to .29 in a basin at draft, with strata every 2,500 and every 10,000 a.
+    /// radii: .17 to .29 in a basin at draft and at standard, with strata every 2,500 and 10,000 a.
     static constexpr double left_free = 0.22;
 
 private:

@@ -293,7 +293,7 @@ TEST_F(PoreFluidRun, WarnsOfThickStrata) {
         return load_scene({.scene = test_scene("every-effect.toml"), .set = set}).warnings;
     };
     EXPECT_THAT(warnings({"pore_fluid={}", "sedimentation.interval_a=50000"}),
-                Contains(AllOf(HasSubstr("50000 a"), HasSubstr("interval_a = 10000 or less"))));
+                Contains(AllOf(HasSubstr("50000 a"), HasSubstr("every 10000 a or less"))));
     EXPECT_THAT(warnings({"pore_fluid={}", "sedimentation.interval_a=50000",
                           "extension.rate_m_per_a=0.002"}),
                 Not(Contains(HasSubstr("thick"))));
@@ -315,6 +315,20 @@ TEST_F(PoreFluidRun, ExplainLetsTheFloorSinkInExtensionAlone) {
     EXPECT_THAT(column({}), StartsWith("a floor that sinks by 0.2 km"));
     EXPECT_EQ(column({}),
               column({"stage=[{distance_m=200.0}, {pause_a=1e6}]", "extension.distance_m=10200"}));
+}
+
+TEST_F(PoreFluidRun, ExplainTellsTheFractureLineAndGibsonsBounds) {
+    const auto text = [](const std::string& permeability) {
+        return explain(load_scene({.scene = "lis1-mud",
+                                   .set = {"pore_fluid.permeability_m2=" + permeability}}),
+                       1, program_effects());
+    };
+    // The limit of thin layers, not that of 100: .35 and .54.
+    EXPECT_THAT(text("1e-18"), AllOf(HasSubstr("0.37 at 1 km, 0.55 at 4.5 km"),
+                                     HasSubstr("0.949 of the weight of grains and water"),
+                                     HasSubstr("water leaves while mud is buried")));
+    EXPECT_THAT(text("2e-16"), HasSubstr("water is nearly at rest")); // Gibson's number 0.05
+    EXPECT_THAT(text("5e-20"), HasSubstr("but through fractures"));   // 200
 }
 
 TEST_F(PoreFluidRun, GenesisDependsOnTheDensityOnly) {

@@ -6,16 +6,21 @@
 // the grains below, finite volumes that grow with the column, implicit Euler. Half the cells and
 // steps change it by .002.
 //
-// Tolerance .015: steps of 2,500 a cost up to .006 (see pore_column_test), rows of discs as much.
+// Tolerance: .015, and 15 % where the ratio is small. Steps of 2,500 a cost up to .006 (see
+// pore_column_test), rows of discs as much. Without the pending stratum ratios at 0.5 km are .06
+// too low with strata every 10,000 a, or a sixth of what they are with 3e-17 m^2.
 
 #include "coupling/pore_column.hpp"
 #include "coupling/pore_fluid.hpp"
 #include "tests/support.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 
 namespace listric::pore_strata_test {
 
@@ -172,7 +177,8 @@ TEST(PoreStrata, TheContinuousColumnConverges) {
         const auto fine = laid_down_continuously(permeability, 7.5e-3, 6e5);
         const auto coarse = laid_down_continuously(permeability, 7.5e-3, 6e5, 30, 1500);
         for (std::size_t k = 0; k < 4; ++k) {
-            EXPECT_NEAR(at_depth(fine, depths[k]), at_depth(coarse, depths[k]), 0.0025) << depths[k];
+            EXPECT_NEAR(at_depth(fine, depths[k]), at_depth(coarse, depths[k]), 0.0025)
+                << depths[k];
             EXPECT_NEAR(at_depth(fine, depths[k]), ratios[k], 0.003) << depths[k];
         }
     }
@@ -315,6 +321,10 @@ private:
     int solved_ = 0;
 };
 
+void expect_near(double found, double exact, const std::string& where) {
+    EXPECT_NEAR(found, exact, std::min(0.015, 0.15 * exact)) << where;
+}
+
 void expect_continuous(double permeability, double rate, double years, std::span<const double> at) {
     const auto exact = laid_down_continuously(permeability, rate, years);
     for (const double between_strata : {2500.0, 5000.0, 10000.0}) {
@@ -322,8 +332,9 @@ void expect_continuous(double permeability, double rate, double years, std::span
         column.sink_to(years);
         const auto found = column.profile();
         for (const double depth : at)
-            EXPECT_NEAR(at_depth(found, depth), at_depth(exact, depth), 0.015)
-                << permeability << ", " << rate << ", every " << between_strata << " a, " << depth;
+            expect_near(
+                at_depth(found, depth), at_depth(exact, depth),
+                fmt::format("{}, {}, every {} a, {}", permeability, rate, between_strata, depth));
     }
 }
 
@@ -344,8 +355,8 @@ TEST(PoreStrata, NorOnTheMoment) {
         DiscColumn column(3e-17, 7.5e-3, 10000.0);
         column.sink_to(years);
         for (const double depth : depths)
-            EXPECT_NEAR(at_depth(column.profile(), depth), at_depth(exact, depth), 0.015)
-                << years << ", " << depth;
+            expect_near(at_depth(column.profile(), depth), at_depth(exact, depth),
+                        fmt::format("{} a, {}", years, depth));
     }
 }
 

@@ -155,8 +155,7 @@ std::string warning(const Scene& scene) {
     if (scene.find<P>()->hydrostatic || interval * rate <= most * (1.0 + 1e-9))
         return "";
     return fmt::format("pore_fluid: strata every {:g} a are up to {:.0f} m thick; the pressure of "
-                       "the water is good to .01 with sedimentation.interval_a = {:g} or less at "
-                       "this rate",
+                       "the water is good to .01 with strata every {:g} a or less at this rate",
                        interval, interval * rate, dem::without_round_off(most / rate));
 }
 
