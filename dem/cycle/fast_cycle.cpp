@@ -232,7 +232,7 @@ private:
             fast_.fastest_node_[parity] =
                 fast_.move_base(piece_.state, piece_.nodes, clock_, piece_.response, piece_.around);
         const Stretching thins = stretching(*fast_.base_, clock_.extension.m, motion.speed);
-        const auto sweep = rests(fast_.base_->motion, clock_.travel) ? &Kernels::resting_sweep
+        const auto sweep = stops(fast_.base_->motion, clock_.travel) ? &Kernels::resting_sweep
                            : clock_.cycle % averaging_interval == 0  ? &Kernels::sampling_sweep
                                                                      : &Kernels::sweep;
         double& mine = piece_.fastest[static_cast<std::size_t>(thread_)].in[parity];

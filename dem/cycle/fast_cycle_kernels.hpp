@@ -29,7 +29,7 @@ struct Kernels {
     double (*sweep)(const Shared& shared, Strip& strip, Stretching thins);
     /// At every averaging_interval.
     double (*sampling_sweep)(const Shared& shared, Strip& strip, Stretching thins);
-    /// Where base and wall rest.
+    /// Where base and wall come to rest, and in the pause.
     double (*resting_sweep)(const Shared& shared, Strip& strip, Stretching thins);
 };
 

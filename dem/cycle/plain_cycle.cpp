@@ -178,7 +178,7 @@ double cycle_plainly(State& state, const RigidBase& base, const CyclePhysics& ph
     contact_forces(state, pairs, force, account);
     const Stretching thins = stretching(base, clock.extension.m, motion.speed);
     const double disc_speed = move_discs(
-        state, physics, {state, physics, thins, rests(base.motion, clock.travel)}, force, account);
+        state, physics, {state, physics, thins, stops(base.motion, clock.travel)}, force, account);
     account.enter_half_step();
     around.respond(state, clock, response);
     account.enter_half_step();

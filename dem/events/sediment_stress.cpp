@@ -3,6 +3,7 @@
 #include "dem/contacts/monitor.hpp"
 #include "dem/damping.hpp"
 #include "dem/pushes.hpp"
+#include "dem/rest.hpp"
 #include "dem/units.hpp"
 
 #include <algorithm>
@@ -85,7 +86,7 @@ std::vector<LayerLoad> layer_loads(const State& state, const RigidBase& base,
     const ContactForces contacts =
         contact_forces(state, base, {column_from - reach, column_to + reach});
     const std::vector<Point> net = net_forces(contacts, d.x.size());
-    const bool relative = physics.averaging_time > 0.0;
+    const bool relative = physics.averaging_time > 0.0 && !stops(base.motion, state.clock.travel);
     const auto mean_vy = relative ? state.discs.get<float>("mean_vy") : std::span<const float>();
     const double speed = base.motion.at(state.clock.time(), state.clock.travel).speed;
     const Stretching thins = stretching(base, state.clock.extension.m, speed);

@@ -139,7 +139,7 @@ TEST(FastCycle, HasTheSameBitsAtEveryLevel) {
                 }
 }
 
-/// A pause begins amid the cycles: from there on damping is towards rest, whatever discs remember
+/// The wall stops amid the cycles: from there on damping is towards rest, whatever discs remember
 /// of their mean motion, and they remember no more of it.
 TEST(FastCycle, HasTheSameBitsWhereTheWallRests) {
     CyclePhysics against_mean = physics, against_rest = physics;
@@ -148,14 +148,15 @@ TEST(FastCycle, HasTheSameBitsWhereTheWallRests) {
         Heap heap(20, strength, 0.3);
         add_mean_velocities(heap.state);
         std::ranges::fill(heap.state.discs.get<float>("mean_vy"), -1.0f);
-        constexpr double speed = 1.5, begins = 0.01; // m: after some hundred cycles
+        constexpr double speed = 1.5, begins = 10.5; // m: they stop after some hundred cycles
         heap.base.motion = {
             .speed = speed,
             .stages = {{.end = begins, .speed = speed},
                        {.start = begins, .end = 1e3, .slope = 0.0, .speed = speed}}};
         State plain = heap.state;
         advance(plain, heap.base, against_mean, 500, {1, Cycle::plain});
-        ASSERT_TRUE(rests(heap.base.motion, plain.clock.travel));
+        ASSERT_FALSE(stops(heap.base.motion, 0.0));
+        ASSERT_TRUE(stops(heap.base.motion, plain.clock.travel));
         for (const Cycle cycle : cycles()) {
             State fast = heap.state;
             advance(fast, heap.base, against_mean, 500, {2, cycle});
