@@ -16,7 +16,7 @@ inline bool rests(const Motion& motion, Travel travel) {
 /// Whether discs are damped towards rest: in a pause, and on the second half of the way to it on
 /// which the wall slows down. Memory of faster motion would drag them on into the pause.
 inline bool stops(const Motion& motion, Travel travel) {
-    return rests(motion, travel) || rests(motion, travel + 0.5 * Motion::change);
+    return rests(motion, travel) || rests(motion, travel + Travel(0.5 * Motion::change));
 }
 
 /// Whether they rest after an event, which is applied half a cycle before or behind the travel that

@@ -203,14 +203,12 @@ TEST(MadeFaults, ThrowIsThatOfTheirHorizonsToARadius) {
             const double sign = orders()[k].dip == 90.0 && at.height() < 0.0 ? -1.0 : 1.0;
             const double off = sign * at.height() - made.throw_of(number);
             EXPECT_LT(std::abs(off), 1.2 * d) << number << " error " << at.error;
-            std::printf("order %zu horizon %d off %.1f error %.1f\n", k, number, off, at.error);
             errors.push_back(std::abs(off));
             rock += number <= 0;
         }
         EXPECT_GE(rock, 2);
         ASSERT_GE(errors.size(), 4u);
         EXPECT_LT(spread(errors).mean, radius);
-        RecordProperty("mean_error_m_" + std::to_string(k), std::to_string(spread(errors).mean));
     }
 }
 

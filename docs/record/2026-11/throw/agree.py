@@ -109,4 +109,5 @@ def main():
               f"within two {np.mean(off < 2 * diameter):.2f}, greatest {off.max():.0f} m")
 
 
-main()
+if __name__ == "__main__":
+    main()
