@@ -1,5 +1,6 @@
 #include "apps/run/session.hpp"
 
+#include "apps/archive/rock_record.hpp"
 #include "apps/archive/run_folder.hpp"
 #include "apps/run/build.hpp"
 #include "apps/run/hints.hpp"
@@ -78,6 +79,7 @@ bool Session::resume() {
             continue;
         }
         run_.kept = *path;
+        run_.rocks = recorded_rocks(run_.options.output);
         run_.past = RunHistory(run_.ended_windows());
         tell(&Output::resume);
         run_.log.say(fmt::format("resuming at {} from {}",
@@ -89,6 +91,7 @@ bool Session::resume() {
 
 void Session::begin() {
     run_.record.scene = to_toml(run_.scene);
+    run_.rocks = known_rocks(run_.scene);
     if (run_.scene.picked_fault)
         run_.log.say(describe(*run_.scene.picked_fault, *run_.scene.detachment));
     enter(Phase::genesis);
